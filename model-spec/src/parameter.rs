@@ -1,0 +1,142 @@
+//! Names and order of the standard parameters: the only place where either is decided.
+
+use crate::model::{Inertial, Model};
+
+/// One of a link's ten inertial parameters, about the origin of the link frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InertialElement {
+    /// Mass, kg.
+    M,
+    /// First moments, kg m.
+    Mx,
+    /// First moment along y.
+    My,
+    /// First moment along z.
+    Mz,
+    /// Inertia, kg m^2.
+    Ixx,
+    /// Product of inertia (the matrix entry, not its negative).
+    Ixy,
+    /// Product of inertia.
+    Ixz,
+    /// Inertia about y.
+    Iyy,
+    /// Product of inertia.
+    Iyz,
+    /// Inertia about z.
+    Izz,
+}
+
+impl InertialElement {
+    /// The order of the ten, everywhere.
+    pub const ALL: [Self; 10] = [
+        Self::M,
+        Self::Mx,
+        Self::My,
+        Self::Mz,
+        Self::Ixx,
+        Self::Ixy,
+        Self::Ixz,
+        Self::Iyy,
+        Self::Iyz,
+        Self::Izz,
+    ];
+
+    /// Name after the link's: `m`, `mx`, .. `izz`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::M => "m",
+            Self::Mx => "mx",
+            Self::My => "my",
+            Self::Mz => "mz",
+            Self::Ixx => "ixx",
+            Self::Ixy => "ixy",
+            Self::Ixz => "ixz",
+            Self::Iyy => "iyy",
+            Self::Iyz => "iyz",
+            Self::Izz => "izz",
+        }
+    }
+}
+
+/// A parameter of the linear form `tau = Y * standard`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StandardParameter {
+    /// `LINK.izz` or `JOINT.EFFECT.PARAMETER`.
+    pub name: String,
+    /// What it is a parameter of.
+    pub owner: Owner,
+    /// Whether it is identified.
+    pub status: Status,
+}
+
+/// What a standard parameter belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// An inertial parameter of the link of joint `link`.
+    Link {
+        /// Index into [`Model::joints`].
+        link: usize,
+        /// Which of the ten.
+        element: InertialElement,
+    },
+    /// A linear parameter of a declared effect.
+    Effect {
+        /// Index into [`Model::effects`].
+        effect: usize,
+        /// Index into the definition's linear parameters.
+        parameter: usize,
+    },
+}
+
+/// Whether a parameter is identified.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Status {
+    /// To be identified; no value known.
+    Unknown,
+    /// To be identified; the spec has a CAD value.
+    Nominal(f64),
+    /// Known exactly.
+    Fixed(f64),
+}
+
+impl Model {
+    /// The standard parameters in their order: ten a link from base to tip, then the effects' in the order of the spec.
+    #[must_use]
+    pub fn standard_parameters(&self) -> Vec<StandardParameter> {
+        let links = self.joints.iter().enumerate().flat_map(|(link, joint)| {
+            InertialElement::ALL.into_iter().enumerate().map(move |(k, element)| StandardParameter {
+                name: format!("{}.{}", joint.link.name, element.name()),
+                owner: Owner::Link { link, element },
+                status: match joint.link.inertial {
+                    Inertial::Unknown => Status::Unknown,
+                    Inertial::Nominal(value) => Status::Nominal(value[k]),
+                    Inertial::Fixed(value) => Status::Fixed(value[k]),
+                },
+            })
+        });
+        let effects = self.effects.iter().enumerate().flat_map(|(effect, declared)| {
+            let prefix = self.effect_name(effect);
+            declared.definition.linear.iter().enumerate().map(move |(parameter, linear)| StandardParameter {
+                name: format!("{prefix}.{}", linear.name),
+                owner: Owner::Effect { effect, parameter },
+                status: Status::Unknown,
+            })
+        });
+        links.chain(effects).collect()
+    }
+
+    /// `JOINT.EFFECT`, the first joint's name where there are several; a second instance on the same joints is `JOINT.EFFECT2`.
+    #[must_use]
+    pub fn effect_name(&self, effect: usize) -> String {
+        let declared = &self.effects[effect];
+        let joint = &self.joints[declared.joints[0]].name;
+        let name = &declared.definition.name;
+        if declared.instance == 1 {
+            format!("{joint}.{name}")
+        } else {
+            format!("{joint}.{name}{}", declared.instance)
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! The size-at-run-time face of a model: regressor columns over many states a call.
+//!
+//! Identification and tracing see models, declared effects and candidate effects through these traits only; emitted code
+//! and the interpreter both stand behind them.
+
+use crate::motion::Motion;
+
+/// An unknown that least squares solves for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// `LINK.izz`, `JOINT.EFFECT.PARAMETER`.
+    pub name: String,
+    /// A negative value is not physical.
+    pub nonnegative: bool,
+}
+
+/// An unknown in which the torque is not linear, with the range in which it is looked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// `JOINT.EFFECT.SHAPE`.
+    pub name: String,
+    /// First values to try, ascending, from the lowest to the highest that are allowed.
+    pub grid: Vec<f64>,
+}
+
+/// One column's values on one joint, for all samples of a motion, before any filter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// Row block: the joint whose torque it is, from 0.
+    pub joint: usize,
+    /// Column: index into [`Columns::unknowns`].
+    pub column: usize,
+    /// One value a sample.
+    pub values: Vec<f64>,
+}
+
+/// Something that contributes columns to `tau = columns * unknowns + known`.
+pub trait Columns: Sync {
+    /// The unknowns, one per column.
+    fn unknowns(&self) -> &[Unknown];
+
+    /// Shape parameters that are not given a value; often none.
+    fn shapes(&self) -> &[Shape];
+
+    /// Whether [`Self::entries`] reads [`Motion::rigid_torque`].
+    fn uses_rigid_torque(&self) -> bool;
+
+    /// The columns over a motion; entries that are zero by structure are left out. `shapes` has one value per
+    /// [`Self::shapes`].
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
+}
+
+/// A whole arm: its base regressor and declared effects as columns, and the parts that are not unknown.
+pub trait Arm: Columns {
+    /// Degrees of freedom.
+    fn dof(&self) -> usize;
+
+    /// Names of the joints, base to tip.
+    fn joints(&self) -> &[String];
+
+    /// Joint torque per unit of the logged channel, one a joint.
+    fn actuator_gain(&self) -> &[f64];
+
+    /// Torque of the parameters that the spec fixes, `[joint][sample]`.
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>>;
+
+    /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.
+    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>>;
+}
+
+/// An effect that the spec does not declare, tried on given joints.
+pub trait Candidate: Columns {
+    /// Kebab-case name of the effect.
+    fn kind(&self) -> &str;
+
+    /// The joints it is tried on, from 0.
+    fn joints(&self) -> &[usize];
+}
