@@ -4,4 +4,8 @@
 #[cfg(feature = "std")]
 pub mod columns;
 #[cfg(feature = "std")]
+pub mod log;
+#[cfg(feature = "std")]
 pub mod motion;
+#[cfg(feature = "std")]
+pub mod signal;

@@ -1,0 +1,201 @@
+//! What can be wrong with a log, and the words for it.
+
+use thiserror::Error;
+
+/// Why a log cannot be used. `source_name` is the file, `line` counts from 1 and the header is line 1.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum LogError {
+    /// The file cannot be opened.
+    #[error("cannot open log `{source_name}`: {reason}")]
+    Open {
+        /// The file.
+        source_name: String,
+        /// What the system says.
+        reason: String,
+    },
+    /// The file breaks off, or is damaged.
+    #[error("{source_name}:{line}: cannot read the log: {reason}")]
+    Read {
+        /// The file.
+        source_name: String,
+        /// Last line that could be read.
+        line: u64,
+        /// What the system or the decoder says.
+        reason: String,
+    },
+    /// Nothing in the file.
+    #[error("{source_name}: the log is empty")]
+    Empty {
+        /// The file.
+        source_name: String,
+    },
+    /// The first line holds numbers.
+    #[error("{source_name}:1: the log has no header; write `time,q1,..,tau1,..` as its first line")]
+    NoHeader {
+        /// The file.
+        source_name: String,
+    },
+    /// A header field is empty.
+    #[error("{source_name}:1: column {column} has no name")]
+    UnnamedColumn {
+        /// The file.
+        source_name: String,
+        /// Its place, from 1.
+        column: usize,
+    },
+    /// Two columns of one name.
+    #[error("{source_name}:1: column `{name}` stands there twice")]
+    DuplicateColumn {
+        /// The file.
+        source_name: String,
+        /// The name.
+        name: String,
+    },
+    /// A column of a known family for a joint that the arm does not have.
+    #[error("{source_name}:1: unknown column `{name}`: the arm has {dof} joint{}, {}", plural(*.dof), joints(*.dof))]
+    NoSuchJoint {
+        /// The file.
+        source_name: String,
+        /// The column.
+        name: String,
+        /// Joints of the arm.
+        dof: usize,
+    },
+    /// Nearly the name of a known column.
+    #[error(
+        "{source_name}:1: unknown column `{name}`: write `{suggestion}`, or give the channel a name that cannot be \
+         mistaken for it"
+    )]
+    Misspelled {
+        /// The file.
+        source_name: String,
+        /// The column.
+        name: String,
+        /// What may be meant.
+        suggestion: String,
+    },
+    /// Columns that a log of this arm must have.
+    #[error("{source_name}:1: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), list(present))]
+    MissingColumns {
+        /// The file.
+        source_name: String,
+        /// What is not there.
+        missing: Vec<String>,
+        /// What is there.
+        present: Vec<String>,
+    },
+    /// A row that is longer or shorter than the header.
+    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}", plural(*.found))]
+    ColumnCount {
+        /// The file.
+        source_name: String,
+        /// The row's line.
+        line: u64,
+        /// Fields of the row.
+        found: usize,
+        /// Fields of the header.
+        expected: usize,
+    },
+    /// A field that is no number.
+    #[error("{source_name}:{line}: `{text}` in column `{column}` is not a number")]
+    NotANumber {
+        /// The file.
+        source_name: String,
+        /// Its line.
+        line: u64,
+        /// Its column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// NaN or infinity.
+    #[error("{source_name}:{line}: `{text}` in column `{column}` is not finite")]
+    NotFinite {
+        /// The file.
+        source_name: String,
+        /// Its line.
+        line: u64,
+        /// Its column.
+        column: String,
+        /// The field.
+        text: String,
+    },
+    /// NaN or infinity in samples that came from memory.
+    #[error("{source_name}: sample {sample} is not finite")]
+    NotFiniteSample {
+        /// The log.
+        source_name: String,
+        /// The sample, from 0.
+        sample: usize,
+    },
+    /// Channels of different lengths, or not as many torques as positions.
+    #[error(
+        "{source_name}: every joint needs a position and a torque channel, all as long as the time"
+    )]
+    Lengths {
+        /// The log.
+        source_name: String,
+    },
+    /// Time repeats or runs back.
+    #[error("{place}: time does not rise: {time} s follows {previous} s")]
+    TimeOrder {
+        /// File and line, or log and sample.
+        place: String,
+        /// Time stamp there.
+        time: f64,
+        /// Time stamp before.
+        previous: f64,
+    },
+    /// Samples are missing.
+    #[error(
+        "{place}: gap in time from {previous} s to {time} s, {steps:.0} times the median step; split the log here and \
+         give both parts"
+    )]
+    Gap {
+        /// File and line, or log and sample.
+        place: String,
+        /// Time stamp after the gap.
+        time: f64,
+        /// Time stamp before the gap.
+        previous: f64,
+        /// Its length in median steps.
+        steps: f64,
+    },
+    /// Too short for anything.
+    #[error("{source_name}: the log has {found} sample{}, at least {fewest} are needed", plural(*.found))]
+    TooFewSamples {
+        /// The log.
+        source_name: String,
+        /// Its samples.
+        found: usize,
+        /// The fewest that are allowed.
+        fewest: usize,
+    },
+}
+
+/// Names in backticks with commas; a long list keeps its first eight.
+pub(super) fn list(names: &[String]) -> String {
+    const SHOWN: usize = 8;
+    let mut text: Vec<String> = names
+        .iter()
+        .take(SHOWN)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    if names.len() > SHOWN {
+        text.push(format!("and {} more", names.len() - SHOWN));
+    }
+    text.join(", ")
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+fn joints(dof: usize) -> String {
+    if dof == 1 {
+        "number 1".to_owned()
+    } else {
+        format!("numbers 1 to {dof}")
+    }
+}

@@ -1,0 +1,292 @@
+//! Measured logs.
+//!
+//! In: CSV text, plain or gzip. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
+//! channel has one value a sample, and there is one position and one torque channel a joint.
+
+mod error;
+mod header;
+mod table;
+mod uniform;
+
+use std::fmt;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+pub use error::LogError;
+
+use header::Header;
+
+/// Fewest samples that a log may have.
+const FEWEST_SAMPLES: usize = 16;
+
+/// One measured run of an arm, in SI units, on a uniform time grid.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Log {
+    /// Where it came from, for messages.
+    pub source: String,
+    /// Time stamps, s; uniform, not necessarily from 0.
+    pub time: Vec<f64>,
+    /// Positions, rad or m, `[joint][sample]`.
+    pub q: Vec<Vec<f64>>,
+    /// Velocities as logged by the drive, `[joint][sample]`; no joints where the log has none.
+    pub dq: Vec<Vec<f64>>,
+    /// Torques (or what the drive logs in their place), N m or N, `[joint][sample]`.
+    pub tau: Vec<Vec<f64>>,
+    /// All other channels, in the order of the file.
+    pub extra: Vec<Channel>,
+    /// What was changed or set aside in reading.
+    pub report: Vec<Note>,
+}
+
+/// A named channel beside position, velocity and torque: a temperature, a current, a reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Channel {
+    /// Name as in the header.
+    pub name: String,
+    /// One value a sample.
+    pub values: Vec<f64>,
+}
+
+/// Something about a log that its user should know, and that is no error.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Columns that are neither time, position, velocity nor torque.
+    ExtraChannels {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
+    Resampled {
+        /// Samples as logged.
+        logged: usize,
+        /// Samples on the grid.
+        resampled: usize,
+        /// The grid's step, s.
+        step: f64,
+        /// Root mean square of `step_k - step`, s.
+        jitter_rms: f64,
+        /// Largest `|step_k - step|`, s.
+        jitter_max: f64,
+        /// Line of the sample that ends the worst step, where the log came from a file.
+        worst_line: Option<u64>,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ExtraChannels { names } => write!(f, "extra channels: {}", error::list(names)),
+            Self::Resampled {
+                logged,
+                resampled,
+                step,
+                jitter_rms,
+                jitter_max,
+                worst_line,
+            } => {
+                write!(
+                    f,
+                    "time stamps are not uniform: {logged} samples were resampled to {resampled} at the median step of {} ms; \
+                     steps differ from it by {} ms RMS, {} ms at most",
+                    milliseconds(*step),
+                    milliseconds(*jitter_rms),
+                    milliseconds(*jitter_max),
+                )?;
+                worst_line.map_or(Ok(()), |line| write!(f, " (line {line})"))
+            }
+        }
+    }
+}
+
+/// Seconds as milliseconds with the digits that a time stamp can have.
+fn milliseconds(seconds: f64) -> String {
+    let text = format!("{:.4}", seconds * 1e3);
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+impl Log {
+    /// Reads a CSV file, plain or gzip (told by its first bytes, not by its name), of an arm with `dof` joints.
+    ///
+    /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
+    /// resampled to the median step by cubic interpolation, which [`Log::report`] tells.
+    ///
+    /// # Errors
+    /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
+    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time, too few samples.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let error = Log::read("no-such-log.csv", 6).unwrap_err();
+    /// assert!(error.to_string().starts_with("cannot open log `no-such-log.csv`"));
+    /// ```
+    pub fn read(path: impl AsRef<Path>, dof: usize) -> Result<Self, LogError> {
+        let path = path.as_ref();
+        let source = path.display().to_string();
+        match File::open(path) {
+            Ok(file) => Self::from_reader(source, file, dof),
+            Err(error) => Err(LogError::Open {
+                source_name: source,
+                reason: error.to_string(),
+            }),
+        }
+    }
+
+    /// Reads a log as [`Log::read`] does; `source` names it in messages.
+    ///
+    /// # Errors
+    /// As [`Log::read`].
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let mut text = String::from("time,q1,tau1\n");
+    /// for k in 0..20 {
+    ///     text += &format!("{},0.5,{k}\n", 0.25 * f64::from(k));
+    /// }
+    /// let log = Log::from_reader("memory", text.as_bytes(), 1)?;
+    /// assert_eq!(log.tau[0][3], 3.0);
+    /// assert_eq!(log.rate_hz(), 4.0);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    pub fn from_reader(
+        source: impl Into<String>,
+        reader: impl Read,
+        dof: usize,
+    ) -> Result<Self, LogError> {
+        let source = source.into();
+        let table = table::read(&source, reader)?;
+        let Header {
+            time,
+            q,
+            dq,
+            tau,
+            extra,
+        } = Header::resolve(&source, &table.names, dof)?;
+        let mut columns = table.columns;
+        let mut take = |column: usize| std::mem::take(&mut columns[column]);
+        let log = Self {
+            time: take(time),
+            q: q.into_iter().map(&mut take).collect(),
+            dq: dq.into_iter().map(&mut take).collect(),
+            tau: tau.into_iter().map(&mut take).collect(),
+            extra: extra
+                .into_iter()
+                .map(|column| Channel {
+                    name: table.names[column].clone(),
+                    values: take(column),
+                })
+                .collect(),
+            source,
+            report: Vec::new(),
+        };
+        log.finish(Some(&table.lines))
+    }
+
+    /// A log from samples in memory: `q` and `tau` are `[joint][sample]`, as long as `time`.
+    ///
+    /// # Errors
+    /// As [`Log::read`] for values and time stamps; [`LogError::Lengths`] where the channels are not alike in length.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..100).map(|k| 0.01 * f64::from(k)).collect();
+    /// let q = vec![time.iter().map(|t| t.sin()).collect()];
+    /// let tau = vec![vec![0.0; 100]];
+    /// let log = Log::from_samples("a plant", time, q, tau)?;
+    /// assert_eq!(log.dof(), 1);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    pub fn from_samples(
+        source: impl Into<String>,
+        time: Vec<f64>,
+        q: Vec<Vec<f64>>,
+        tau: Vec<Vec<f64>>,
+    ) -> Result<Self, LogError> {
+        let source = source.into();
+        if q.len() != tau.len()
+            || q.iter()
+                .chain(&tau)
+                .any(|channel| channel.len() != time.len())
+        {
+            return Err(LogError::Lengths {
+                source_name: source,
+            });
+        }
+        let bad = |channel: &Vec<f64>| channel.iter().position(|value| !value.is_finite());
+        if let Some(sample) = std::iter::once(&time).chain(&q).chain(&tau).find_map(bad) {
+            return Err(LogError::NotFiniteSample {
+                source_name: source,
+                sample,
+            });
+        }
+        Self {
+            source,
+            time,
+            q,
+            dq: Vec::new(),
+            tau,
+            extra: Vec::new(),
+            report: Vec::new(),
+        }
+        .finish(None)
+    }
+
+    /// Number of joints.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.q.len()
+    }
+
+    /// Sample rate, Hz.
+    #[must_use]
+    pub fn rate_hz(&self) -> f64 {
+        let last = self.time.len() - 1;
+        last as f64 / (self.time[last] - self.time[0])
+    }
+
+    /// Length of the log, s.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.time[self.time.len() - 1] - self.time[0]
+    }
+
+    /// All channels but time.
+    fn channels_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        let extra = self.extra.iter_mut().map(|channel| &mut channel.values);
+        self.q
+            .iter_mut()
+            .chain(&mut self.dq)
+            .chain(&mut self.tau)
+            .chain(extra)
+    }
+
+    /// Checks the time stamps and makes them uniform; `lines` has one line number a sample.
+    fn finish(mut self, lines: Option<&[u64]>) -> Result<Self, LogError> {
+        if self.time.len() < FEWEST_SAMPLES {
+            let found = self.time.len();
+            return Err(LogError::TooFewSamples {
+                source_name: self.source,
+                found,
+                fewest: FEWEST_SAMPLES,
+            });
+        }
+        if !self.extra.is_empty() {
+            let names = self
+                .extra
+                .iter()
+                .map(|channel| channel.name.clone())
+                .collect();
+            self.report.push(Note::ExtraChannels { names });
+        }
+        uniform::make_uniform(&mut self, lines)?;
+        Ok(self)
+    }
+}
+
+#[cfg(test)]
+mod tests;

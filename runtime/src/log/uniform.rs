@@ -1,0 +1,82 @@
+//! Time stamps as logged to a uniform grid.
+
+use super::{Log, LogError, Note};
+use crate::signal::resample;
+
+/// A step longer than this many median steps is a gap: what the arm did inside it is not known.
+const GAP_STEPS: f64 = 5.0;
+
+/// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
+const UNIFORM_SHARE: f64 = 0.01;
+
+/// Refuses time that does not rise or has gaps, and moves all channels onto a uniform grid where they are not on one.
+pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), LogError> {
+    let time = &log.time;
+    let place = |sample: usize| match lines {
+        Some(lines) => format!("{}:{}", log.source, lines[sample]),
+        None => format!("{}: sample {sample}", log.source),
+    };
+    let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    if let Some(k) = steps.iter().position(|&step| step <= 0.0) {
+        return Err(LogError::TimeOrder {
+            place: place(k + 1),
+            time: time[k + 1],
+            previous: time[k],
+        });
+    }
+    let median = median(&steps);
+    if let Some(k) = steps.iter().position(|&step| step > GAP_STEPS * median) {
+        let (previous, time) = (time[k], time[k + 1]);
+        return Err(LogError::Gap {
+            place: place(k + 1),
+            time,
+            previous,
+            steps: steps[k] / median,
+        });
+    }
+
+    let count = time.len();
+    let mean = (time[count - 1] - time[0]) / (count - 1) as f64;
+    let off_grid = |k: usize| (time[k] - time[0] - mean * k as f64).abs();
+    if (0..count).all(|k| off_grid(k) <= UNIFORM_SHARE * mean) {
+        log.time = resample::grid(time[0], mean, count);
+        return Ok(());
+    }
+
+    let jitter = |step: f64| (step - median).abs();
+    let worst = (0..steps.len()).fold(0, |worst, k| {
+        if jitter(steps[k]) > jitter(steps[worst]) {
+            k
+        } else {
+            worst
+        }
+    });
+    let sum_of_squares: f64 = steps.iter().map(|&step| jitter(step).powi(2)).sum();
+    // A millionth of a step is what rounding may take from the last sample.
+    let resampled = resample::whole_steps((time[count - 1] - time[0]) / median + 1e-6) + 1;
+    log.report.push(Note::Resampled {
+        logged: count,
+        resampled,
+        step: median,
+        jitter_rms: (sum_of_squares / steps.len() as f64).sqrt(),
+        jitter_max: jitter(steps[worst]),
+        worst_line: lines.map(|lines| lines[worst + 1]),
+    });
+    let grid = resample::grid(time[0], median, resampled);
+    let logged = std::mem::replace(&mut log.time, grid.clone());
+    for channel in log.channels_mut() {
+        *channel = resample::cubic(&logged, channel, &grid);
+    }
+    Ok(())
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    if sorted.len() % 2 == 1 {
+        sorted[middle]
+    } else {
+        0.5 * (sorted[middle - 1] + sorted[middle])
+    }
+}

@@ -1,0 +1,64 @@
+//! What can be wrong with a filter or with a log that is to be filtered, and the words for it.
+
+use thiserror::Error;
+
+/// Why signals cannot be prepared.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SignalError {
+    /// The order of a low-pass is odd or zero.
+    #[error("a Butterworth low-pass of order {order}: the order must be even, and at least 2")]
+    Order {
+        /// As asked for.
+        order: usize,
+    },
+    /// A cutoff at zero or below, or at half the sample rate or above.
+    #[error(
+        "a low-pass at {} Hz on samples at {} Hz: the cutoff must lie between 0 and {} Hz",
+        short(*.cutoff_hz), short(*.rate_hz), short(*.rate_hz / 2.0)
+    )]
+    Cutoff {
+        /// As asked for.
+        cutoff_hz: f64,
+        /// Sample rate.
+        rate_hz: f64,
+    },
+    /// Bands that are not one inside the other.
+    #[error(
+        "bands of {} Hz (shared), {} Hz (smooth) and {} Hz (wide): each must be at least the one before it",
+        short(*.shared_hz), short(*.smooth_hz), short(*.wide_hz)
+    )]
+    Bands {
+        /// Band of the filter that torque and columns share.
+        shared_hz: f64,
+        /// Band of rigid-body kinematics.
+        smooth_hz: f64,
+        /// Band of effects' kinematics.
+        wide_hz: f64,
+    },
+    /// The filters' transients are as long as the log.
+    #[error(
+        "{source_name}: a log of {seconds:.3} s is too short for a low-pass at {} Hz; at least {needed:.3} s are needed",
+        short(*.shared_hz)
+    )]
+    TooShort {
+        /// The log.
+        source_name: String,
+        /// Its length.
+        seconds: f64,
+        /// Length from which on something is left.
+        needed: f64,
+        /// Band of the filter that torque and columns share.
+        shared_hz: f64,
+    },
+}
+
+/// Four decimals at most: a rate that was measured has no more.
+fn short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}

@@ -1,0 +1,17 @@
+//! Filters without phase, derivatives and rates: from a [`Log`](crate::log::Log) to a [`Motion`](crate::motion::Motion).
+//!
+//! Torque and regressor columns meet in least squares, so they must have seen the same filter: [`SharedFilter`] is that
+//! filter, applied once to the torque and to every column after it is formed. What differs between them fakes effects.
+
+mod derivative;
+mod error;
+mod filter;
+mod prepare;
+pub mod resample;
+mod shared;
+
+pub use derivative::derivative;
+pub use error::SignalError;
+pub use filter::LowPass;
+pub use prepare::{Bands, Prepared, prepare};
+pub use shared::SharedFilter;

@@ -1,0 +1,315 @@
+//! A log to the motion that models read.
+
+use super::{LowPass, SharedFilter, SignalError, derivative, resample};
+use crate::log::Log;
+use crate::motion::{Kinematics, Motion};
+
+/// Order per direction of all motion filters.
+const ORDER: usize = 4;
+
+/// Logs come down to about this rate: the widest default band fits five times into it.
+const RATE_HZ: f64 = 500.0;
+
+/// Cutoff of the filter before decimation, as a share of the new rate (of which 0.5 is the limit).
+const ANTI_ALIAS: f64 = 0.4;
+
+/// Cutoff frequencies, Hz, of the zero-phase filters: `shared <= smooth <= wide`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bands {
+    /// Of positions for rigid-body terms, which are products of derivatives and want little noise.
+    pub smooth_hz: f64,
+    /// Of positions for effects, whose signs change within milliseconds and want the reversal where it was.
+    pub wide_hz: f64,
+    /// Of the filter that torque and all columns share; least squares sees this band only.
+    pub shared_hz: f64,
+}
+
+impl Bands {
+    /// The bands for logs at 250 Hz and more: 10 Hz shared, 30 Hz smooth, 90 Hz wide.
+    pub const DEFAULT: Self = Self {
+        smooth_hz: 30.0,
+        wide_hz: 90.0,
+        shared_hz: 10.0,
+    };
+
+    /// [`Bands::DEFAULT`], narrowed where samples come too slowly for it: the wide band to 0.36 of the rate, the shared one to
+    /// a tenth, and the smooth one to three times the shared one.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::Bands;
+    /// assert_eq!(Bands::for_rate(1000.0), Bands::DEFAULT);
+    /// assert_eq!(Bands::for_rate(50.0), Bands { smooth_hz: 15.0, wide_hz: 18.0, shared_hz: 5.0 });
+    /// ```
+    #[must_use]
+    pub fn for_rate(rate_hz: f64) -> Self {
+        let shared_hz = Self::DEFAULT.shared_hz.min(0.1 * rate_hz);
+        let smooth_hz = 3.0 * shared_hz;
+        Self {
+            smooth_hz,
+            wide_hz: Self::DEFAULT.wide_hz.min(0.36 * rate_hz).max(smooth_hz),
+            shared_hz,
+        }
+    }
+
+    /// [`Bands::for_rate`] at the rate of a log. Where several logs are fitted together, take the bands of the slowest.
+    #[must_use]
+    pub fn for_log(log: &Log) -> Self {
+        Self::for_rate(log.rate_hz())
+    }
+}
+
+/// A log that is ready for a model.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Prepared {
+    /// Positions and derivatives in both bands, on a uniform grid.
+    pub motion: Motion,
+    /// Torque as logged on the grid of `motion`, `[joint][sample]`; not smoothed except before decimation.
+    pub tau: Vec<Vec<f64>>,
+    /// Sample rate of `motion`, Hz.
+    pub rate_hz: f64,
+    /// Sample `k` of the motion is sample `k * stride` of the log.
+    pub stride: usize,
+    /// The filter for torque and every column.
+    pub shared: SharedFilter,
+}
+
+/// Filters and differentiates a log.
+///
+/// Positions pass a zero-phase Butterworth low-pass of order 4 at [`Bands::smooth_hz`] and another at [`Bands::wide_hz`];
+/// velocity and acceleration are central differences of each. Logs at more than 500 Hz come down to 500 Hz or a little
+/// more: one zero-phase low-pass at 0.4 of the new rate goes over torque and positions alike, derivatives are taken at the
+/// full rate, and every `stride`-th sample is kept.
+///
+/// # Errors
+/// [`SignalError::Bands`] and [`SignalError::Cutoff`] for bands that are not ordered or do not fit the log's rate,
+/// [`SignalError::TooShort`] where the filters' borders leave nothing of the log.
+///
+/// # Examples
+/// ```
+/// use robot_model::{log::Log, signal::{Bands, prepare}};
+/// let time: Vec<f64> = (0..4000).map(|k| 0.001 * f64::from(k)).collect();
+/// let q = vec![time.iter().map(|t| (3.0 * t).sin()).collect()];
+/// let tau = vec![time.iter().map(|t| -18.0 * (3.0 * t).sin()).collect()];
+/// let log = Log::from_samples("a plant", time, q, tau)?;
+/// let prepared = prepare(&log, &Bands::for_log(&log))?;
+/// assert_eq!(prepared.stride, 2);
+/// let ratio = prepared.tau[0][500] / prepared.motion.smooth.ddq[0][500];
+/// assert!((ratio - 2.0).abs() < 1e-6);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn prepare(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
+    let Bands {
+        smooth_hz,
+        wide_hz,
+        shared_hz,
+    } = *bands;
+    if !(shared_hz <= smooth_hz && smooth_hz <= wide_hz) {
+        return Err(SignalError::Bands {
+            shared_hz,
+            smooth_hz,
+            wide_hz,
+        });
+    }
+    let logged_hz = log.rate_hz();
+    // The small slack keeps 999.99 Hz from becoming a stride of one.
+    let stride = resample::whole_steps(logged_hz / RATE_HZ + 1e-3).max(1);
+    let rate_hz = logged_hz / stride as f64;
+    let anti_alias = if stride > 1 {
+        Some(LowPass::butterworth(
+            ORDER,
+            ANTI_ALIAS * rate_hz,
+            logged_hz,
+        )?)
+    } else {
+        None
+    };
+    // Judged at the reduced rate, where columns are formed.
+    if wide_hz >= 0.5 * rate_hz {
+        return Err(SignalError::Cutoff {
+            cutoff_hz: wide_hz,
+            rate_hz,
+        });
+    }
+    let smooth = LowPass::butterworth(ORDER, smooth_hz, logged_hz)?;
+    let wide = LowPass::butterworth(ORDER, wide_hz, logged_hz)?;
+    let shared = SharedFilter::new(bands, rate_hz)?;
+
+    let samples = log.time.len().div_ceil(stride);
+    let needed = 2 * shared.border() + shared.stride();
+    if samples < needed {
+        let (seconds, needed) = (log.seconds(), needed as f64 / rate_hz);
+        return Err(SignalError::TooShort {
+            source_name: log.source.clone(),
+            seconds,
+            needed,
+            shared_hz,
+        });
+    }
+
+    let limit = |channel: &Vec<f64>| match &anti_alias {
+        None => channel.clone(),
+        Some(filter) => filtered(filter, channel),
+    };
+    let q: Vec<Vec<f64>> = log.q.iter().map(limit).collect();
+    let step = 1.0 / logged_hz;
+    Ok(Prepared {
+        motion: Motion {
+            time: resample::grid(0.0, 1.0 / rate_hz, samples),
+            smooth: kinematics(&q, &smooth, step, stride),
+            wide: kinematics(&q, &wide, step, stride),
+            rigid_torque: Vec::new(),
+        },
+        tau: log
+            .tau
+            .iter()
+            .map(|channel| resample::every(&limit(channel), stride))
+            .collect(),
+        rate_hz,
+        stride,
+        shared,
+    })
+}
+
+/// Filtered positions and their derivatives at the full rate, of which every `stride`-th sample is kept.
+fn kinematics(positions: &[Vec<f64>], filter: &LowPass, step: f64, stride: usize) -> Kinematics {
+    let mut kinematics = Kinematics::default();
+    let (mut dq, mut ddq) = (Vec::new(), Vec::new());
+    for position in positions {
+        let q = filtered(filter, position);
+        derivative(&q, step, &mut dq);
+        derivative(&dq, step, &mut ddq);
+        kinematics.q.push(resample::every(&q, stride));
+        kinematics.dq.push(resample::every(&dq, stride));
+        kinematics.ddq.push(resample::every(&ddq, stride));
+    }
+    kinematics
+}
+
+fn filtered(filter: &LowPass, signal: &[f64]) -> Vec<f64> {
+    let mut out = Vec::new();
+    filter.apply(signal, &mut out);
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A log of one joint at `rate_hz` with `q = f(t)` and `tau = g(t)`.
+    fn log(rate_hz: f64, seconds: f64, q: impl Fn(f64) -> f64, tau: impl Fn(f64) -> f64) -> Log {
+        let time = resample::grid(5.0, 1.0 / rate_hz, resample::whole_steps(seconds * rate_hz));
+        let channel = |f: &dyn Fn(f64) -> f64| vec![time.iter().map(|t| f(*t)).collect()];
+        let (q, tau) = (channel(&q), channel(&tau));
+        Log::from_samples("a test", time, q, tau).expect("samples are in order")
+    }
+
+    #[test]
+    fn rates_come_down_to_five_hundred() {
+        for (rate, stride) in [
+            (200.0, 1),
+            (500.0, 1),
+            (999.999, 2),
+            (1000.0, 2),
+            (1600.0, 3),
+            (5000.0, 10),
+        ] {
+            let log = log(rate, 2.0, f64::sin, f64::cos);
+            let prepared = prepare(&log, &Bands::for_log(&log)).expect("bands of the log");
+            assert_eq!(prepared.stride, stride, "{rate} Hz");
+            assert!((prepared.rate_hz - rate / stride as f64).abs() < 1e-6);
+            let count = log.time.len().div_ceil(stride);
+            assert_eq!(
+                (
+                    prepared.motion.time.len(),
+                    prepared.tau[0].len(),
+                    prepared.motion.wide.ddq[0].len()
+                ),
+                (count, count, count)
+            );
+            assert!(
+                prepared.motion.time[0].abs() < 1e-15,
+                "motions start at zero"
+            );
+        }
+    }
+
+    #[test]
+    fn derivatives_are_those_of_the_motion_at_every_rate() {
+        for rate in [200.0, 500.0, 1000.0, 5000.0] {
+            let w = 12.0;
+            let log = log(rate, 4.0, |t| (w * t).sin(), |_| 0.0);
+            let prepared = prepare(&log, &Bands::for_log(&log)).expect("bands of the log");
+            let Motion {
+                time, smooth, wide, ..
+            } = &prepared.motion;
+            for k in prepared.shared.kept(time.len()) {
+                let phase = w * (time[k] + 5.0);
+                for kinematics in [smooth, wide] {
+                    assert!(
+                        (kinematics.q[0][k] - phase.sin()).abs() < 1e-5,
+                        "{rate} Hz, sample {k}"
+                    );
+                    assert!(
+                        (kinematics.dq[0][k] / w - phase.cos()).abs() < 1e-4,
+                        "{rate} Hz, sample {k}"
+                    );
+                    assert!(
+                        (kinematics.ddq[0][k] / (w * w) + phase.sin()).abs() < 1e-3,
+                        "{rate} Hz, sample {k}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn torque_keeps_its_band_and_loses_what_would_fold() {
+        let tone = |hz: f64| move |t: f64| (2.0 * std::f64::consts::PI * hz * t).sin();
+        let rms = |hz: f64| {
+            let log = log(5000.0, 4.0, f64::sin, tone(hz));
+            let prepared = prepare(&log, &Bands::DEFAULT).expect("bands of the log");
+            let inside = &prepared.tau[0][200..1800];
+            (2.0 * inside.iter().map(|v| v * v).sum::<f64>() / inside.len() as f64).sqrt()
+        };
+        assert!((rms(10.0) - 1.0).abs() < 1e-3);
+        // 490 Hz would appear as 10 Hz.
+        assert!(rms(490.0) < 1e-3, "{}", rms(490.0));
+    }
+
+    #[test]
+    fn refusals_carry_their_numbers() {
+        let log = log(100.0, 0.18, f64::sin, f64::cos);
+        let text = |bands: &Bands| {
+            prepare(&log, bands)
+                .expect_err("must be refused")
+                .to_string()
+        };
+        assert_eq!(
+            text(&Bands {
+                smooth_hz: 5.0,
+                ..Bands::for_log(&log)
+            }),
+            "bands of 10 Hz (shared), 5 Hz (smooth) and 36 Hz (wide): each must be at least the one before it"
+        );
+        assert_eq!(
+            text(&Bands::DEFAULT),
+            "a low-pass at 90 Hz on samples at 100 Hz: the cutoff must lie between 0 and 50 Hz"
+        );
+        assert_eq!(
+            text(&Bands::for_log(&log)),
+            "a test: a log of 0.170 s is too short for a low-pass at 10 Hz; at least 0.220 s are needed"
+        );
+        assert!(
+            prepare(
+                &log,
+                &Bands {
+                    shared_hz: f64::NAN,
+                    ..Bands::DEFAULT
+                }
+            )
+            .is_err()
+        );
+    }
+}
