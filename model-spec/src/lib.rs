@@ -1,3 +1,39 @@
-//! The robot-model language: `.robot` text in, a checked [`Model`](model::Model) out, amendments back into the text.
+//! The robot-model language: `.robot` text in, a checked [`Model`] out, amendments back into the text.
+//!
+//! ```text
+//! text -parse-> Ast -check-> Model        text + Amendment -amend-> text'        URDF -import-> text
+//! ```
+//! No files are read here: callers bring the text and the name that messages show.
+pub mod ast;
+mod check;
+pub mod diagnostic;
+pub mod library;
 pub mod model;
 pub mod parameter;
+mod parse;
+mod suggest;
+mod transform;
+
+pub use ast::Ast;
+pub use check::check;
+pub use diagnostic::{Diagnostic, Diagnostics};
+pub use library::standard_effects;
+pub use model::Model;
+pub use parse::parse_tokens;
+
+/// Parses and checks a spec. `source_name` is what messages call the text, usually its path.
+///
+/// # Errors
+/// Every mistake of the first stage (tokens, grammar, rules) that has one.
+pub fn load(source_name: &str, text: &str) -> Result<Model, Diagnostics> {
+    let ast = parse(source_name, text)?;
+    check(&ast, source_name).map_err(|errors| Diagnostics::new(source_name, text, errors))
+}
+
+/// Parses a spec without checking what it says.
+///
+/// # Errors
+/// Every place where the text does not follow the grammar.
+pub fn parse(source_name: &str, text: &str) -> Result<Ast, Diagnostics> {
+    parse::parse_text(text).map_err(|errors| Diagnostics::new(source_name, text, errors))
+}

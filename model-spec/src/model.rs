@@ -22,6 +22,8 @@ pub struct Model {
     pub joints: Vec<Joint>,
     /// Declared effects, one entry per instance (a joint or a tuple of joints), in the order of the spec.
     pub effects: Vec<Effect>,
+    /// Every effect that this spec may declare: the standard ones by name, then its own in the order of the spec.
+    pub definitions: Vec<Arc<EffectDefinition>>,
 }
 
 /// How frames are written in the spec; never defaulted.
@@ -133,7 +135,7 @@ pub struct Effect {
     pub joints: Vec<usize>,
     /// Values of the shape parameters as written at the declaration; `None` where they are left to identification.
     pub shapes: Vec<Option<f64>>,
-    /// 1 for the first instance of a definition on these joints, 2 for the second, and so on.
+    /// 1 for the first instance of a definition that starts at this first joint, 2 for the second, and so on: `JOINT.EFFECT2`.
     pub instance: usize,
     /// Line of the declaration in the spec, from 1.
     pub line: usize,

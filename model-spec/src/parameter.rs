@@ -106,24 +106,36 @@ impl Model {
     #[must_use]
     pub fn standard_parameters(&self) -> Vec<StandardParameter> {
         let links = self.joints.iter().enumerate().flat_map(|(link, joint)| {
-            InertialElement::ALL.into_iter().enumerate().map(move |(k, element)| StandardParameter {
-                name: format!("{}.{}", joint.link.name, element.name()),
-                owner: Owner::Link { link, element },
-                status: match joint.link.inertial {
-                    Inertial::Unknown => Status::Unknown,
-                    Inertial::Nominal(value) => Status::Nominal(value[k]),
-                    Inertial::Fixed(value) => Status::Fixed(value[k]),
-                },
-            })
+            InertialElement::ALL
+                .into_iter()
+                .enumerate()
+                .map(move |(k, element)| StandardParameter {
+                    name: format!("{}.{}", joint.link.name, element.name()),
+                    owner: Owner::Link { link, element },
+                    status: match joint.link.inertial {
+                        Inertial::Unknown => Status::Unknown,
+                        Inertial::Nominal(value) => Status::Nominal(value[k]),
+                        Inertial::Fixed(value) => Status::Fixed(value[k]),
+                    },
+                })
         });
-        let effects = self.effects.iter().enumerate().flat_map(|(effect, declared)| {
-            let prefix = self.effect_name(effect);
-            declared.definition.linear.iter().enumerate().map(move |(parameter, linear)| StandardParameter {
-                name: format!("{prefix}.{}", linear.name),
-                owner: Owner::Effect { effect, parameter },
-                status: Status::Unknown,
-            })
-        });
+        let effects = self
+            .effects
+            .iter()
+            .enumerate()
+            .flat_map(|(effect, declared)| {
+                let prefix = self.effect_name(effect);
+                declared
+                    .definition
+                    .linear
+                    .iter()
+                    .enumerate()
+                    .map(move |(parameter, linear)| StandardParameter {
+                        name: format!("{prefix}.{}", linear.name),
+                        owner: Owner::Effect { effect, parameter },
+                        status: Status::Unknown,
+                    })
+            });
         links.chain(effects).collect()
     }
 

@@ -1,0 +1,9 @@
+/// Viscous friction that differs between the directions of motion.
+///
+/// `delta * abs(dq)` on top of `fv * dq`: `fv + delta` forward, `fv - delta` backward. Identifiable from motion at several
+/// speeds in both directions.
+effect asymmetric_viscous(j) {
+    /// Half the difference of the two viscous coefficients, N m s/rad (N s/m for a prismatic joint).
+    linear delta;
+    torque(j) = delta * abs(dq(j));
+}

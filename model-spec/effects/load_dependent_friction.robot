@@ -1,0 +1,9 @@
+/// Dry friction that grows with the load on the transmission.
+///
+/// `mu * abs(rigid_torque) * sign(dq)`, where `rigid_torque` is what the transmission carries: inertia, Coriolis and gravity
+/// torque of the rigid body. Identifiable where the load changes much while the direction of motion changes too.
+effect load_dependent_friction(j) {
+    /// Friction per unit of load.
+    linear mu >= 0;
+    torque(j) = mu * abs(rigid_torque(j)) * sign(dq(j));
+}

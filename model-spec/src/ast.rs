@@ -1,0 +1,210 @@
+//! What was written, with spans: the form between [`parse`](crate::parse) and [`check`](crate::check).
+//!
+//! Nothing here is known to make sense: keys may be misspelt, names unresolved, values of the wrong dimension. Every type
+//! can be built by hand and parsed with `syn`, so that a derive makes the same tree from attributes.
+
+use proc_macro2::Span;
+use syn::Ident;
+
+pub use crate::model::BinaryOp;
+
+/// A whole file: robots and effect definitions in the order of the text.
+#[derive(Debug, Clone, Default)]
+pub struct Ast {
+    /// `robot Name { .. }`; a spec has exactly one.
+    pub robots: Vec<Robot>,
+    /// `effect name(j) { .. }`
+    pub effects: Vec<Effect>,
+}
+
+/// `robot Name { .. }`
+#[derive(Debug, Clone)]
+pub struct Robot {
+    /// Its name.
+    pub name: Ident,
+    /// `gravity = ..;` and `convention = ..;`
+    pub settings: Vec<Setting>,
+    /// Joints from the base to the tip.
+    pub joints: Vec<Joint>,
+    /// Inertials of links.
+    pub links: Vec<Link>,
+    /// `effects { .. }`; at most one is allowed.
+    pub effects: Vec<Effects>,
+    /// The closing brace.
+    pub close: Span,
+}
+
+/// `key = value`
+#[derive(Debug, Clone)]
+pub struct Setting {
+    /// Left-hand side.
+    pub key: Ident,
+    /// Right-hand side.
+    pub value: Value,
+}
+
+/// Right-hand side of a setting.
+#[derive(Debug, Clone)]
+pub enum Value {
+    /// One expression; a word such as `standard_dh` is a name.
+    Scalar(Expr),
+    /// `[x, y, z]`
+    List(Vec<Expr>, Span),
+    /// `low .. high`
+    Range(Expr, Expr),
+}
+
+/// `joint name: kind { .. }`
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Its name.
+    pub name: Ident,
+    /// `revolute` or `prismatic`.
+    pub kind: Ident,
+    /// Frame, limits, link name.
+    pub settings: Vec<Setting>,
+}
+
+/// `link name: status { .. }`
+#[derive(Debug, Clone)]
+pub struct Link {
+    /// Its name, as in a joint's `link = name`, or the joint's own name.
+    pub name: Ident,
+    /// `nominal` or `fixed`; absent means nominal.
+    pub status: Option<Ident>,
+    /// Mass, center of mass, inertia.
+    pub settings: Vec<Setting>,
+}
+
+/// `effects { .. }`
+#[derive(Debug, Clone)]
+pub struct Effects {
+    /// The word `effects`.
+    pub keyword: Span,
+    /// Declarations in order.
+    pub declared: Vec<DeclaredEffect>,
+    /// The closing brace.
+    pub close: Span,
+}
+
+/// `stribeck(vs = 0.2) on elbow, (wrist_pitch, wrist_roll)`
+#[derive(Debug, Clone)]
+pub struct DeclaredEffect {
+    /// Name of the definition.
+    pub name: Ident,
+    /// Values of shape parameters.
+    pub shapes: Vec<Setting>,
+    /// Where it acts.
+    pub targets: Targets,
+}
+
+/// Where a declared effect acts.
+#[derive(Debug, Clone)]
+pub enum Targets {
+    /// `all`: one instance on every joint.
+    All(Span),
+    /// One instance on each.
+    Each(Vec<Target>),
+}
+
+/// A joint or a tuple of joints.
+#[derive(Debug, Clone)]
+pub struct Target {
+    /// One name, or several in parentheses.
+    pub joints: Vec<Ident>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// `effect name(j, k) { .. }`
+#[derive(Debug, Clone)]
+pub struct Effect {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name.
+    pub name: Ident,
+    /// Formal joints.
+    pub joints: Vec<Ident>,
+    /// `linear ..;`
+    pub linear: Vec<Linear>,
+    /// `shape ..;`
+    pub shapes: Vec<Shape>,
+    /// `torque(j) = ..;`
+    pub torques: Vec<Torque>,
+}
+
+/// `linear fs >= 0`
+#[derive(Debug, Clone)]
+pub struct Linear {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name.
+    pub name: Ident,
+    /// `>= 0` is there.
+    pub nonnegative: bool,
+}
+
+/// `shape vs in 0.005 .. 0.5 step 0.01`
+#[derive(Debug, Clone)]
+pub struct Shape {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name.
+    pub name: Ident,
+    /// Lowest value.
+    pub low: Expr,
+    /// Highest value.
+    pub high: Expr,
+    /// Spacing of the first search.
+    pub step: Option<Expr>,
+}
+
+/// `torque(j) = ..`
+#[derive(Debug, Clone)]
+pub struct Torque {
+    /// The formal joint.
+    pub joint: Ident,
+    /// The equation.
+    pub value: Expr,
+}
+
+/// An expression with its place in the text.
+#[derive(Debug, Clone)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// All of it.
+    pub span: Span,
+}
+
+/// The forms of an expression.
+#[derive(Debug, Clone)]
+pub enum ExprKind {
+    /// `90 deg`, `0.3`
+    Number(f64, Option<Ident>),
+    /// A parameter, `pi`, `time`, a unit, a word.
+    Name(Ident),
+    /// `f(x)`
+    Call(Ident, Vec<Expr>),
+    /// `-x`
+    Neg(Box<Expr>),
+    /// `x op y`
+    Binary(BinaryOp, Box<Expr>, Box<Expr>),
+}
+
+impl Value {
+    /// The whole right-hand side.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Scalar(value) => value.span,
+            Self::List(_, span) => *span,
+            Self::Range(low, high) => join(low.span, high.span),
+        }
+    }
+}
+
+/// From the start of one span to the end of another; the first where the compiler cannot join them.
+pub(crate) fn join(first: Span, last: Span) -> Span {
+    first.join(last).unwrap_or(first)
+}

@@ -1,0 +1,280 @@
+//! `effects { .. }`: which effects act on which joints.
+
+use std::sync::Arc;
+
+use proc_macro2::Span;
+use syn::Ident;
+
+use super::setting::Settings;
+use super::{Errors, value};
+use crate::ast::{DeclaredEffect, Robot, Target, Targets};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Effect, EffectDefinition};
+use crate::suggest;
+
+/// Every instance, in the order of the spec.
+pub(super) fn check_effects(
+    robot: &Robot,
+    definitions: &[Arc<EffectDefinition>],
+    errors: &mut Errors,
+) -> Vec<Effect> {
+    if let [first, second, ..] = robot.effects.as_slice() {
+        errors.push(
+            Diagnostic::new(
+                second.keyword,
+                "the robot has two `effects` blocks",
+                "second",
+            )
+            .also(first.keyword, "first")
+            .help("write all effects into one block"),
+        );
+    }
+    let mut instances: Vec<(Effect, Span)> = Vec::new();
+    for declared in robot.effects.iter().flat_map(|effects| &effects.declared) {
+        let Some(definition) = check_known(declared, definitions, errors) else {
+            continue;
+        };
+        let shapes = check_shapes(declared, definition, errors);
+        for (joints, span) in check_targets(robot, declared, definition, errors) {
+            let effect = Effect {
+                definition: Arc::clone(definition),
+                instance: 1 + instances
+                    .iter()
+                    .filter(|(other, _)| shares_name(other, definition, &joints))
+                    .count(),
+                joints,
+                shapes: shapes.clone(),
+                line: declared.name.span().start().line,
+            };
+            check_repeated(&effect, span, &instances, errors);
+            instances.push((effect, span));
+        }
+    }
+    instances.into_iter().map(|(effect, _)| effect).collect()
+}
+
+/// Parameter names carry the first joint and the effect; instances keep those of one pair apart.
+fn shares_name(other: &Effect, definition: &EffectDefinition, joints: &[usize]) -> bool {
+    other.definition.name == definition.name && other.joints.first() == joints.first()
+}
+
+fn check_known<'a>(
+    declared: &DeclaredEffect,
+    definitions: &'a [Arc<EffectDefinition>],
+    errors: &mut Errors,
+) -> Option<&'a Arc<EffectDefinition>> {
+    let name = declared.name.to_string();
+    let found = definitions
+        .iter()
+        .find(|definition| definition.name == name);
+    if found.is_none() {
+        let known = definitions
+            .iter()
+            .map(|definition| definition.name.as_str());
+        errors.push(
+            Diagnostic::new(
+                declared.name.span(),
+                format!("unknown effect `{name}`"),
+                "not defined",
+            )
+            .help(format!(
+                "{}, or define `effect {name}(j) {{ .. }}` beside the robot",
+                suggest::help(&name, known)
+            )),
+        );
+    }
+    found
+}
+
+/// One value per shape parameter of the definition, where the declaration gives one.
+fn check_shapes(
+    declared: &DeclaredEffect,
+    definition: &EffectDefinition,
+    errors: &mut Errors,
+) -> Vec<Option<f64>> {
+    let names: Vec<&str> = definition
+        .shapes
+        .iter()
+        .map(|shape| shape.name.as_str())
+        .collect();
+    let owner = format!("effect `{}`", declared.name);
+    let settings = if names.is_empty() {
+        if let Some(setting) = declared.shapes.first() {
+            errors.push(
+                Diagnostic::new(
+                    setting.key.span(),
+                    format!("{owner} has no shape parameters"),
+                    "",
+                )
+                .help(format!(
+                    "write `{} on ..;`: linear parameters are identified, not declared",
+                    declared.name
+                )),
+            );
+        }
+        return Vec::new();
+    } else {
+        Settings::new(&declared.shapes, &owner, &names, errors)
+    };
+    let read = |shape: &crate::model::ShapeParameter| {
+        let given = settings.get(&shape.name)?;
+        let number = value::any_scalar(given);
+        let in_range = number.and_then(|number| {
+            if (shape.low..=shape.high).contains(&number) {
+                return Ok(number);
+            }
+            Err(Diagnostic::new(
+                given.span(),
+                format!("`{}` of {owner} is outside its range", shape.name),
+                format!("is {number}"),
+            )
+            .help(format!("write a value in {} .. {}", shape.low, shape.high)))
+        });
+        Some(in_range)
+    };
+    let values: Vec<Option<Result<f64, Diagnostic>>> = definition.shapes.iter().map(read).collect();
+    values
+        .into_iter()
+        .map(|value| value?.map_err(|error| errors.push(error)).ok())
+        .collect()
+}
+
+/// Joint indices of every instance, with the place that names them.
+fn check_targets(
+    robot: &Robot,
+    declared: &DeclaredEffect,
+    definition: &EffectDefinition,
+    errors: &mut Errors,
+) -> Vec<(Vec<usize>, Span)> {
+    let wanted = definition.joints.len();
+    match &declared.targets {
+        Targets::All(_) if wanted == 1 => (0..robot.joints.len())
+            .map(|k| (vec![k], declared.name.span()))
+            .collect(),
+        Targets::All(span) => {
+            errors.push(wrong_number(
+                declared,
+                wanted,
+                "`all` stands for single joints",
+                *span,
+            ));
+            Vec::new()
+        }
+        Targets::Each(targets) => targets
+            .iter()
+            .filter_map(|target| check_target(robot, declared, wanted, target, errors))
+            .collect(),
+    }
+}
+
+fn check_target(
+    robot: &Robot,
+    declared: &DeclaredEffect,
+    wanted: usize,
+    target: &Target,
+    errors: &mut Errors,
+) -> Option<(Vec<usize>, Span)> {
+    let joints: Vec<Option<usize>> = target
+        .joints
+        .iter()
+        .map(|joint| check_joint(robot, joint, errors))
+        .collect();
+    let joints: Vec<usize> = joints.into_iter().collect::<Option<_>>()?;
+    if joints.len() != wanted {
+        let label = if joints.len() == 1 {
+            "one joint".to_owned()
+        } else {
+            format!("{} joints", joints.len())
+        };
+        errors.push(wrong_number(declared, wanted, &label, target.span));
+        return None;
+    }
+    let twice = joints
+        .iter()
+        .enumerate()
+        .find(|(k, joint)| joints[..*k].contains(joint));
+    if let Some((k, _)) = twice {
+        errors.push(
+            Diagnostic::new(
+                target.joints[k].span(),
+                format!("effect `{}` couples a joint with itself", declared.name),
+                "again",
+            )
+            .help("name different joints"),
+        );
+        return None;
+    }
+    Some((joints, target.span))
+}
+
+fn check_joint(robot: &Robot, name: &Ident, errors: &mut Errors) -> Option<usize> {
+    let found = robot.joints.iter().position(|joint| joint.name == *name);
+    if found.is_none() {
+        let names: Vec<String> = robot
+            .joints
+            .iter()
+            .map(|joint| joint.name.to_string())
+            .collect();
+        errors.push(
+            Diagnostic::new(
+                name.span(),
+                format!("the robot has no joint `{name}`"),
+                "unknown joint",
+            )
+            .help(suggest::help(
+                &name.to_string(),
+                names.iter().map(String::as_str),
+            )),
+        );
+    }
+    found
+}
+
+fn wrong_number(declared: &DeclaredEffect, wanted: usize, label: &str, span: Span) -> Diagnostic {
+    let name = &declared.name;
+    let (count, example) = match wanted {
+        1 => (
+            "one joint".to_owned(),
+            format!("`{name} on first_joint, second_joint;`"),
+        ),
+        2 => (
+            "two joints together".to_owned(),
+            format!("`{name} on (first_joint, second_joint);`"),
+        ),
+        n => (
+            format!("{n} joints together"),
+            format!("`{name} on (first_joint, ..);` with {n} names"),
+        ),
+    };
+    Diagnostic::new(span, format!("effect `{name}` acts on {count}"), label)
+        .help(format!("write {example}"))
+}
+
+/// The same effect on the same joints twice is two equal columns, unless shape parameters tell them apart.
+fn check_repeated(effect: &Effect, span: Span, instances: &[(Effect, Span)], errors: &mut Errors) {
+    let same = |other: &Effect| {
+        let equal_shapes =
+            effect.shapes == other.shapes && effect.shapes.iter().all(Option::is_some);
+        other.definition.name == effect.definition.name
+            && other.joints == effect.joints
+            && equal_shapes
+    };
+    let Some((_, first)) = instances.iter().find(|(other, _)| same(other)) else {
+        return;
+    };
+    let name = &effect.definition.name;
+    let help = if effect.shapes.is_empty() {
+        "delete one of them: least squares cannot tell two equal effects apart"
+    } else {
+        "give them different shape parameters, or delete one"
+    };
+    errors.push(
+        Diagnostic::new(
+            span,
+            format!("effect `{name}` is declared twice on the same joints"),
+            "second",
+        )
+        .also(*first, "first")
+        .help(help),
+    );
+}

@@ -1,0 +1,65 @@
+//! Keys of a block: known, and not twice.
+
+use std::collections::BTreeMap;
+
+use crate::ast::{Setting, Value};
+use crate::diagnostic::Diagnostic;
+use crate::suggest;
+
+use super::Errors;
+
+/// The settings of one block by key.
+pub(super) struct Settings<'a> {
+    by_key: BTreeMap<String, &'a Setting>,
+}
+
+impl<'a> Settings<'a> {
+    /// Reports keys that are unknown or there twice. `owner` reads like "joint `waist`".
+    pub(super) fn new(
+        settings: &'a [Setting],
+        owner: &str,
+        allowed: &[&str],
+        errors: &mut Errors,
+    ) -> Self {
+        for setting in settings {
+            let key = setting.key.to_string();
+            if !allowed.contains(&key.as_str()) {
+                errors.push(
+                    Diagnostic::new(
+                        setting.key.span(),
+                        format!("{owner} has no setting `{key}`"),
+                        "unknown setting",
+                    )
+                    .help(suggest::help(&key, allowed.iter().copied())),
+                );
+            }
+        }
+        Self::unchecked(settings, owner, errors)
+    }
+
+    /// Reports only keys that are there twice.
+    pub(super) fn unchecked(settings: &'a [Setting], owner: &str, errors: &mut Errors) -> Self {
+        let mut by_key: BTreeMap<String, &Setting> = BTreeMap::new();
+        for setting in settings {
+            let key = setting.key.to_string();
+            if let Some(first) = by_key.get(&key) {
+                errors.push(
+                    Diagnostic::new(
+                        setting.key.span(),
+                        format!("{owner} sets `{key}` twice"),
+                        "second",
+                    )
+                    .also(first.key.span(), "first")
+                    .help("delete one of them"),
+                );
+            } else {
+                by_key.insert(key, setting);
+            }
+        }
+        Self { by_key }
+    }
+
+    pub(super) fn get(&self, key: &str) -> Option<&'a Value> {
+        self.by_key.get(key).map(|setting| &setting.value)
+    }
+}

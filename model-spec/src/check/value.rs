@@ -1,0 +1,313 @@
+//! Constant expressions to numbers in SI units, with their dimension checked.
+
+use proc_macro2::Span;
+use syn::Ident;
+
+use super::unit::{self, Dimension};
+use crate::ast::{BinaryOp, Expr, ExprKind, Value};
+use crate::diagnostic::Diagnostic;
+use crate::model::Function;
+use crate::suggest;
+
+type Checked<T> = Result<T, Diagnostic>;
+
+/// A number in SI units. A bare number has no dimension of its own and takes the one that is expected.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quantity {
+    pub(super) value: f64,
+    pub(super) dimension: Option<Dimension>,
+}
+
+/// A word such as `standard_dh`.
+pub(super) fn word(value: &Value) -> Option<String> {
+    match value {
+        Value::Scalar(Expr {
+            kind: ExprKind::Name(name),
+            ..
+        }) => Some(name.to_string()),
+        _ => None,
+    }
+}
+
+/// One number of the expected dimension.
+pub(super) fn scalar(value: &Value, expected: Dimension) -> Checked<f64> {
+    in_dimension(single(value)?, expected)
+}
+
+/// One number of any dimension.
+pub(super) fn any_scalar(value: &Value) -> Checked<f64> {
+    Ok(constant(single(value)?)?.value)
+}
+
+fn single(value: &Value) -> Checked<&Expr> {
+    match value {
+        Value::Scalar(expr) => Ok(expr),
+        Value::List(_, span) => Err(shape_of(*span, "one number", "a list")),
+        Value::Range(..) => Err(shape_of(value.span(), "one number", "a range")),
+    }
+}
+
+/// `N` numbers in brackets.
+pub(super) fn vector<const N: usize>(value: &Value, expected: Dimension) -> Checked<[f64; N]> {
+    let Value::List(items, span) = value else {
+        return Err(shape_of(
+            value.span(),
+            &format!("{N} numbers in brackets"),
+            "something else",
+        ));
+    };
+    if items.len() != N {
+        return Err(shape_of(
+            *span,
+            &format!("{N} numbers in brackets"),
+            &format!("{} numbers", items.len()),
+        ));
+    }
+    let mut numbers = [0.0; N];
+    for (number, item) in numbers.iter_mut().zip(items) {
+        *number = in_dimension(item, expected)?;
+    }
+    Ok(numbers)
+}
+
+/// `low .. high`, the lower end first.
+pub(super) fn range(value: &Value, expected: Dimension) -> Checked<(f64, f64)> {
+    let Value::Range(low, high) = value else {
+        return Err(shape_of(
+            value.span(),
+            "a range `low .. high`",
+            "something else",
+        ));
+    };
+    let ends = (in_dimension(low, expected)?, in_dimension(high, expected)?);
+    check_order(low, high, ends)?;
+    Ok(ends)
+}
+
+/// The lower end of a range comes first.
+pub(super) fn check_order(low: &Expr, high: &Expr, ends: (f64, f64)) -> Checked<()> {
+    if ends.0 < ends.1 {
+        return Ok(());
+    }
+    let span = crate::ast::join(low.span, high.span);
+    Err(Diagnostic::new(
+        span,
+        "the range is empty",
+        format!("from {} to {}", ends.0, ends.1),
+    )
+    .help("write the lower end first"))
+}
+
+fn shape_of(span: Span, expected: &str, found: &str) -> Diagnostic {
+    Diagnostic::new(span, format!("expected {expected}, found {found}"), "")
+        .help(format!("write {expected}"))
+}
+
+fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
+    let quantity = constant(expr)?;
+    match quantity.dimension {
+        Some(found) if found != expected => Err(Diagnostic::new(
+            expr.span,
+            format!(
+                "expected {}, found {}",
+                expected.describe(),
+                found.describe()
+            ),
+            format!("this is {}", found.describe()),
+        )
+        .help(format!(
+            "write it in {}; a bare number is in SI units",
+            expected.units()
+        ))),
+        _ => Ok(quantity.value),
+    }
+}
+
+/// The value of an expression without parameters or signals.
+pub(super) fn constant(expr: &Expr) -> Checked<Quantity> {
+    let quantity = evaluate(expr)?;
+    if quantity.value.is_finite() {
+        return Ok(quantity);
+    }
+    Err(Diagnostic::new(
+        expr.span,
+        "the value is not a finite number",
+        format!("comes out as {}", quantity.value),
+    )
+    .help("divide by no zero, and stay below 1.8e308"))
+}
+
+fn evaluate(expr: &Expr) -> Checked<Quantity> {
+    match &expr.kind {
+        ExprKind::Number(value, None) => Ok(Quantity {
+            value: *value,
+            dimension: None,
+        }),
+        ExprKind::Number(value, Some(unit)) => {
+            let (factor, dimension) = find_unit(unit)?;
+            Ok(Quantity {
+                value: in_unit(*value, factor, unit),
+                dimension: Some(dimension),
+            })
+        }
+        ExprKind::Name(name) => constant_name(name),
+        ExprKind::Call(name, arguments) => call(name, arguments, expr.span),
+        ExprKind::Neg(inner) => evaluate(inner).map(|q| Quantity {
+            value: -q.value,
+            ..q
+        }),
+        ExprKind::Binary(op, left, right) => binary(*op, evaluate(left)?, evaluate(right)?, expr),
+    }
+}
+
+/// Degrees are scaled as `value / 180 * pi` so that 90 deg is the double nearest to a quarter turn.
+fn in_unit(value: f64, factor: f64, unit: &Ident) -> f64 {
+    if unit == "deg" {
+        value / 180.0 * std::f64::consts::PI
+    } else {
+        value * factor
+    }
+}
+
+/// The unit behind a number.
+pub(super) fn find_unit(unit: &Ident) -> Checked<(f64, Dimension)> {
+    let name = unit.to_string();
+    unit::find(&name).ok_or_else(|| {
+        Diagnostic::new(unit.span(), format!("unknown unit `{name}`"), "not a unit").help(
+            suggest::help(&name, unit::UNITS.iter().map(|(unit, ..)| *unit)),
+        )
+    })
+}
+
+/// `pi`, or a unit alone as in `m/s^2`.
+fn constant_name(name: &Ident) -> Checked<Quantity> {
+    let text = name.to_string();
+    if text == "pi" {
+        return Ok(Quantity {
+            value: std::f64::consts::PI,
+            dimension: None,
+        });
+    }
+    unit::find(&text)
+        .map(|(value, dimension)| Quantity {
+            value,
+            dimension: Some(dimension),
+        })
+        .ok_or_else(|| {
+            Diagnostic::new(
+                name.span(),
+                format!("expected a number, found `{text}`"),
+                "neither a number nor a unit",
+            )
+            .help("write a number, such as `0.3`, `90 deg` or `pi/2`")
+        })
+}
+
+fn call(name: &Ident, arguments: &[Expr], span: Span) -> Checked<Quantity> {
+    let function = super::resolve::function(name)?;
+    let [argument] = arguments else {
+        return Err(super::resolve::one_argument(name, arguments.len(), span));
+    };
+    let x = evaluate(argument)?;
+    let value = match function {
+        Function::Sin => x.value.sin(),
+        Function::Cos => x.value.cos(),
+        Function::Exp => x.value.exp(),
+        Function::Sqrt => x.value.sqrt(),
+        Function::Abs => x.value.abs(),
+        Function::Sign => sign(x.value),
+        Function::Tanh => x.value.tanh(),
+    };
+    let keeps = function == Function::Abs;
+    let takes_angle =
+        matches!(function, Function::Sin | Function::Cos) && x.dimension == Some(Dimension::ANGLE);
+    match x.dimension {
+        None => Ok(Quantity {
+            value,
+            dimension: None,
+        }),
+        Some(_) if keeps => Ok(Quantity { value, ..x }),
+        Some(_) if takes_angle => Ok(Quantity {
+            value,
+            dimension: None,
+        }),
+        Some(found) => Err(Diagnostic::new(
+            argument.span,
+            format!("`{name}` takes a plain number, found {}", found.describe()),
+            "has a unit",
+        )
+        .help("divide by the unit first")),
+    }
+}
+
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
+}
+
+fn binary(op: BinaryOp, left: Quantity, right: Quantity, expr: &Expr) -> Checked<Quantity> {
+    let dimension = match op {
+        BinaryOp::Add | BinaryOp::Sub => match (left.dimension, right.dimension) {
+            (Some(l), Some(r)) if l != r => {
+                return Err(Diagnostic::new(
+                    expr.span,
+                    format!("{} and {} do not add", l.describe(), r.describe()),
+                    "different dimensions",
+                )
+                .help("write both in units of one kind"));
+            }
+            (l, r) => l.or(r),
+        },
+        BinaryOp::Mul => product(left, right, 1),
+        BinaryOp::Div => product(left, right, -1),
+        BinaryOp::Pow => match (left.dimension, right.dimension) {
+            (None, None) => None,
+            (Some(dimension), None) => Some(dimension.power(small_integer(right.value, expr)?)),
+            (_, Some(found)) => {
+                return Err(Diagnostic::new(
+                    expr.span,
+                    format!("an exponent is a plain number, found {}", found.describe()),
+                    "the exponent has a unit",
+                )
+                .help("take the unit away from the exponent"));
+            }
+        },
+    };
+    let value = match op {
+        BinaryOp::Add => left.value + right.value,
+        BinaryOp::Sub => left.value - right.value,
+        BinaryOp::Mul => left.value * right.value,
+        BinaryOp::Div => left.value / right.value,
+        BinaryOp::Pow => left.value.powf(right.value),
+    };
+    Ok(Quantity {
+        value,
+        dimension: dimension.filter(|dimension| *dimension != Dimension::NONE),
+    })
+}
+
+fn product(left: Quantity, right: Quantity, sign: i32) -> Option<Dimension> {
+    if left.dimension.is_none() && right.dimension.is_none() {
+        return None;
+    }
+    let left = left.dimension.unwrap_or(Dimension::NONE);
+    Some(left.times(right.dimension.unwrap_or(Dimension::NONE), sign))
+}
+
+/// Exponent of a quantity with a unit.
+fn small_integer(exponent: f64, expr: &Expr) -> Checked<i32> {
+    let found = (-6..=6).find(|k| (f64::from(*k) - exponent).abs() < 1e-12);
+    found.ok_or_else(|| {
+        Diagnostic::new(
+            expr.span,
+            "a quantity with a unit has a small whole exponent",
+            format!("exponent {exponent}"),
+        )
+        .help("take the power of the number, and write the unit behind the result")
+    })
+}

@@ -1,0 +1,233 @@
+//! What is wrong with a spec, where, and what to write instead.
+//!
+//! [`Diagnostic`] carries token spans: a derive turns it into a `compile_error!` at the attribute. [`Diagnostics`] carries
+//! the text and byte ranges: it renders the way rustc does and may cross threads.
+
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use proc_macro2::Span;
+
+/// Between message and help where both travel in one `syn::Error`.
+const HELP_MARK: &str = "\nhelp: ";
+
+/// One mistake.
+#[derive(Debug, Clone)]
+pub struct Diagnostic {
+    message: String,
+    labels: Vec<Label>,
+    help: Option<String>,
+}
+
+/// A place in the text and what is to be seen there.
+#[derive(Debug, Clone)]
+struct Label {
+    span: Span,
+    text: String,
+}
+
+impl Diagnostic {
+    /// A mistake at a place. The message stands alone; the label is short and points.
+    #[must_use]
+    pub fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
+        Self {
+            message: message.into(),
+            labels: vec![Label {
+                span,
+                text: label.into(),
+            }],
+            help: None,
+        }
+    }
+
+    /// A second place that has to do with it.
+    #[must_use]
+    pub fn also(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.labels.push(Label {
+            span,
+            text: label.into(),
+        });
+        self
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// What is wrong, in one line.
+    #[must_use]
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help_text(&self) -> Option<&str> {
+        self.help.as_deref()
+    }
+
+    /// The place of the mistake.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.labels
+            .first()
+            .map_or_else(Span::call_site, |label| label.span)
+    }
+
+    /// For a macro: an error at the same tokens, the help in its message.
+    #[must_use]
+    pub fn to_syn_error(&self) -> syn::Error {
+        syn_error(self.span(), &self.message, self.help.as_deref())
+    }
+
+    /// Every error that `error` combines.
+    pub(crate) fn from_syn(error: syn::Error) -> impl Iterator<Item = Self> {
+        error.into_iter().map(|one| {
+            let text = one.to_string();
+            let (message, help) = match text.split_once(HELP_MARK) {
+                Some((message, help)) => (message, Some(help.to_owned())),
+                None => (text.as_str(), None),
+            };
+            Self {
+                message: message.to_owned(),
+                labels: vec![Label {
+                    span: one.span(),
+                    text: String::new(),
+                }],
+                help,
+            }
+        })
+    }
+}
+
+/// A `syn` error whose help survives the way through [`Diagnostic::from_syn`].
+pub(crate) fn syn_error(span: Span, message: &str, help: Option<&str>) -> syn::Error {
+    match help {
+        Some(help) => syn::Error::new(span, format!("{message}{HELP_MARK}{help}")),
+        None => syn::Error::new(span, message),
+    }
+}
+
+/// Every mistake of one stage in one text, by place.
+#[derive(Debug, Clone)]
+pub struct Diagnostics {
+    source_name: String,
+    text: String,
+    entries: Vec<Entry>,
+}
+
+/// A [`Diagnostic`] whose spans have become byte ranges of the text.
+#[derive(Debug, Clone)]
+struct Entry {
+    message: String,
+    labels: Vec<(Range<usize>, String)>,
+    help: Option<String>,
+}
+
+impl Diagnostics {
+    /// Ties mistakes to the text that they were found in.
+    #[must_use]
+    pub fn new(source_name: &str, text: &str, mistakes: Vec<Diagnostic>) -> Self {
+        let mut entries: Vec<Entry> = mistakes
+            .into_iter()
+            .map(|mistake| Entry {
+                message: mistake.message,
+                labels: mistake
+                    .labels
+                    .into_iter()
+                    .map(|l| (byte_range(l.span, text), l.text))
+                    .collect(),
+                help: mistake.help,
+            })
+            .collect();
+        entries.sort_by_key(|entry| entry.labels.first().map_or(0, |(range, _)| range.start));
+        Self {
+            source_name: source_name.to_owned(),
+            text: text.to_owned(),
+            entries,
+        }
+    }
+
+    /// How many mistakes there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Never true for an `Err` of this crate.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// The one-line messages, by place.
+    pub fn messages(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().map(|entry| entry.message.as_str())
+    }
+
+    /// The way rustc shows errors: message, place, source line, help; with ANSI colors on request.
+    #[must_use]
+    pub fn render(&self, color: bool) -> String {
+        let renderer = if color {
+            Renderer::styled()
+        } else {
+            Renderer::plain()
+        };
+        let mistakes: Vec<String> = self
+            .entries
+            .iter()
+            .map(|entry| renderer.render(&[self.group(entry)]))
+            .collect();
+        mistakes.join("\n\n")
+    }
+
+    fn group<'a>(&'a self, entry: &'a Entry) -> Group<'a> {
+        let mut snippet = Snippet::source(self.text.as_str()).path(self.source_name.as_str());
+        for (k, (range, label)) in entry.labels.iter().enumerate() {
+            let kind = if k == 0 {
+                AnnotationKind::Primary
+            } else {
+                AnnotationKind::Context
+            };
+            let annotation = kind.span(range.clone());
+            snippet = snippet.annotation(if label.is_empty() {
+                annotation
+            } else {
+                annotation.label(label.as_str())
+            });
+        }
+        let group = Level::ERROR
+            .primary_title(entry.message.as_str())
+            .element(snippet);
+        match &entry.help {
+            Some(help) => group.element(Level::HELP.message(help.as_str())),
+            None => group,
+        }
+    }
+}
+
+/// Where a span lies in `text`, kept inside it: within a macro the compiler's spans may belong to another file.
+fn byte_range(span: Span, text: &str) -> Range<usize> {
+    let mut range = span.byte_range();
+    range.end = range.end.min(text.len());
+    range.start = range.start.min(range.end);
+    while !text.is_char_boundary(range.start) {
+        range.start -= 1;
+    }
+    while !text.is_char_boundary(range.end) {
+        range.end += 1;
+    }
+    range
+}
+
+impl fmt::Display for Diagnostics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.render(false))
+    }
+}
+
+impl std::error::Error for Diagnostics {}

@@ -1,0 +1,133 @@
+//! `effect name(j, k) { linear ..; shape ..; torque(j) = ..; }`.
+
+use proc_macro2::TokenTree;
+use syn::parse::{Parse, ParseStream};
+use syn::{Ident, Token};
+
+use super::{Sink, block, doc_comment, found, semicolon, statements, with_sink, word};
+use crate::ast::{Effect, Expr, Linear, Shape, Torque};
+use crate::diagnostic::syn_error;
+
+/// Behind the word `effect`.
+pub(super) fn effect(input: ParseStream, doc: String, errors: &mut Sink) -> syn::Result<Effect> {
+    let name = word(input, "the effect's name")?;
+    if !input.peek(syn::token::Paren) {
+        return Err(syn_error(
+            input.span(),
+            &format!("effect `{name}` does not name the joints it acts on"),
+            Some(&format!(
+                "write `effect {name}(j) {{ .. }}`, or `effect {name}(j, k) {{ .. }}` for two joints"
+            )),
+        ));
+    }
+    let content;
+    syn::parenthesized!(content in input);
+    let joints = content.parse_terminated(|input| word(input, "a name for a joint"), Token![,])?;
+    let (content, _) = block(input, "`{` and the effect's equations")?;
+
+    let joints = joints.into_iter().collect();
+    let mut effect = Effect {
+        doc,
+        name,
+        joints,
+        linear: vec![],
+        shapes: vec![],
+        torques: vec![],
+    };
+    statements(&content, errors, |input, _| statement(input, &mut effect));
+    Ok(effect)
+}
+
+fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
+    let doc = doc_comment(input)?;
+    let keyword = word(input, "`linear`, `shape` or `torque`")?;
+    match keyword.to_string().as_str() {
+        "linear" => linear(input, &doc, &mut effect.linear)?,
+        "shape" => effect.shapes.push(shape(input, doc)?),
+        "torque" => effect.torques.push(torque(input)?),
+        _ => {
+            return Err(syn_error(
+                keyword.span(),
+                &format!("an effect has no `{keyword}`"),
+                Some("write `linear name;`, `shape name in low .. high;` or `torque(j) = ..;`"),
+            ));
+        }
+    }
+    semicolon(input)
+}
+
+/// `a, b >= 0, c`
+fn linear(input: ParseStream, doc: &str, parameters: &mut Vec<Linear>) -> syn::Result<()> {
+    loop {
+        let name = word(input, "the name of a linear parameter")?;
+        let nonnegative = input.peek(Token![>=]);
+        if nonnegative {
+            input.parse::<Token![>=]>()?;
+            let bound: TokenTree = input.parse()?;
+            if bound.to_string() != "0" {
+                return Err(syn_error(
+                    bound.span(),
+                    "the only bound of a linear parameter is `>= 0`",
+                    Some("give the parameter the sign in which it is not negative"),
+                ));
+            }
+        }
+        parameters.push(Linear {
+            doc: doc.to_owned(),
+            name,
+            nonnegative,
+        });
+        if !input.peek(Token![,]) {
+            return Ok(());
+        }
+        input.parse::<Token![,]>()?;
+    }
+}
+
+/// `name in low .. high step s`
+fn shape(input: ParseStream, doc: String) -> syn::Result<Shape> {
+    let name = word(input, "the name of a shape parameter")?;
+    if !input.peek(Token![in]) {
+        return Err(syn_error(
+            input.span(),
+            &format!("shape parameter `{name}` has no range{}", found(input)),
+            Some(&format!("write `shape {name} in low .. high;`")),
+        ));
+    }
+    input.parse::<Token![in]>()?;
+    let low: Expr = input.parse()?;
+    input.parse::<Token![..]>()?;
+    let high: Expr = input.parse()?;
+    let step = if input.peek(Ident) && word(&input.fork(), "`step`")? == "step" {
+        word(input, "`step`")?;
+        Some(input.parse()?)
+    } else {
+        None
+    };
+    Ok(Shape {
+        doc,
+        name,
+        low,
+        high,
+        step,
+    })
+}
+
+/// `(j) = ..`
+fn torque(input: ParseStream) -> syn::Result<Torque> {
+    let content;
+    syn::parenthesized!(content in input);
+    let joint = word(&content, "one of the effect's joints")?;
+    input.parse::<Token![=]>()?;
+    Ok(Torque {
+        joint,
+        value: input.parse()?,
+    })
+}
+
+impl Parse for Effect {
+    /// Behind the word `effect`.
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        with_sink(|errors| effect(input, String::new(), errors))?
+    }
+}

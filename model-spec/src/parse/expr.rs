@@ -1,0 +1,210 @@
+//! Expressions: our own precedence over tokens, because in Rust `^` is exclusive-or and binds looser than `+`.
+//!
+//! From loose to tight: `+ -`, `* /`, unary `-`, `^` (to the right). A number may carry a unit: `90 deg`.
+
+use proc_macro2::Span;
+use syn::ext::IdentExt as _;
+use syn::parse::{Parse, ParseStream};
+use syn::{Ident, Lit, Token};
+
+use super::{found, word};
+use crate::ast::{BinaryOp, Expr, ExprKind, join};
+use crate::diagnostic::syn_error;
+
+/// More operators than an equation of physics has; keeps trees shallow enough for recursion.
+const MAX_OPERATORS: usize = 400;
+
+impl Parse for Expr {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        Climber { operators: 0 }.sum(input)
+    }
+}
+
+struct Climber {
+    operators: usize,
+}
+
+impl Climber {
+    fn sum(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        let mut left = self.product(input)?;
+        loop {
+            let op = if input.peek(Token![+]) {
+                input.parse::<Token![+]>()?;
+                BinaryOp::Add
+            } else if input.peek(Token![-]) {
+                input.parse::<Token![-]>()?;
+                BinaryOp::Sub
+            } else {
+                return Ok(left);
+            };
+            self.count(input)?;
+            left = binary(op, left, self.product(input)?);
+        }
+    }
+
+    fn product(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        let mut left = self.unary(input)?;
+        loop {
+            let op = if input.peek(Token![*]) {
+                input.parse::<Token![*]>()?;
+                BinaryOp::Mul
+            } else if input.peek(Token![/]) {
+                input.parse::<Token![/]>()?;
+                BinaryOp::Div
+            } else {
+                return Ok(left);
+            };
+            self.count(input)?;
+            left = binary(op, left, self.unary(input)?);
+        }
+    }
+
+    fn unary(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        if !input.peek(Token![-]) {
+            return self.power(input);
+        }
+        let minus: Token![-] = input.parse()?;
+        self.count(input)?;
+        let value = self.unary(input)?;
+        Ok(Expr {
+            span: join(minus.span, value.span),
+            kind: ExprKind::Neg(Box::new(value)),
+        })
+    }
+
+    fn power(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        let base = self.atom(input)?;
+        if !input.peek(Token![^]) {
+            return Ok(base);
+        }
+        input.parse::<Token![^]>()?;
+        self.count(input)?;
+        Ok(binary(BinaryOp::Pow, base, self.unary(input)?))
+    }
+
+    fn atom(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        if input.peek(syn::token::Paren) {
+            self.count(input)?;
+            let content;
+            let paren = syn::parenthesized!(content in input);
+            let inner = self.sum(&content)?;
+            expect_end(&content)?;
+            return Ok(Expr {
+                span: paren.span.join(),
+                ..inner
+            });
+        }
+        if input.peek(Lit) && !input.peek(syn::LitBool) {
+            return number(input);
+        }
+        let name = word(input, "a value")?;
+        if !input.peek(syn::token::Paren) {
+            return Ok(Expr {
+                span: name.span(),
+                kind: ExprKind::Name(name),
+            });
+        }
+        self.count(input)?;
+        let content;
+        let paren = syn::parenthesized!(content in input);
+        let mut arguments = Vec::new();
+        while !content.is_empty() {
+            arguments.push(self.sum(&content)?);
+            if content.is_empty() {
+                break;
+            }
+            content
+                .parse::<Token![,]>()
+                .map_err(|_| unexpected(&content))?;
+        }
+        Ok(Expr {
+            span: join(name.span(), paren.span.close()),
+            kind: ExprKind::Call(name, arguments),
+        })
+    }
+
+    fn count(&mut self, input: ParseStream) -> syn::Result<()> {
+        self.operators += 1;
+        if self.operators > MAX_OPERATORS {
+            return Err(syn_error(
+                input.span(),
+                &format!("an expression of more than {MAX_OPERATORS} operators"),
+                Some("split it into several effects, or simplify it"),
+            ));
+        }
+        Ok(())
+    }
+}
+
+fn binary(op: BinaryOp, left: Expr, right: Expr) -> Expr {
+    Expr {
+        span: join(left.span, right.span),
+        kind: ExprKind::Binary(op, Box::new(left), Box::new(right)),
+    }
+}
+
+fn expect_end(content: ParseStream) -> syn::Result<()> {
+    if content.is_empty() {
+        Ok(())
+    } else {
+        Err(unexpected(content))
+    }
+}
+
+fn unexpected(content: ParseStream) -> syn::Error {
+    syn_error(
+        content.span(),
+        &format!("expected an operator or `)`{}", found(content)),
+        None,
+    )
+}
+
+/// A literal and its unit: `90 deg`, `90deg`, `0.3`.
+fn number(input: ParseStream) -> syn::Result<Expr> {
+    let literal: Lit = input.parse()?;
+    let (digits, suffix, span) = match &literal {
+        Lit::Int(int) => (
+            int.base10_digits().to_owned(),
+            int.suffix().to_owned(),
+            int.span(),
+        ),
+        Lit::Float(float) => (
+            float.base10_digits().to_owned(),
+            float.suffix().to_owned(),
+            float.span(),
+        ),
+        other => {
+            return Err(syn_error(
+                syn::spanned::Spanned::span(other),
+                "expected a number",
+                Some("text has no place here"),
+            ));
+        }
+    };
+    let value: f64 = digits
+        .parse()
+        .map_err(|_| syn_error(span, "this is not a number", None))?;
+    let unit = if suffix.is_empty() {
+        unit(input)?
+    } else {
+        Some(Ident::new(&suffix, span))
+    };
+    let span: Span = unit.as_ref().map_or(span, |unit| join(span, unit.span()));
+    Ok(Expr {
+        kind: ExprKind::Number(value, unit),
+        span,
+    })
+}
+
+/// The word behind a number, unless it is `step` or begins the next setting (a `;` is missing then).
+fn unit(input: ParseStream) -> syn::Result<Option<Ident>> {
+    if !input.peek(Ident::peek_any) || input.peek2(Token![=]) || input.peek2(Token![:]) {
+        return Ok(None);
+    }
+    let next = word(&input.fork(), "a unit")?;
+    if next == "step" || next == "on" {
+        Ok(None)
+    } else {
+        word(input, "a unit").map(Some)
+    }
+}

@@ -1,0 +1,216 @@
+//! Text or tokens to [`Ast`]; accepts generously, judges nothing but the grammar.
+//!
+//! One `syn` front end serves files and macros. A statement that does not parse is reported and skipped, so that one run
+//! shows the mistakes of all statements.
+
+mod effect;
+mod expr;
+mod robot;
+
+use std::str::FromStr;
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+use syn::parse::{Parse, ParseStream, Parser};
+use syn::spanned::Spanned;
+use syn::{Attribute, Ident, Token};
+
+use crate::ast::Ast;
+use crate::diagnostic::{Diagnostic, syn_error};
+
+/// Brackets in brackets; a robot needs five. Keeps recursion away from the stack's end.
+const MAX_NESTING: usize = 48;
+
+/// Parses a spec's text.
+pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
+    let tokens = TokenStream::from_str(text).map_err(|error| {
+        vec![
+            Diagnostic::new(error.span(), "the text cannot be split into words, numbers and brackets", "from here on")
+                .help("close every `(`, `[`, `{` and `\"`, and remove characters that belong to no word or number"),
+        ]
+    })?;
+    parse_tokens(tokens).map_err(|error| Diagnostic::from_syn(error).collect())
+}
+
+/// Parses the tokens of a spec, from a file or from a macro's input.
+///
+/// # Errors
+/// All grammar errors, combined.
+pub fn parse_tokens(tokens: TokenStream) -> syn::Result<Ast> {
+    check_nesting(&tokens)?;
+    Ast::parse.parse2(tokens)
+}
+
+/// Refuses deep nesting before anything recursive sees it.
+fn check_nesting(tokens: &TokenStream) -> syn::Result<()> {
+    let mut open = vec![tokens.clone().into_iter()];
+    while let Some(level) = open.last_mut() {
+        match level.next() {
+            Some(TokenTree::Group(group)) => {
+                if open.len() > MAX_NESTING {
+                    return Err(syn::Error::new(
+                        group.span_open(),
+                        format!("brackets are nested more than {MAX_NESTING} deep"),
+                    ));
+                }
+                open.push(group.stream().into_iter());
+            }
+            Some(_) => {}
+            None => {
+                open.pop();
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Parse for Ast {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let mut ast = Self::default();
+        with_sink(|errors| {
+            statements(input, errors, |input, errors| {
+                let doc = doc_comment(input)?;
+                let keyword: Ident = word(input, "`robot` or `effect`")?;
+                match keyword.to_string().as_str() {
+                    "robot" => ast.robots.push(robot::robot(input, errors)?),
+                    "effect" => ast.effects.push(effect::effect(input, doc, errors)?),
+                    other => {
+                        return Err(syn_error(
+                            keyword.span(),
+                            &format!("expected `robot` or `effect`, found `{other}`"),
+                            Some("write `robot Name { .. }` or `effect name(j) { .. }`"),
+                        ));
+                    }
+                }
+                Ok(())
+            });
+        })?;
+        Ok(ast)
+    }
+}
+
+/// Errors of one parse, in the order in which they were met.
+type Sink = Vec<syn::Error>;
+
+/// Runs a parser that collects errors, and combines them.
+fn with_sink<T>(parse: impl FnOnce(&mut Sink) -> T) -> syn::Result<T> {
+    let mut errors = Sink::new();
+    let value = parse(&mut errors);
+    let mut errors = errors.into_iter();
+    match errors.next() {
+        None => Ok(value),
+        Some(mut first) => {
+            errors.for_each(|error| first.combine(error));
+            Err(first)
+        }
+    }
+}
+
+/// Parses statements until the end of `input`; after one that fails, goes on behind its `;` or `{ .. }`.
+fn statements(
+    input: ParseStream,
+    errors: &mut Sink,
+    mut statement: impl FnMut(ParseStream, &mut Sink) -> syn::Result<()>,
+) {
+    while !input.is_empty() {
+        if let Err(error) = statement(input, errors) {
+            errors.push(error);
+            skip_statement(input);
+        }
+    }
+}
+
+fn skip_statement(input: ParseStream) {
+    while let Ok(token) = input.parse::<TokenTree>() {
+        match token {
+            TokenTree::Punct(punct) if punct.as_char() == ';' => return,
+            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => return,
+            _ => {}
+        }
+    }
+}
+
+/// An identifier; Rust's keywords are ordinary words here.
+fn word(input: ParseStream, expected: &str) -> syn::Result<Ident> {
+    use syn::ext::IdentExt as _;
+    if input.peek(Ident::peek_any) && !input.peek(Token![_]) {
+        return Ok(Ident::parse_any(input)?.unraw());
+    }
+    Err(syn_error(
+        input.span(),
+        &format!("expected {expected}{}", found(input)),
+        None,
+    ))
+}
+
+/// ", found `x`", or that the text or bracket ends here.
+fn found(input: ParseStream) -> String {
+    match input.fork().parse::<TokenTree>() {
+        Ok(TokenTree::Group(group)) => match group.delimiter() {
+            proc_macro2::Delimiter::Parenthesis => ", found `(`".to_owned(),
+            proc_macro2::Delimiter::Brace => ", found `{`".to_owned(),
+            proc_macro2::Delimiter::Bracket => ", found `[`".to_owned(),
+            proc_macro2::Delimiter::None => String::new(),
+        },
+        Ok(token) => format!(", found `{token}`"),
+        Err(_) => ", found the end of this block".to_owned(),
+    }
+}
+
+/// The `;` behind a statement.
+fn semicolon(input: ParseStream) -> syn::Result<()> {
+    if input.peek(Token![;]) {
+        input.parse::<Token![;]>()?;
+        return Ok(());
+    }
+    Err(syn_error(
+        input.span(),
+        &format!("expected `;`{}", found(input)),
+        Some("end every setting and declaration with `;`"),
+    ))
+}
+
+/// The lines of `///` in front of an item, without their margin.
+fn doc_comment(input: ParseStream) -> syn::Result<String> {
+    let mut lines = Vec::new();
+    for attribute in input.call(Attribute::parse_outer)? {
+        let text = match &attribute.meta {
+            syn::Meta::NameValue(pair) if pair.path.is_ident("doc") => match &pair.value {
+                syn::Expr::Lit(syn::ExprLit {
+                    lit: syn::Lit::Str(text),
+                    ..
+                }) => Some(text.value()),
+                _ => None,
+            },
+            _ => None,
+        };
+        let Some(text) = text else {
+            return Err(syn_error(
+                attribute.span(),
+                "specs have no attributes",
+                Some("write a comment: `/// ..`"),
+            ));
+        };
+        lines.extend(
+            text.lines()
+                .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned()),
+        );
+    }
+    Ok(lines.join("\n").trim().to_owned())
+}
+
+/// `{ .. }`: the inside, and the closing brace.
+fn block<'a>(
+    input: ParseStream<'a>,
+    expected: &str,
+) -> syn::Result<(syn::parse::ParseBuffer<'a>, Span)> {
+    if !input.peek(syn::token::Brace) {
+        return Err(syn_error(
+            input.span(),
+            &format!("expected {expected}{}", found(input)),
+            None,
+        ));
+    }
+    let content;
+    let brace = syn::braced!(content in input);
+    Ok((content, brace.span.close()))
+}

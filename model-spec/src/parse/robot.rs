@@ -1,0 +1,225 @@
+//! `robot Name { settings, joints, links, effects }`.
+
+use syn::parse::{Parse, ParseStream};
+use syn::{Ident, Token};
+
+use super::{Sink, block, doc_comment, semicolon, statements, with_sink, word};
+use crate::ast::{
+    DeclaredEffect, Effects, Expr, Joint, Link, Robot, Setting, Target, Targets, Value, join,
+};
+
+/// Behind the word `robot`.
+pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot> {
+    let name = word(input, "the robot's name")?;
+    let (content, close) = block(input, "`{` and the robot's description")?;
+    let mut robot = Robot {
+        name,
+        settings: vec![],
+        joints: vec![],
+        links: vec![],
+        effects: vec![],
+        close,
+    };
+    statements(&content, errors, |input, errors| {
+        doc_comment(input)?;
+        if input.peek2(Token![=]) {
+            robot.settings.push(statement_setting(input)?);
+            return Ok(());
+        }
+        let keyword = word(input, "a setting, `joint`, `link` or `effects`")?;
+        match keyword.to_string().as_str() {
+            "joint" => robot.joints.push(joint(input, errors)?),
+            "link" => robot.links.push(link(input, errors)?),
+            "effects" => robot.effects.push(effects(input, &keyword, errors)?),
+            _ => {
+                return Err(crate::diagnostic::syn_error(
+                    keyword.span(),
+                    &format!("a robot has no `{keyword}`"),
+                    Some(
+                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }` or `effects { .. }`",
+                    ),
+                ));
+            }
+        }
+        Ok(())
+    });
+    Ok(robot)
+}
+
+fn joint(input: ParseStream, errors: &mut Sink) -> syn::Result<Joint> {
+    let name = word(input, "the joint's name")?;
+    if !input.peek(Token![:]) {
+        return Err(crate::diagnostic::syn_error(
+            input.span(),
+            &format!("joint `{name}` does not say what it is"),
+            Some(&format!(
+                "write `joint {name}: revolute {{ .. }}` or `joint {name}: prismatic {{ .. }}`"
+            )),
+        ));
+    }
+    input.parse::<Token![:]>()?;
+    let kind = word(input, "`revolute` or `prismatic`")?;
+    Ok(Joint {
+        name,
+        kind,
+        settings: settings(input, errors)?,
+    })
+}
+
+fn link(input: ParseStream, errors: &mut Sink) -> syn::Result<Link> {
+    let name = word(input, "the link's name")?;
+    let status = if input.peek(Token![:]) {
+        input.parse::<Token![:]>()?;
+        Some(word(input, "`nominal` or `fixed`")?)
+    } else {
+        None
+    };
+    Ok(Link {
+        name,
+        status,
+        settings: settings(input, errors)?,
+    })
+}
+
+/// `{ key = value; .. }`
+fn settings(input: ParseStream, errors: &mut Sink) -> syn::Result<Vec<Setting>> {
+    let (content, _) = block(input, "`{` and settings")?;
+    let mut settings = Vec::new();
+    statements(&content, errors, |input, _| {
+        doc_comment(input)?;
+        settings.push(statement_setting(input)?);
+        Ok(())
+    });
+    Ok(settings)
+}
+
+fn statement_setting(input: ParseStream) -> syn::Result<Setting> {
+    let setting = input.parse()?;
+    semicolon(input)?;
+    Ok(setting)
+}
+
+fn effects(input: ParseStream, keyword: &Ident, errors: &mut Sink) -> syn::Result<Effects> {
+    let (content, close) = block(input, "`{` and effects")?;
+    let mut declared = Vec::new();
+    statements(&content, errors, |input, _| {
+        doc_comment(input)?;
+        declared.push(input.parse()?);
+        semicolon(input)
+    });
+    Ok(Effects {
+        keyword: keyword.span(),
+        declared,
+        close,
+    })
+}
+
+impl Parse for Robot {
+    /// Behind the word `robot`.
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        with_sink(|errors| robot(input, errors))?
+    }
+}
+
+impl Parse for Setting {
+    /// `key = value`
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let key = word(input, "the name of a setting")?;
+        if !input.peek(Token![=]) {
+            return Err(crate::diagnostic::syn_error(
+                input.span(),
+                &format!("expected `=` behind `{key}`{}", super::found(input)),
+                Some(&format!("write `{key} = value;`")),
+            ));
+        }
+        input.parse::<Token![=]>()?;
+        Ok(Self {
+            key,
+            value: input.parse()?,
+        })
+    }
+}
+
+impl Parse for Value {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        if input.peek(syn::token::Bracket) {
+            let content;
+            let bracket = syn::bracketed!(content in input);
+            let items = content.parse_terminated(Expr::parse, Token![,])?;
+            return Ok(Self::List(items.into_iter().collect(), bracket.span.join()));
+        }
+        let low: Expr = input.parse()?;
+        if !input.peek(Token![..]) {
+            return Ok(Self::Scalar(low));
+        }
+        input.parse::<Token![..]>()?;
+        Ok(Self::Range(low, input.parse()?))
+    }
+}
+
+impl Parse for DeclaredEffect {
+    /// `name(shape = value) on targets`
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let name = word(input, "the name of an effect")?;
+        let shapes = if input.peek(syn::token::Paren) {
+            let content;
+            syn::parenthesized!(content in input);
+            content
+                .parse_terminated(Setting::parse, Token![,])?
+                .into_iter()
+                .collect()
+        } else {
+            Vec::new()
+        };
+        let on = input.fork();
+        if !word(&on, "`on`").is_ok_and(|on| on == "on") {
+            return Err(crate::diagnostic::syn_error(
+                input.span(),
+                &format!("effect `{name}` does not say which joints it acts on"),
+                Some(&format!(
+                    "write `{name} on all;` or `{name} on first_joint, second_joint;`"
+                )),
+            ));
+        }
+        word(input, "`on`")?;
+        Ok(Self {
+            name,
+            shapes,
+            targets: input.parse()?,
+        })
+    }
+}
+
+impl Parse for Targets {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        let mut targets = vec![input.parse::<Target>()?];
+        while input.peek(Token![,]) {
+            input.parse::<Token![,]>()?;
+            targets.push(input.parse()?);
+        }
+        Ok(match targets.as_slice() {
+            [only] if only.joints.len() == 1 && only.joints[0] == "all" => Self::All(only.span),
+            _ => Self::Each(targets),
+        })
+    }
+}
+
+impl Parse for Target {
+    fn parse(input: ParseStream) -> syn::Result<Self> {
+        if input.peek(syn::token::Paren) {
+            let content;
+            let paren = syn::parenthesized!(content in input);
+            let joints =
+                content.parse_terminated(|input| word(input, "a joint's name"), Token![,])?;
+            return Ok(Self {
+                joints: joints.into_iter().collect(),
+                span: paren.span.join(),
+            });
+        }
+        let joint = word(input, "a joint's name, `(first, second)` or `all`")?;
+        Ok(Self {
+            span: join(joint.span(), joint.span()),
+            joints: vec![joint],
+        })
+    }
+}

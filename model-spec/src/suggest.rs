@@ -1,0 +1,64 @@
+//! "Did you mean": the nearest of the names that would have been right.
+
+/// The known name nearest to `wrong`, if it is near enough to be what was meant.
+pub(crate) fn nearest<'a>(
+    wrong: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<&'a str> {
+    let reach = (wrong.chars().count() / 3).max(1);
+    known
+        .into_iter()
+        .map(|name| {
+            (
+                strsim::damerau_levenshtein(&wrong.to_lowercase(), &name.to_lowercase()),
+                name,
+            )
+        })
+        .filter(|(distance, name)| *distance <= reach || is_abbreviation(wrong, name))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, name)| name)
+}
+
+/// `viscous` for `viscous_friction`, `degrees` for `deg`.
+fn is_abbreviation(wrong: &str, name: &str) -> bool {
+    let (short, long) = if wrong.len() < name.len() {
+        (wrong, name)
+    } else {
+        (name, wrong)
+    };
+    short.len() >= 3 && long.starts_with(short)
+}
+
+/// `write X` where a near name exists, else a list of what there is.
+pub(crate) fn help<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
+    match nearest(wrong, known.clone()) {
+        Some(name) => format!("write `{name}`"),
+        None => format!("write one of {}", list(known)),
+    }
+}
+
+/// "`a`, `b`, `c`"
+pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    names
+        .into_iter()
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn a_slip_is_recognized_and_another_word_is_not() {
+        let known = ["waist", "shoulder", "elbow"];
+        assert_eq!(nearest("elbwo", known), Some("elbow"));
+        assert_eq!(nearest("Waist", known), Some("waist"));
+        assert_eq!(nearest("gripper", known), None);
+        assert_eq!(
+            nearest("viscous", ["viscous_friction"]),
+            Some("viscous_friction")
+        );
+    }
+}
