@@ -61,7 +61,7 @@ pub trait Arm: Columns {
     /// Joint torque per unit of the logged channel, one a joint.
     fn actuator_gain(&self) -> &[f64];
 
-    /// Torque of the parameters that the spec fixes, `[joint][sample]`.
+    /// Torque of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
     fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>>;
 
     /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.

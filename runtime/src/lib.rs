@@ -4,6 +4,8 @@
 #[cfg(feature = "std")]
 pub mod columns;
 #[cfg(feature = "std")]
+pub mod identify;
+#[cfg(feature = "std")]
 pub mod log;
 #[cfg(feature = "std")]
 pub mod motion;

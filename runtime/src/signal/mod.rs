@@ -9,9 +9,11 @@ mod filter;
 mod prepare;
 pub mod resample;
 mod shared;
+mod spectrum;
 
 pub use derivative::derivative;
 pub use error::SignalError;
 pub use filter::LowPass;
 pub use prepare::{Bands, Prepared, prepare};
 pub use shared::SharedFilter;
+pub use spectrum::band_density;

@@ -1,0 +1,82 @@
+//! The band that torque and columns share: as wide as the model's torque stands out.
+
+use crate::columns::Arm;
+use crate::signal::resample::whole_steps;
+use crate::signal::{Bands, Prepared, band_density};
+
+use super::stack::torque_of;
+
+/// The model's torque counts as seen where its power is at least this many times that of what it leaves.
+const LEAST_RATIO: f64 = 2.0;
+
+/// Narrowest and widest shared band, Hz.
+const NARROWEST_HZ: f64 = 10.0;
+const WIDEST_HZ: f64 = 50.0;
+
+/// Width of the bands in which powers are compared, Hz.
+const STEP_HZ: f64 = 3.0;
+
+/// Chooses the shared band from a first estimate.
+///
+/// Least squares gains from every frequency at which the model's torque is larger than noise and model error, and loses at
+/// every other. The band ends at the first 3 Hz in which the power of the modeled torque falls below twice that of the
+/// residual, on the joint where that is first, and lies within 10 Hz .. 50 Hz and below a tenth of the sample rate. The
+/// motion's own filters stay at least twice as wide.
+pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate: &[f64]) -> Bands {
+    let rate_hz = logs
+        .iter()
+        .map(|log| log.rate_hz)
+        .fold(f64::INFINITY, f64::min);
+    let base = Bands::for_rate(rate_hz);
+    let highest = WIDEST_HZ.min(0.1 * rate_hz);
+    let count = ((highest - 2.0) / STEP_HZ).max(1.0).ceil();
+    let edges: Vec<f64> = (0..=whole_steps(count))
+        .map(|k| 2.0 + STEP_HZ * k as f64)
+        .collect();
+    let mut modeled = vec![vec![0.0; edges.len() - 1]; arm.dof()];
+    let mut left = modeled.clone();
+    for log in logs {
+        let torque = torque_of(arm, &log.motion, shapes, estimate, arm.dof());
+        let known = arm.known_torque(&log.motion);
+        for joint in 0..arm.dof() {
+            let total: Vec<f64> = torque[joint]
+                .iter()
+                .enumerate()
+                .map(|(k, t)| t + known[joint][k])
+                .collect();
+            let rest: Vec<f64> = log.tau[joint]
+                .iter()
+                .zip(&total)
+                .map(|(tau, t)| arm.actuator_gain()[joint] * tau - t)
+                .collect();
+            for (sum, power) in
+                modeled[joint]
+                    .iter_mut()
+                    .zip(band_density(&total, log.rate_hz, &edges))
+            {
+                *sum += power;
+            }
+            for (sum, power) in left[joint]
+                .iter_mut()
+                .zip(band_density(&rest, log.rate_hz, &edges))
+            {
+                *sum += power;
+            }
+        }
+    }
+    let ends = modeled.iter().zip(&left).map(|(modeled, left)| {
+        let lost = modeled
+            .iter()
+            .zip(left)
+            .position(|(m, l)| *m < LEAST_RATIO * l);
+        lost.map_or(highest, |k| edges[k])
+    });
+    let shared_hz = ends
+        .fold(highest, f64::min)
+        .max(NARROWEST_HZ.min(base.shared_hz));
+    Bands {
+        shared_hz,
+        smooth_hz: base.smooth_hz.max(2.0 * shared_hz),
+        wide_hz: base.wide_hz.max(2.0 * shared_hz),
+    }
+}

@@ -1,0 +1,42 @@
+//! Why an identification was refused.
+
+use crate::signal::SignalError;
+
+/// Why an identification was refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum IdentifyError {
+    /// There is no log.
+    #[error("no log to identify from; give at least one")]
+    NoLog,
+    /// A log has another number of joints than the arm.
+    #[error("{source_name}: the log has {log} joints, the spec {arm}")]
+    Joints {
+        /// Name of the log.
+        source_name: String,
+        /// Joints of the log.
+        log: usize,
+        /// Joints of the arm.
+        arm: usize,
+    },
+    /// Fewer samples than unknowns.
+    #[error(
+        "{samples} samples of {dof} joints are left after filtering, for {unknowns} unknowns; give a longer log"
+    )]
+    TooFewSamples {
+        /// Samples per joint.
+        samples: usize,
+        /// Joints.
+        dof: usize,
+        /// Unknowns.
+        unknowns: usize,
+    },
+    /// The log excites none of the unknowns.
+    #[error("the log excites none of the {unknowns} unknowns: does the arm move in it?")]
+    NothingExcited {
+        /// Unknowns.
+        unknowns: usize,
+    },
+    /// The signals cannot be filtered.
+    #[error(transparent)]
+    Signal(#[from] SignalError),
+}

@@ -1,0 +1,255 @@
+//! What an identification found, and how well it predicts.
+
+use std::fmt;
+
+use crate::columns::Arm;
+use crate::log::Log;
+use crate::signal::resample::whole_steps;
+use crate::signal::{Bands, prepare};
+
+use super::least_squares::Solution;
+use super::stack::{Stack, torque_of};
+use super::{IdentifyError, Method};
+
+/// Cut from either end of a log before errors are computed on raw samples, s.
+const ERROR_BORDER_S: f64 = 1.0;
+
+/// One identified parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identified {
+    /// Base parameter or `JOINT.EFFECT.PARAMETER`.
+    pub name: String,
+    /// Estimate, SI.
+    pub value: f64,
+    /// Standard deviation of the estimate.
+    pub std: f64,
+}
+
+/// Errors of a model on a log.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Errors {
+    /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut; N m or N.
+    pub rmse: Vec<f64>,
+    /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated.
+    pub relative_percent: Vec<f64>,
+}
+
+/// What an identification found.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// How joints were weighed.
+    pub method: Method,
+    /// Bands of the filters.
+    pub bands: Bands,
+    /// The identified parameters, in the arm's order.
+    pub parameters: Vec<Identified>,
+    /// Identified shape parameters: name and value.
+    pub shapes: Vec<(String, f64)>,
+    /// Names of the parameters that the logs do not excite; their value is given as 0.
+    pub unexcited: Vec<String>,
+    /// Condition number of the weighted regressor with columns of unit norm.
+    pub condition: f64,
+    /// Numerical rank of the regressor.
+    pub rank: usize,
+    /// `100 || residual || / || tau ||` per joint on the identification logs, filtered.
+    pub relative_percent: Vec<f64>,
+    /// Samples per joint after decimation.
+    pub samples: usize,
+    /// Names of the joints.
+    pub joints: Vec<String>,
+}
+
+impl Estimate {
+    pub(super) fn new(
+        arm: &dyn Arm,
+        method: Method,
+        bands: Bands,
+        solution: &Solution,
+        shapes: Vec<f64>,
+        stack: &Stack,
+    ) -> Self {
+        let name = |c: &usize| arm.unknowns()[*c].name.clone();
+        let parameters = arm
+            .unknowns()
+            .iter()
+            .zip(solution.estimate.iter().zip(&solution.std))
+            .map(|(unknown, (value, std))| Identified {
+                name: unknown.name.clone(),
+                value: *value,
+                std: *std,
+            })
+            .collect();
+        let residuals = stack.residuals(&solution.estimate);
+        let relative_percent = residuals
+            .iter()
+            .zip(&stack.joints)
+            .map(|(residual, rows)| percent(norm(residual), norm(&rows.tau)))
+            .collect();
+        Self {
+            method,
+            bands,
+            parameters,
+            shapes: arm
+                .shapes()
+                .iter()
+                .zip(shapes)
+                .map(|(shape, value)| (shape.name.clone(), value))
+                .collect(),
+            unexcited: solution.unexcited.iter().map(name).collect(),
+            condition: solution.condition,
+            rank: arm.unknowns().len() - solution.unexcited.len(),
+            relative_percent,
+            samples: stack.samples(),
+            joints: arm.joints().to_vec(),
+        }
+    }
+
+    /// Values of the unknowns, in the arm's order.
+    #[must_use]
+    pub fn values(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.value).collect()
+    }
+
+    /// Torque that the model predicts at every time stamp of a log, `[joint][sample]`, N m or N.
+    ///
+    /// The motion is filtered as for identification; nothing is fitted on the log.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] where the log is of another arm or cannot be filtered.
+    pub fn predict(&self, arm: &dyn Arm, log: &Log) -> Result<Vec<Vec<f64>>, IdentifyError> {
+        super::check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare(log, &self.bands)?;
+        let torque = self.torque(arm, &prepared);
+        let stride = prepared.stride;
+        Ok(torque
+            .iter()
+            .map(|values| spread(values, stride, log.time.len()))
+            .collect())
+    }
+
+    /// Errors on a log, which was or was not fitted.
+    ///
+    /// # Errors
+    /// Those of [`Self::predict`].
+    pub fn errors(&self, arm: &dyn Arm, log: &Log) -> Result<Errors, IdentifyError> {
+        super::check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare(log, &self.bands)?;
+        let torque = self.torque(arm, &prepared);
+        let border = whole_steps(ERROR_BORDER_S * log.rate_hz());
+        let inner = border.min(log.time.len() / 4)..log.time.len() - border.min(log.time.len() / 4);
+        let mut errors = Errors {
+            rmse: Vec::new(),
+            relative_percent: Vec::new(),
+        };
+        let (mut filtered, mut tau) = (Vec::new(), Vec::new());
+        for (joint, values) in torque.iter().enumerate() {
+            let gain = arm.actuator_gain()[joint];
+            let predicted = spread(values, prepared.stride, log.time.len());
+            let square: f64 = inner
+                .clone()
+                .map(|k| (gain * log.tau[joint][k] - predicted[k]).powi(2))
+                .sum();
+            errors.rmse.push((square / inner.len() as f64).sqrt());
+            let rest: Vec<f64> = prepared.tau[joint]
+                .iter()
+                .zip(values)
+                .map(|(tau, t)| gain * tau - t)
+                .collect();
+            let scaled: Vec<f64> = prepared.tau[joint].iter().map(|tau| gain * tau).collect();
+            prepared.shared.apply(&rest, &mut filtered);
+            prepared.shared.apply(&scaled, &mut tau);
+            errors
+                .relative_percent
+                .push(percent(norm(&filtered), norm(&tau)));
+        }
+        Ok(errors)
+    }
+
+    /// Predicted torque on a prepared motion's grid.
+    fn torque(&self, arm: &dyn Arm, prepared: &crate::signal::Prepared) -> Vec<Vec<f64>> {
+        let values = self.values();
+        let shapes: Vec<f64> = self.shapes.iter().map(|(_, value)| *value).collect();
+        let mut motion = prepared.motion.clone();
+        if arm.uses_rigid_torque() {
+            motion.rigid_torque = arm.rigid_torque(&motion, &values);
+        }
+        let mut torque = torque_of(arm, &motion, &shapes, &values, arm.dof());
+        for (sum, known) in torque.iter_mut().zip(arm.known_torque(&motion)) {
+            for (s, k) in sum.iter_mut().zip(known) {
+                *s += k;
+            }
+        }
+        torque
+    }
+}
+
+/// Values on every `stride`-th sample, linearly between them, on `count` samples.
+fn spread(values: &[f64], stride: usize, count: usize) -> Vec<f64> {
+    (0..count)
+        .map(|k| {
+            let (at, part) = (k / stride, (k % stride) as f64 / stride as f64);
+            let next = values[(at + 1).min(values.len() - 1)];
+            values[at] + part * (next - values[at])
+        })
+        .collect()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+fn percent(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 {
+        100.0 * part / whole
+    } else {
+        0.0
+    }
+}
+
+impl fmt::Display for Estimate {
+    /// The table that a paper would print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = self
+            .parameters
+            .iter()
+            .map(|p| p.name.len())
+            .max()
+            .unwrap_or(9)
+            .max(9);
+        writeln!(
+            f,
+            "{:width$}  {:>12}  {:>10}  {:>7}",
+            "parameter", "value", "std", "std %"
+        )?;
+        for p in &self.parameters {
+            if self.unexcited.contains(&p.name) {
+                writeln!(f, "{:width$}  {:>12}", p.name, "not excited")?;
+            } else {
+                let relative = if p.value == 0.0 {
+                    f64::INFINITY
+                } else {
+                    100.0 * (p.std / p.value).abs()
+                };
+                writeln!(
+                    f,
+                    "{:width$}  {:>12.5}  {:>10.2e}  {relative:>7.2}",
+                    p.name, p.value, p.std
+                )?;
+            }
+        }
+        for (name, value) in &self.shapes {
+            writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?;
+        }
+        writeln!(
+            f,
+            "rank {} of {}, condition {:.1}, {} samples a joint below {:.0} Hz, {}",
+            self.rank,
+            self.parameters.len(),
+            self.condition,
+            self.samples,
+            self.bands.shared_hz,
+            self.method.name()
+        )
+    }
+}

@@ -1,0 +1,254 @@
+//! Ordinary and weighted least squares on a [`Stack`], by QR.
+//!
+//! Each joint's block is reduced once to its triangular factor; weights, ranks and solutions then work on matrices of the
+//! size of the unknowns, however long the logs are.
+
+use faer::Mat;
+use faer::linalg::solvers::{Solve, SolveLstsq};
+
+use super::stack::Stack;
+
+/// A column is called not excited when its pivot, after every column was scaled to unit norm, is below this: its estimate
+/// would amplify errors a million times.
+pub const RANK_TOLERANCE: f64 = 1e-6;
+
+/// How often weights follow the residuals of the estimate that they gave.
+const REWEIGHTINGS: usize = 5;
+
+/// Triangular factors `R_j` of the blocks `[W_j target_j]`, all columns in place.
+#[derive(Debug, Clone)]
+pub struct Factors {
+    unknowns: usize,
+    samples: usize,
+    joints: Vec<Mat<f64>>,
+}
+
+/// A least-squares solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// One value per unknown; 0 where the column is not excited.
+    pub estimate: Vec<f64>,
+    /// Standard deviations, same order; 0 where the column is not excited.
+    pub std: Vec<f64>,
+    /// Unknowns that the logs do not excite, ascending.
+    pub unexcited: Vec<usize>,
+    /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.
+    pub condition: f64,
+    /// Standard deviation of the residual per joint, the reciprocal of its weight.
+    pub sigma: Vec<f64>,
+}
+
+impl Factors {
+    /// Reduces every block.
+    #[must_use]
+    pub fn new(stack: &Stack) -> Self {
+        let unknowns = stack.unknowns.len();
+        let joints = stack
+            .joints
+            .iter()
+            .map(|rows| {
+                let active = rows.columns.len();
+                let block = Mat::from_fn(rows.target.len(), active + 1, |k, c| {
+                    if c < active {
+                        rows.columns[c].1[k]
+                    } else {
+                        rows.target[k]
+                    }
+                });
+                let r = block.qr();
+                let r = r.thin_R();
+                let mut whole = Mat::zeros(r.nrows(), unknowns + 1);
+                for row in 0..r.nrows() {
+                    for c in 0..=active {
+                        let to = if c < active {
+                            rows.columns[c].0
+                        } else {
+                            unknowns
+                        };
+                        whole[(row, to)] = r[(row, c)];
+                    }
+                }
+                whole
+            })
+            .collect();
+        Self {
+            unknowns,
+            samples: stack.samples(),
+            joints,
+        }
+    }
+
+    /// Ordinary least squares: every joint has the same weight.
+    #[must_use]
+    pub fn ordinary(&self, correlation: &[f64]) -> Solution {
+        self.solve(&vec![1.0; self.joints.len()], correlation)
+    }
+
+    /// Weighted least squares: every joint's rows are divided by the standard deviation of its residual, which is found by
+    /// iteration from ordinary least squares.
+    #[must_use]
+    pub fn weighted(&self, correlation: &[f64]) -> Solution {
+        let mut solution = self.ordinary(correlation);
+        for _ in 0..REWEIGHTINGS {
+            let floor = 1e-12
+                * solution
+                    .sigma
+                    .iter()
+                    .copied()
+                    .fold(f64::MIN_POSITIVE, f64::max);
+            let sigma: Vec<f64> = solution.sigma.iter().map(|s| s.max(floor)).collect();
+            solution = self.solve(&sigma, correlation);
+        }
+        solution
+    }
+
+    /// Least squares with each joint's rows divided by `scale`.
+    ///
+    /// `correlation` is per joint the number of samples that count as one independent sample (1 for white residuals).
+    fn solve(&self, scale: &[f64], correlation: &[f64]) -> Solution {
+        let n = self.unknowns;
+        let r = self.stacked(scale);
+        let norms: Vec<f64> = (0..n).map(|c| column_norm(&r, c)).collect();
+        let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
+            if norms[c] > 0.0 {
+                r[(row, c)] / norms[c]
+            } else {
+                0.0
+            }
+        });
+        let pivoted = scaled.col_piv_qr();
+        let diagonal = pivoted.thin_R();
+        let order = pivoted.P().arrays().0;
+        let rank = (0..n.min(diagonal.nrows()))
+            .take_while(|&k| diagonal[(k, k)].abs() > RANK_TOLERANCE)
+            .count();
+        let mut excited: Vec<usize> = order[..rank].to_vec();
+        excited.sort_unstable();
+        let unexcited: Vec<usize> = (0..n)
+            .filter(|c| excited.binary_search(c).is_err())
+            .collect();
+
+        let kept = Mat::from_fn(r.nrows(), rank, |row, c| scaled[(row, excited[c])]);
+        let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
+        let qr = kept.qr();
+        let solved = qr.solve_lstsq(&right);
+        let mut estimate = vec![0.0; n];
+        for (k, &c) in excited.iter().enumerate() {
+            estimate[c] = solved[(k, 0)] / norms[c];
+        }
+        let sigma = self.sigma(&estimate, rank);
+        let std = self.deviations(&estimate, &excited, &norms, scale, &sigma, correlation);
+        let condition = match kept.singular_values() {
+            Ok(values) if rank > 0 => values[0] / values[rank - 1],
+            _ => f64::INFINITY,
+        };
+        Solution {
+            estimate,
+            std,
+            unexcited,
+            condition,
+            sigma,
+        }
+    }
+
+    /// The factor of all joints' rows, each divided by its scale.
+    fn stacked(&self, scale: &[f64]) -> Mat<f64> {
+        let rows = self.joints.iter().map(Mat::nrows).sum();
+        let mut all = Mat::zeros(rows, self.unknowns + 1);
+        let mut start = 0;
+        for (block, scale) in self.joints.iter().zip(scale) {
+            for c in 0..=self.unknowns {
+                for row in 0..block.nrows() {
+                    all[(start + row, c)] = block[(row, c)] / scale;
+                }
+            }
+            start += block.nrows();
+        }
+        all
+    }
+
+    /// Standard deviation of each joint's residual; the unknowns count as shared evenly among the joints.
+    fn sigma(&self, estimate: &[f64], rank: usize) -> Vec<f64> {
+        let share = rank as f64 / self.joints.len() as f64;
+        let freedom = (self.samples as f64 - share).max(1.0);
+        self.joints
+            .iter()
+            .map(|block| {
+                let sum: f64 = (0..block.nrows())
+                    .map(|row| {
+                        let fitted: f64 = (0..self.unknowns)
+                            .map(|c| block[(row, c)] * estimate[c])
+                            .sum();
+                        (block[(row, self.unknowns)] - fitted).powi(2)
+                    })
+                    .sum();
+                (sum / freedom).sqrt()
+            })
+            .collect()
+    }
+
+    /// Square roots of the diagonal of `A^-1 B A^-1` with `A = sum W_j' W_j / scale_j^2` and
+    /// `B = sum correlation_j sigma_j^2 W_j' W_j / scale_j^4`: joints have their own noise, and neighboring samples share it.
+    fn deviations(
+        &self,
+        estimate: &[f64],
+        excited: &[usize],
+        norms: &[f64],
+        scale: &[f64],
+        sigma: &[f64],
+        correlation: &[f64],
+    ) -> Vec<f64> {
+        let rank = excited.len();
+        let mut information = Mat::<f64>::zeros(rank, rank);
+        let mut noise = Mat::<f64>::zeros(rank, rank);
+        for (j, block) in self.joints.iter().enumerate() {
+            let part = Mat::from_fn(block.nrows(), rank, |row, c| {
+                block[(row, excited[c])] / (norms[excited[c]] * scale[j])
+            });
+            let gram = part.transpose() * &part;
+            let variance = correlation[j] * (sigma[j] / scale[j]).powi(2);
+            noise += faer::Scale(variance) * &gram;
+            information += gram;
+        }
+        let inverse = information
+            .partial_piv_lu()
+            .solve(Mat::<f64>::identity(rank, rank));
+        let covariance = &inverse * noise * inverse.transpose();
+        let mut std = vec![0.0; estimate.len()];
+        for (k, &c) in excited.iter().enumerate() {
+            std[c] = covariance[(k, k)].max(0.0).sqrt() / norms[c];
+        }
+        std
+    }
+}
+
+fn column_norm(matrix: &Mat<f64>, column: usize) -> f64 {
+    (0..matrix.nrows())
+        .map(|row| matrix[(row, column)].powi(2))
+        .sum::<f64>()
+        .sqrt()
+}
+
+/// Samples that count as one independent sample: `1 + 2 * (sum of autocorrelations up to the first that is not positive)`.
+#[must_use]
+pub fn correlation_time(residual: &[f64]) -> f64 {
+    let n = residual.len();
+    let mean = residual.iter().sum::<f64>() / n.max(1) as f64;
+    let power: f64 = residual.iter().map(|r| (r - mean).powi(2)).sum();
+    if power == 0.0 {
+        return 1.0;
+    }
+    let mut time = 1.0;
+    for lag in 1..n / 4 {
+        let product: f64 = residual
+            .iter()
+            .zip(&residual[lag..])
+            .map(|(a, b)| (a - mean) * (b - mean))
+            .sum();
+        if product <= 0.0 {
+            break;
+        }
+        time += 2.0 * product / power;
+    }
+    time
+}

@@ -1,0 +1,195 @@
+//! Identification: from logs and a model's columns to parameters with their uncertainty.
+
+mod band;
+mod error;
+mod estimate;
+mod least_squares;
+mod shapes;
+mod stack;
+
+pub use error::IdentifyError;
+pub use estimate::{Errors, Estimate, Identified};
+pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
+
+use crate::columns::Arm;
+use crate::log::Log;
+use crate::signal::{Bands, Prepared, prepare};
+
+/// How rows of different joints are weighed against each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Ordinary least squares: a newton meter of error counts the same on every joint.
+    Ls,
+    /// Weighted least squares: each joint's rows are divided by the standard deviation of its residual.
+    #[default]
+    Wls,
+}
+
+impl Method {
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ls => "ls",
+            Self::Wls => "wls",
+        }
+    }
+}
+
+/// How often the torque of the rigid body, which some effects depend on, is computed from the last estimate.
+const RIGID_TORQUE_PASSES: usize = 4;
+
+/// Identification of an arm's unknowns from logs.
+///
+/// Torque and every regressor column pass one zero-phase low-pass and are decimated; then
+/// `minimize sum_j || tau_j - W_j beta ||^2 / sigma_j^2` by QR, with `sigma_j = 1` for [`Method::Ls`].
+#[derive(Debug, Clone, Default)]
+pub struct Identify {
+    /// Weighting of joints.
+    pub method: Method,
+    /// Filter bands; `None`: the shared band is chosen from the logs, as wide as the model's torque stands out.
+    pub bands: Option<Bands>,
+}
+
+impl Identify {
+    /// Identifies from one or several logs.
+    ///
+    /// # Errors
+    /// [`IdentifyError`]: no log, a log of another arm, too few samples, an arm that does not move, signals that cannot be
+    /// filtered. Unknowns that the logs do not excite are no error: the estimate names them.
+    pub fn fit(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Estimate, IdentifyError> {
+        check_logs(arm, logs)?;
+        let bands = match self.bands {
+            Some(bands) => bands,
+            None => self.choose_bands(arm, logs)?,
+        };
+        let mut prepared = prepare_all(logs, &bands)?;
+        let (solution, shapes, stack) = self.solve(arm, &mut prepared, None)?;
+        Ok(Estimate::new(
+            arm,
+            self.method,
+            bands,
+            &solution,
+            shapes,
+            &stack,
+        ))
+    }
+
+    /// A first estimate over a wide band shows how far the model's torque reaches.
+    fn choose_bands(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Bands, IdentifyError> {
+        let mut bands = slowest_bands(logs);
+        bands.smooth_hz = bands.wide_hz;
+        let mut prepared = prepare_all(logs, &bands)?;
+        let (solution, shapes, _) = self.solve(arm, &mut prepared, Some(middle(arm)))?;
+        Ok(band::choose(arm, &prepared, &shapes, &solution.estimate))
+    }
+
+    /// Solves for the linear unknowns, and for free shape parameters unless they are given.
+    fn solve(
+        &self,
+        arm: &dyn Arm,
+        logs: &mut [Prepared],
+        shapes: Option<Vec<f64>>,
+    ) -> Result<(Solution, Vec<f64>, Stack), IdentifyError> {
+        let passes = if arm.uses_rigid_torque() {
+            RIGID_TORQUE_PASSES
+        } else {
+            1
+        };
+        let mut shapes = shapes.map_or_else(
+            || shapes::search(arm, logs, |logs, shapes| self.cost(arm, logs, shapes)),
+            Ok,
+        )?;
+        let mut last = None;
+        for pass in 0..passes {
+            if pass > 0 && !arm.shapes().is_empty() {
+                shapes = shapes::refine(arm, logs, shapes, |logs, shapes| {
+                    self.cost(arm, logs, shapes)
+                })?;
+            }
+            let stack = Stack::new(arm, logs, &shapes);
+            let solution = self.solve_stack(&stack)?;
+            if passes > 1 {
+                for log in logs.iter_mut() {
+                    log.motion.rigid_torque = arm.rigid_torque(&log.motion, &solution.estimate);
+                }
+            }
+            last = Some((solution, shapes.clone(), stack));
+        }
+        last.ok_or(IdentifyError::NoLog)
+    }
+
+    /// Sum over joints of samples times the logarithm of the residual variance: what free shape parameters minimize.
+    fn cost(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Result<f64, IdentifyError> {
+        let stack = Stack::new(arm, logs, shapes);
+        let solution = self.solve_stack(&stack)?;
+        Ok(solution
+            .sigma
+            .iter()
+            .map(|s| s.max(f64::MIN_POSITIVE).ln())
+            .sum())
+    }
+
+    /// Solves a stack; standard deviations know how correlated neighboring residuals are.
+    ///
+    /// # Errors
+    /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
+        let (samples, dof, unknowns) = (stack.samples(), stack.dof(), stack.unknowns.len());
+        if samples * dof <= unknowns {
+            return Err(IdentifyError::TooFewSamples {
+                samples,
+                dof,
+                unknowns,
+            });
+        }
+        let factors = Factors::new(stack);
+        let solve = |correlation: &[f64]| match self.method {
+            Method::Ls => factors.ordinary(correlation),
+            Method::Wls => factors.weighted(correlation),
+        };
+        let first = solve(&vec![1.0; dof]);
+        if first.unexcited.len() == unknowns && unknowns > 0 {
+            return Err(IdentifyError::NothingExcited { unknowns });
+        }
+        let correlation: Vec<f64> = stack
+            .residuals(&first.estimate)
+            .iter()
+            .map(|r| correlation_time(r))
+            .collect();
+        Ok(solve(&correlation))
+    }
+}
+
+/// Bands that every one of the logs can bear.
+fn slowest_bands(logs: &[Log]) -> Bands {
+    Bands::for_rate(logs.iter().map(Log::rate_hz).fold(f64::INFINITY, f64::min))
+}
+
+fn middle(arm: &dyn Arm) -> Vec<f64> {
+    arm.shapes()
+        .iter()
+        .map(|shape| shape.grid[shape.grid.len() / 2])
+        .collect()
+}
+
+pub(crate) fn prepare_all(logs: &[Log], bands: &Bands) -> Result<Vec<Prepared>, IdentifyError> {
+    logs.iter()
+        .map(|log| prepare(log, bands).map_err(IdentifyError::from))
+        .collect()
+}
+
+pub(crate) fn check_logs(arm: &dyn Arm, logs: &[Log]) -> Result<(), IdentifyError> {
+    if logs.is_empty() {
+        return Err(IdentifyError::NoLog);
+    }
+    match logs.iter().find(|log| log.dof() != arm.dof()) {
+        Some(log) => Err(IdentifyError::Joints {
+            source_name: log.source.clone(),
+            log: log.dof(),
+            arm: arm.dof(),
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,141 @@
+//! Shape parameters without a value: a search over their ranges, the linear unknowns solved for at every point.
+
+use crate::columns::Arm;
+use crate::signal::Prepared;
+
+use super::IdentifyError;
+
+/// Rounds over all shape parameters, one at a time.
+const SWEEPS: usize = 2;
+
+/// Steps of the golden section inside the best grid interval: narrows it a hundred times.
+const GOLDEN_STEPS: usize = 10;
+
+/// Looks through the whole range of each free shape parameter.
+///
+/// # Errors
+/// Those of `cost`.
+pub(super) fn search(
+    arm: &dyn Arm,
+    logs: &[Prepared],
+    cost: impl Fn(&[Prepared], &[f64]) -> Result<f64, IdentifyError>,
+) -> Result<Vec<f64>, IdentifyError> {
+    let mut shapes: Vec<f64> = arm
+        .shapes()
+        .iter()
+        .map(|shape| shape.grid[shape.grid.len() / 2])
+        .collect();
+    let sweeps = if shapes.len() > 1 { SWEEPS } else { 1 };
+    for _ in 0..sweeps {
+        for number in 0..shapes.len() {
+            let grid = &arm.shapes()[number].grid;
+            let mut at = |value: f64| {
+                let mut trial = shapes.clone();
+                trial[number] = value;
+                cost(logs, &trial)
+            };
+            shapes[number] = minimize(grid, &mut at)?;
+        }
+    }
+    Ok(shapes)
+}
+
+/// Looks near the present values only: the range between the grid's neighbors.
+///
+/// # Errors
+/// Those of `cost`.
+pub(super) fn refine(
+    arm: &dyn Arm,
+    logs: &[Prepared],
+    mut shapes: Vec<f64>,
+    cost: impl Fn(&[Prepared], &[f64]) -> Result<f64, IdentifyError>,
+) -> Result<Vec<f64>, IdentifyError> {
+    for number in 0..shapes.len() {
+        let grid = &arm.shapes()[number].grid;
+        let above = grid
+            .partition_point(|value| *value < shapes[number])
+            .min(grid.len() - 1);
+        let (low, high) = (
+            grid[above.saturating_sub(1)],
+            grid[(above + 1).min(grid.len() - 1)],
+        );
+        let mut at = |value: f64| {
+            let mut trial = shapes.clone();
+            trial[number] = value;
+            cost(logs, &trial)
+        };
+        shapes[number] = golden(low, high, &mut at)?;
+    }
+    Ok(shapes)
+}
+
+/// The best grid point, then golden section between its neighbors.
+///
+/// # Errors
+/// Those of `at`.
+pub(crate) fn minimize<E>(
+    grid: &[f64],
+    at: &mut impl FnMut(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
+    let mut best = (f64::INFINITY, 0);
+    for (k, value) in grid.iter().enumerate() {
+        let cost = at(*value)?;
+        if cost < best.0 {
+            best = (cost, k);
+        }
+    }
+    let k = best.1;
+    let refined = golden(
+        grid[k.saturating_sub(1)],
+        grid[(k + 1).min(grid.len() - 1)],
+        at,
+    )?;
+    Ok(if at(refined)? < best.0 {
+        refined
+    } else {
+        grid[k]
+    })
+}
+
+/// Golden section on an interval.
+fn golden<E>(
+    mut low: f64,
+    mut high: f64,
+    at: &mut impl FnMut(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
+    let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut inner = (high - ratio * (high - low), low + ratio * (high - low));
+    let mut cost = (at(inner.0)?, at(inner.1)?);
+    for _ in 0..GOLDEN_STEPS {
+        if cost.0 < cost.1 {
+            high = inner.1;
+            inner = (high - ratio * (high - low), inner.0);
+            cost = (at(inner.0)?, cost.0);
+        } else {
+            low = inner.0;
+            inner = (inner.1, low + ratio * (high - low));
+            cost = (cost.1, at(inner.1)?);
+        }
+    }
+    Ok(0.5 * (low + high))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn minimum_between_grid_points() {
+        let grid: Vec<f64> = (0..12).map(f64::from).collect();
+        let found = minimize(&grid, &mut |x: f64| Ok::<_, ()>((x - 6.37).powi(2)))
+            .expect("the cost has no errors");
+        assert!((found - 6.37).abs() < 0.02, "{found}");
+    }
+
+    #[test]
+    fn minimum_at_the_end_of_the_range_stays_inside() {
+        let grid = [1.0, 2.0, 3.0];
+        let found = minimize(&grid, &mut |x: f64| Ok::<_, ()>(-x)).expect("the cost has no errors");
+        assert!((found - 3.0).abs() < 0.02 && found <= 3.0, "{found}");
+    }
+}

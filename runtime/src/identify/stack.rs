@@ -1,0 +1,198 @@
+//! Regressor rows of measured logs: filtered, decimated, one block a joint.
+//!
+//! In: an [`Arm`] and prepared logs. Out: a [`Stack`]. Invariant gained: torque and every column of a log went through the
+//! same filter, and all blocks have the same samples.
+
+use crate::columns::{Arm, Columns, Entry, Unknown};
+use crate::motion::Motion;
+use crate::signal::Prepared;
+
+/// The rows of one joint: `target[k] = sum over columns of values[k] * unknown + residual`.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct JointRows {
+    /// Filtered measured torque, N m or N.
+    pub tau: Vec<f64>,
+    /// The same less the torque of parameters that the spec fixes.
+    pub target: Vec<f64>,
+    /// Columns that are not zero by structure: index of the unknown, one value a sample. Ascending.
+    pub columns: Vec<(usize, Vec<f64>)>,
+}
+
+/// The stacked regressor of one or several logs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stack {
+    /// The unknowns, one per column.
+    pub unknowns: Vec<Unknown>,
+    /// One block of rows a joint.
+    pub joints: Vec<JointRows>,
+    /// Where each log's samples are in every block, and their times.
+    pub segments: Vec<Segment>,
+}
+
+/// One log's share of the rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Segment {
+    /// First row.
+    pub start: usize,
+    /// Time of each row, s since the start of the log.
+    pub time: Vec<f64>,
+}
+
+impl Stack {
+    /// Evaluates the arm over the logs, filters and decimates.
+    ///
+    /// `shapes` has one value per [`Columns::shapes`] of the arm.
+    #[must_use]
+    pub fn new(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Self {
+        let mut stack = Self {
+            unknowns: arm.unknowns().to_vec(),
+            joints: vec![JointRows::default(); arm.dof()],
+            segments: Vec::new(),
+        };
+        let mut filtered = Vec::new();
+        for log in logs {
+            let start = stack.samples();
+            let count = log.motion.time.len();
+            let time = log.shared.kept(count).map(|k| log.motion.time[k]).collect();
+            stack.segments.push(Segment { start, time });
+            let known = arm.known_torque(&log.motion);
+            for (joint, rows) in stack.joints.iter_mut().enumerate() {
+                let gain = arm.actuator_gain()[joint];
+                let tau: Vec<f64> = log.tau[joint].iter().map(|tau| gain * tau).collect();
+                let target: Vec<f64> = tau
+                    .iter()
+                    .zip(&known[joint])
+                    .map(|(tau, known)| tau - known)
+                    .collect();
+                log.shared.apply(&tau, &mut filtered);
+                rows.tau.extend_from_slice(&filtered);
+                log.shared.apply(&target, &mut filtered);
+                rows.target.extend_from_slice(&filtered);
+            }
+        }
+        let columns = filtered_columns(arm, logs, shapes);
+        for Entry {
+            joint,
+            column,
+            values,
+        } in columns
+        {
+            stack.joints[joint].columns.push((column, values));
+        }
+        for rows in &mut stack.joints {
+            rows.columns.sort_by_key(|(column, _)| *column);
+        }
+        stack
+    }
+
+    /// Rows per joint.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.joints.first().map_or(0, |rows| rows.tau.len())
+    }
+
+    /// Degrees of freedom.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Appends columns of an effect that the arm does not have; returns the index of the first.
+    pub fn append(&mut self, unknowns: &[Unknown], columns: &[Entry]) -> usize {
+        let first = self.unknowns.len();
+        self.unknowns.extend_from_slice(unknowns);
+        for entry in columns {
+            self.joints[entry.joint]
+                .columns
+                .push((first + entry.column, entry.values.clone()));
+        }
+        for rows in &mut self.joints {
+            rows.columns.sort_by_key(|(column, _)| *column);
+        }
+        first
+    }
+
+    /// `target - columns * estimate`, `[joint][sample]`.
+    #[must_use]
+    pub fn residuals(&self, estimate: &[f64]) -> Vec<Vec<f64>> {
+        self.joints
+            .iter()
+            .map(|rows| {
+                let mut residual = rows.target.clone();
+                for (column, values) in &rows.columns {
+                    subtract(&mut residual, estimate[*column], values);
+                }
+                residual
+            })
+            .collect()
+    }
+}
+
+/// `target -= factor * values`
+fn subtract(target: &mut [f64], factor: f64, values: &[f64]) {
+    if factor != 0.0 {
+        for (t, v) in target.iter_mut().zip(values) {
+            *t -= factor * v;
+        }
+    }
+}
+
+/// Columns over several logs, each log through its own shared filter, the logs' samples one after the other.
+#[must_use]
+pub fn filtered_columns<C: Columns + ?Sized>(
+    columns: &C,
+    logs: &[Prepared],
+    shapes: &[f64],
+) -> Vec<Entry> {
+    let mut all: Vec<Entry> = Vec::new();
+    for (number, log) in logs.iter().enumerate() {
+        let mut entries = columns.entries(&log.motion, shapes);
+        filter(&mut entries, log);
+        if number == 0 {
+            all = entries;
+        } else {
+            // The pattern of zeros is that of the equations, so every log has the same entries in the same order.
+            for (sum, entry) in all.iter_mut().zip(entries) {
+                sum.values.extend(entry.values);
+            }
+        }
+    }
+    all
+}
+
+/// Filters and decimates entries in place, on all cores.
+fn filter(entries: &mut [Entry], log: &Prepared) {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = entries.len().div_ceil(workers).max(1);
+    std::thread::scope(|scope| {
+        for part in entries.chunks_mut(share) {
+            scope.spawn(move || {
+                let mut filtered = Vec::new();
+                for entry in part {
+                    log.shared.apply(&entry.values, &mut filtered);
+                    entry.values = filtered.clone();
+                }
+            });
+        }
+    });
+}
+
+/// `columns * estimate` at every sample of a motion, unfiltered, `[joint][sample]`.
+#[must_use]
+pub fn torque_of<C: Columns + ?Sized>(
+    columns: &C,
+    motion: &Motion,
+    shapes: &[f64],
+    estimate: &[f64],
+    dof: usize,
+) -> Vec<Vec<f64>> {
+    let mut torque = vec![vec![0.0; motion.time.len()]; dof];
+    for entry in columns.entries(motion, shapes) {
+        subtract(
+            &mut torque[entry.joint],
+            -estimate[entry.column],
+            &entry.values,
+        );
+    }
+    torque
+}
