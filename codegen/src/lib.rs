@@ -1,1 +1,16 @@
-//! Placeholder until the first stage lands.
+//! The robot-model compiler: a checked model in, equations and specialized Rust out.
+//!
+//! ```text
+//! Model -derive-> Dynamics -linearize-> LinearForm -reduce-> BaseForm -> programs (interpreter) | Rust (emit)
+//! ```
+
+pub mod base;
+pub mod dynamics;
+pub mod expr;
+pub mod interpreter;
+mod random;
+pub mod regressor;
+
+mod compiled;
+
+pub use compiled::{Block, Compiled, EffectColumns, compile_model, effect_columns};

@@ -1,0 +1,326 @@
+//! From standard to base parameters: the smallest set that the torque determines, with the map between both.
+//!
+//! In: [`LinearForm`]. Out: [`BaseForm`]. Invariants gained: the columns of the kept parameters are independent, and
+//! `Y * standard = Y_b * beta` with `beta = map * standard` for every value of the standard parameters.
+//!
+//! Columns are compared on the regressor's values at random states (Gautier 1991 does the same): a column is kept unless it
+//! is a combination of the columns kept before it, from the first link to the last. So parameters of links near the tip
+//! regroup into those near the base. Inside a link, inertia is looked at first, then first moments, then the mass: so
+//! coefficients are lengths and squares of lengths, never one over a length.
+
+use robot_model_spec::model::Model;
+use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter, Status};
+
+use crate::expr::{Dag, Symbol};
+use crate::interpreter::{Operand, Program};
+use crate::random::Generator;
+use crate::regressor::LinearForm;
+
+/// A scaled column is independent of those before it when this much of it is left after projecting them out.
+pub const INDEPENDENT_ABOVE: f64 = 1e-7;
+/// A scaled column is a combination of those before it when no more than this is left.
+pub const DEPENDENT_BELOW: f64 = 1e-10;
+/// Coefficients of a combination below this are noise.
+const COEFFICIENT_FLOOR: f64 = 1e-9;
+/// Random states are this many times as many as the parameters, over the degrees of freedom.
+const OVERSAMPLING: usize = 3;
+
+/// The base parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BaseForm {
+    /// Standard parameters whose columns are kept, ascending: one base parameter each.
+    pub kept: Vec<usize>,
+    /// Names of the base parameters: the kept parameter's, with `r` behind it where others are regrouped into it.
+    pub names: Vec<String>,
+    /// Per base parameter its combination `(standard parameter, coefficient)`: the kept one with coefficient 1, then those
+    /// regrouped into it, ascending.
+    pub combinations: Vec<Vec<(usize, f64)>>,
+    /// Standard parameters without influence on any torque.
+    pub unidentifiable: Vec<usize>,
+    /// Standard parameters that the spec fixes: neither kept nor regrouped.
+    pub fixed: Vec<usize>,
+    /// How clear the decisions were.
+    pub rank: RankStatus,
+}
+
+/// How clearly the independent columns are told from the dependent ones.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RankStatus {
+    /// Every column was on one side of the gap.
+    Clear {
+        /// Least that was left of a kept column.
+        smallest_kept: f64,
+        /// Most that was left of a dropped column.
+        largest_dropped: f64,
+    },
+    /// Some columns were inside the gap; they are kept.
+    Unclear(Vec<UnclearColumn>),
+}
+
+/// A column that is neither clearly independent nor clearly dependent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnclearColumn {
+    /// Name of the standard parameter.
+    pub name: String,
+    /// What is left of its scaled column.
+    pub residual: f64,
+}
+
+impl std::fmt::Display for RankStatus {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Clear { smallest_kept, largest_dropped } => write!(
+                f,
+                "rank is clear: least left of a kept column {smallest_kept:.1e}, most left of a dropped one {largest_dropped:.1e}"
+            ),
+            Self::Unclear(columns) => {
+                write!(f, "rank is not clear between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e}:")?;
+                for column in columns {
+                    write!(f, " `{}` has {:.1e} left", column.name, column.residual)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+impl BaseForm {
+    /// `beta = map * standard`
+    #[must_use]
+    pub fn beta(&self, standard: &[f64]) -> Vec<f64> {
+        self.combinations
+            .iter()
+            .map(|combination| combination.iter().map(|&(k, coefficient)| coefficient * standard[k]).sum())
+            .collect()
+    }
+}
+
+/// Decides which columns are independent and how the others regroup into them.
+#[must_use]
+pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
+    let parameters = model.standard_parameters();
+    let mut columns = sample_columns(dag, model, linear, parameters.len());
+    let scale: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
+    for (column, &scale) in columns.iter_mut().zip(&scale) {
+        column.iter_mut().for_each(|x| *x /= scale.max(f64::MIN_POSITIVE));
+    }
+
+    let mut selection = Selection::default();
+    let (mut unidentifiable, mut fixed) = (Vec::new(), Vec::new());
+    for k in order_of_choice(&parameters) {
+        let column = std::mem::take(&mut columns[k]);
+        if matches!(parameters[k].status, Status::Fixed(_)) {
+            fixed.push(k);
+        } else if linear.column(dag, k).next().is_none() || scale[k] == 0.0 {
+            unidentifiable.push(k);
+        } else {
+            selection.take(k, column, &parameters[k].name);
+        }
+    }
+    unidentifiable.sort_unstable();
+    fixed.sort_unstable();
+    let combinations = selection.combinations(&scale);
+    selection.kept.sort_unstable();
+    let names = base_names(&parameters, &selection.kept, &combinations);
+    BaseForm { rank: selection.status(), kept: selection.kept, names, combinations, unidentifiable, fixed }
+}
+
+/// The order in which columns are offered: link by link inertia, first moments, mass; then the effects'.
+fn order_of_choice(parameters: &[StandardParameter]) -> Vec<usize> {
+    use InertialElement::{M, Mx, My, Mz};
+    let mut order: Vec<usize> = (0..parameters.len()).collect();
+    order.sort_by_key(|&k| match parameters[k].owner {
+        Owner::Link { link, element: M } => (link, 2),
+        Owner::Link { link, element: Mx | My | Mz } => (link, 1),
+        Owner::Link { link, .. } => (link, 0),
+        Owner::Effect { .. } => (usize::MAX, 0),
+    });
+    order
+}
+
+fn base_names(parameters: &[StandardParameter], kept: &[usize], combinations: &[Vec<(usize, f64)>]) -> Vec<String> {
+    kept.iter()
+        .zip(combinations)
+        .map(|(&k, combination)| format!("{}{}", parameters[k].name, if combination.len() > 1 { "r" } else { "" }))
+        .collect()
+}
+
+/// The regressor's columns at random states, stacked over joints.
+fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -> Vec<Vec<f64>> {
+    /// Any fixed number: same spec, same states.
+    const SEED: u64 = 0x726f_626f_745f_6d6f;
+    let dof = model.joints.len();
+    let samples = OVERSAMPLING * count.div_ceil(dof) + 16;
+    let entries: Vec<(usize, usize)> = (0..count)
+        .flat_map(|k| linear.column(dag, k).map(move |(joint, _)| (joint, k)))
+        .collect();
+    let outputs: Vec<_> = entries.iter().map(|&(joint, k)| linear.regressor[joint][k]).collect();
+    let program = Program::new(dag, &outputs);
+
+    let mut generator = Generator::new(SEED);
+    let shapes = shape_values(model);
+    // Drawn for every symbol in a fixed order, so that a state does not depend on what the program reads.
+    let mut draw = |scale: f64| -> Vec<f64> { (0..samples).map(|_| scale * generator.symmetric()).collect() };
+    let q: Vec<Vec<f64>> = (0..dof).map(|_| draw(3.0)).collect();
+    let dq: Vec<Vec<f64>> = (0..dof).map(|_| draw(2.0)).collect();
+    let ddq: Vec<Vec<f64>> = (0..dof).map(|_| draw(4.0)).collect();
+    let rigid_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
+    let time = draw(20.0);
+    let bind = |symbol: Symbol| match symbol {
+        Symbol::Q(joint) => Operand::Column(&q[joint]),
+        Symbol::Dq(joint) => Operand::Column(&dq[joint]),
+        Symbol::Ddq(joint) => Operand::Column(&ddq[joint]),
+        Symbol::RigidTorque(joint) => Operand::Column(&rigid_torque[joint]),
+        Symbol::Time => Operand::Column(&time),
+        Symbol::Shape(k) => Operand::Constant(shapes[k]),
+        Symbol::Parameter(_) => unreachable!("checked in regressor::linearize"),
+    };
+    let mut values = vec![Vec::new(); outputs.len()];
+    program.eval_batch(samples, &bind, &mut values);
+
+    let mut columns = vec![vec![0.0; samples * dof]; count];
+    for ((joint, k), values) in entries.into_iter().zip(values) {
+        columns[k][joint * samples..(joint + 1) * samples].copy_from_slice(&values);
+    }
+    columns
+}
+
+/// A value for every shape parameter of the declared effects: the spec's, else the geometric middle of its range.
+#[must_use]
+pub fn shape_values(model: &Model) -> Vec<f64> {
+    model
+        .effects
+        .iter()
+        .flat_map(|effect| {
+            effect.shapes.iter().zip(&effect.definition.shapes).map(|(value, shape)| {
+                value.unwrap_or_else(|| middle(shape.low, shape.high))
+            })
+        })
+        .collect()
+}
+
+/// Geometric middle of a range of positive numbers, arithmetic middle of any other.
+#[must_use]
+pub fn middle(low: f64, high: f64) -> f64 {
+    if low > 0.0 && high > 0.0 { (low * high).sqrt() } else { f64::midpoint(low, high) }
+}
+
+/// Orthogonalization column by column, keeping what is needed to express the dropped columns.
+#[derive(Default)]
+struct Selection {
+    kept: Vec<usize>,
+    /// Orthonormal basis of the kept columns.
+    basis: Vec<Vec<f64>>,
+    /// Column `j` of the triangular factor: kept column `j` in the basis.
+    triangle: Vec<Vec<f64>>,
+    /// `(standard parameter, its column in the basis)`
+    dropped: Vec<(usize, Vec<f64>)>,
+    unclear: Vec<UnclearColumn>,
+    smallest_kept: Option<f64>,
+    largest_dropped: f64,
+}
+
+impl Selection {
+    fn take(&mut self, k: usize, mut column: Vec<f64>, name: &str) {
+        let mut coordinates = vec![0.0; self.basis.len()];
+        // Twice is enough for orthogonality to rounding.
+        for _ in 0..2 {
+            for (coordinate, direction) in coordinates.iter_mut().zip(&self.basis) {
+                let projection = dot(direction, &column);
+                *coordinate += projection;
+                column.iter_mut().zip(direction).for_each(|(x, d)| *x -= projection * d);
+            }
+        }
+        let residual = norm(&column);
+        if residual <= DEPENDENT_BELOW {
+            self.largest_dropped = self.largest_dropped.max(residual);
+            self.dropped.push((k, coordinates));
+            return;
+        }
+        if residual < INDEPENDENT_ABOVE {
+            self.unclear.push(UnclearColumn { name: name.to_owned(), residual });
+        }
+        self.smallest_kept = Some(self.smallest_kept.map_or(residual, |smallest| smallest.min(residual)));
+        column.iter_mut().for_each(|x| *x /= residual);
+        coordinates.push(residual);
+        self.kept.push(k);
+        self.basis.push(column);
+        self.triangle.push(coordinates);
+    }
+
+    fn status(&self) -> RankStatus {
+        if self.unclear.is_empty() {
+            RankStatus::Clear {
+                smallest_kept: self.smallest_kept.unwrap_or(1.0),
+                largest_dropped: self.largest_dropped,
+            }
+        } else {
+            RankStatus::Unclear(self.unclear.clone())
+        }
+    }
+
+    /// Per kept column what regroups into it, in the units of the unscaled columns.
+    fn combinations(&self, scale: &[f64]) -> Vec<Vec<(usize, f64)>> {
+        let mut combinations: Vec<Vec<(usize, f64)>> = self.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
+        for (k, coordinates) in &self.dropped {
+            let mut rest = coordinates.clone();
+            for j in (0..rest.len()).rev() {
+                let weight = rest[j] / self.triangle[j][j];
+                for (i, entry) in self.triangle[j][..j].iter().enumerate() {
+                    rest[i] -= weight * entry;
+                }
+                let coefficient = snap(weight * scale[*k] / scale[self.kept[j]]);
+                if coefficient != 0.0 {
+                    combinations[j].push((*k, coefficient));
+                }
+            }
+        }
+        // In the order of the kept parameters; inside a combination the kept one leads.
+        let mut order: Vec<usize> = (0..self.kept.len()).collect();
+        order.sort_unstable_by_key(|&j| self.kept[j]);
+        order
+            .into_iter()
+            .map(|j| {
+                let mut combination = std::mem::take(&mut combinations[j]);
+                combination[1..].sort_unstable_by_key(|&(k, _)| k);
+                combination
+            })
+            .collect()
+    }
+}
+
+/// The named rounding step: a coefficient of a combination is 0 below [`COEFFICIENT_FLOOR`], else the shortest decimal
+/// within 2e-11, else twelve decimals. Geometry is written with fewer digits than that.
+fn snap(coefficient: f64) -> f64 {
+    const TOLERANCE: f64 = 2e-11;
+    if coefficient.abs() < COEFFICIENT_FLOOR {
+        return 0.0;
+    }
+    let rounded = |digits: i32| {
+        let unit = 10f64.powi(digits);
+        (coefficient * unit).round() / unit
+    };
+    (0..=9).map(rounded).find(|value| (value - coefficient).abs() <= TOLERANCE).unwrap_or_else(|| rounded(12))
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[expect(clippy::float_cmp, reason = "snapping gives exact decimals")]
+    fn snapping_gives_the_shortest_decimal() {
+        assert_eq!(snap(0.186_451_240_000_003), 0.186_451_24);
+        assert_eq!(snap(-1.000_000_000_000_4), -1.0);
+        assert_eq!(snap(3e-10), 0.0);
+        assert_eq!(snap(0.123_456_789_123_456), 0.123_456_789_123);
+    }
+}

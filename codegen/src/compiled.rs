@@ -1,0 +1,235 @@
+//! The pipeline on a page, and the programs that run its forms.
+
+use robot_model_spec::model::{EffectDefinition, Model};
+use robot_model_spec::parameter::{Owner, StandardParameter, Status};
+
+use crate::base::{self, BaseForm};
+use crate::dynamics::{self, Dynamics, Value, effect};
+use crate::expr::{Dag, ExprId, Names, Symbol};
+use crate::interpreter::Program;
+use crate::regressor::{self, LinearForm};
+
+/// A model with everything that is derived from it.
+#[derive(Debug, Clone)]
+pub struct Compiled {
+    /// What was compiled.
+    pub model: Model,
+    /// The standard parameters, in their order.
+    pub standard: Vec<StandardParameter>,
+    /// Where the expressions of all forms live.
+    pub dag: Dag,
+    /// `tau = Y * standard`
+    pub linear: LinearForm,
+    /// Base parameters, and how they are made of standard ones.
+    pub base: BaseForm,
+    /// Equations of motion in the kept parameters, whose symbols stand for base parameters. What the spec fixes is numbers.
+    pub dynamics: Dynamics,
+}
+
+/// Derives everything. A checked model has no errors left; how clear the base parameters are is
+/// [`BaseForm::rank`](base::BaseForm::rank).
+#[must_use]
+pub fn compile_model(model: &Model) -> Compiled {
+    let mut dag = Dag::new();
+    let standard = model.standard_parameters();
+    let linear = regressor::linearize(&mut dag, model);
+    let base = base::reduce(&dag, model, &linear);
+    let dynamics = dynamics::derive(&mut dag, model, &base_values(&standard, &base));
+    Compiled { model: model.clone(), standard, dag, linear, base, dynamics }
+}
+
+/// Kept parameters are symbols, fixed ones numbers; what was regrouped into kept ones counts there and vanishes here.
+fn base_values(standard: &[StandardParameter], base: &BaseForm) -> Vec<Value> {
+    let mut values: Vec<Value> = standard.iter().map(|parameter| Value::Number(fixed_value(parameter))).collect();
+    for &k in &base.kept {
+        values[k] = Value::Symbol;
+    }
+    values
+}
+
+fn fixed_value(parameter: &StandardParameter) -> f64 {
+    match parameter.status {
+        Status::Fixed(value) => value,
+        Status::Unknown | Status::Nominal(_) => 0.0,
+    }
+}
+
+/// The entries of some regressor columns that are not zero by structure, with the program that evaluates them.
+#[derive(Debug, Clone)]
+pub struct Block {
+    /// `(joint, column)` of output `k` of the program; both from 0.
+    pub entries: Vec<(usize, usize)>,
+    /// One output per entry.
+    pub program: Program,
+}
+
+impl Block {
+    fn new(dag: &Dag, entries: Vec<(usize, usize, ExprId)>) -> Self {
+        let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.2).collect();
+        let entries = entries.into_iter().map(|(joint, column, _)| (joint, column)).collect();
+        Self { entries, program: Program::new(dag, &outputs) }
+    }
+}
+
+impl Compiled {
+    /// Degrees of freedom.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.model.joints.len()
+    }
+
+    /// Names for displays: the user's, with base parameters' names for the kept ones.
+    #[must_use]
+    pub fn names(&self) -> Names {
+        let mut parameters: Vec<String> = self.standard.iter().map(|parameter| parameter.name.clone()).collect();
+        for (&k, name) in self.base.kept.iter().zip(&self.base.names) {
+            parameters[k].clone_from(name);
+        }
+        Names { parameters, shapes: self.shape_names() }
+    }
+
+    /// Names of all shape parameters of the declared effects, `JOINT.EFFECT.SHAPE`, in the order of [`Symbol::Shape`].
+    #[must_use]
+    pub fn shape_names(&self) -> Vec<String> {
+        self.model
+            .effects
+            .iter()
+            .enumerate()
+            .flat_map(|(index, effect)| {
+                let prefix = self.model.effect_name(index);
+                effect.definition.shapes.iter().map(move |shape| format!("{prefix}.{}", shape.name))
+            })
+            .collect()
+    }
+
+    /// Shape parameters that the spec leaves to identification, as indices of [`Symbol::Shape`].
+    #[must_use]
+    pub fn free_shapes(&self) -> Vec<usize> {
+        let given = self.model.effects.iter().flat_map(|effect| &effect.shapes);
+        given.enumerate().filter(|(_, value)| value.is_none()).map(|(k, _)| k).collect()
+    }
+
+    /// Whether base parameter `column` belongs to a link, not to an effect.
+    #[must_use]
+    pub fn is_rigid(&self, column: usize) -> bool {
+        matches!(self.standard[self.base.kept[column]].owner, Owner::Link { .. })
+    }
+
+    /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`].
+    /// Parameters that are not kept have 0.
+    #[must_use]
+    pub fn parameter_values(&self, beta: &[f64]) -> Vec<f64> {
+        let mut values = vec![0.0; self.standard.len()];
+        for (&k, &value) in self.base.kept.iter().zip(beta) {
+            values[k] = value;
+        }
+        values
+    }
+
+    fn base_block(&self, wanted: impl Fn(usize) -> bool) -> Block {
+        let entries = (0..self.base.kept.len())
+            .filter(|&column| wanted(column))
+            .flat_map(|column| {
+                let entries = self.linear.column(&self.dag, self.base.kept[column]);
+                entries.map(move |(joint, entry)| (joint, column, entry))
+            })
+            .collect();
+        Block::new(&self.dag, entries)
+    }
+
+    /// Columns of the rigid body in the base regressor; reads `q, dq, ddq`.
+    #[must_use]
+    pub fn rigid_columns(&self) -> Block {
+        self.base_block(|column| self.is_rigid(column))
+    }
+
+    /// Columns of the declared effects in the base regressor; may read any signal and shape.
+    #[must_use]
+    pub fn effect_columns(&self) -> Block {
+        self.base_block(|column| !self.is_rigid(column))
+    }
+
+    /// The whole base regressor `Y_b`.
+    #[must_use]
+    pub fn base_regressor(&self) -> Block {
+        self.base_block(|_| true)
+    }
+
+    /// The whole regressor `Y` of the standard parameters.
+    #[must_use]
+    pub fn regressor(&self) -> Block {
+        let entries = (0..self.standard.len())
+            .flat_map(|column| {
+                self.linear.column(&self.dag, column).map(move |(joint, entry)| (joint, column, entry))
+            })
+            .collect();
+        Block::new(&self.dag, entries)
+    }
+
+    /// `M ddq + C dq + G`, one output a joint; reads base parameters as [`Symbol::Parameter`], see
+    /// [`Self::parameter_values`]. Includes what the spec fixes.
+    #[must_use]
+    pub fn rigid_torque(&self) -> Program {
+        Program::new(&self.dag, &self.dynamics.rigid_torque)
+    }
+
+    /// `rigid_torque` and the declared effects, one output a joint.
+    #[must_use]
+    pub fn inverse_dynamics(&self) -> Program {
+        Program::new(&self.dag, &self.dynamics.inverse_dynamics)
+    }
+
+    /// Torque of the parameters that the spec fixes, one output a joint.
+    #[must_use]
+    pub fn known_torque(&self) -> Program {
+        let mut dag = self.dag.clone();
+        let values: Vec<Value> =
+            self.standard.iter().map(|parameter| Value::Number(fixed_value(parameter))).collect();
+        let torque = dynamics::rigid_torque(&mut dag, &self.model, &values);
+        Program::new(&dag, &torque)
+    }
+
+    /// `M`, row by row.
+    #[must_use]
+    pub fn mass_matrix(&self) -> Program {
+        Program::new(&self.dag, &self.dynamics.mass_matrix.concat())
+    }
+
+    /// `C`, row by row.
+    #[must_use]
+    pub fn coriolis_matrix(&self) -> Program {
+        Program::new(&self.dag, &self.dynamics.coriolis_matrix.concat())
+    }
+
+    /// `G`, one output a joint.
+    #[must_use]
+    pub fn gravity(&self) -> Program {
+        Program::new(&self.dag, &self.dynamics.gravity)
+    }
+}
+
+/// The columns of an effect that is not declared, tried on given joints.
+#[derive(Debug, Clone)]
+pub struct EffectColumns {
+    /// Its columns: one per linear parameter of the definition. Shapes are [`Symbol::Shape`] by their index in the
+    /// definition.
+    pub block: Block,
+    /// Whether the program reads [`Symbol::RigidTorque`].
+    pub uses_rigid_torque: bool,
+}
+
+/// Columns of `definition` on `joints` of an arm with `dof` joints.
+#[must_use]
+pub fn effect_columns(definition: &EffectDefinition, joints: &[usize], dof: usize) -> EffectColumns {
+    let mut dag = Dag::new();
+    let parameters: Vec<Symbol> = (0..definition.linear.len()).map(Symbol::Parameter).collect();
+    let linear: Vec<ExprId> = parameters.iter().map(|&symbol| dag.symbol(symbol)).collect();
+    let shapes: Vec<ExprId> = (0..definition.shapes.len()).map(|k| dag.symbol(Symbol::Shape(k))).collect();
+    let rigid_torque = effect::outside_rigid_torque(&mut dag, dof);
+    let scope = effect::Scope { linear: &linear, shapes: &shapes, joints, rigid_torque: &rigid_torque };
+    let entries = effect::entries(&mut dag, definition, &scope, &parameters);
+    let block = Block::new(&dag, entries.into_iter().map(|entry| (entry.joint, entry.parameter, entry.value)).collect());
+    let uses_rigid_torque =
+        block.program.symbols().iter().any(|symbol| matches!(symbol, Symbol::RigidTorque(_)));
+    EffectColumns { block, uses_rigid_torque }
+}

@@ -1,0 +1,100 @@
+//! The pose of a link in its parent as expressions of `q`: every convention is one [`Placement`] here.
+
+use robot_model_spec::model::{Joint, JointKind, Placement};
+
+use super::vector::{self, Matrix, Vector};
+use crate::expr::{Dag, ExprId, Function, Symbol};
+
+/// One joint's kinematics. The joint point is the origin of the frame after [`Placement::before`], fixed in the parent.
+pub struct Frame {
+    /// What the coordinate is.
+    pub kind: JointKind,
+    /// Rotation from link to parent coordinates.
+    pub rotation: Matrix,
+    /// The joint point in parent coordinates.
+    pub joint_point: Vector,
+    /// From the joint point to the link's origin, in link coordinates.
+    pub to_origin: Vector,
+    /// The joint's axis in link coordinates.
+    pub axis: Vector,
+}
+
+/// Expressions for the frame of joint `index`.
+pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
+    let Placement { before, axis, offset, after, .. } = &joint.placement;
+    let q = dag.symbol(Symbol::Q(index));
+    let axis_in_link = vector::rotate_back(&after.rotation, *axis);
+    let fixed_to_origin = vector::rotate_back(&after.rotation, after.translation);
+
+    let (motion, to_origin) = match joint.kind {
+        JointKind::Revolute => {
+            let (sin, cos) = sine_and_cosine(dag, q, *offset);
+            (rotation_about(dag, *axis, sin, cos), vector::constant(dag, fixed_to_origin))
+        }
+        JointKind::Prismatic => {
+            let offset = dag.constant(*offset);
+            let travel = dag.add(q, offset);
+            let axis = vector::constant(dag, axis_in_link);
+            let moved = vector::scale(dag, travel, axis);
+            let fixed = vector::constant(dag, fixed_to_origin);
+            let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+            (identity.map(|row| vector::constant(dag, row)), vector::add(dag, moved, fixed))
+        }
+    };
+    let before_rotation = before.rotation.map(|row| vector::constant(dag, row));
+    let after_rotation = after.rotation.map(|row| vector::constant(dag, row));
+    let rotation = multiply(dag, &before_rotation, &motion);
+    Frame {
+        kind: joint.kind,
+        rotation: multiply(dag, &rotation, &after_rotation),
+        joint_point: vector::constant(dag, before.translation),
+        to_origin,
+        axis: vector::constant(dag, axis_in_link),
+    }
+}
+
+/// `sin(q + offset)` and `cos(q + offset)`; an offset of quarter turns leaves `sin q` and `cos q`.
+fn sine_and_cosine(dag: &mut Dag, q: ExprId, offset: f64) -> (ExprId, ExprId) {
+    /// Offsets are typed with this many digits at best.
+    const QUARTER_TURN_TOLERANCE: f64 = 1e-12;
+    let quarters = offset / std::f64::consts::FRAC_PI_2;
+    if (quarters - quarters.round()).abs() > QUARTER_TURN_TOLERANCE {
+        let offset = dag.constant(offset);
+        let angle = dag.add(q, offset);
+        return (dag.call(Function::Sin, angle), dag.call(Function::Cos, angle));
+    }
+    let (mut sin, mut cos) = (dag.call(Function::Sin, q), dag.call(Function::Cos, q));
+    let mut turns = quarters.round().rem_euclid(4.0);
+    while turns >= 1.0 {
+        // sin(x + pi/2) = cos x, cos(x + pi/2) = -sin x
+        (sin, cos) = (cos, dag.neg(sin));
+        turns -= 1.0;
+    }
+    (sin, cos)
+}
+
+/// Rodrigues' rotation about a unit axis: `cos + sin [a]x + (1 - cos) a a^T`, with every zero of the axis exact.
+fn rotation_about(dag: &mut Dag, a: [f64; 3], sin: ExprId, cos: ExprId) -> Matrix {
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let outer = a[i] * a[j];
+            let unit = if i == j { 1.0 } else { 0.0 };
+            // [a]x[i][j] = -levi_civita(i, j, k) a[k]
+            let skew = match (3 + j - i) % 3 {
+                0 => 0.0,
+                1 => -a[3 - i - j],
+                _ => a[3 - i - j],
+            };
+            let constant = dag.constant(outer);
+            let in_cos = dag.scale(unit - outer, cos);
+            let in_sin = dag.scale(skew, sin);
+            dag.sum([in_cos, in_sin, constant])
+        })
+    })
+}
+
+/// `A B`
+fn multiply(dag: &mut Dag, a: &Matrix, b: &Matrix) -> Matrix {
+    let columns: Matrix = std::array::from_fn(|j| std::array::from_fn(|i| b[i][j]));
+    std::array::from_fn(|i| std::array::from_fn(|j| vector::dot(dag, a[i], columns[j])))
+}

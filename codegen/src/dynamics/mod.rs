@@ -1,0 +1,144 @@
+//! From a checked model to its equations of motion: `tau = M ddq + C dq + G + effects`.
+//!
+//! In: a [`Model`], and for every standard parameter an expression. Out: [`Dynamics`]. Invariants gained: `M` is symmetric
+//! by construction, `dM/dt - 2 C` is skew by construction.
+
+mod chain;
+mod coriolis;
+pub mod effect;
+mod frame;
+mod vector;
+
+use robot_model_spec::model::Model;
+
+use crate::expr::{Dag, ExprId, Symbol};
+use chain::{Chain, Excitation};
+
+/// What stands for each standard parameter in the derivation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Value {
+    /// A symbol of its own.
+    Symbol,
+    /// A number; zero makes its terms vanish.
+    Number(f64),
+}
+
+/// The equations of motion as expressions of `q, dq, ddq` and the parameters.
+#[derive(Debug, Clone)]
+pub struct Dynamics {
+    /// Degrees of freedom.
+    pub dof: usize,
+    /// `M ddq + C dq + G`, N m or N.
+    pub rigid_torque: Vec<ExprId>,
+    /// Torque of the declared effects, load-dependent ones at `rigid_torque` of this arm.
+    pub effect_torque: Vec<ExprId>,
+    /// `rigid_torque + effect_torque`
+    pub inverse_dynamics: Vec<ExprId>,
+    /// `M(q)`, `[row][column]`.
+    pub mass_matrix: Vec<Vec<ExprId>>,
+    /// `C(q, dq)` of Christoffel, `[row][column]`.
+    pub coriolis_matrix: Vec<Vec<ExprId>>,
+    /// `G(q)`
+    pub gravity: Vec<ExprId>,
+    /// `C dq + G`
+    pub bias: Vec<ExprId>,
+}
+
+/// Derives the equations of motion. `values` has one entry per standard parameter of the model.
+pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
+    let dof = model.joints.len();
+    let parameters = parameter_expressions(dag, values);
+    let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
+
+    let zero = vec![dag.zero(); dof];
+    let dq: Vec<ExprId> = (0..dof).map(|joint| dag.symbol(Symbol::Dq(joint))).collect();
+    let ddq: Vec<ExprId> = (0..dof).map(|joint| dag.symbol(Symbol::Ddq(joint))).collect();
+    let torque = |dag: &mut Dag, dq: &[ExprId], ddq: &[ExprId], gravity| {
+        chain.torque(dag, &Excitation { dq: dq.to_vec(), ddq: ddq.to_vec(), gravity })
+    };
+    let rigid_torque = torque(dag, &dq, &ddq, model.gravity);
+    let bias = torque(dag, &dq, &zero, model.gravity);
+    let gravity = torque(dag, &zero, &zero, model.gravity);
+    let velocity_torque = torque(dag, &dq, &zero, [0.0; 3]);
+
+    // Column j of M is the torque of a unit acceleration of joint j; rows below the diagonal are mirrored.
+    let one = dag.constant(1.0);
+    let mut mass_matrix = vec![zero.clone(); dof];
+    for j in 0..dof {
+        let mut unit = zero.clone();
+        unit[j] = one;
+        let column = torque(dag, &zero, &unit, [0.0; 3]);
+        for i in 0..=j {
+            mass_matrix[i][j] = column[i];
+            mass_matrix[j][i] = column[i];
+        }
+    }
+    let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
+
+    let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque);
+    let inverse_dynamics = (0..dof).map(|joint| dag.add(rigid_torque[joint], effect_torque[joint])).collect();
+    Dynamics {
+        dof,
+        rigid_torque,
+        effect_torque,
+        inverse_dynamics,
+        mass_matrix,
+        coriolis_matrix,
+        gravity,
+        bias,
+    }
+}
+
+/// `M ddq + C dq + G` alone, for uses that need nothing else.
+pub fn rigid_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprId> {
+    let dof = model.joints.len();
+    let parameters = parameter_expressions(dag, values);
+    let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
+    let dq = (0..dof).map(|joint| dag.symbol(Symbol::Dq(joint))).collect();
+    let ddq = (0..dof).map(|joint| dag.symbol(Symbol::Ddq(joint))).collect();
+    chain.torque(dag, &Excitation { dq, ddq, gravity: model.gravity })
+}
+
+fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
+    values
+        .iter()
+        .enumerate()
+        .map(|(k, value)| match value {
+            Value::Symbol => dag.symbol(Symbol::Parameter(k)),
+            Value::Number(number) => dag.constant(*number),
+        })
+        .collect()
+}
+
+fn link_parameters(parameters: &[ExprId], dof: usize) -> Vec<[ExprId; 10]> {
+    (0..dof).map(|link| std::array::from_fn(|k| parameters[10 * link + k])).collect()
+}
+
+/// Sum of the declared effects' torques.
+fn effect_torque(dag: &mut Dag, model: &Model, parameters: &[ExprId], rigid_torque: &[ExprId]) -> Vec<ExprId> {
+    let mut sum = vec![dag.zero(); model.joints.len()];
+    let mut linear = &parameters[10 * model.joints.len()..];
+    for (index, effect) in model.effects.iter().enumerate() {
+        let (own, rest) = linear.split_at(effect.definition.linear.len());
+        linear = rest;
+        let shapes = shape_expressions(dag, model, index);
+        let scope = effect::Scope { linear: own, shapes: &shapes, joints: &effect.joints, rigid_torque };
+        for (joint, torque) in effect::torques(dag, &effect.definition, &scope) {
+            sum[joint] = dag.add(sum[joint], torque);
+        }
+    }
+    sum
+}
+
+/// A declared effect's shape parameters: numbers where the spec gives them, else symbols.
+pub fn shape_expressions(dag: &mut Dag, model: &Model, effect: usize) -> Vec<ExprId> {
+    let first: usize = model.effects[..effect].iter().map(|effect| effect.shapes.len()).sum();
+    let shapes = &model.effects[effect].shapes;
+    (first..)
+        .zip(shapes)
+        .map(|(k, value)| match value {
+            Some(value) => dag.constant(*value),
+            None => dag.symbol(Symbol::Shape(k)),
+        })
+        .collect()
+}

@@ -1,0 +1,132 @@
+//! Expressions as people write them, in text and LaTeX.
+
+use super::{Dag, ExprId, Function, Node, Symbol};
+
+/// Which notation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// `cos(q1 + q2) dq1^2`
+    Text,
+    /// `\cos(q_{1} + q_{2}) \dot q_{1}^{2}`
+    Latex,
+}
+
+/// The user's names of parameters and shapes; coordinates are numbered from 1.
+#[derive(Debug, Clone, Default)]
+pub struct Names {
+    /// One per standard parameter.
+    pub parameters: Vec<String>,
+    /// One per shape parameter.
+    pub shapes: Vec<String>,
+}
+
+impl Names {
+    /// A symbol's name.
+    #[must_use]
+    pub fn symbol(&self, symbol: Symbol, style: Style) -> String {
+        let text = match symbol {
+            Symbol::Q(j) => format!("q{}", j + 1),
+            Symbol::Dq(j) => format!("dq{}", j + 1),
+            Symbol::Ddq(j) => format!("ddq{}", j + 1),
+            Symbol::RigidTorque(j) => format!("rigid_torque{}", j + 1),
+            Symbol::Time => "t".to_owned(),
+            Symbol::Parameter(k) => self.parameters.get(k).cloned().unwrap_or_else(|| format!("parameter{}", k + 1)),
+            Symbol::Shape(k) => self.shapes.get(k).cloned().unwrap_or_else(|| format!("shape{}", k + 1)),
+        };
+        if style == Style::Text {
+            return text;
+        }
+        match symbol {
+            Symbol::Q(j) => format!("q_{{{}}}", j + 1),
+            Symbol::Dq(j) => format!("\\dot q_{{{}}}", j + 1),
+            Symbol::Ddq(j) => format!("\\ddot q_{{{}}}", j + 1),
+            Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
+            Symbol::Time => text,
+            Symbol::Parameter(_) | Symbol::Shape(_) => format!("\\mathrm{{{}}}", text.replace('_', "\\_")),
+        }
+    }
+}
+
+/// How tightly the surroundings bind: what needs no parentheses there.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Binding {
+    Sum,
+    Product,
+    Power,
+}
+
+impl Dag {
+    /// The expression as built: nested, with the user's names.
+    #[must_use]
+    pub fn display(&self, x: ExprId, names: &Names, style: Style) -> String {
+        self.write(x, names, style, Binding::Sum)
+    }
+
+    fn write(&self, x: ExprId, names: &Names, style: Style, around: Binding) -> String {
+        let parenthesize = |text: String, own: Binding| if own < around { format!("({text})") } else { text };
+        match self.node(x) {
+            Node::Constant(value) => {
+                parenthesize(number(value.get()), if value.get() < 0.0 { Binding::Sum } else { Binding::Power })
+            }
+            Node::Symbol(symbol) => names.symbol(symbol, style),
+            Node::Add(p, q) => {
+                let left = self.write(p, names, style, Binding::Sum);
+                let right = self.write(q, names, style, Binding::Sum);
+                let text = match right.strip_prefix('-') {
+                    Some(right) => format!("{left} - {right}"),
+                    None => format!("{left} + {right}"),
+                };
+                parenthesize(text, Binding::Sum)
+            }
+            Node::Mul(p, q) => self.write_product(p, q, names, style, around),
+            Node::Power(p, q) => {
+                let base = self.write(p, names, style, Binding::Power);
+                let exponent = self.write(q, names, style, Binding::Sum);
+                match style {
+                    Style::Text => format!("{base}^({exponent})"),
+                    Style::Latex => format!("{{{base}}}^{{{exponent}}}"),
+                }
+            }
+            Node::Call(Function::Recip, p) => {
+                parenthesize(format!("1 / {}", self.write(p, names, style, Binding::Power)), Binding::Product)
+            }
+            Node::Call(function, p) => call(function, &self.write(p, names, style, Binding::Sum), style),
+        }
+    }
+
+    fn write_product(&self, p: ExprId, q: ExprId, names: &Names, style: Style, around: Binding) -> String {
+        let right = self.write(q, names, style, Binding::Product);
+        let text = match (self.as_constant(p), self.node(q)) {
+            (Some(-1.0), _) => format!("-{right}"),
+            (_, Node::Call(Function::Recip, q)) => format!(
+                "{} / {}",
+                self.write(p, names, style, Binding::Product),
+                self.write(q, names, style, Binding::Power)
+            ),
+            (Some(c), _) => format!("{} {right}", number(c)),
+            _ => format!("{} {right}", self.write(p, names, style, Binding::Product)),
+        };
+        let binding = if text.starts_with('-') { Binding::Sum } else { Binding::Product };
+        if binding < around { format!("({text})") } else { text }
+    }
+}
+
+/// A function call in the given notation.
+pub(crate) fn call(function: Function, argument: &str, style: Style) -> String {
+    match (style, function) {
+        (Style::Text, _) => format!("{}({argument})", function.name()),
+        (Style::Latex, Function::Abs) => format!("\\left|{argument}\\right|"),
+        (Style::Latex, Function::Sqrt) => format!("\\sqrt{{{argument}}}"),
+        (Style::Latex, Function::Sign) => format!("\\operatorname{{sign}}({argument})"),
+        (Style::Latex, _) => format!("\\{}({argument})", function.name()),
+    }
+}
+
+/// A number without float noise: at most twelve significant digits.
+pub(crate) fn number(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
+    if (1e-4..1e7).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+}

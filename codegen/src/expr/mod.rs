@@ -1,0 +1,350 @@
+//! Hash-consed expressions: equal subexpressions are one node, shared by construction.
+//!
+//! In: numbers and [`Symbol`]s. Out: [`ExprId`]s into a [`Dag`]. Invariants gained: operands have smaller ids than the
+//! expression that uses them (so ascending ids are a topological order), the operands of a commutative node are in a
+//! canonical order, and no rule of [`rules`] applies to any node. The same calls build the same ids.
+//!
+//! There is no negation and no subtraction: `-x` is `-1 * x`, and a numeric factor always stands in front of a product.
+//! Integer powers are products; a quotient is a product with [`Function::Recip`].
+
+mod diff;
+mod display;
+mod eval;
+pub mod rules;
+
+use std::collections::HashMap;
+
+pub use display::{Names, Style};
+
+/// An expression of one [`Dag`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ExprId(u32);
+
+impl ExprId {
+    /// Position in the dag.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A quantity that gets its value when an expression is evaluated. Joints count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// Position of a joint, rad or m.
+    Q(usize),
+    /// Velocity of a joint.
+    Dq(usize),
+    /// Acceleration of a joint.
+    Ddq(usize),
+    /// Torque of the rigid body alone on a joint, where it comes from outside, N m or N.
+    RigidTorque(usize),
+    /// Time since the start of the log, s.
+    Time,
+    /// A standard parameter, by its index.
+    Parameter(usize),
+    /// A shape parameter, by its index over all shape parameters of the declared effects.
+    Shape(usize),
+}
+
+/// Functions of one argument.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Function {
+    /// `sin`
+    Sin,
+    /// `cos`
+    Cos,
+    /// `exp`
+    Exp,
+    /// Natural logarithm; arises from derivatives of powers.
+    Ln,
+    /// `sqrt`
+    Sqrt,
+    /// `abs`
+    Abs,
+    /// `sign`: -1, 0 or 1
+    Sign,
+    /// `tanh`
+    Tanh,
+    /// `1 / x`
+    Recip,
+}
+
+impl Function {
+    /// Its value.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Exp => x.exp(),
+            Self::Ln => x.ln(),
+            Self::Sqrt => x.sqrt(),
+            Self::Abs => x.abs(),
+            // `f64::signum` is 1 at 0.
+            Self::Sign if x == 0.0 => 0.0,
+            Self::Sign => x.signum(),
+            Self::Tanh => x.tanh(),
+            Self::Recip => x.recip(),
+        }
+    }
+
+    /// Name in text and in `robot_model::math`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Exp => "exp",
+            Self::Ln => "ln",
+            Self::Sqrt => "sqrt",
+            Self::Abs => "abs",
+            Self::Sign => "sign",
+            Self::Tanh => "tanh",
+            Self::Recip => "recip",
+        }
+    }
+}
+
+/// A finite number that can be compared and hashed: one zero, no NaN.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Real(u64);
+
+impl Real {
+    fn new(value: f64) -> Self {
+        // `-0.0 + 0.0` is `0.0`: the two zeros become one.
+        Self((value + 0.0).to_bits())
+    }
+
+    /// The number.
+    #[must_use]
+    pub const fn get(self) -> f64 {
+        f64::from_bits(self.0)
+    }
+}
+
+/// One node of the dag.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Node {
+    /// A number.
+    Constant(Real),
+    /// A quantity bound at evaluation.
+    Symbol(Symbol),
+    /// `x + y`
+    Add(ExprId, ExprId),
+    /// `x * y`; a numeric factor comes first.
+    Mul(ExprId, ExprId),
+    /// `x ^ y` where `y` is not an integer constant.
+    Power(ExprId, ExprId),
+    /// `f(x)`
+    Call(Function, ExprId),
+}
+
+impl Node {
+    /// The operands, none to two.
+    pub fn operands(self) -> impl Iterator<Item = ExprId> {
+        let (x, y) = match self {
+            Self::Constant(_) | Self::Symbol(_) => (None, None),
+            Self::Add(x, y) | Self::Mul(x, y) | Self::Power(x, y) => (Some(x), Some(y)),
+            Self::Call(_, x) => (Some(x), None),
+        };
+        x.into_iter().chain(y)
+    }
+}
+
+/// The arena of expressions.
+#[derive(Debug, Clone, Default)]
+pub struct Dag {
+    nodes: Vec<Node>,
+    // Looked up only; its iteration order never matters.
+    index: HashMap<Node, ExprId>,
+}
+
+impl Dag {
+    /// An empty dag.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The node of an expression.
+    #[must_use]
+    pub fn node(&self, x: ExprId) -> Node {
+        self.nodes[x.index()]
+    }
+
+    /// Number of nodes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether nothing has been built yet.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(&id) = self.index.get(&node) {
+            return id;
+        }
+        let id = ExprId(u32::try_from(self.nodes.len()).expect("fewer than 2^32 expressions"));
+        self.nodes.push(node);
+        self.index.insert(node, id);
+        id
+    }
+
+    /// A number.
+    pub fn constant(&mut self, value: f64) -> ExprId {
+        self.intern(Node::Constant(Real::new(value)))
+    }
+
+    /// `0`
+    pub fn zero(&mut self) -> ExprId {
+        self.constant(0.0)
+    }
+
+    /// A symbol.
+    pub fn symbol(&mut self, symbol: Symbol) -> ExprId {
+        self.intern(Node::Symbol(symbol))
+    }
+
+    /// `x + y`
+    pub fn add(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let (x, y) = (x.min(y), x.max(y));
+        rules::SUM.iter().find_map(|rule| (rule.apply)(self, x, y)).unwrap_or_else(|| self.intern(Node::Add(x, y)))
+    }
+
+    /// `x * y`
+    pub fn mul(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let constant_last = self.as_constant(y).is_some() && self.as_constant(x).is_none();
+        let swap = constant_last || (x > y && self.as_constant(x).is_none());
+        let (x, y) = if swap { (y, x) } else { (x, y) };
+        rules::PRODUCT.iter().find_map(|rule| (rule.apply)(self, x, y)).unwrap_or_else(|| self.intern(Node::Mul(x, y)))
+    }
+
+    /// `f(x)`
+    pub fn call(&mut self, function: Function, x: ExprId) -> ExprId {
+        rules::CALL
+            .iter()
+            .find_map(|rule| (rule.apply)(self, function, x))
+            .unwrap_or_else(|| self.intern(Node::Call(function, x)))
+    }
+
+    /// `x ^ y`; integer constants become products, halves become roots.
+    pub fn power(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        /// Beyond this a product is slower than `pow`.
+        const LONGEST_PRODUCT: f64 = 16.0;
+        match (self.as_constant(x), self.as_constant(y)) {
+            (Some(base), Some(exponent)) if base.powf(exponent).is_finite() => self.constant(base.powf(exponent)),
+            (_, Some(exponent)) if exponent.fract() == 0.0 && exponent.abs() <= LONGEST_PRODUCT => {
+                let product = self.repeated_product(x, exponent.abs());
+                if exponent < 0.0 { self.call(Function::Recip, product) } else { product }
+            }
+            (_, Some(0.5)) => self.call(Function::Sqrt, x),
+            _ => self.intern(Node::Power(x, y)),
+        }
+    }
+
+    /// `x * x * ..`, by squaring.
+    fn repeated_product(&mut self, x: ExprId, count: f64) -> ExprId {
+        let mut product = self.constant(1.0);
+        let (mut square, mut count) = (x, count);
+        while count >= 1.0 {
+            if count % 2.0 >= 1.0 {
+                product = self.mul(product, square);
+            }
+            count = (count / 2.0).floor();
+            if count >= 1.0 {
+                square = self.mul(square, square);
+            }
+        }
+        product
+    }
+
+    /// `factor * x`
+    pub fn scale(&mut self, factor: f64, x: ExprId) -> ExprId {
+        let factor = self.constant(factor);
+        self.mul(factor, x)
+    }
+
+    /// `-x`
+    pub fn neg(&mut self, x: ExprId) -> ExprId {
+        self.scale(-1.0, x)
+    }
+
+    /// `x - y`
+    pub fn sub(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let minus_y = self.neg(y);
+        self.add(x, minus_y)
+    }
+
+    /// `x / y`
+    pub fn div(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let recip = self.call(Function::Recip, y);
+        self.mul(x, recip)
+    }
+
+    /// `sum of terms`, from the left.
+    pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
+        let zero = self.zero();
+        terms.into_iter().fold(zero, |sum, term| self.add(sum, term))
+    }
+
+    /// The number, if the expression is one.
+    #[must_use]
+    pub fn as_constant(&self, x: ExprId) -> Option<f64> {
+        match self.node(x) {
+            Node::Constant(value) => Some(value.get()),
+            _ => None,
+        }
+    }
+
+    /// Whether the expression is the number zero.
+    #[must_use]
+    pub fn is_zero(&self, x: ExprId) -> bool {
+        self.as_constant(x) == Some(0.0)
+    }
+
+    /// `(c, y)` with `x = c * y` and no numeric factor in `y`; a number `x` is `(x, 1)` with `y = None`.
+    #[must_use]
+    pub fn coefficient(&self, x: ExprId) -> (f64, Option<ExprId>) {
+        match self.node(x) {
+            Node::Constant(value) => (value.get(), None),
+            Node::Mul(factor, rest) => match self.as_constant(factor) {
+                Some(c) => (c, Some(rest)),
+                None => (1.0, Some(x)),
+            },
+            _ => (1.0, Some(x)),
+        }
+    }
+
+    /// All expressions that `roots` are made of, ascending: operands come before their users.
+    #[must_use]
+    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut seen = vec![false; self.nodes.len()];
+        let mut stack = roots.to_vec();
+        while let Some(x) = stack.pop() {
+            if !std::mem::replace(&mut seen[x.index()], true) {
+                stack.extend(self.node(x).operands());
+            }
+        }
+        (0..).zip(seen).filter(|&(_, seen)| seen).map(|(k, _)| ExprId(k)).collect()
+    }
+
+    /// The symbols in `roots`, in the order of [`Symbol`].
+    #[must_use]
+    pub fn symbols(&self, roots: &[ExprId]) -> Vec<Symbol> {
+        let mut symbols: Vec<Symbol> = self
+            .reachable(roots)
+            .into_iter()
+            .filter_map(|x| match self.node(x) {
+                Node::Symbol(symbol) => Some(symbol),
+                _ => None,
+            })
+            .collect();
+        symbols.sort_unstable();
+        symbols
+    }
+}
