@@ -69,12 +69,18 @@ pub struct UnclearColumn {
 impl std::fmt::Display for RankStatus {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Clear { smallest_kept, largest_dropped } => write!(
+            Self::Clear {
+                smallest_kept,
+                largest_dropped,
+            } => write!(
                 f,
                 "rank is clear: least left of a kept column {smallest_kept:.1e}, most left of a dropped one {largest_dropped:.1e}"
             ),
             Self::Unclear(columns) => {
-                write!(f, "rank is not clear between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e}:")?;
+                write!(
+                    f,
+                    "rank is not clear between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e}:"
+                )?;
                 for column in columns {
                     write!(f, " `{}` has {:.1e} left", column.name, column.residual)?;
                 }
@@ -90,7 +96,12 @@ impl BaseForm {
     pub fn beta(&self, standard: &[f64]) -> Vec<f64> {
         self.combinations
             .iter()
-            .map(|combination| combination.iter().map(|&(k, coefficient)| coefficient * standard[k]).sum())
+            .map(|combination| {
+                combination
+                    .iter()
+                    .map(|&(k, coefficient)| coefficient * standard[k])
+                    .sum()
+            })
             .collect()
     }
 }
@@ -102,7 +113,9 @@ pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
     let mut columns = sample_columns(dag, model, linear, parameters.len());
     let scale: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
     for (column, &scale) in columns.iter_mut().zip(&scale) {
-        column.iter_mut().for_each(|x| *x /= scale.max(f64::MIN_POSITIVE));
+        for x in column {
+            *x /= scale.max(f64::MIN_POSITIVE);
+        }
     }
 
     let mut selection = Selection::default();
@@ -122,7 +135,14 @@ pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
     let combinations = selection.combinations(&scale);
     selection.kept.sort_unstable();
     let names = base_names(&parameters, &selection.kept, &combinations);
-    BaseForm { rank: selection.status(), kept: selection.kept, names, combinations, unidentifiable, fixed }
+    BaseForm {
+        rank: selection.status(),
+        kept: selection.kept,
+        names,
+        combinations,
+        unidentifiable,
+        fixed,
+    }
 }
 
 /// The order in which columns are offered: link by link inertia, first moments, mass; then the effects'.
@@ -131,17 +151,30 @@ fn order_of_choice(parameters: &[StandardParameter]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..parameters.len()).collect();
     order.sort_by_key(|&k| match parameters[k].owner {
         Owner::Link { link, element: M } => (link, 2),
-        Owner::Link { link, element: Mx | My | Mz } => (link, 1),
+        Owner::Link {
+            link,
+            element: Mx | My | Mz,
+        } => (link, 1),
         Owner::Link { link, .. } => (link, 0),
         Owner::Effect { .. } => (usize::MAX, 0),
     });
     order
 }
 
-fn base_names(parameters: &[StandardParameter], kept: &[usize], combinations: &[Vec<(usize, f64)>]) -> Vec<String> {
+fn base_names(
+    parameters: &[StandardParameter],
+    kept: &[usize],
+    combinations: &[Vec<(usize, f64)>],
+) -> Vec<String> {
     kept.iter()
         .zip(combinations)
-        .map(|(&k, combination)| format!("{}{}", parameters[k].name, if combination.len() > 1 { "r" } else { "" }))
+        .map(|(&k, combination)| {
+            format!(
+                "{}{}",
+                parameters[k].name,
+                if combination.len() > 1 { "r" } else { "" }
+            )
+        })
         .collect()
 }
 
@@ -154,13 +187,20 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
     let entries: Vec<(usize, usize)> = (0..count)
         .flat_map(|k| linear.column(dag, k).map(move |(joint, _)| (joint, k)))
         .collect();
-    let outputs: Vec<_> = entries.iter().map(|&(joint, k)| linear.regressor[joint][k]).collect();
+    let outputs: Vec<_> = entries
+        .iter()
+        .map(|&(joint, k)| linear.regressor[joint][k])
+        .collect();
     let program = Program::new(dag, &outputs);
 
     let mut generator = Generator::new(SEED);
     let shapes = shape_values(model);
     // Drawn for every symbol in a fixed order, so that a state does not depend on what the program reads.
-    let mut draw = |scale: f64| -> Vec<f64> { (0..samples).map(|_| scale * generator.symmetric()).collect() };
+    let mut draw = |scale: f64| -> Vec<f64> {
+        (0..samples)
+            .map(|_| scale * generator.symmetric())
+            .collect()
+    };
     let q: Vec<Vec<f64>> = (0..dof).map(|_| draw(3.0)).collect();
     let dq: Vec<Vec<f64>> = (0..dof).map(|_| draw(2.0)).collect();
     let ddq: Vec<Vec<f64>> = (0..dof).map(|_| draw(4.0)).collect();
@@ -192,9 +232,11 @@ pub fn shape_values(model: &Model) -> Vec<f64> {
         .effects
         .iter()
         .flat_map(|effect| {
-            effect.shapes.iter().zip(&effect.definition.shapes).map(|(value, shape)| {
-                value.unwrap_or_else(|| middle(shape.low, shape.high))
-            })
+            effect
+                .shapes
+                .iter()
+                .zip(&effect.definition.shapes)
+                .map(|(value, shape)| value.unwrap_or_else(|| middle(shape.low, shape.high)))
         })
         .collect()
 }
@@ -202,7 +244,11 @@ pub fn shape_values(model: &Model) -> Vec<f64> {
 /// Geometric middle of a range of positive numbers, arithmetic middle of any other.
 #[must_use]
 pub fn middle(low: f64, high: f64) -> f64 {
-    if low > 0.0 && high > 0.0 { (low * high).sqrt() } else { f64::midpoint(low, high) }
+    if low > 0.0 && high > 0.0 {
+        (low * high).sqrt()
+    } else {
+        f64::midpoint(low, high)
+    }
 }
 
 /// Orthogonalization column by column, keeping what is needed to express the dropped columns.
@@ -228,7 +274,10 @@ impl Selection {
             for (coordinate, direction) in coordinates.iter_mut().zip(&self.basis) {
                 let projection = dot(direction, &column);
                 *coordinate += projection;
-                column.iter_mut().zip(direction).for_each(|(x, d)| *x -= projection * d);
+                column
+                    .iter_mut()
+                    .zip(direction)
+                    .for_each(|(x, d)| *x -= projection * d);
             }
         }
         let residual = norm(&column);
@@ -238,10 +287,18 @@ impl Selection {
             return;
         }
         if residual < INDEPENDENT_ABOVE {
-            self.unclear.push(UnclearColumn { name: name.to_owned(), residual });
+            self.unclear.push(UnclearColumn {
+                name: name.to_owned(),
+                residual,
+            });
         }
-        self.smallest_kept = Some(self.smallest_kept.map_or(residual, |smallest| smallest.min(residual)));
-        column.iter_mut().for_each(|x| *x /= residual);
+        self.smallest_kept = Some(
+            self.smallest_kept
+                .map_or(residual, |smallest| smallest.min(residual)),
+        );
+        for x in &mut column {
+            *x /= residual;
+        }
         coordinates.push(residual);
         self.kept.push(k);
         self.basis.push(column);
@@ -261,7 +318,8 @@ impl Selection {
 
     /// Per kept column what regroups into it, in the units of the unscaled columns.
     fn combinations(&self, scale: &[f64]) -> Vec<Vec<(usize, f64)>> {
-        let mut combinations: Vec<Vec<(usize, f64)>> = self.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
+        let mut combinations: Vec<Vec<(usize, f64)>> =
+            self.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
         for (k, coordinates) in &self.dropped {
             let mut rest = coordinates.clone();
             for j in (0..rest.len()).rev() {
@@ -300,7 +358,10 @@ fn snap(coefficient: f64) -> f64 {
         let unit = 10f64.powi(digits);
         (coefficient * unit).round() / unit
     };
-    (0..=9).map(rounded).find(|value| (value - coefficient).abs() <= TOLERANCE).unwrap_or_else(|| rounded(12))
+    (0..=9)
+        .map(rounded)
+        .find(|value| (value - coefficient).abs() <= TOLERANCE)
+        .unwrap_or_else(|| rounded(12))
 }
 
 fn dot(x: &[f64], y: &[f64]) -> f64 {

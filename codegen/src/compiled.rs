@@ -35,12 +35,22 @@ pub fn compile_model(model: &Model) -> Compiled {
     let linear = regressor::linearize(&mut dag, model);
     let base = base::reduce(&dag, model, &linear);
     let dynamics = dynamics::derive(&mut dag, model, &base_values(&standard, &base));
-    Compiled { model: model.clone(), standard, dag, linear, base, dynamics }
+    Compiled {
+        model: model.clone(),
+        standard,
+        dag,
+        linear,
+        base,
+        dynamics,
+    }
 }
 
 /// Kept parameters are symbols, fixed ones numbers; what was regrouped into kept ones counts there and vanishes here.
 fn base_values(standard: &[StandardParameter], base: &BaseForm) -> Vec<Value> {
-    let mut values: Vec<Value> = standard.iter().map(|parameter| Value::Number(fixed_value(parameter))).collect();
+    let mut values: Vec<Value> = standard
+        .iter()
+        .map(|parameter| Value::Number(fixed_value(parameter)))
+        .collect();
     for &k in &base.kept {
         values[k] = Value::Symbol;
     }
@@ -66,8 +76,14 @@ pub struct Block {
 impl Block {
     fn new(dag: &Dag, entries: Vec<(usize, usize, ExprId)>) -> Self {
         let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.2).collect();
-        let entries = entries.into_iter().map(|(joint, column, _)| (joint, column)).collect();
-        Self { entries, program: Program::new(dag, &outputs) }
+        let entries = entries
+            .into_iter()
+            .map(|(joint, column, _)| (joint, column))
+            .collect();
+        Self {
+            entries,
+            program: Program::new(dag, &outputs),
+        }
     }
 }
 
@@ -81,11 +97,18 @@ impl Compiled {
     /// Names for displays: the user's, with base parameters' names for the kept ones.
     #[must_use]
     pub fn names(&self) -> Names {
-        let mut parameters: Vec<String> = self.standard.iter().map(|parameter| parameter.name.clone()).collect();
+        let mut parameters: Vec<String> = self
+            .standard
+            .iter()
+            .map(|parameter| parameter.name.clone())
+            .collect();
         for (&k, name) in self.base.kept.iter().zip(&self.base.names) {
             parameters[k].clone_from(name);
         }
-        Names { parameters, shapes: self.shape_names() }
+        Names {
+            parameters,
+            shapes: self.shape_names(),
+        }
     }
 
     /// Names of all shape parameters of the declared effects, `JOINT.EFFECT.SHAPE`, in the order of [`Symbol::Shape`].
@@ -97,7 +120,11 @@ impl Compiled {
             .enumerate()
             .flat_map(|(index, effect)| {
                 let prefix = self.model.effect_name(index);
-                effect.definition.shapes.iter().map(move |shape| format!("{prefix}.{}", shape.name))
+                effect
+                    .definition
+                    .shapes
+                    .iter()
+                    .map(move |shape| format!("{prefix}.{}", shape.name))
             })
             .collect()
     }
@@ -106,13 +133,20 @@ impl Compiled {
     #[must_use]
     pub fn free_shapes(&self) -> Vec<usize> {
         let given = self.model.effects.iter().flat_map(|effect| &effect.shapes);
-        given.enumerate().filter(|(_, value)| value.is_none()).map(|(k, _)| k).collect()
+        given
+            .enumerate()
+            .filter(|(_, value)| value.is_none())
+            .map(|(k, _)| k)
+            .collect()
     }
 
     /// Whether base parameter `column` belongs to a link, not to an effect.
     #[must_use]
     pub fn is_rigid(&self, column: usize) -> bool {
-        matches!(self.standard[self.base.kept[column]].owner, Owner::Link { .. })
+        matches!(
+            self.standard[self.base.kept[column]].owner,
+            Owner::Link { .. }
+        )
     }
 
     /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`].
@@ -160,7 +194,9 @@ impl Compiled {
     pub fn regressor(&self) -> Block {
         let entries = (0..self.standard.len())
             .flat_map(|column| {
-                self.linear.column(&self.dag, column).map(move |(joint, entry)| (joint, column, entry))
+                self.linear
+                    .column(&self.dag, column)
+                    .map(move |(joint, entry)| (joint, column, entry))
             })
             .collect();
         Block::new(&self.dag, entries)
@@ -183,8 +219,11 @@ impl Compiled {
     #[must_use]
     pub fn known_torque(&self) -> Program {
         let mut dag = self.dag.clone();
-        let values: Vec<Value> =
-            self.standard.iter().map(|parameter| Value::Number(fixed_value(parameter))).collect();
+        let values: Vec<Value> = self
+            .standard
+            .iter()
+            .map(|parameter| Value::Number(fixed_value(parameter)))
+            .collect();
         let torque = dynamics::rigid_torque(&mut dag, &self.model, &values);
         Program::new(&dag, &torque)
     }
@@ -220,16 +259,44 @@ pub struct EffectColumns {
 
 /// Columns of `definition` on `joints` of an arm with `dof` joints.
 #[must_use]
-pub fn effect_columns(definition: &EffectDefinition, joints: &[usize], dof: usize) -> EffectColumns {
+pub fn effect_columns(
+    definition: &EffectDefinition,
+    joints: &[usize],
+    dof: usize,
+) -> EffectColumns {
     let mut dag = Dag::new();
-    let parameters: Vec<Symbol> = (0..definition.linear.len()).map(Symbol::Parameter).collect();
-    let linear: Vec<ExprId> = parameters.iter().map(|&symbol| dag.symbol(symbol)).collect();
-    let shapes: Vec<ExprId> = (0..definition.shapes.len()).map(|k| dag.symbol(Symbol::Shape(k))).collect();
+    let parameters: Vec<Symbol> = (0..definition.linear.len())
+        .map(Symbol::Parameter)
+        .collect();
+    let linear: Vec<ExprId> = parameters
+        .iter()
+        .map(|&symbol| dag.symbol(symbol))
+        .collect();
+    let shapes: Vec<ExprId> = (0..definition.shapes.len())
+        .map(|k| dag.symbol(Symbol::Shape(k)))
+        .collect();
     let rigid_torque = effect::outside_rigid_torque(&mut dag, dof);
-    let scope = effect::Scope { linear: &linear, shapes: &shapes, joints, rigid_torque: &rigid_torque };
+    let scope = effect::Scope {
+        linear: &linear,
+        shapes: &shapes,
+        joints,
+        rigid_torque: &rigid_torque,
+    };
     let entries = effect::entries(&mut dag, definition, &scope, &parameters);
-    let block = Block::new(&dag, entries.into_iter().map(|entry| (entry.joint, entry.parameter, entry.value)).collect());
-    let uses_rigid_torque =
-        block.program.symbols().iter().any(|symbol| matches!(symbol, Symbol::RigidTorque(_)));
-    EffectColumns { block, uses_rigid_torque }
+    let block = Block::new(
+        &dag,
+        entries
+            .into_iter()
+            .map(|entry| (entry.joint, entry.parameter, entry.value))
+            .collect(),
+    );
+    let uses_rigid_torque = block
+        .program
+        .symbols()
+        .iter()
+        .any(|symbol| matches!(symbol, Symbol::RigidTorque(_)));
+    EffectColumns {
+        block,
+        uses_rigid_torque,
+    }
 }

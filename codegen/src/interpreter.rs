@@ -22,16 +22,53 @@ type Register = usize;
 /// `target` is never one of the operands.
 #[derive(Debug, Clone, Copy)]
 enum Instruction {
-    Constant { target: Register, value: f64 },
-    Load { target: Register, symbol: usize },
-    Add { target: Register, x: Register, y: Register },
-    Sub { target: Register, x: Register, y: Register },
-    Mul { target: Register, x: Register, y: Register },
-    Offset { target: Register, x: Register, value: f64 },
-    Scale { target: Register, x: Register, factor: f64 },
-    Power { target: Register, x: Register, y: Register },
-    Call { target: Register, function: Function, x: Register },
-    Store { x: Register, output: usize },
+    Constant {
+        target: Register,
+        value: f64,
+    },
+    Load {
+        target: Register,
+        symbol: usize,
+    },
+    Add {
+        target: Register,
+        x: Register,
+        y: Register,
+    },
+    Sub {
+        target: Register,
+        x: Register,
+        y: Register,
+    },
+    Mul {
+        target: Register,
+        x: Register,
+        y: Register,
+    },
+    Offset {
+        target: Register,
+        x: Register,
+        value: f64,
+    },
+    Scale {
+        target: Register,
+        x: Register,
+        factor: f64,
+    },
+    Power {
+        target: Register,
+        x: Register,
+        y: Register,
+    },
+    Call {
+        target: Register,
+        function: Function,
+        x: Register,
+    },
+    Store {
+        x: Register,
+        output: usize,
+    },
 }
 
 /// A schedule that evaluates a list of expressions.
@@ -71,7 +108,12 @@ impl Program {
     /// Evaluates `len` samples: `out[k][sample]` is output `k`. The vectors of `out` are resized to `len`.
     ///
     /// Every column that `bind` gives has at least `len` values, and `out` one vector per output.
-    pub fn eval_batch<'a>(&self, len: usize, bind: &dyn Fn(Symbol) -> Operand<'a>, out: &mut [Vec<f64>]) {
+    pub fn eval_batch<'a>(
+        &self,
+        len: usize,
+        bind: &dyn Fn(Symbol) -> Operand<'a>,
+        out: &mut [Vec<f64>],
+    ) {
         assert_eq!(out.len(), self.outputs, "one vector per output");
         let operands: Vec<Operand<'a>> = self.symbols.iter().map(|&symbol| bind(symbol)).collect();
         for column in out.iter_mut() {
@@ -80,14 +122,23 @@ impl Program {
         }
         let mut registers = vec![[0.0; LANES]; self.registers];
         for start in (0..len).step_by(LANES) {
-            self.run_block(&operands, start..len.min(start + LANES), &mut registers, out);
+            self.run_block(
+                &operands,
+                start..len.min(start + LANES),
+                &mut registers,
+                out,
+            );
         }
     }
 
     /// Evaluates one sample.
     #[must_use]
     pub fn eval(&self, bind: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
-        let operands: Vec<Operand<'_>> = self.symbols.iter().map(|&symbol| Operand::Constant(bind(symbol))).collect();
+        let operands: Vec<Operand<'_>> = self
+            .symbols
+            .iter()
+            .map(|&symbol| Operand::Constant(bind(symbol)))
+            .collect();
         let mut registers = vec![[0.0; 1]; self.registers];
         let mut out = vec![vec![0.0]; self.outputs];
         self.run_block(&operands, 0..1, &mut registers, &mut out);
@@ -115,9 +166,17 @@ impl Program {
                 Instruction::Sub { target, x, y } => binary(registers, target, x, y, |x, y| x - y),
                 Instruction::Mul { target, x, y } => binary(registers, target, x, y, |x, y| x * y),
                 Instruction::Power { target, x, y } => binary(registers, target, x, y, f64::powf),
-                Instruction::Offset { target, x, value } => unary(registers, target, x, |x| x + value),
-                Instruction::Scale { target, x, factor } => unary(registers, target, x, |x| x * factor),
-                Instruction::Call { target, function, x } => match function {
+                Instruction::Offset { target, x, value } => {
+                    unary(registers, target, x, |x| x + value);
+                }
+                Instruction::Scale { target, x, factor } => {
+                    unary(registers, target, x, |x| x * factor);
+                }
+                Instruction::Call {
+                    target,
+                    function,
+                    x,
+                } => match function {
                     Function::Sin => unary(registers, target, x, f64::sin),
                     Function::Cos => unary(registers, target, x, f64::cos),
                     Function::Abs => unary(registers, target, x, f64::abs),
@@ -134,8 +193,15 @@ impl Program {
 }
 
 #[inline]
-fn unary<const N: usize>(registers: &mut [[f64; N]], target: usize, x: usize, f: impl Fn(f64) -> f64) {
-    let [target, x] = registers.get_disjoint_mut([target, x]).expect("a target is no operand");
+fn unary<const N: usize>(
+    registers: &mut [[f64; N]],
+    target: usize,
+    x: usize,
+    f: impl Fn(f64) -> f64,
+) {
+    let [target, x] = registers
+        .get_disjoint_mut([target, x])
+        .expect("a target is no operand");
     for (target, x) in target.iter_mut().zip(x) {
         *target = f(*x);
     }
@@ -152,7 +218,9 @@ fn binary<const N: usize>(
     if x == y {
         return unary(registers, target, x, |x| f(x, x));
     }
-    let [target, x, y] = registers.get_disjoint_mut([target, x, y]).expect("a target is no operand");
+    let [target, x, y] = registers
+        .get_disjoint_mut([target, x, y])
+        .expect("a target is no operand");
     for ((target, x), y) in target.iter_mut().zip(x).zip(y) {
         *target = f(*x, *y);
     }
@@ -193,8 +261,20 @@ impl<'a> Scheduler<'a> {
                 }
             }
         }
-        let program = Program { instructions: Vec::new(), symbols: Vec::new(), registers: 0, outputs: outputs.len() };
-        Self { dag, order, uses, register: vec![None; dag.len()], free: Vec::new(), program }
+        let program = Program {
+            instructions: Vec::new(),
+            symbols: Vec::new(),
+            registers: 0,
+            outputs: outputs.len(),
+        };
+        Self {
+            dag,
+            order,
+            uses,
+            register: vec![None; dag.len()],
+            free: Vec::new(),
+            program,
+        }
     }
 
     fn schedule(mut self, outputs: &[ExprId]) -> Program {
@@ -204,7 +284,10 @@ impl<'a> Scheduler<'a> {
                 // An output leaves its register at once, so that outputs do not pile up.
                 for output in (0..outputs.len()).filter(|&k| outputs[k] == x) {
                     let register = self.register_of(x);
-                    self.program.instructions.push(Instruction::Store { x: register, output });
+                    self.program.instructions.push(Instruction::Store {
+                        x: register,
+                        output,
+                    });
                     self.release(x);
                 }
             }
@@ -218,18 +301,52 @@ impl<'a> Scheduler<'a> {
             self.program.registers - 1
         });
         let instruction = match (step(self.dag, x), self.dag.node(x)) {
-            (Step::Sub(x, y), _) => Instruction::Sub { target, x: self.register_of(x), y: self.register_of(y) },
-            (Step::Offset(x, value), _) => Instruction::Offset { target, x: self.register_of(x), value },
-            (Step::Scale(x, factor), _) => Instruction::Scale { target, x: self.register_of(x), factor },
-            (_, Node::Constant(value)) => Instruction::Constant { target, value: value.get() },
+            (Step::Sub(x, y), _) => Instruction::Sub {
+                target,
+                x: self.register_of(x),
+                y: self.register_of(y),
+            },
+            (Step::Offset(x, value), _) => Instruction::Offset {
+                target,
+                x: self.register_of(x),
+                value,
+            },
+            (Step::Scale(x, factor), _) => Instruction::Scale {
+                target,
+                x: self.register_of(x),
+                factor,
+            },
+            (_, Node::Constant(value)) => Instruction::Constant {
+                target,
+                value: value.get(),
+            },
             (_, Node::Symbol(symbol)) => {
                 self.program.symbols.push(symbol);
-                Instruction::Load { target, symbol: self.program.symbols.len() - 1 }
+                Instruction::Load {
+                    target,
+                    symbol: self.program.symbols.len() - 1,
+                }
             }
-            (_, Node::Add(x, y)) => Instruction::Add { target, x: self.register_of(x), y: self.register_of(y) },
-            (_, Node::Mul(x, y)) => Instruction::Mul { target, x: self.register_of(x), y: self.register_of(y) },
-            (_, Node::Power(x, y)) => Instruction::Power { target, x: self.register_of(x), y: self.register_of(y) },
-            (_, Node::Call(function, x)) => Instruction::Call { target, function, x: self.register_of(x) },
+            (_, Node::Add(x, y)) => Instruction::Add {
+                target,
+                x: self.register_of(x),
+                y: self.register_of(y),
+            },
+            (_, Node::Mul(x, y)) => Instruction::Mul {
+                target,
+                x: self.register_of(x),
+                y: self.register_of(y),
+            },
+            (_, Node::Power(x, y)) => Instruction::Power {
+                target,
+                x: self.register_of(x),
+                y: self.register_of(y),
+            },
+            (_, Node::Call(function, x)) => Instruction::Call {
+                target,
+                function,
+                x: self.register_of(x),
+            },
         };
         self.program.instructions.push(instruction);
         self.register[x.index()] = Some(target);
@@ -267,7 +384,9 @@ fn step(dag: &Dag, x: ExprId) -> Step {
             }
             Step::Plain
         }
-        Node::Mul(p, q) => dag.as_constant(p).map_or(Step::Plain, |factor| Step::Scale(q, factor)),
+        Node::Mul(p, q) => dag
+            .as_constant(p)
+            .map_or(Step::Plain, |factor| Step::Scale(q, factor)),
         _ => Step::Plain,
     }
 }

@@ -16,7 +16,11 @@ pub struct LinearForm {
 
 impl LinearForm {
     /// The entries of one column that are not zero by structure: `(joint, entry)`.
-    pub fn column<'a>(&'a self, dag: &'a Dag, parameter: usize) -> impl Iterator<Item = (usize, ExprId)> + 'a {
+    pub fn column<'a>(
+        &'a self,
+        dag: &'a Dag,
+        parameter: usize,
+    ) -> impl Iterator<Item = (usize, ExprId)> + 'a {
         self.regressor
             .iter()
             .enumerate()
@@ -41,11 +45,17 @@ pub fn linearize(dag: &mut Dag, model: &Model) -> LinearForm {
     let outside = effect::outside_rigid_torque(dag, dof);
     let mut first = inertial;
     for (index, declared) in model.effects.iter().enumerate() {
-        let symbols: Vec<Symbol> = (first..first + declared.definition.linear.len()).map(Symbol::Parameter).collect();
+        let symbols: Vec<Symbol> = (first..first + declared.definition.linear.len())
+            .map(Symbol::Parameter)
+            .collect();
         let linear: Vec<ExprId> = symbols.iter().map(|&symbol| dag.symbol(symbol)).collect();
         let shapes = dynamics::shape_expressions(dag, model, index);
-        let scope =
-            effect::Scope { linear: &linear, shapes: &shapes, joints: &declared.joints, rigid_torque: &outside };
+        let scope = effect::Scope {
+            linear: &linear,
+            shapes: &shapes,
+            joints: &declared.joints,
+            rigid_torque: &outside,
+        };
         for entry in effect::entries(dag, &declared.definition, &scope, &symbols) {
             let cell = &mut regressor[entry.joint][first + entry.parameter];
             *cell = dag.add(*cell, entry.value);
@@ -53,7 +63,13 @@ pub fn linearize(dag: &mut Dag, model: &Model) -> LinearForm {
         first += symbols.len();
     }
     let entries: Vec<ExprId> = regressor.iter().flatten().copied().collect();
-    let parameter_free = dag.symbols(&entries).iter().all(|symbol| !matches!(symbol, Symbol::Parameter(_)));
-    assert!(parameter_free, "checked in model-spec: effects are linear in their linear parameters");
+    let parameter_free = dag
+        .symbols(&entries)
+        .iter()
+        .all(|symbol| !matches!(symbol, Symbol::Parameter(_)));
+    assert!(
+        parameter_free,
+        "checked in model-spec: effects are linear in their linear parameters"
+    );
     LinearForm { regressor }
 }

@@ -44,7 +44,12 @@ struct LinkMotion {
 impl Chain {
     /// Frames of the model with the given parameters.
     pub fn new(dag: &mut Dag, model: &Model, links: Vec<LinkParameters>) -> Self {
-        let frames = model.joints.iter().enumerate().map(|(index, joint)| frame(dag, index, joint)).collect();
+        let frames = model
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(index, joint)| frame(dag, index, joint))
+            .collect();
         Self { frames, links }
     }
 
@@ -61,10 +66,21 @@ impl Chain {
         let mut motions: Vec<LinkMotion> = Vec::with_capacity(self.frames.len());
         for (index, frame) in self.frames.iter().enumerate() {
             let (w, dw, joint_acceleration) = match motions.last() {
-                Some(parent) => (parent.w, parent.dw, parent.acceleration_of(dag, frame.joint_point)),
+                Some(parent) => (
+                    parent.w,
+                    parent.dw,
+                    parent.acceleration_of(dag, frame.joint_point),
+                ),
                 None => (still, still, up),
             };
-            let motion = frame.advance(dag, w, dw, joint_acceleration, excitation.dq[index], excitation.ddq[index]);
+            let motion = frame.advance(
+                dag,
+                w,
+                dw,
+                joint_acceleration,
+                excitation.dq[index],
+                excitation.ddq[index],
+            );
             motions.push(motion);
         }
         motions
@@ -97,7 +113,15 @@ impl Chain {
 
 impl Frame {
     /// Motion of the link, given the parent's angular motion and the joint point's acceleration in parent coordinates.
-    fn advance(&self, dag: &mut Dag, w: Vector, dw: Vector, a: Vector, dq: ExprId, ddq: ExprId) -> LinkMotion {
+    fn advance(
+        &self,
+        dag: &mut Dag,
+        w: Vector,
+        dw: Vector,
+        a: Vector,
+        dq: ExprId,
+        ddq: ExprId,
+    ) -> LinkMotion {
         let mut w = vector::apply_transposed(dag, &self.rotation, w);
         let mut dw = vector::apply_transposed(dag, &self.rotation, dw);
         let mut a = vector::apply_transposed(dag, &self.rotation, a);
@@ -120,7 +144,10 @@ impl Frame {
         }
         let u = acceleration_gradient(dag, w, dw);
         let motion = LinkMotion { w, dw, u, a };
-        LinkMotion { a: motion.acceleration_of(dag, self.to_origin), ..motion }
+        LinkMotion {
+            a: motion.acceleration_of(dag, self.to_origin),
+            ..motion
+        }
     }
 }
 

@@ -11,8 +11,13 @@ pub fn coriolis_matrix(dag: &mut Dag, velocity_torque: &[ExprId]) -> Vec<Vec<Exp
     let columns: Vec<Vec<ExprId>> = (0..dof)
         .map(|j| {
             let column = dag.derivatives(velocity_torque, Symbol::Dq(j));
-            column.into_iter().map(|entry| dag.scale(0.5, entry)).collect()
+            column
+                .into_iter()
+                .map(|entry| dag.scale(0.5, entry))
+                .collect()
         })
         .collect();
-    (0..dof).map(|i| columns.iter().map(|column| column[i]).collect()).collect()
+    (0..dof)
+        .map(|i| columns.iter().map(|column| column[i]).collect())
+        .collect()
 }

@@ -18,12 +18,22 @@ pub struct Scope<'a> {
 
 /// `RigidTorque(0), RigidTorque(1), ..`
 pub fn outside_rigid_torque(dag: &mut Dag, dof: usize) -> Vec<ExprId> {
-    (0..dof).map(|joint| dag.symbol(Symbol::RigidTorque(joint))).collect()
+    (0..dof)
+        .map(|joint| dag.symbol(Symbol::RigidTorque(joint)))
+        .collect()
 }
 
 /// `(joint, torque)` for each joint that the effect acts on.
-pub fn torques(dag: &mut Dag, definition: &EffectDefinition, scope: &Scope<'_>) -> Vec<(usize, ExprId)> {
-    definition.torques.iter().map(|torque| (scope.joints[torque.joint], lower(dag, &torque.value, scope))).collect()
+pub fn torques(
+    dag: &mut Dag,
+    definition: &EffectDefinition,
+    scope: &Scope<'_>,
+) -> Vec<(usize, ExprId)> {
+    definition
+        .torques
+        .iter()
+        .map(|torque| (scope.joints[torque.joint], lower(dag, &torque.value, scope)))
+        .collect()
 }
 
 /// One column entry of an effect: what a linear parameter is multiplied with on one joint.
@@ -50,7 +60,11 @@ pub fn entries(
         for &(joint, torque) in &torques {
             let value = dag.derivative(torque, symbol);
             if !dag.is_zero(value) {
-                entries.push(EffectEntry { joint, parameter, value });
+                entries.push(EffectEntry {
+                    joint,
+                    parameter,
+                    value,
+                });
             }
         }
     }

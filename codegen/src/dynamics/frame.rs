@@ -21,7 +21,13 @@ pub struct Frame {
 
 /// Expressions for the frame of joint `index`.
 pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
-    let Placement { before, axis, offset, after, .. } = &joint.placement;
+    let Placement {
+        before,
+        axis,
+        offset,
+        after,
+        ..
+    } = &joint.placement;
     let q = dag.symbol(Symbol::Q(index));
     let axis_in_link = vector::rotate_back(&after.rotation, *axis);
     let fixed_to_origin = vector::rotate_back(&after.rotation, after.translation);
@@ -29,7 +35,10 @@ pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
     let (motion, to_origin) = match joint.kind {
         JointKind::Revolute => {
             let (sin, cos) = sine_and_cosine(dag, q, *offset);
-            (rotation_about(dag, *axis, sin, cos), vector::constant(dag, fixed_to_origin))
+            (
+                rotation_about(dag, *axis, sin, cos),
+                vector::constant(dag, fixed_to_origin),
+            )
         }
         JointKind::Prismatic => {
             let offset = dag.constant(*offset);
@@ -38,7 +47,10 @@ pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
             let moved = vector::scale(dag, travel, axis);
             let fixed = vector::constant(dag, fixed_to_origin);
             let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-            (identity.map(|row| vector::constant(dag, row)), vector::add(dag, moved, fixed))
+            (
+                identity.map(|row| vector::constant(dag, row)),
+                vector::add(dag, moved, fixed),
+            )
         }
     };
     let before_rotation = before.rotation.map(|row| vector::constant(dag, row));
@@ -61,7 +73,10 @@ fn sine_and_cosine(dag: &mut Dag, q: ExprId, offset: f64) -> (ExprId, ExprId) {
     if (quarters - quarters.round()).abs() > QUARTER_TURN_TOLERANCE {
         let offset = dag.constant(offset);
         let angle = dag.add(q, offset);
-        return (dag.call(Function::Sin, angle), dag.call(Function::Cos, angle));
+        return (
+            dag.call(Function::Sin, angle),
+            dag.call(Function::Cos, angle),
+        );
     }
     let (mut sin, mut cos) = (dag.call(Function::Sin, q), dag.call(Function::Cos, q));
     let mut turns = quarters.round().rem_euclid(4.0);

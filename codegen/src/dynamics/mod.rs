@@ -51,10 +51,21 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
 
     let zero = vec![dag.zero(); dof];
-    let dq: Vec<ExprId> = (0..dof).map(|joint| dag.symbol(Symbol::Dq(joint))).collect();
-    let ddq: Vec<ExprId> = (0..dof).map(|joint| dag.symbol(Symbol::Ddq(joint))).collect();
+    let dq: Vec<ExprId> = (0..dof)
+        .map(|joint| dag.symbol(Symbol::Dq(joint)))
+        .collect();
+    let ddq: Vec<ExprId> = (0..dof)
+        .map(|joint| dag.symbol(Symbol::Ddq(joint)))
+        .collect();
     let torque = |dag: &mut Dag, dq: &[ExprId], ddq: &[ExprId], gravity| {
-        chain.torque(dag, &Excitation { dq: dq.to_vec(), ddq: ddq.to_vec(), gravity })
+        chain.torque(
+            dag,
+            &Excitation {
+                dq: dq.to_vec(),
+                ddq: ddq.to_vec(),
+                gravity,
+            },
+        )
     };
     let rigid_torque = torque(dag, &dq, &ddq, model.gravity);
     let bias = torque(dag, &dq, &zero, model.gravity);
@@ -76,7 +87,9 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
 
     let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque);
-    let inverse_dynamics = (0..dof).map(|joint| dag.add(rigid_torque[joint], effect_torque[joint])).collect();
+    let inverse_dynamics = (0..dof)
+        .map(|joint| dag.add(rigid_torque[joint], effect_torque[joint]))
+        .collect();
     Dynamics {
         dof,
         rigid_torque,
@@ -94,9 +107,20 @@ pub fn rigid_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprI
     let dof = model.joints.len();
     let parameters = parameter_expressions(dag, values);
     let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
-    let dq = (0..dof).map(|joint| dag.symbol(Symbol::Dq(joint))).collect();
-    let ddq = (0..dof).map(|joint| dag.symbol(Symbol::Ddq(joint))).collect();
-    chain.torque(dag, &Excitation { dq, ddq, gravity: model.gravity })
+    let dq = (0..dof)
+        .map(|joint| dag.symbol(Symbol::Dq(joint)))
+        .collect();
+    let ddq = (0..dof)
+        .map(|joint| dag.symbol(Symbol::Ddq(joint)))
+        .collect();
+    chain.torque(
+        dag,
+        &Excitation {
+            dq,
+            ddq,
+            gravity: model.gravity,
+        },
+    )
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
@@ -111,18 +135,30 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
 }
 
 fn link_parameters(parameters: &[ExprId], dof: usize) -> Vec<[ExprId; 10]> {
-    (0..dof).map(|link| std::array::from_fn(|k| parameters[10 * link + k])).collect()
+    (0..dof)
+        .map(|link| std::array::from_fn(|k| parameters[10 * link + k]))
+        .collect()
 }
 
 /// Sum of the declared effects' torques.
-fn effect_torque(dag: &mut Dag, model: &Model, parameters: &[ExprId], rigid_torque: &[ExprId]) -> Vec<ExprId> {
+fn effect_torque(
+    dag: &mut Dag,
+    model: &Model,
+    parameters: &[ExprId],
+    rigid_torque: &[ExprId],
+) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
     let mut linear = &parameters[10 * model.joints.len()..];
     for (index, effect) in model.effects.iter().enumerate() {
         let (own, rest) = linear.split_at(effect.definition.linear.len());
         linear = rest;
         let shapes = shape_expressions(dag, model, index);
-        let scope = effect::Scope { linear: own, shapes: &shapes, joints: &effect.joints, rigid_torque };
+        let scope = effect::Scope {
+            linear: own,
+            shapes: &shapes,
+            joints: &effect.joints,
+            rigid_torque,
+        };
         for (joint, torque) in effect::torques(dag, &effect.definition, &scope) {
             sum[joint] = dag.add(sum[joint], torque);
         }
@@ -132,7 +168,10 @@ fn effect_torque(dag: &mut Dag, model: &Model, parameters: &[ExprId], rigid_torq
 
 /// A declared effect's shape parameters: numbers where the spec gives them, else symbols.
 pub fn shape_expressions(dag: &mut Dag, model: &Model, effect: usize) -> Vec<ExprId> {
-    let first: usize = model.effects[..effect].iter().map(|effect| effect.shapes.len()).sum();
+    let first: usize = model.effects[..effect]
+        .iter()
+        .map(|effect| effect.shapes.len())
+        .sum();
     let shapes = &model.effects[effect].shapes;
     (first..)
         .zip(shapes)

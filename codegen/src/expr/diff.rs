@@ -107,11 +107,16 @@ mod tests {
         cases.push(dag.power(product, x));
         for case in cases {
             let derivative = dag.derivative(case, Symbol::Q(0));
-            let at = |dag: &Dag, expr, x| dag.evaluate(expr, &|s| if s == Symbol::Q(0) { x } else { 0.7 });
+            let at = |dag: &Dag, expr, x| {
+                dag.evaluate(expr, &|s| if s == Symbol::Q(0) { x } else { 0.7 })
+            };
             let h = 1e-5;
             let numeric = (at(&dag, case, 0.4 + h) - at(&dag, case, 0.4 - h)) / (2.0 * h);
             let exact = at(&dag, derivative, 0.4);
-            assert!((numeric - exact).abs() < 1e-8 * (1.0 + exact.abs()), "{case:?}: {numeric} {exact}");
+            assert!(
+                (numeric - exact).abs() < 1e-8 * (1.0 + exact.abs()),
+                "{case:?}: {numeric} {exact}"
+            );
         }
     }
 }

@@ -30,8 +30,16 @@ impl Names {
             Symbol::Ddq(j) => format!("ddq{}", j + 1),
             Symbol::RigidTorque(j) => format!("rigid_torque{}", j + 1),
             Symbol::Time => "t".to_owned(),
-            Symbol::Parameter(k) => self.parameters.get(k).cloned().unwrap_or_else(|| format!("parameter{}", k + 1)),
-            Symbol::Shape(k) => self.shapes.get(k).cloned().unwrap_or_else(|| format!("shape{}", k + 1)),
+            Symbol::Parameter(k) => self
+                .parameters
+                .get(k)
+                .cloned()
+                .unwrap_or_else(|| format!("parameter{}", k + 1)),
+            Symbol::Shape(k) => self
+                .shapes
+                .get(k)
+                .cloned()
+                .unwrap_or_else(|| format!("shape{}", k + 1)),
         };
         if style == Style::Text {
             return text;
@@ -42,7 +50,9 @@ impl Names {
             Symbol::Ddq(j) => format!("\\ddot q_{{{}}}", j + 1),
             Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
             Symbol::Time => text,
-            Symbol::Parameter(_) | Symbol::Shape(_) => format!("\\mathrm{{{}}}", text.replace('_', "\\_")),
+            Symbol::Parameter(_) | Symbol::Shape(_) => {
+                format!("\\mathrm{{{}}}", text.replace('_', "\\_"))
+            }
         }
     }
 }
@@ -63,11 +73,22 @@ impl Dag {
     }
 
     fn write(&self, x: ExprId, names: &Names, style: Style, around: Binding) -> String {
-        let parenthesize = |text: String, own: Binding| if own < around { format!("({text})") } else { text };
-        match self.node(x) {
-            Node::Constant(value) => {
-                parenthesize(number(value.get()), if value.get() < 0.0 { Binding::Sum } else { Binding::Power })
+        let parenthesize = |text: String, own: Binding| {
+            if own < around {
+                format!("({text})")
+            } else {
+                text
             }
+        };
+        match self.node(x) {
+            Node::Constant(value) => parenthesize(
+                number(value.get()),
+                if value.get() < 0.0 {
+                    Binding::Sum
+                } else {
+                    Binding::Power
+                },
+            ),
             Node::Symbol(symbol) => names.symbol(symbol, style),
             Node::Add(p, q) => {
                 let left = self.write(p, names, style, Binding::Sum);
@@ -87,14 +108,24 @@ impl Dag {
                     Style::Latex => format!("{{{base}}}^{{{exponent}}}"),
                 }
             }
-            Node::Call(Function::Recip, p) => {
-                parenthesize(format!("1 / {}", self.write(p, names, style, Binding::Power)), Binding::Product)
+            Node::Call(Function::Recip, p) => parenthesize(
+                format!("1 / {}", self.write(p, names, style, Binding::Power)),
+                Binding::Product,
+            ),
+            Node::Call(function, p) => {
+                call(function, &self.write(p, names, style, Binding::Sum), style)
             }
-            Node::Call(function, p) => call(function, &self.write(p, names, style, Binding::Sum), style),
         }
     }
 
-    fn write_product(&self, p: ExprId, q: ExprId, names: &Names, style: Style, around: Binding) -> String {
+    fn write_product(
+        &self,
+        p: ExprId,
+        q: ExprId,
+        names: &Names,
+        style: Style,
+        around: Binding,
+    ) -> String {
         let right = self.write(q, names, style, Binding::Product);
         let text = match (self.as_constant(p), self.node(q)) {
             (Some(-1.0), _) => format!("-{right}"),
@@ -106,8 +137,16 @@ impl Dag {
             (Some(c), _) => format!("{} {right}", number(c)),
             _ => format!("{} {right}", self.write(p, names, style, Binding::Product)),
         };
-        let binding = if text.starts_with('-') { Binding::Sum } else { Binding::Product };
-        if binding < around { format!("({text})") } else { text }
+        let binding = if text.starts_with('-') {
+            Binding::Sum
+        } else {
+            Binding::Product
+        };
+        if binding < around {
+            format!("({text})")
+        } else {
+            text
+        }
     }
 }
 
@@ -128,5 +167,9 @@ pub(crate) fn number(value: f64) -> String {
         return value.to_string();
     }
     let rounded: f64 = format!("{value:.11e}").parse().unwrap_or(value);
-    if (1e-4..1e7).contains(&rounded.abs()) { rounded.to_string() } else { format!("{rounded:e}") }
+    if (1e-4..1e7).contains(&rounded.abs()) {
+        rounded.to_string()
+    } else {
+        format!("{rounded:e}")
+    }
 }

@@ -213,7 +213,10 @@ impl Dag {
     /// `x + y`
     pub fn add(&mut self, x: ExprId, y: ExprId) -> ExprId {
         let (x, y) = (x.min(y), x.max(y));
-        rules::SUM.iter().find_map(|rule| (rule.apply)(self, x, y)).unwrap_or_else(|| self.intern(Node::Add(x, y)))
+        rules::SUM
+            .iter()
+            .find_map(|rule| (rule.apply)(self, x, y))
+            .unwrap_or_else(|| self.intern(Node::Add(x, y)))
     }
 
     /// `x * y`
@@ -221,7 +224,10 @@ impl Dag {
         let constant_last = self.as_constant(y).is_some() && self.as_constant(x).is_none();
         let swap = constant_last || (x > y && self.as_constant(x).is_none());
         let (x, y) = if swap { (y, x) } else { (x, y) };
-        rules::PRODUCT.iter().find_map(|rule| (rule.apply)(self, x, y)).unwrap_or_else(|| self.intern(Node::Mul(x, y)))
+        rules::PRODUCT
+            .iter()
+            .find_map(|rule| (rule.apply)(self, x, y))
+            .unwrap_or_else(|| self.intern(Node::Mul(x, y)))
     }
 
     /// `f(x)`
@@ -237,10 +243,16 @@ impl Dag {
         /// Beyond this a product is slower than `pow`.
         const LONGEST_PRODUCT: f64 = 16.0;
         match (self.as_constant(x), self.as_constant(y)) {
-            (Some(base), Some(exponent)) if base.powf(exponent).is_finite() => self.constant(base.powf(exponent)),
+            (Some(base), Some(exponent)) if base.powf(exponent).is_finite() => {
+                self.constant(base.powf(exponent))
+            }
             (_, Some(exponent)) if exponent.fract() == 0.0 && exponent.abs() <= LONGEST_PRODUCT => {
                 let product = self.repeated_product(x, exponent.abs());
-                if exponent < 0.0 { self.call(Function::Recip, product) } else { product }
+                if exponent < 0.0 {
+                    self.call(Function::Recip, product)
+                } else {
+                    product
+                }
             }
             (_, Some(0.5)) => self.call(Function::Sqrt, x),
             _ => self.intern(Node::Power(x, y)),
@@ -289,7 +301,9 @@ impl Dag {
     /// `sum of terms`, from the left.
     pub fn sum(&mut self, terms: impl IntoIterator<Item = ExprId>) -> ExprId {
         let zero = self.zero();
-        terms.into_iter().fold(zero, |sum, term| self.add(sum, term))
+        terms
+            .into_iter()
+            .fold(zero, |sum, term| self.add(sum, term))
     }
 
     /// The number, if the expression is one.
@@ -330,7 +344,11 @@ impl Dag {
                 stack.extend(self.node(x).operands());
             }
         }
-        (0..).zip(seen).filter(|&(_, seen)| seen).map(|(k, _)| ExprId(k)).collect()
+        (0..)
+            .zip(seen)
+            .filter(|&(_, seen)| seen)
+            .map(|(k, _)| ExprId(k))
+            .collect()
     }
 
     /// The symbols in `roots`, in the order of [`Symbol`].

@@ -1,0 +1,311 @@
+//! The table of identities: one rule a row, tried in order whenever a node is made.
+//!
+//! A rule changes no value by more than rounding, and never turns a finite value into an infinite one.
+
+mod trigonometry;
+
+#[cfg(test)]
+mod tests;
+
+use super::{Dag, ExprId, Function, Node};
+use trigonometry::{cosine_of_sum, pythagoras, sine_of_sum};
+
+/// An identity of a node with two operands.
+pub struct Rule {
+    /// The identity, for people and for the test table.
+    pub name: &'static str,
+    /// The simpler expression, where the rule applies. Operands come in canonical order.
+    pub apply: fn(&mut Dag, ExprId, ExprId) -> Option<ExprId>,
+}
+
+/// An identity of a function call.
+pub struct CallRule {
+    /// The identity.
+    pub name: &'static str,
+    /// The simpler expression, where the rule applies.
+    pub apply: fn(&mut Dag, Function, ExprId) -> Option<ExprId>,
+}
+
+/// Identities of `x + y`.
+pub const SUM: &[Rule] = &[
+    Rule {
+        name: "2 + 3 = 5",
+        apply: fold_sum,
+    },
+    Rule {
+        name: "x + 0 = x",
+        apply: add_zero,
+    },
+    Rule {
+        name: "c x + d x = (c + d) x",
+        apply: collect,
+    },
+    Rule {
+        name: "(y + c x) + d x = y + (c + d) x",
+        apply: collect_nested,
+    },
+    Rule {
+        name: "k cos^2 x + k sin^2 x = k",
+        apply: pythagoras,
+    },
+    Rule {
+        name: "k cos x cos y - k sin x sin y = k cos(x + y)",
+        apply: cosine_of_sum,
+    },
+    Rule {
+        name: "k sin x cos y + k cos x sin y = k sin(x + y)",
+        apply: sine_of_sum,
+    },
+    Rule {
+        name: "c x + c y = c (x + y)",
+        apply: common_coefficient,
+    },
+];
+
+/// Identities of `x * y`.
+pub const PRODUCT: &[Rule] = &[
+    Rule {
+        name: "2 * 3 = 6",
+        apply: fold_product,
+    },
+    Rule {
+        name: "0 x = 0",
+        apply: mul_zero,
+    },
+    Rule {
+        name: "1 x = x",
+        apply: mul_one,
+    },
+    Rule {
+        name: "c (d x) = (c d) x",
+        apply: coefficients_meet,
+    },
+    Rule {
+        name: "(c x) (d y) = (c d) (x y)",
+        apply: coefficient_outside,
+    },
+    Rule {
+        name: "x / x = 1",
+        apply: cancel_quotient,
+    },
+    Rule {
+        name: "abs(x) sign(x) = x",
+        apply: modulus_times_sign,
+    },
+    Rule {
+        name: "sqrt(x) sqrt(x) = x",
+        apply: square_of_root,
+    },
+];
+
+/// Identities of `f(x)`.
+pub const CALL: &[CallRule] = &[
+    CallRule {
+        name: "exp(0) = 1",
+        apply: fold_call,
+    },
+    CallRule {
+        name: "cos(-x) = cos(x)",
+        apply: even,
+    },
+    CallRule {
+        name: "sin(-x) = -sin(x)",
+        apply: odd,
+    },
+    CallRule {
+        name: "abs(c x) = |c| abs(x)",
+        apply: modulus_of_multiple,
+    },
+    CallRule {
+        name: "1 / (c x) = (1 / c) (1 / x)",
+        apply: recip_of_multiple,
+    },
+    CallRule {
+        name: "1 / (1 / x) = x",
+        apply: recip_twice,
+    },
+    CallRule {
+        name: "abs(abs(x)) = abs(x)",
+        apply: modulus_twice,
+    },
+];
+
+fn finite(dag: &mut Dag, value: f64) -> Option<ExprId> {
+    value.is_finite().then(|| dag.constant(value))
+}
+
+/// Bit-equal: a rule holds for identical numbers only.
+const fn equal(c: f64, d: f64) -> bool {
+    c.to_bits() == d.to_bits()
+}
+
+fn fold_sum(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let value = dag.as_constant(x)? + dag.as_constant(y)?;
+    finite(dag, value)
+}
+
+fn add_zero(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    match (dag.is_zero(x), dag.is_zero(y)) {
+        (true, _) => Some(y),
+        (_, true) => Some(x),
+        _ => None,
+    }
+}
+
+fn collect(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
+    let (p, q) = (p?, q?);
+    (p == q).then(|| dag.scale(c + d, p))
+}
+
+fn collect_nested(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    collect_into(dag, x, y).or_else(|| collect_into(dag, y, x))
+}
+
+/// `sum + term` where `sum` has a term that is a multiple of `term`.
+fn collect_into(dag: &mut Dag, sum: ExprId, term: ExprId) -> Option<ExprId> {
+    let (outer, inner) = dag.coefficient(sum);
+    let Node::Add(p, q) = dag.node(inner?) else {
+        return None;
+    };
+    let (d, t) = dag.coefficient(term);
+    for (here, other) in [(p, q), (q, p)] {
+        let (c, s) = dag.coefficient(here);
+        if s == t {
+            let collected = match t {
+                Some(t) => dag.scale(outer * c + d, t),
+                None => dag.constant(outer * c + d),
+            };
+            let other = dag.scale(outer, other);
+            return Some(dag.add(other, collected));
+        }
+    }
+    None
+}
+
+fn common_coefficient(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
+    let (p, q) = (p?, q?);
+    if !equal(c.abs(), d.abs()) || equal(c, 1.0) || equal(d, 1.0) {
+        return None;
+    }
+    let q = if c * d < 0.0 { dag.neg(q) } else { q };
+    let sum = dag.add(p, q);
+    Some(dag.scale(c, sum))
+}
+
+fn fold_product(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let value = dag.as_constant(x)? * dag.as_constant(y)?;
+    finite(dag, value)
+}
+
+fn mul_zero(dag: &mut Dag, x: ExprId, _: ExprId) -> Option<ExprId> {
+    dag.is_zero(x).then_some(x)
+}
+
+fn mul_one(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    (dag.as_constant(x) == Some(1.0)).then_some(y)
+}
+
+fn coefficients_meet(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let c = dag.as_constant(x)?;
+    let Node::Mul(factor, rest) = dag.node(y) else {
+        return None;
+    };
+    let d = dag.as_constant(factor)?;
+    let product = finite(dag, c * d)?;
+    Some(dag.mul(product, rest))
+}
+
+fn coefficient_outside(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
+    let (p, q) = (p?, q?);
+    if p == x && q == y {
+        return None;
+    }
+    let coefficient = finite(dag, c * d)?;
+    let product = dag.mul(p, q);
+    Some(dag.mul(coefficient, product))
+}
+
+fn cancel_quotient(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let inverse = |p, q| matches!(dag.node(p), Node::Call(Function::Recip, p) if p == q);
+    (inverse(x, y) || inverse(y, x)).then(|| dag.constant(1.0))
+}
+
+fn modulus_times_sign(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    match (dag.node(x), dag.node(y)) {
+        (Node::Call(Function::Abs, p), Node::Call(Function::Sign, q))
+        | (Node::Call(Function::Sign, p), Node::Call(Function::Abs, q))
+            if p == q =>
+        {
+            Some(p)
+        }
+        _ => None,
+    }
+}
+
+fn square_of_root(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    match dag.node(x) {
+        Node::Call(Function::Sqrt, inside) if x == y => Some(inside),
+        _ => None,
+    }
+}
+
+fn fold_call(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    let value = function.apply(dag.as_constant(x)?);
+    finite(dag, value)
+}
+
+fn even(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    let (c, rest) = dag.coefficient(x);
+    if !matches!(function, Function::Cos | Function::Abs) || c >= 0.0 {
+        return None;
+    }
+    let positive = dag.scale(-c, rest?);
+    Some(dag.call(function, positive))
+}
+
+fn odd(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    let (c, rest) = dag.coefficient(x);
+    if !matches!(function, Function::Sin | Function::Tanh | Function::Sign) || c >= 0.0 {
+        return None;
+    }
+    let positive = dag.scale(-c, rest?);
+    let value = dag.call(function, positive);
+    Some(dag.neg(value))
+}
+
+fn modulus_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    let (c, rest) = dag.coefficient(x);
+    if function != Function::Abs || equal(c, 1.0) {
+        return None;
+    }
+    let modulus = dag.call(function, rest?);
+    Some(dag.scale(c.abs(), modulus))
+}
+
+fn recip_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    let (c, rest) = dag.coefficient(x);
+    if function != Function::Recip || equal(c, 1.0) {
+        return None;
+    }
+    let factor = finite(dag, c.recip())?;
+    let recip = dag.call(function, rest?);
+    Some(dag.mul(factor, recip))
+}
+
+fn recip_twice(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    match dag.node(x) {
+        Node::Call(Function::Recip, inside) if function == Function::Recip => Some(inside),
+        _ => None,
+    }
+}
+
+fn modulus_twice(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
+    matches!(
+        (function, dag.node(x)),
+        (Function::Abs, Node::Call(Function::Abs, _))
+    )
+    .then_some(x)
+}
