@@ -4,6 +4,7 @@
 //! text -parse-> Ast -check-> Model        text + Amendment -amend-> text'        URDF -import-> text
 //! ```
 //! No files are read here: callers bring the text and the name that messages show.
+pub mod amend;
 pub mod ast;
 mod check;
 pub mod diagnostic;
@@ -13,7 +14,9 @@ pub mod parameter;
 mod parse;
 mod suggest;
 mod transform;
+pub mod urdf;
 
+pub use amend::{Amendment, amend};
 pub use ast::Ast;
 pub use check::check;
 pub use diagnostic::{Diagnostic, Diagnostics};

@@ -12,7 +12,7 @@ use crate::model::Transform;
 const QUARTER_TOLERANCE: f64 = 1e-8;
 
 /// `angle` as a whole number of quarter turns, if it is one.
-fn quarter_turns(angle: f64) -> Option<f64> {
+pub(crate) fn quarter_turns(angle: f64) -> Option<f64> {
     let turns = (angle / FRAC_PI_2).round();
     ((angle - turns * FRAC_PI_2).abs() <= QUARTER_TOLERANCE).then_some(turns)
 }
@@ -62,6 +62,15 @@ pub(crate) fn rotation_rpy([roll, pitch, yaw]: [f64; 3]) -> Rotation {
         &rotation_z(yaw),
         &product(&rotation_y(pitch), &rotation_x(roll)),
     )
+}
+
+/// Roll, pitch, yaw of a rotation; at pitch of a quarter turn, where only a sum of the other two is seen, yaw is zero.
+pub(crate) fn rpy(x: &Rotation) -> [f64; 3] {
+    let pitch = (-x[2][0]).atan2(x[0][0].hypot(x[1][0]));
+    if x[2][0].abs() > 1.0 - 1e-12 {
+        return [(x[0][1] * pitch.signum()).atan2(x[1][1]), pitch, 0.0];
+    }
+    [x[2][1].atan2(x[2][2]), pitch, x[1][0].atan2(x[0][0])]
 }
 
 /// `x * y`
@@ -125,6 +134,8 @@ pub(crate) fn upper_camel(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    #![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
     use super::*;
 
     #[test]
@@ -134,16 +145,36 @@ mod tests {
             [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
         );
         assert_eq!(
-            rotation_z(-3.141_592_653_59),
-            [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
+            rotation_z(-1.570_796_325),
+            [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
         );
         assert_eq!(sin_cos(-FRAC_PI_2), (-1.0, 0.0));
     }
 
     #[test]
     fn other_angles_are_left_alone() {
-        assert_ne!(rotation_x(1.5708)[1][1], 0.0);
+        assert_ne!(sin_cos(FRAC_PI_2 + 1e-6).1, 0.0);
         assert_eq!(snap(0.3), 0.3);
+    }
+
+    #[test]
+    fn angles_of_a_rotation_give_it_back() {
+        for angles in [
+            [0.3, -0.4, 2.0],
+            [0.7, FRAC_PI_2, 0.0],
+            [0.7, -FRAC_PI_2, 0.5],
+            [-3.0, 1.2, -3.1],
+            [0.0; 3],
+        ] {
+            let rotation = rotation_rpy(angles);
+            let again = rotation_rpy(rpy(&rotation));
+            let difference = rotation
+                .iter()
+                .flatten()
+                .zip(again.iter().flatten())
+                .map(|(x, y)| (x - y).abs());
+            assert!(difference.fold(0.0, f64::max) < 1e-14, "{angles:?}");
+        }
     }
 
     #[test]

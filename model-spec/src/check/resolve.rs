@@ -135,23 +135,18 @@ impl Scope {
         if let Some((_, signal)) = SIGNALS.iter().find(|(signal, _)| *signal == text) {
             return self.signal(name, *signal, arguments, span, errors);
         }
-        let function = match function(name) {
-            Ok(function) => function,
-            Err(_) => {
-                let known = FUNCTIONS
-                    .iter()
-                    .map(|(name, _)| *name)
-                    .chain(SIGNALS.iter().map(|(name, _)| *name));
-                errors.push(
-                    Diagnostic::new(
-                        name.span(),
-                        format!("unknown function or signal `{text}`"),
-                        "",
-                    )
-                    .help(suggest::help(&text, known)),
-                );
-                return None;
-            }
+        let Ok(function) = function(name) else {
+            let functions = FUNCTIONS.iter().map(|(name, _)| *name);
+            let known = functions.chain(SIGNALS.iter().map(|(name, _)| *name));
+            errors.push(
+                Diagnostic::new(
+                    name.span(),
+                    format!("unknown function or signal `{text}`"),
+                    "",
+                )
+                .help(suggest::help(&text, known)),
+            );
+            return None;
         };
         let [argument] = arguments else {
             errors.push(one_argument(name, arguments.len(), span));

@@ -1,0 +1,138 @@
+//! What a link of the chain carries: its own inertial and those of everything that does not move against it.
+
+use urdf_rs::Link;
+
+use super::ImportError;
+use super::tree::{Chain, ChainJoint, Tree, origin};
+use crate::model::Transform;
+use crate::transform::product;
+
+/// Mass, center of mass and inertia about it, in the frame of the chain's link.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Body {
+    pub(super) mass: f64,
+    pub(super) com: [f64; 3],
+    /// Matrix about the center of mass, link axes.
+    pub(super) inertia: [[f64; 3]; 3],
+}
+
+/// The bodies behind `joint` down to the next joint of the chain, as one; joints of side branches stand at zero.
+pub(super) fn carried(tree: &Tree, chain: &Chain, joint: &ChainJoint) -> Result<Body, ImportError> {
+    let mut bodies = Vec::new();
+    let mut open = vec![(joint.joint.child.link.as_str(), Transform::IDENTITY)];
+    while let Some((name, pose)) = open.pop() {
+        if let Some(link) = tree.links.get(name) {
+            bodies.push(body(link, &pose)?);
+        }
+        for next in tree.joints_of(name) {
+            if chain
+                .joints
+                .iter()
+                .any(|moving| moving.joint.name == next.name)
+            {
+                continue;
+            }
+            let here = origin(
+                &next.origin,
+                &format!("the origin of joint `{}`", next.name),
+            )?;
+            open.push((next.child.link.as_str(), pose.then(&here)));
+        }
+    }
+    Ok(sum(&bodies))
+}
+
+fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
+    let inertial = &link.inertial;
+    let what = format!("the inertial of link `{}`", link.name);
+    let frame = pose.then(&origin(&inertial.origin, &what)?);
+    let i = &inertial.inertia;
+    let here = [
+        [i.ixx, i.ixy, i.ixz],
+        [i.ixy, i.iyy, i.iyz],
+        [i.ixz, i.iyz, i.izz],
+    ];
+    if !here
+        .iter()
+        .flatten()
+        .chain([&inertial.mass.value])
+        .all(|x| x.is_finite())
+    {
+        return Err(ImportError::NotFinite { what });
+    }
+    let r = frame.rotation;
+    let transposed = std::array::from_fn(|row| std::array::from_fn(|column| r[column][row]));
+    let inertia = product(&r, &product(&here, &transposed));
+    Ok(Body {
+        mass: inertial.mass.value,
+        com: frame.translation,
+        inertia,
+    })
+}
+
+/// Bodies that are screwed together: masses add, inertias add about the common center of mass (Steiner).
+fn sum(bodies: &[Body]) -> Body {
+    let present: Vec<&Body> = bodies
+        .iter()
+        .filter(|body| body.mass != 0.0 || body.inertia.iter().flatten().any(|x| *x != 0.0))
+        .collect();
+    match present.as_slice() {
+        [] => {
+            return Body {
+                mass: 0.0,
+                com: [0.0; 3],
+                inertia: [[0.0; 3]; 3],
+            };
+        }
+        [only] => return **only,
+        _ => {}
+    }
+    let mass: f64 = present.iter().map(|body| body.mass).sum();
+    let com = if mass == 0.0 {
+        [0.0; 3]
+    } else {
+        std::array::from_fn(|k| {
+            present
+                .iter()
+                .map(|body| body.mass * body.com[k])
+                .sum::<f64>()
+                / mass
+        })
+    };
+    let mut inertia = [[0.0; 3]; 3];
+    for body in present {
+        let d: [f64; 3] = std::array::from_fn(|k| body.com[k] - com[k]);
+        let square = d.iter().map(|x| x * x).sum::<f64>();
+        for row in 0..3 {
+            for column in 0..3 {
+                let diagonal = if row == column { square } else { 0.0 };
+                inertia[row][column] +=
+                    body.inertia[row][column] + body.mass * (diagonal - d[row] * d[column]);
+            }
+        }
+    }
+    Body { mass, com, inertia }
+}
+
+#[cfg(test)]
+mod tests {
+    #![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
+    use super::{Body, sum};
+
+    #[test]
+    fn a_dumbbell_has_the_inertia_of_two_points() {
+        let point = |x: f64| Body {
+            mass: 2.0,
+            com: [x, 0.0, 0.0],
+            inertia: [[0.0; 3]; 3],
+        };
+        let dumbbell = sum(&[point(0.0), point(1.0)]);
+        assert_eq!(dumbbell.mass, 4.0);
+        assert_eq!(dumbbell.com, [0.5, 0.0, 0.0]);
+        assert_eq!(
+            dumbbell.inertia,
+            [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+        );
+    }
+}

@@ -1,0 +1,127 @@
+//! URDF in, spec text out.
+//!
+//! The chain from a base link to a tip link becomes a robot with `convention = origin`. Fixed joints are folded: their
+//! transforms into the next joint's frame, the inertials behind them into the link that carries them. Branches that leave
+//! the chain are carried along the same way, with their joints held at zero.
+
+mod body;
+mod effects;
+mod tree;
+mod write;
+
+use thiserror::Error;
+
+use crate::diagnostic::Diagnostics;
+
+/// What to take from a URDF, and what to add to it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ImportOptions {
+    /// Link that stands still; the root of the tree where it is not given.
+    pub base: Option<String>,
+    /// Link at the end of the chain; needed where the tree has several ends.
+    pub tip: Option<String>,
+    /// Effects to declare, such as `all:viscous_friction,coulomb_friction;3:motor_inertia;(5,6):gear_coupling`; joints by
+    /// number from 1, by name, or `all`. Empty: none.
+    pub effects: String,
+    /// What to make of the inertials.
+    pub inertials: Inertials,
+    /// Acceleration of gravity in the base link's frame, m/s^2.
+    pub gravity: [f64; 3],
+}
+
+impl Default for ImportOptions {
+    fn default() -> Self {
+        Self {
+            base: None,
+            tip: None,
+            effects: String::new(),
+            inertials: Inertials::Nominal,
+            gravity: [0.0, 0.0, -9.81],
+        }
+    }
+}
+
+/// What to make of a URDF's inertials.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Inertials {
+    /// CAD values: to be identified.
+    Nominal,
+    /// Exact: kept.
+    Fixed,
+    /// Left out: to be identified without a first value.
+    None,
+}
+
+/// Why a URDF cannot be imported.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum ImportError {
+    /// Not XML, or not URDF.
+    #[error("the URDF does not parse: {0}")]
+    Parse(String),
+    /// A name that the URDF does not have.
+    #[error("the URDF has no link `{name}`; {help}")]
+    UnknownLink {
+        /// The name that was asked for.
+        name: String,
+        /// What to write instead.
+        help: String,
+    },
+    /// The joints do not form one tree, or no chain leads from base to tip.
+    #[error("{0}")]
+    Structure(String),
+    /// Several chains start at the base.
+    #[error("the tree branches at link `{at}`: choose the chain's end with --tip, one of {}", .tips.join(", "))]
+    Branches {
+        /// The link where chains part.
+        at: String,
+        /// Last moving links of the chains.
+        tips: Vec<String>,
+    },
+    /// A joint on the chain that the language cannot say.
+    #[error("joint `{joint}` {reason}")]
+    Joint {
+        /// Its name.
+        joint: String,
+        /// What it is, and what to do.
+        reason: String,
+    },
+    /// A number that is not one.
+    #[error("{what} is not finite: write a number")]
+    NotFinite {
+        /// Which number.
+        what: String,
+    },
+    /// The list of effects is at fault.
+    #[error("--effects: {0}")]
+    Effects(String),
+    /// The spec that comes out breaks a rule of the language.
+    #[error("the imported spec is refused:\n{0}")]
+    Refused(Diagnostics),
+}
+
+/// Turns a URDF into the text of a spec, which is sure to [`load`](crate::load).
+///
+/// # Errors
+/// [`ImportError`], with what to change in the URDF or in the options.
+pub fn import(urdf: &str, options: &ImportOptions) -> Result<String, ImportError> {
+    if !options.gravity.iter().all(|g| g.is_finite()) {
+        return Err(ImportError::NotFinite {
+            what: "--gravity".to_owned(),
+        });
+    }
+    let robot =
+        urdf_rs::read_from_string(urdf).map_err(|error| ImportError::Parse(error.to_string()))?;
+    let tree = tree::Tree::new(&robot)?;
+    let chain = tree.chain(options.base.as_deref(), options.tip.as_deref())?;
+    let links = chain
+        .joints
+        .iter()
+        .map(|joint| body::carried(&tree, &chain, joint))
+        .collect::<Result<Vec<_>, _>>()?;
+    let names = write::Names::new(&chain);
+    let effects = effects::declarations(&options.effects, &chain, &names)?;
+    let text = write::spec(&robot.name, &chain, &names, &links, &effects, options);
+    crate::load("imported.robot", &text).map_err(ImportError::Refused)?;
+    Ok(text)
+}

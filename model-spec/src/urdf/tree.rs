@@ -1,0 +1,293 @@
+//! The tree of links, and the one chain of it that is imported.
+
+use std::collections::BTreeMap;
+
+use urdf_rs::{Joint, JointType, Link, Robot};
+
+use super::ImportError;
+use crate::model::Transform;
+use crate::suggest;
+use crate::transform::rotation_rpy;
+
+/// Links and joints by name; every link has one parent joint at most, and there are no loops.
+pub(super) struct Tree<'a> {
+    pub(super) links: BTreeMap<&'a str, &'a Link>,
+    parent: BTreeMap<&'a str, &'a Joint>,
+    children: BTreeMap<&'a str, Vec<&'a Joint>>,
+}
+
+/// Moving joints from base to tip.
+pub(super) struct Chain<'a> {
+    pub(super) base: &'a str,
+    pub(super) joints: Vec<ChainJoint<'a>>,
+}
+
+/// A moving joint with the fixed joints before it folded into its frame.
+pub(super) struct ChainJoint<'a> {
+    pub(super) joint: &'a Joint,
+    /// Pose of the joint's frame in the frame of the moving link before it.
+    pub(super) origin: Transform,
+    /// `xyz` and `rpy` as written, where nothing was folded.
+    pub(super) written: Option<([f64; 3], [f64; 3])>,
+}
+
+impl<'a> Tree<'a> {
+    pub(super) fn new(robot: &'a Robot) -> Result<Self, ImportError> {
+        let links: BTreeMap<&str, &Link> = robot
+            .links
+            .iter()
+            .map(|link| (link.name.as_str(), link))
+            .collect();
+        if links.len() != robot.links.len() {
+            return Err(ImportError::Structure(
+                "two links have the same name: rename one of them".to_owned(),
+            ));
+        }
+        let mut tree = Self {
+            links,
+            parent: BTreeMap::new(),
+            children: BTreeMap::new(),
+        };
+        for joint in &robot.joints {
+            let (parent, child) = (joint.parent.link.as_str(), joint.child.link.as_str());
+            tree.link(parent)?;
+            tree.link(child)?;
+            if let Some(other) = tree.parent.insert(child, joint) {
+                return Err(ImportError::Structure(format!(
+                    "link `{child}` has two parents, joints `{}` and `{}`: cut the loop, only open chains are supported",
+                    other.name, joint.name
+                )));
+            }
+            tree.children.entry(parent).or_default().push(joint);
+        }
+        tree.check_no_loops()?;
+        Ok(tree)
+    }
+
+    fn check_no_loops(&self) -> Result<(), ImportError> {
+        for link in self.links.keys() {
+            if self.joints_above(link).count() > self.links.len() {
+                return Err(ImportError::Structure(format!(
+                    "link `{link}` is part of a loop of joints: cut the loop"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Joints from a link towards the root; stops one joint late in a loop.
+    fn joints_above(&self, link: &str) -> impl Iterator<Item = &'a Joint> {
+        let mut next = self.parent.get(link).copied();
+        let up = std::iter::from_fn(move || {
+            let joint = next?;
+            next = self.parent.get(joint.parent.link.as_str()).copied();
+            Some(joint)
+        });
+        up.take(self.links.len() + 1)
+    }
+
+    fn link(&self, name: &str) -> Result<&'a str, ImportError> {
+        self.links
+            .get_key_value(name)
+            .map(|(_, link)| link.name.as_str())
+            .ok_or_else(|| ImportError::UnknownLink {
+                name: name.to_owned(),
+                help: suggest::help(name, self.links.keys().copied()),
+            })
+    }
+
+    pub(super) fn joints_of(&self, link: &str) -> &[&'a Joint] {
+        self.children.get(link).map_or(&[], Vec::as_slice)
+    }
+
+    /// The chain between two links, or the only one there is.
+    pub(super) fn chain(
+        &self,
+        base: Option<&str>,
+        tip: Option<&str>,
+    ) -> Result<Chain<'a>, ImportError> {
+        let base = match base {
+            Some(base) => self.link(base)?,
+            None => self.root()?,
+        };
+        let tip = match tip {
+            Some(tip) => self.link(tip)?,
+            None => self.only_tip(base)?,
+        };
+        let mut path = Vec::new();
+        let mut at = tip;
+        for joint in self.joints_above(tip) {
+            if at == base {
+                break;
+            }
+            path.push(joint);
+            at = joint.parent.link.as_str();
+        }
+        if at != base {
+            return Err(ImportError::Structure(format!(
+                "link `{tip}` does not hang on link `{base}`: choose another --base or --tip"
+            )));
+        }
+        path.reverse();
+        let chain = Chain {
+            base,
+            joints: fold(&path)?,
+        };
+        if chain.joints.is_empty() {
+            return Err(ImportError::Structure(format!(
+                "no joint moves on the way from link `{base}` to link `{tip}`"
+            )));
+        }
+        Ok(chain)
+    }
+
+    fn root(&self) -> Result<&'a str, ImportError> {
+        let roots: Vec<&str> = self
+            .links
+            .values()
+            .map(|link| link.name.as_str())
+            .filter(|link| !self.parent.contains_key(link))
+            .collect();
+        match roots.as_slice() {
+            [root] => Ok(root),
+            [] => Err(ImportError::Structure("the URDF has no links".to_owned())),
+            several => Err(ImportError::Structure(format!(
+                "the links form several trees: choose one with --base, {}",
+                suggest::list(several.iter().copied())
+            ))),
+        }
+    }
+
+    /// Follows moving branches while there is one only.
+    fn only_tip(&self, base: &'a str) -> Result<&'a str, ImportError> {
+        let mut at = base;
+        loop {
+            let moving: Vec<&&Joint> = self
+                .joints_of(at)
+                .iter()
+                .filter(|joint| !self.tips(joint).is_empty())
+                .collect();
+            match moving.as_slice() {
+                [] => return Ok(at),
+                [joint] => at = joint.child.link.as_str(),
+                several => {
+                    let tips = several
+                        .iter()
+                        .flat_map(|joint| self.tips(joint))
+                        .map(|tip| format!("`{tip}`"))
+                        .collect();
+                    return Err(ImportError::Branches {
+                        at: at.to_owned(),
+                        tips,
+                    });
+                }
+            }
+        }
+    }
+
+    /// Links behind `joint` that a joint moves and that carry no further moving joint; in the order of the text.
+    fn tips(&self, joint: &'a Joint) -> Vec<&'a str> {
+        let mut tips = Vec::new();
+        let mut open = vec![joint];
+        while let Some(joint) = open.pop() {
+            let below = self.joints_of(&joint.child.link);
+            open.extend(below.iter().rev());
+            let mut behind: Vec<&Joint> = below.to_vec();
+            let mut is_last = joint.joint_type != JointType::Fixed;
+            while let (true, Some(next)) = (is_last, behind.pop()) {
+                is_last = next.joint_type == JointType::Fixed;
+                behind.extend(self.joints_of(&next.child.link));
+            }
+            if is_last {
+                tips.push(joint.child.link.as_str());
+            }
+        }
+        tips
+    }
+}
+
+/// Fixed joints go into the frame of the moving joint behind them.
+fn fold<'a>(path: &[&'a Joint]) -> Result<Vec<ChainJoint<'a>>, ImportError> {
+    let mut joints = Vec::new();
+    let mut before: Option<Transform> = None;
+    for joint in path {
+        let here = origin(
+            &joint.origin,
+            &format!("the origin of joint `{}`", joint.name),
+        )?;
+        let folded = before.map_or(here, |before| before.then(&here));
+        if joint.joint_type == JointType::Fixed {
+            before = Some(folded);
+            continue;
+        }
+        check_kind(joint)?;
+        let written = before
+            .is_none()
+            .then_some((joint.origin.xyz.0, joint.origin.rpy.0));
+        joints.push(ChainJoint {
+            joint,
+            origin: folded,
+            written,
+        });
+        before = None;
+    }
+    Ok(joints)
+}
+
+fn check_kind(joint: &Joint) -> Result<(), ImportError> {
+    let refuse = |reason: String| {
+        Err(ImportError::Joint {
+            joint: joint.name.clone(),
+            reason,
+        })
+    };
+    match joint.joint_type {
+        JointType::Revolute | JointType::Continuous | JointType::Prismatic | JointType::Fixed => {}
+        JointType::Floating => {
+            return refuse(
+                "is floating: an arm stands on a base, choose --base beyond this joint".to_owned(),
+            );
+        }
+        JointType::Planar => {
+            return refuse("is planar: write it as two prismatic joints".to_owned());
+        }
+        JointType::Spherical => {
+            return refuse("is spherical: write it as three revolute joints".to_owned());
+        }
+    }
+    if let Some(mimic) = &joint.mimic {
+        return refuse(format!(
+            "mimics joint `{}`: joints of a chain move independently, choose --tip before this joint",
+            mimic.joint
+        ));
+    }
+    if !joint.axis.xyz.iter().all(|x| x.is_finite()) || joint.axis.xyz.iter().all(|x| *x == 0.0) {
+        return refuse("has an axis without direction: write its `<axis xyz=..>`".to_owned());
+    }
+    let limit = &joint.limit;
+    if joint.joint_type != JointType::Continuous && limit.lower > limit.upper {
+        return refuse(format!(
+            "has its lower limit {} above its upper limit {}: swap them",
+            limit.lower, limit.upper
+        ));
+    }
+    Ok(())
+}
+
+/// A URDF pose, with the angles' quarter turns exact.
+pub(super) fn origin(pose: &urdf_rs::Pose, what: &str) -> Result<Transform, ImportError> {
+    if pose
+        .xyz
+        .iter()
+        .chain(pose.rpy.iter())
+        .all(|x| x.is_finite())
+    {
+        return Ok(Transform {
+            rotation: rotation_rpy(pose.rpy.0),
+            translation: pose.xyz.0,
+        });
+    }
+    Err(ImportError::NotFinite {
+        what: what.to_owned(),
+    })
+}

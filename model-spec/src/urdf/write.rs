@@ -1,0 +1,202 @@
+//! The text of the imported spec: numbers that read well, names that the language accepts.
+
+use std::fmt::Write as _;
+
+use urdf_rs::JointType;
+
+use super::body::Body;
+use super::tree::{Chain, ChainJoint};
+use super::{ImportOptions, Inertials};
+use crate::transform::{quarter_turns, rpy, upper_camel};
+
+/// Names in the spec, joint by joint.
+pub(super) struct Names {
+    pub(super) joints: Vec<String>,
+    links: Vec<String>,
+}
+
+impl Names {
+    pub(super) fn new(chain: &Chain) -> Self {
+        Self {
+            joints: unique(chain.joints.iter().map(|joint| joint.joint.name.as_str())),
+            links: unique(
+                chain
+                    .joints
+                    .iter()
+                    .map(|joint| joint.joint.child.link.as_str()),
+            ),
+        }
+    }
+}
+
+/// Names as words of the language; what two names have lost is made up by a number.
+fn unique<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for name in names {
+        let plain = word(name);
+        let mut candidate = plain.clone();
+        let mut number = 2;
+        while words.contains(&candidate) {
+            candidate = format!("{plain}_{number}");
+            number += 1;
+        }
+        words.push(candidate);
+    }
+    words
+}
+
+fn word(name: &str) -> String {
+    let mut word: String = name
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect();
+    if !word.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        word.insert(0, 'j');
+    }
+    if word == "all" || syn::parse_str::<syn::Ident>(&word).is_err() {
+        word.push('_');
+    }
+    word
+}
+
+/// The whole spec.
+pub(super) fn spec(
+    robot: &str,
+    chain: &Chain,
+    names: &Names,
+    bodies: &[Body],
+    effects: &[String],
+    options: &ImportOptions,
+) -> String {
+    let mut text = format!(
+        "// Imported from a URDF: the chain that stands on link `{}`.\n",
+        comment(chain.base)
+    );
+    let name = upper_camel(robot);
+    let _ = writeln!(
+        text,
+        "robot {name} {{\n    gravity = {};\n    convention = origin;\n",
+        list(&options.gravity)
+    );
+    for (k, joint) in chain.joints.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "    {}",
+            joint_line(joint, &names.joints[k], &names.links[k])
+        );
+    }
+    let status = match options.inertials {
+        Inertials::Nominal => Some("nominal"),
+        Inertials::Fixed => Some("fixed"),
+        Inertials::None => None,
+    };
+    if let Some(status) = status {
+        text.push('\n');
+        for (name, body) in names.links.iter().zip(bodies) {
+            let i = body.inertia;
+            let six = [i[0][0], i[0][1], i[0][2], i[1][1], i[1][2], i[2][2]].map(readable);
+            let (mass, com, inertia) = (
+                readable(body.mass),
+                list(&body.com.map(readable)),
+                list(&six),
+            );
+            let _ = writeln!(
+                text,
+                "    link {name}: {status} {{ mass = {mass}; com = {com}; inertia = {inertia}; }}"
+            );
+        }
+    }
+    if !effects.is_empty() {
+        let lines = effects.join(";\n        ");
+        let _ = writeln!(text, "\n    effects {{\n        {lines};\n    }}");
+    }
+    text.push_str("}\n");
+    text
+}
+
+fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
+    let source = joint.joint;
+    let prismatic = source.joint_type == JointType::Prismatic;
+    let (xyz, angles) = joint.written.unwrap_or_else(|| {
+        (
+            joint.origin.translation.map(readable),
+            rpy(&joint.origin.rotation).map(readable),
+        )
+    });
+    let mut line = format!(
+        "joint {name}: {} {{ xyz = {};",
+        if prismatic { "prismatic" } else { "revolute" },
+        list(&xyz)
+    );
+    if angles.map(angle) != ["0", "0", "0"] {
+        let _ = write!(line, " rpy = [{}];", angles.map(angle).join(", "));
+    }
+    let _ = write!(line, " axis = {};", list(&source.axis.xyz.0));
+    let limit = &source.limit;
+    let bounded = source.joint_type != JointType::Continuous && limit.lower < limit.upper;
+    if bounded && limit.lower.is_finite() && limit.upper.is_finite() {
+        let _ = write!(
+            line,
+            " position = {} .. {};",
+            number(limit.lower),
+            number(limit.upper)
+        );
+    }
+    for (key, value) in [("velocity", limit.velocity), ("torque", limit.effort)] {
+        if value > 0.0 && value.is_finite() {
+            let _ = write!(line, " {key} = {};", number(value));
+        }
+    }
+    if link != name {
+        let _ = write!(line, " link = {link};");
+    }
+    line.push_str(" }");
+    line
+}
+
+/// Text that may stand in a `//` comment.
+fn comment(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+fn list(numbers: &[f64]) -> String {
+    format!(
+        "[{}]",
+        numbers
+            .iter()
+            .map(|x| number(*x))
+            .collect::<Vec<_>>()
+            .join(", ")
+    )
+}
+
+/// The shortest text that is read back as the same number; powers of ten below a thousandth.
+fn number(x: f64) -> String {
+    let plain = format!("{}", x + 0.0);
+    let scientific = format!("{x:e}");
+    if plain.len() > scientific.len() + 3 {
+        scientific
+    } else {
+        plain
+    }
+}
+
+/// Quarter turns in degrees, other angles in rad.
+fn angle(x: f64) -> String {
+    match quarter_turns(x) {
+        Some(0.0) => "0".to_owned(),
+        Some(turns) => format!("{} deg", 90.0 * turns),
+        None => number(x),
+    }
+}
+
+/// A computed number without the noise of its last digits: 13 significant ones, and zero below 1e-15.
+fn readable(x: f64) -> f64 {
+    if x.abs() < 1e-15 {
+        0.0
+    } else {
+        format!("{x:.12e}").parse().unwrap_or(x)
+    }
+}

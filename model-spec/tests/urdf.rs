@@ -1,0 +1,302 @@
+//! URDF in: what is folded, named, refused; and every URDF of the shared data, where that is present.
+#![expect(clippy::float_cmp, reason = "these numbers are exact")]
+
+use std::fs;
+use std::path::PathBuf;
+
+use robot_model_spec::model::{Inertial, JointKind};
+use robot_model_spec::urdf::{ImportOptions, Inertials, import};
+use robot_model_spec::{Model, load};
+
+fn link(name: &str, mass: f64, x: f64) -> String {
+    format!(
+        "<link name='{name}'><inertial><origin xyz='{x} 0 0'/><mass value='{mass}'/>\
+         <inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>"
+    )
+}
+
+fn joint(name: &str, kind: &str, parent: &str, child: &str, inner: &str) -> String {
+    format!(
+        "<joint name='{name}' type='{kind}'><parent link='{parent}'/><child link='{child}'/>\
+         <origin xyz='0 0 1' rpy='0 0 1.570796325'/><axis xyz='0 0 1'/>\
+         <limit lower='-1' upper='2' effort='10' velocity='3'/>{inner}</joint>"
+    )
+}
+
+fn urdf(parts: &[String]) -> String {
+    format!("<robot name='my-arm'>{}</robot>", parts.concat())
+}
+
+fn imported(parts: &[String], options: &ImportOptions) -> (String, Model) {
+    let text = import(&urdf(parts), options).unwrap_or_else(|error| panic!("{error}"));
+    let model = load("imported.robot", &text).unwrap_or_else(|errors| panic!("{errors}"));
+    (text, model)
+}
+
+fn refusal(parts: &[String], options: &ImportOptions) -> String {
+    import(&urdf(parts), options)
+        .expect_err("must be refused")
+        .to_string()
+}
+
+/// base - mount (fixed) - upper (j1) - bracket (fixed) - fore (j2, prismatic) - tool (fixed)
+fn two_joints() -> Vec<String> {
+    vec![
+        link("base", 9.0, 0.0),
+        link("mount", 9.0, 0.0),
+        link("upper", 2.0, 0.0),
+        link("bracket", 2.0, 0.0),
+        link("fore", 3.0, 0.5),
+        link("tool", 1.0, 0.5),
+        joint("weld", "fixed", "base", "mount", ""),
+        joint("j1", "revolute", "mount", "upper", ""),
+        joint("bolt", "fixed", "upper", "bracket", ""),
+        joint("j2", "prismatic", "bracket", "fore", ""),
+        joint("flange", "fixed", "fore", "tool", ""),
+    ]
+}
+
+#[test]
+fn fixed_joints_are_folded_into_frames_and_links() {
+    let (text, model) = imported(&two_joints(), &ImportOptions::default());
+    assert!(text.contains("robot MyArm {"), "{text}");
+    assert_eq!(model.joints.len(), 2);
+    assert_eq!(model.joints[1].kind, JointKind::Prismatic);
+    // Two quarter turns about z, two meters up.
+    let before = model.joints[0].placement.before;
+    assert_eq!(
+        before.rotation,
+        [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
+    );
+    assert_eq!(before.translation, [0.0, 0.0, 2.0]);
+    // Two bodies of 2 kg, one meter apart along z: half a meter from the common center each.
+    let Inertial::Nominal(upper) = model.joints[0].link.inertial else {
+        panic!("nominal by default")
+    };
+    assert_eq!(upper, [4.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0, 4.0, 0.0, 2.0]);
+}
+
+#[test]
+fn inertials_may_be_exact_or_left_out() {
+    let with = |inertials| {
+        imported(
+            &two_joints(),
+            &ImportOptions {
+                inertials,
+                ..ImportOptions::default()
+            },
+        )
+        .1
+    };
+    assert!(
+        matches!(with(Inertials::Fixed).joints[1].link.inertial, Inertial::Fixed(ten) if ten[0] == 4.0)
+    );
+    assert_eq!(
+        with(Inertials::None).joints[1].link.inertial,
+        Inertial::Unknown
+    );
+}
+
+#[test]
+fn effects_are_given_by_number_name_or_all() {
+    let effects = "all:viscous_friction,coulomb-friction; 2:motor_inertia ;j1:motor_inertia;(1,2):gear_coupling".to_owned();
+    let (text, model) = imported(
+        &two_joints(),
+        &ImportOptions {
+            effects,
+            ..ImportOptions::default()
+        },
+    );
+    assert!(text.contains("motor_inertia on j2, j1;"), "{text}");
+    assert!(text.contains("gear_coupling on (j1, j2);"), "{text}");
+    assert_eq!(model.effects.len(), 7);
+}
+
+#[test]
+fn faults_of_the_effects_argument_are_named() {
+    let of = |effects: &str| {
+        refusal(
+            &two_joints(),
+            &ImportOptions {
+                effects: effects.to_owned(),
+                ..ImportOptions::default()
+            },
+        )
+    };
+    assert_eq!(
+        of("3:motor_inertia"),
+        "--effects: there is no joint 3: the chain has joints 1 to 2"
+    );
+    assert_eq!(
+        of("1:motor_inrtia"),
+        "--effects: there is no standard effect `motor_inrtia`; write `motor_inertia`"
+    );
+    assert_eq!(
+        of("j3:motor_inertia"),
+        "--effects: the chain has no joint `j3`; write `j1`, or a number from 1 to 2"
+    );
+    assert_eq!(
+        of("viscous_friction"),
+        "--effects: `viscous_friction` names no effect: write `JOINTS:effect,effect`"
+    );
+    assert_eq!(
+        of("all:motor_inertia;1:motor_inertia"),
+        "--effects: `motor_inertia` is there twice for joint `all`: once is enough"
+    );
+}
+
+#[test]
+fn a_branching_tree_needs_its_tip() {
+    let mut parts = two_joints();
+    parts.push(link("camera", 1.0, 0.0));
+    parts.push(joint("pan", "continuous", "upper", "camera", ""));
+    assert_eq!(
+        refusal(&parts, &ImportOptions::default()),
+        "the tree branches at link `upper`: choose the chain's end with --tip, one of `fore`, `camera`"
+    );
+    let to = |tip: &str| ImportOptions {
+        tip: Some(tip.to_owned()),
+        ..ImportOptions::default()
+    };
+    let (_, arm) = imported(&parts, &to("tool"));
+    assert_eq!(arm.joints.len(), 2);
+    // The camera stands still on the upper link.
+    assert!(matches!(arm.joints[0].link.inertial, Inertial::Nominal(ten) if ten[0] == 5.0));
+    let (_, pan) = imported(&parts, &to("camera"));
+    assert_eq!(pan.joints[1].limits.position, None);
+    assert_eq!(
+        refusal(&parts, &to("camra")),
+        "the URDF has no link `camra`; write `camera`"
+    );
+}
+
+#[test]
+fn joints_that_the_language_cannot_say_are_refused_with_a_reason() {
+    let with = |joint: String| vec![link("base", 1.0, 0.0), link("tip", 1.0, 0.0), joint];
+    let of = |joint: String| refusal(&with(joint), &ImportOptions::default());
+    assert!(of(joint("j", "floating", "base", "tip", "")).starts_with("joint `j` is floating: "));
+    assert!(of(joint("j", "planar", "base", "tip", "")).starts_with("joint `j` is planar: "));
+    let mimic = of(joint(
+        "j",
+        "revolute",
+        "base",
+        "tip",
+        "<mimic joint='other'/>",
+    ));
+    assert!(
+        mimic.starts_with("joint `j` mimics joint `other`: "),
+        "{mimic}"
+    );
+    assert_eq!(
+        of(joint("j", "fixed", "base", "tip", "")),
+        "no joint moves on the way from link `base` to link `base`"
+    );
+}
+
+#[test]
+fn broken_structure_is_refused() {
+    let links = || vec![link("a", 1.0, 0.0), link("b", 1.0, 0.0)];
+    let with = |joints: &[String]| {
+        refusal(
+            &[links(), joints.to_vec()].concat(),
+            &ImportOptions::default(),
+        )
+    };
+    assert!(
+        with(&[
+            joint("x", "revolute", "a", "b", ""),
+            joint("y", "revolute", "b", "a", "")
+        ])
+        .contains("loop")
+    );
+    assert!(
+        with(&[
+            joint("x", "revolute", "a", "b", ""),
+            joint("y", "revolute", "a", "b", "")
+        ])
+        .contains("two parents")
+    );
+    assert!(with(&[joint("x", "revolute", "a", "c", "")]).contains("no link `c`"));
+    assert!(with(&[]).contains("several trees"));
+    let nan = joint("x", "revolute", "a", "b", "").replace("'0 0 1'", "'0 0 NaN'");
+    assert_eq!(
+        with(&[nan]),
+        "the origin of joint `x` is not finite: write a number"
+    );
+    assert!(
+        import("<robot", &ImportOptions::default())
+            .expect_err("no XML")
+            .to_string()
+            .starts_with("the URDF does not parse")
+    );
+}
+
+#[test]
+fn names_become_words_of_the_language() {
+    let parts = [
+        link("base link", 1.0, 0.0),
+        link("1st-link", 1.0, 0.0),
+        link("1st link", 1.0, 0.0),
+        joint("all", "revolute", "base link", "1st-link", ""),
+        joint("loop", "revolute", "1st-link", "1st link", ""),
+    ];
+    let (_, model) = imported(&parts, &ImportOptions::default());
+    let names: Vec<(&str, &str)> = model
+        .joints
+        .iter()
+        .map(|joint| (joint.name.as_str(), joint.link.name.as_str()))
+        .collect();
+    assert_eq!(names, [("all_", "j1st_link"), ("loop_", "j1st_link_2")]);
+}
+
+/// The folder of measured data and cases, which is not part of the repository.
+fn shared() -> Option<PathBuf> {
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared"));
+    folder.is_dir().then_some(folder)
+}
+
+#[test]
+fn every_shared_urdf_is_imported() {
+    let Some(shared) = shared() else {
+        eprintln!("shared data is not present: nothing imported");
+        return;
+    };
+    let of = |path: PathBuf, base: Option<&str>, tip: Option<&str>, dof: usize| {
+        let text = fs::read_to_string(&path).unwrap();
+        let options = ImportOptions {
+            base: base.map(str::to_owned),
+            tip: tip.map(str::to_owned),
+            effects: "all:viscous_friction,coulomb_friction;1:motor_inertia".to_owned(),
+            ..ImportOptions::default()
+        };
+        let spec =
+            import(&text, &options).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let model = load("imported.robot", &spec).unwrap_or_else(|errors| panic!("{errors}"));
+        assert_eq!(model.joints.len(), dof, "{}", path.display());
+    };
+    for case in fs::read_dir(shared.join("cases"))
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+    {
+        let urdf = case.join("robot.urdf");
+        if urdf.is_file() {
+            let dof = fs::read_to_string(&urdf)
+                .unwrap()
+                .matches("type=\"revolute\"")
+                .count();
+            of(urdf, None, None, dof);
+        }
+    }
+    of(
+        shared.join("data/tx40/tx40_mdh_modified.urdf"),
+        None,
+        None,
+        6,
+    );
+    of(
+        shared.join("data/tiago/tiago_48_schunk.urdf"),
+        Some("torso_fixed_link"),
+        Some("arm_7_link"),
+        8,
+    );
+}
