@@ -11,3 +11,5 @@ pub mod log;
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod signal;
+#[cfg(feature = "std")]
+pub mod trace;

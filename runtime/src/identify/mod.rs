@@ -86,7 +86,7 @@ impl Identify {
     }
 
     /// Solves for the linear unknowns, and for free shape parameters unless they are given.
-    fn solve(
+    pub(crate) fn solve(
         &self,
         arm: &dyn Arm,
         logs: &mut [Prepared],
@@ -163,7 +163,7 @@ impl Identify {
 }
 
 /// Bands that every one of the logs can bear.
-fn slowest_bands(logs: &[Log]) -> Bands {
+pub(crate) fn slowest_bands(logs: &[Log]) -> Bands {
     Bands::for_rate(logs.iter().map(Log::rate_hz).fold(f64::INFINITY, f64::min))
 }
 

@@ -112,6 +112,14 @@ impl Stack {
         first
     }
 
+    /// Forgets the columns behind the first `unknowns`.
+    pub fn truncate(&mut self, unknowns: usize) {
+        self.unknowns.truncate(unknowns);
+        for rows in &mut self.joints {
+            rows.columns.retain(|(column, _)| *column < unknowns);
+        }
+    }
+
     /// `target - columns * estimate`, `[joint][sample]`.
     #[must_use]
     pub fn residuals(&self, estimate: &[f64]) -> Vec<Vec<f64>> {

@@ -1,0 +1,270 @@
+//! Sums of products of columns, by joint and fold: everything a fit or a held-out error needs, in matrices of the size of the
+//! unknowns.
+//!
+//! With `G_j = [W_j z_j t_j]' [W_j z_j t_j]` over any set of rows, weighted least squares on those rows solves
+//! `sum_j G_j / sigma_j^2`, and the squared error of an estimate on them is a quadratic form of `G_j`.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+use crate::columns::Entry;
+use crate::identify::{JointRows, Stack};
+
+use super::folds::Fold;
+
+/// Added to the unit diagonal of the scaled normal matrix: far below what any excited column contributes.
+const RIDGE: f64 = 1e-12;
+
+/// Products of one joint's columns, in the order unknowns then target, over one set of rows.
+type Products = Mat<f64>;
+
+/// A set of rows with the products of every joint over it.
+#[derive(Debug, Clone)]
+struct Part {
+    rows: Vec<usize>,
+    joints: Vec<Products>,
+}
+
+/// Products over all rows, and over the training and test rows of every fold.
+#[derive(Debug, Clone)]
+pub(super) struct Gram {
+    unknowns: usize,
+    all: Part,
+    train: Vec<Part>,
+    test: Vec<Part>,
+}
+
+impl Gram {
+    pub(super) fn new(stack: &Stack, folds: &[Fold]) -> Self {
+        let unknowns = stack.unknowns.len();
+        let over = |rows: Vec<usize>| Part {
+            joints: stack
+                .joints
+                .iter()
+                .map(|joint| products(joint, &rows, unknowns))
+                .collect(),
+            rows,
+        };
+        Self {
+            unknowns,
+            all: over((0..stack.samples()).collect()),
+            train: folds.iter().map(|fold| over(fold.train.clone())).collect(),
+            test: folds.iter().map(|fold| over(fold.test.clone())).collect(),
+        }
+    }
+
+    /// The same with `count` more columns behind the unknowns; only their products are computed.
+    pub(super) fn extended(&self, stack: &Stack, entries: &[Entry], count: usize) -> Self {
+        let extend = |part: &Part| Part {
+            joints: part
+                .joints
+                .iter()
+                .enumerate()
+                .map(|(j, products)| {
+                    border(products, &part.rows, &stack.joints[j], j, entries, count)
+                })
+                .collect(),
+            rows: part.rows.clone(),
+        };
+        Self {
+            unknowns: self.unknowns + count,
+            all: extend(&self.all),
+            train: self.train.iter().map(extend).collect(),
+            test: self.test.iter().map(extend).collect(),
+        }
+    }
+
+    /// Columns before the target.
+    pub(super) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Normal equations of all rows.
+    pub(super) fn normal(&self, sigma: &[f64]) -> Normal {
+        Normal::new(&self.all.joints, sigma, self.unknowns)
+    }
+
+    /// Held-out mean squared error per fold and joint, each fold fitted on its training rows.
+    pub(super) fn held_out(&self, sigma: &[f64]) -> HeldOut {
+        let estimates: Vec<Vec<f64>> = self
+            .train
+            .iter()
+            .map(|train| Normal::new(&train.joints, sigma, self.unknowns).solve())
+            .collect();
+        let errors = estimates
+            .iter()
+            .zip(&self.test)
+            .map(|(estimate, test)| {
+                let rows = test.rows.len().max(1) as f64;
+                test.joints
+                    .iter()
+                    .map(|g| squared_error(g, estimate) / rows)
+                    .collect()
+            })
+            .collect();
+        HeldOut {
+            estimates,
+            errors,
+            rows: self.test.iter().map(|test| test.rows.len()).collect(),
+        }
+    }
+}
+
+/// Products with `count` more columns between the unknowns and the target.
+fn border(
+    products: &Products,
+    rows: &[usize],
+    joint: &JointRows,
+    number: usize,
+    entries: &[Entry],
+    count: usize,
+) -> Products {
+    let old = products.nrows() - 1;
+    let place = |c: usize| if c < old { c } else { c + count };
+    let mut all = Mat::zeros(old + count + 1, old + count + 1);
+    for b in 0..=old {
+        for a in 0..=old {
+            all[(place(a), place(b))] = products[(a, b)];
+        }
+    }
+    let over = |a: &[f64], b: &[f64]| rows.iter().map(|k| a[*k] * b[*k]).sum::<f64>();
+    for entry in entries.iter().filter(|entry| entry.joint == number) {
+        let at = old + entry.column;
+        let mut put = |other: usize, value: f64| {
+            all[(at, other)] += value;
+            if other != at {
+                all[(other, at)] += value;
+            }
+        };
+        for (column, values) in &joint.columns {
+            put(*column, over(&entry.values, values));
+        }
+        put(old + count, over(&entry.values, &joint.target));
+        for other in entries
+            .iter()
+            .filter(|other| other.joint == number && other.column <= entry.column)
+        {
+            put(old + other.column, over(&entry.values, &other.values));
+        }
+    }
+    all
+}
+
+/// What cross-validation found.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct HeldOut {
+    /// Estimate of every fold.
+    pub(super) estimates: Vec<Vec<f64>>,
+    /// Mean squared error, `[fold][joint]`.
+    pub(super) errors: Vec<Vec<f64>>,
+    rows: Vec<usize>,
+}
+
+impl HeldOut {
+    /// Mean squared error of one joint over all folds.
+    pub(super) fn mean(&self, joint: usize) -> f64 {
+        let total: usize = self.rows.iter().sum();
+        self.errors
+            .iter()
+            .zip(&self.rows)
+            .map(|(errors, rows)| errors[joint] * *rows as f64)
+            .sum::<f64>()
+            / total.max(1) as f64
+    }
+}
+
+fn products(joint: &JointRows, rows: &[usize], unknowns: usize) -> Products {
+    let active = joint.columns.len();
+    let block = Mat::from_fn(rows.len(), active + 1, |k, c| {
+        if c < active {
+            joint.columns[c].1[rows[k]]
+        } else {
+            joint.target[rows[k]]
+        }
+    });
+    let small = block.transpose() * &block;
+    let place = |c: usize| {
+        if c < active {
+            joint.columns[c].0
+        } else {
+            unknowns
+        }
+    };
+    let mut all = Mat::zeros(unknowns + 1, unknowns + 1);
+    for a in 0..=active {
+        for b in 0..=active {
+            all[(place(a), place(b))] = small[(a, b)];
+        }
+    }
+    all
+}
+
+/// `|| target - columns * estimate ||^2` from products.
+fn squared_error(g: &Products, estimate: &[f64]) -> f64 {
+    let n = estimate.len();
+    let value = |c: usize| if c < n { -estimate[c] } else { 1.0 };
+    let mut sum = 0.0;
+    for a in 0..=n {
+        let row: f64 = (0..=n).map(|b| g[(a, b)] * value(b)).sum();
+        sum += value(a) * row;
+    }
+    sum.max(0.0)
+}
+
+/// Normal equations with columns of unit norm.
+pub(super) struct Normal {
+    norms: Vec<f64>,
+    factor: faer::linalg::solvers::PartialPivLu<f64>,
+    right: Vec<f64>,
+}
+
+impl Normal {
+    pub(super) fn new(products: &[Products], sigma: &[f64], unknowns: usize) -> Self {
+        let mut sum = Mat::<f64>::zeros(unknowns + 1, unknowns + 1);
+        for (g, s) in products.iter().zip(sigma) {
+            sum += faer::Scale(1.0 / (s * s)) * g;
+        }
+        let norms: Vec<f64> = (0..unknowns).map(|c| sum[(c, c)].sqrt()).collect();
+        let scaled = Mat::from_fn(unknowns, unknowns, |a, b| {
+            let unit = if norms[a] > 0.0 && norms[b] > 0.0 {
+                sum[(a, b)] / (norms[a] * norms[b])
+            } else {
+                0.0
+            };
+            if a == b { 1.0 + RIDGE } else { unit }
+        });
+        let right = (0..unknowns).map(|c| sum[(c, unknowns)]).collect();
+        Self {
+            norms,
+            factor: scaled.partial_piv_lu(),
+            right,
+        }
+    }
+
+    /// The estimate.
+    pub(super) fn solve(&self) -> Vec<f64> {
+        self.apply(&self.right)
+    }
+
+    /// `(W' W)^-1 * right`
+    pub(super) fn apply(&self, right: &[f64]) -> Vec<f64> {
+        let n = self.norms.len();
+        let scaled = Mat::from_fn(n, 1, |c, _| {
+            if self.norms[c] > 0.0 {
+                right[c] / self.norms[c]
+            } else {
+                0.0
+            }
+        });
+        let solved = self.factor.solve(&scaled);
+        (0..n)
+            .map(|c| {
+                if self.norms[c] > 0.0 {
+                    solved[(c, 0)] / self.norms[c]
+                } else {
+                    0.0
+                }
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,291 @@
+//! How much of the residual a candidate's columns explain once every column of the model is projected out of them.
+
+use crate::columns::Entry;
+use crate::identify::Stack;
+
+use super::gram::{Gram, Normal};
+
+/// A candidate's columns are called new only if this share of their norm is outside the model's columns.
+const LEAST_NEW: f64 = 1e-3;
+
+/// Shortest block whose samples count as one independent sample, s; fewest blocks.
+const BLOCK_S: f64 = 0.25;
+const LEAST_BLOCKS: usize = 10;
+
+/// The present model's fit, against which candidates are scored.
+pub(super) struct Present<'a> {
+    pub(super) stack: &'a Stack,
+    pub(super) sigma: &'a [f64],
+    pub(super) residuals: &'a [Vec<f64>],
+    normal: Normal,
+}
+
+/// A candidate's columns without what the model can already say.
+pub(super) struct Projected {
+    /// Coefficients of least squares on the residual.
+    pub(super) gain: Vec<f64>,
+    /// Fall of the weighted sum of squares.
+    pub(super) drop: f64,
+    /// For each column of the candidate, the model's estimate changes by `-correction * gain`.
+    corrections: Vec<Vec<f64>>,
+    /// Products of the candidate's columns without what the model can already say.
+    information: Vec<Vec<f64>>,
+}
+
+impl Projected {
+    /// `|| Z (one - other) || / || Z other ||` of the projected columns.
+    pub(super) fn distance(&self, one: &[f64], other: &[f64]) -> f64 {
+        let change: Vec<f64> = one.iter().zip(other).map(|(a, b)| a - b).collect();
+        (self.power(&change) / self.power(other).max(f64::MIN_POSITIVE)).sqrt()
+    }
+
+    /// Share of one column's own power in that of the whole effect.
+    pub(super) fn power_share(&self, gain: &[f64], column: usize) -> f64 {
+        self.information[column][column] * gain[column].powi(2)
+            / self.power(gain).max(f64::MIN_POSITIVE)
+    }
+
+    fn power(&self, gain: &[f64]) -> f64 {
+        self.information
+            .iter()
+            .zip(gain)
+            .map(|(row, g)| g * dot(row, gain))
+            .sum::<f64>()
+            .max(0.0)
+    }
+}
+
+impl<'a> Present<'a> {
+    pub(super) fn new(
+        stack: &'a Stack,
+        gram: &Gram,
+        sigma: &'a [f64],
+        residuals: &'a [Vec<f64>],
+    ) -> Self {
+        Self {
+            stack,
+            sigma,
+            residuals,
+            normal: gram.normal(sigma),
+        }
+    }
+
+    /// Projects `count` columns; `None` where the model's columns already span them.
+    pub(super) fn project(&self, entries: &[Entry], count: usize) -> Option<Projected> {
+        let unknowns = self.stack.unknowns.len();
+        let mut with_model = vec![vec![0.0; unknowns]; count];
+        let mut with_residual = vec![0.0; count];
+        let mut own = vec![vec![0.0; count]; count];
+        for entry in entries {
+            let weight = self.sigma[entry.joint].powi(-2);
+            for (column, values) in &self.stack.joints[entry.joint].columns {
+                with_model[entry.column][*column] += weight * dot(&entry.values, values);
+            }
+            with_residual[entry.column] +=
+                weight * dot(&entry.values, &self.residuals[entry.joint]);
+            for other in entries.iter().filter(|other| other.joint == entry.joint) {
+                own[entry.column][other.column] += weight * dot(&entry.values, &other.values);
+            }
+        }
+        let corrections: Vec<Vec<f64>> = with_model
+            .iter()
+            .map(|right| self.normal.apply(right))
+            .collect();
+        let mut left = own.clone();
+        for a in 0..count {
+            for b in 0..count {
+                left[a][b] -= dot(&with_model[a], &corrections[b]);
+            }
+        }
+        if !(0..count).any(|c| left[c][c] > LEAST_NEW.powi(2) * own[c][c]) {
+            return None;
+        }
+        let gain = solve_symmetric(&left, &with_residual);
+        let drop = dot(&gain, &with_residual);
+        Some(Projected {
+            gain,
+            drop,
+            corrections,
+            information: left,
+        })
+    }
+
+    /// Robust chi-square of the candidate: `gain' S V^-1 S gain`, where `V` sums products of the scores of whole blocks of
+    /// time, so neighboring samples do not count as independent.
+    pub(super) fn score(&self, entries: &[Entry], projected: &Projected) -> f64 {
+        let count = projected.gain.len();
+        let projected_columns = self.projected_columns(entries, projected);
+        let blocks = self.blocks();
+        let mut information = vec![vec![0.0; count]; count];
+        let mut variance = vec![vec![0.0; count]; count];
+        for block in &blocks {
+            let mut score = vec![0.0; count];
+            for (joint, columns) in projected_columns.iter().enumerate() {
+                let weight = self.sigma[joint].powi(-2);
+                for k in block.clone() {
+                    let fitted: f64 = (0..count).map(|c| projected.gain[c] * columns[c][k]).sum();
+                    let rest = self.residuals[joint][k] - fitted;
+                    for a in 0..count {
+                        score[a] += weight * columns[a][k] * rest;
+                        for b in 0..count {
+                            information[a][b] += weight * columns[a][k] * columns[b][k];
+                        }
+                    }
+                }
+            }
+            for a in 0..count {
+                for b in 0..count {
+                    variance[a][b] += score[a] * score[b];
+                }
+            }
+        }
+        let moved: Vec<f64> = information
+            .iter()
+            .map(|row| dot(row, &projected.gain))
+            .collect();
+        let solved = solve_symmetric(&variance, &moved);
+        let finite = (blocks.len().saturating_sub(1 + count)) as f64 / blocks.len() as f64;
+        finite * dot(&moved, &solved)
+    }
+
+    /// The candidate's columns less the model's, `[joint][column][sample]`.
+    fn projected_columns(&self, entries: &[Entry], projected: &Projected) -> Vec<Vec<Vec<f64>>> {
+        let count = projected.gain.len();
+        let samples = self.stack.samples();
+        (0..self.stack.dof())
+            .map(|joint| {
+                let mut columns = vec![vec![0.0; samples]; count];
+                for entry in entries.iter().filter(|entry| entry.joint == joint) {
+                    add(&mut columns[entry.column], 1.0, &entry.values);
+                }
+                for (c, values) in &self.stack.joints[joint].columns {
+                    for (target, correction) in columns.iter_mut().zip(&projected.corrections) {
+                        add(target, -correction[*c], values);
+                    }
+                }
+                columns
+            })
+            .collect()
+    }
+
+    /// Blocks of neighboring rows that never cross from one log into another.
+    fn blocks(&self) -> Vec<std::ops::Range<usize>> {
+        let mut blocks = Vec::new();
+        for segment in &self.stack.segments {
+            let rows = segment.time.len();
+            if rows < 2 {
+                continue;
+            }
+            let seconds = segment.time[rows - 1] - segment.time[0];
+            let count = crate::signal::resample::whole_steps(seconds / BLOCK_S)
+                .max(LEAST_BLOCKS)
+                .min(rows);
+            blocks.extend(
+                (0..count).map(|b| {
+                    segment.start + b * rows / count..segment.start + (b + 1) * rows / count
+                }),
+            );
+        }
+        blocks
+    }
+}
+
+/// Probability that a chi-square variable with `freedom` degrees of freedom exceeds `x`.
+pub(super) fn chi_square_tail(freedom: usize, x: f64) -> f64 {
+    let half = 0.5 * x.max(0.0);
+    // Q(k + 2) = Q(k) + (x/2)^(k/2) exp(-x/2) / Gamma(k/2 + 1), from Q(1) or Q(2).
+    let (mut tail, mut term, mut k) = if freedom.is_multiple_of(2) {
+        ((-half).exp(), half * (-half).exp(), 2)
+    } else {
+        (
+            libm::erfc(half.sqrt()),
+            2.0 * (half / std::f64::consts::PI).sqrt() * (-half).exp(),
+            1,
+        )
+    };
+    while k < freedom {
+        tail += term;
+        k += 2;
+        term *= half / (0.5 * k as f64);
+    }
+    tail
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn add(target: &mut [f64], factor: f64, values: &[f64]) {
+    if factor != 0.0 {
+        for (t, v) in target.iter_mut().zip(values) {
+            *t += factor * v;
+        }
+    }
+}
+
+/// Solves a small symmetric positive system; directions without information get 0.
+fn solve_symmetric(matrix: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
+    let n = right.len();
+    let scale: Vec<f64> = (0..n).map(|c| matrix[c][c].max(0.0).sqrt()).collect();
+    let scaled = nalgebra::DMatrix::from_fn(n, n, |a, b| {
+        if scale[a] > 0.0 && scale[b] > 0.0 {
+            matrix[a][b] / (scale[a] * scale[b])
+        } else {
+            0.0
+        }
+    });
+    let eigen = scaled.symmetric_eigen();
+    let b = nalgebra::DVector::from_fn(n, |c, _| {
+        if scale[c] > 0.0 {
+            right[c] / scale[c]
+        } else {
+            0.0
+        }
+    });
+    let mut along = eigen.eigenvectors.transpose() * b;
+    for (value, eigenvalue) in along.iter_mut().zip(eigen.eigenvalues.iter()) {
+        *value = if *eigenvalue > 1e-9 {
+            *value / eigenvalue
+        } else {
+            0.0
+        };
+    }
+    let solved = eigen.eigenvectors * along;
+    (0..n)
+        .map(|c| {
+            if scale[c] > 0.0 {
+                solved[c] / scale[c]
+            } else {
+                0.0
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chi_square_tails_of_tables() {
+        // 5 % points of the chi-square distribution.
+        for (freedom, point) in [
+            (1, 3.841_459),
+            (2, 5.991_465),
+            (3, 7.814_728),
+            (4, 9.487_729),
+            (6, 12.591_587),
+        ] {
+            assert!(
+                (chi_square_tail(freedom, point) - 0.05).abs() < 1e-6,
+                "{freedom}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_direction_without_information_is_left_alone() {
+        let x = solve_symmetric(&[vec![4.0, 4.0], vec![4.0, 4.0]], &[2.0, 2.0]);
+        assert!((4.0 * (x[0] + x[1]) - 2.0).abs() < 1e-9, "{x:?}");
+    }
+}

@@ -1,0 +1,463 @@
+//! Forward search: the best effect that passes, then the next, until none does.
+
+use crate::columns::{Arm, Candidate};
+use crate::identify::{
+    Identify, IdentifyError, Method, Solution, Stack, check_logs, prepare_all, slowest_bands,
+    torque_of,
+};
+use crate::log::Log;
+use crate::signal::Prepared;
+
+use super::folds::{self, Fold};
+use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
+use super::gram::Gram;
+use super::structure::{self, RawResidual, Structure};
+use super::trial::Trial;
+use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Verdict};
+
+/// No more effects than this are looked for: a model that misses more is another model.
+const MOST_EFFECTS: usize = 6;
+
+/// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
+const FINALISTS: usize = 16;
+
+/// Structure is accounted for where less than this share of it is left.
+const LEFT_SHARE: f64 = 0.25;
+
+/// A trace: candidates against the residual of an arm's declared model.
+pub struct Trace<'a> {
+    candidates: Vec<&'a dyn Candidate>,
+}
+
+/// An effect that was accepted.
+struct Accepted<'a> {
+    trial: Trial<'a>,
+    evidence: super::verdict::Evidence,
+    rivals: Vec<Alternative>,
+}
+
+/// Everything that changes when an effect is accepted.
+struct State<'a> {
+    stack: Stack,
+    solution: Solution,
+    residuals: Vec<Vec<f64>>,
+    accepted: Vec<Accepted<'a>>,
+}
+
+impl<'a> Trace<'a> {
+    /// A trace with these candidates; those that the spec declares are left out by the caller.
+    #[must_use]
+    pub fn new(candidates: Vec<&'a dyn Candidate>) -> Self {
+        Self { candidates }
+    }
+
+    /// Runs the trace on the identification logs. `progress` gets a line whenever a stage begins.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit`].
+    pub fn run(
+        &self,
+        arm: &dyn Arm,
+        logs: &[Log],
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<Verdict, IdentifyError> {
+        check_logs(arm, logs)?;
+        let bands = slowest_bands(logs);
+        let identify = Identify {
+            method: Method::Wls,
+            bands: Some(bands),
+        };
+        let mut prepared = prepare_all(logs, &bands)?;
+        progress("fitting the declared model");
+        let (solution, shapes, stack) = identify.solve(arm, &mut prepared, None)?;
+        let mut search = Search {
+            arm,
+            identify: &identify,
+            shapes,
+            prepared,
+            periods: Vec::new(),
+            folds: Vec::new(),
+        };
+        search.periods = search
+            .prepared
+            .iter()
+            .map(|log| folds::period(&log.motion, log.rate_hz))
+            .collect();
+        search.folds = folds::cut(&stack.segments, &search.periods);
+        let residuals = stack.residuals(&solution.estimate);
+        let mut state = State {
+            stack,
+            solution,
+            residuals,
+            accepted: Vec::new(),
+        };
+        search.update_rigid_torque(&state);
+        let (before, _) = search.structure(&state);
+
+        progress("forming candidate columns");
+        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&self.candidates, |_| true);
+        while state.accepted.len() < MOST_EFFECTS {
+            progress(&format!(
+                "round {}: {} candidates",
+                state.accepted.len() + 1,
+                self.candidates.len()
+            ));
+            let Some(found) = search.round(&state, &grids) else {
+                break;
+            };
+            progress(&format!(
+                "round {}: {} passes",
+                state.accepted.len() + 1,
+                found.trial.candidate.kind()
+            ));
+            state.accepted.push(found);
+            state = search.refit(state)?;
+            let fresh = search.grids(&self.candidates, |candidate| candidate.uses_rigid_torque());
+            for (grid, fresh) in grids.iter_mut().zip(fresh) {
+                if !fresh.is_empty() {
+                    *grid = fresh;
+                }
+            }
+        }
+        let state = search.prune(state)?;
+        let (after, noise_power) = search.structure(&state);
+        Ok(verdict(&state, before, after, &noise_power))
+    }
+}
+
+/// What stays the same through a search, but for the rigid-body torque in the motions.
+struct Search<'s> {
+    arm: &'s dyn Arm,
+    identify: &'s Identify,
+    shapes: Vec<f64>,
+    prepared: Vec<Prepared>,
+    periods: Vec<Option<f64>>,
+    folds: Vec<Fold>,
+}
+
+impl Search<'_> {
+    /// Trials of the candidates that are wanted; an empty list for the others.
+    fn grids<'a>(
+        &self,
+        candidates: &[&'a dyn Candidate],
+        wanted: impl Fn(&dyn Candidate) -> bool,
+    ) -> Vec<Vec<Trial<'a>>> {
+        candidates
+            .iter()
+            .map(|candidate| {
+                if wanted(*candidate) {
+                    Trial::grid(*candidate, &self.prepared)
+                } else {
+                    Vec::new()
+                }
+            })
+            .collect()
+    }
+
+    /// Effects that depend on the load see the torque of the rigid body at the present estimate.
+    fn update_rigid_torque(&mut self, state: &State) {
+        let own = self.arm.unknowns().len();
+        for log in &mut self.prepared {
+            log.motion.rigid_torque = self
+                .arm
+                .rigid_torque(&log.motion, &state.solution.estimate[..own]);
+        }
+    }
+
+    /// Fits the declared model with all accepted effects.
+    fn refit<'a>(&mut self, state: State<'a>) -> Result<State<'a>, IdentifyError> {
+        let State {
+            mut stack,
+            solution,
+            residuals,
+            mut accepted,
+        } = state;
+        if self.arm.uses_rigid_torque() {
+            stack = Stack::new(self.arm, &self.prepared, &self.shapes);
+        } else {
+            stack.truncate(self.arm.unknowns().len());
+        }
+        for effect in &mut accepted {
+            if effect.trial.candidate.uses_rigid_torque() {
+                effect.trial = Trial::new(
+                    effect.trial.candidate,
+                    effect.trial.shapes.clone(),
+                    &self.prepared,
+                );
+            }
+            stack.append(effect.trial.candidate.unknowns(), &effect.trial.entries);
+        }
+        drop((solution, residuals));
+        let solution = self.identify.solve_stack(&stack)?;
+        let residuals = stack.residuals(&solution.estimate);
+        let state = State {
+            stack,
+            solution,
+            residuals,
+            accepted,
+        };
+        self.update_rigid_torque(&state);
+        Ok(state)
+    }
+
+    /// One round: the best candidate that passes, with its rivals.
+    fn round<'a>(&self, state: &State, grids: &[Vec<Trial<'a>>]) -> Option<Accepted<'a>> {
+        let gram = Gram::new(&state.stack, &self.folds);
+        let raw_power = self.raw_power(state);
+        let tried = grids.iter().map(Vec::len).sum();
+        let baseline = Baseline::new(
+            &state.stack,
+            &gram,
+            &state.solution.sigma,
+            &state.residuals,
+            &raw_power,
+            tried,
+        );
+        let mut best: Vec<(f64, &Trial)> = grids
+            .iter()
+            .filter_map(|grid| {
+                let drops = grid
+                    .iter()
+                    .filter_map(|trial| trial.project(&baseline.present).map(|p| (p.drop, trial)));
+                drops.max_by(|a, b| a.0.total_cmp(&b.0))
+            })
+            .collect();
+        best.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut judged: Vec<Judged<'a>> = best
+            .into_iter()
+            .take(FINALISTS)
+            .filter_map(|(_, trial)| {
+                let trial = trial.refined(&baseline.present, &self.prepared);
+                let projected = trial.project(&baseline.present)?;
+                Some(baseline.judge(trial, &projected))
+            })
+            .filter(|judged| judged.passes)
+            .collect();
+        judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
+        choose(judged, state.accepted.len())
+    }
+
+    /// Drops effects that later ones made needless.
+    fn prune<'a>(&mut self, mut state: State<'a>) -> Result<State<'a>, IdentifyError> {
+        let mut number = 0;
+        while state.accepted.len() > 1 && number + 1 < state.accepted.len() {
+            let effect = state.accepted.remove(number);
+            state = self.refit(state)?;
+            let gram = Gram::new(&state.stack, &self.folds);
+            let raw_power = self.raw_power(&state);
+            let baseline = Baseline::new(
+                &state.stack,
+                &gram,
+                &state.solution.sigma,
+                &state.residuals,
+                &raw_power,
+                1,
+            );
+            let needed = effect
+                .trial
+                .project(&baseline.present)
+                .is_some_and(|projected| {
+                    let judged = baseline.judge(effect.trial.clone(), &projected);
+                    effect
+                        .trial
+                        .candidate
+                        .joints()
+                        .iter()
+                        .any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
+                });
+            if needed {
+                state.accepted.insert(number, effect);
+                number += 1;
+                state = self.refit(state)?;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Raw residuals of one log, `[joint][sample]`, both ends cut.
+    fn raw_residuals(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
+        let own = self.arm.unknowns().len();
+        let mut torque = torque_of(
+            self.arm,
+            &log.motion,
+            &self.shapes,
+            &state.solution.estimate,
+            self.arm.dof(),
+        );
+        let mut first = own;
+        for effect in &state.accepted {
+            let estimate = &state.solution.estimate[first..first + effect.trial.count()];
+            let part = torque_of(
+                effect.trial.candidate,
+                &log.motion,
+                &effect.trial.shapes,
+                estimate,
+                self.arm.dof(),
+            );
+            for (sum, part) in torque.iter_mut().zip(part) {
+                sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
+            }
+            first += effect.trial.count();
+        }
+        let known = self.arm.known_torque(&log.motion);
+        let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
+        (0..self.arm.dof())
+            .map(|j| {
+                let gain = self.arm.actuator_gain()[j];
+                inner
+                    .clone()
+                    .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
+                    .collect()
+            })
+            .collect()
+    }
+
+    /// Mean square of the raw residual per joint over all logs.
+    fn raw_power(&self, state: &State) -> Vec<f64> {
+        let logs: Vec<Vec<Vec<f64>>> = self
+            .prepared
+            .iter()
+            .map(|log| self.raw_residuals(state, log))
+            .collect();
+        (0..self.arm.dof())
+            .map(|j| {
+                let count: usize = logs.iter().map(|log| log[j].len()).sum();
+                logs.iter()
+                    .flat_map(|log| &log[j])
+                    .map(|r| r * r)
+                    .sum::<f64>()
+                    / count.max(1) as f64
+            })
+            .collect()
+    }
+
+    /// Structure per joint, and the power of what is not structure.
+    fn structure(&self, state: &State) -> (Vec<Structure>, Vec<f64>) {
+        let raw: Vec<Vec<Vec<f64>>> = self
+            .prepared
+            .iter()
+            .map(|log| self.raw_residuals(state, log))
+            .collect();
+        let power = self.raw_power(state);
+        let found: Vec<Structure> = (0..self.arm.dof())
+            .map(|j| {
+                let logs: Vec<RawResidual> = raw
+                    .iter()
+                    .zip(&self.prepared)
+                    .zip(&self.periods)
+                    .map(|((residuals, log), period)| RawResidual {
+                        values: &residuals[j],
+                        rate_hz: log.rate_hz,
+                        shared_hz: self.identify.bands.map_or(0.0, |bands| bands.shared_hz),
+                        period: *period,
+                    })
+                    .collect();
+                structure::of(&logs)
+            })
+            .collect();
+        let noise = power
+            .iter()
+            .zip(&found)
+            .map(|(p, s)| (p - s.power).max(0.0))
+            .collect();
+        (found, noise)
+    }
+}
+
+/// The best candidate and those that are as good within the size that matters; of these the simplest is taken.
+fn choose<'a>(judged: Vec<Judged<'a>>, number: usize) -> Option<Accepted<'a>> {
+    let best = judged.first()?.raw_power.clone();
+    let mut class: Vec<Judged<'a>> = judged
+        .into_iter()
+        .filter(|judged| gate::worse_percent(&judged.raw_power, &best) <= MATERIAL_PERCENT)
+        .collect();
+    // Stable: among equally simple laws the one with the larger merit stays first.
+    class.sort_by_key(|judged| judged.trial.complexity());
+    let mut class = class.into_iter();
+    let chosen = class.next()?;
+    let rivals = class
+        .map(|rival| Alternative {
+            kind: rival.trial.candidate.kind().to_owned(),
+            joints: rival.trial.candidate.joints().to_vec(),
+            instead_of: Some(number),
+            worse_percent: gate::worse_percent(&rival.raw_power, &chosen.raw_power),
+        })
+        .collect();
+    Some(Accepted {
+        evidence: chosen.evidence,
+        trial: chosen.trial,
+        rivals,
+    })
+}
+
+fn verdict(
+    state: &State,
+    before: Vec<Structure>,
+    after: Vec<Structure>,
+    noise_power: &[f64],
+) -> Verdict {
+    let mut first = state.stack.unknowns.len()
+        - state
+            .accepted
+            .iter()
+            .map(|effect| effect.trial.count())
+            .sum::<usize>();
+    let mut found = Vec::new();
+    for effect in &state.accepted {
+        let candidate = effect.trial.candidate;
+        let values = &state.solution.estimate[first..first + effect.trial.count()];
+        first += effect.trial.count();
+        let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
+        let linear = candidate
+            .unknowns()
+            .iter()
+            .zip(values)
+            .map(|(unknown, value)| FoundParameter {
+                name: last_part(&unknown.name),
+                value: *value,
+                shape: false,
+            });
+        let shapes = candidate
+            .shapes()
+            .iter()
+            .zip(&effect.trial.shapes)
+            .map(|(shape, value)| FoundParameter {
+                name: last_part(&shape.name),
+                value: *value,
+                shape: true,
+            });
+        found.push(Finding {
+            kind: candidate.kind().to_owned(),
+            joints: candidate.joints().to_vec(),
+            parameters: linear.chain(shapes).collect(),
+            evidence: effect.evidence.clone(),
+        });
+    }
+    let left = before
+        .iter()
+        .zip(&after)
+        .any(|(before, after)| after.is_material() && after.power > LEFT_SHARE * before.power);
+    let outcome = match (left, found.is_empty()) {
+        (true, _) => Outcome::Unexplained,
+        (false, true) => Outcome::NothingMissing,
+        (false, false) => Outcome::Explained,
+    };
+    let (findings, leads) = if outcome == Outcome::Explained {
+        (found, Vec::new())
+    } else {
+        (Vec::new(), found)
+    };
+    Verdict {
+        outcome,
+        findings,
+        leads,
+        alternatives: state
+            .accepted
+            .iter()
+            .flat_map(|effect| effect.rivals.clone())
+            .collect(),
+        before,
+        after,
+        noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
+    }
+}

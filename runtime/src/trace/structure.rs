@@ -1,0 +1,121 @@
+//! Is anything missing? Structure in the residual, whatever its cause.
+//!
+//! Two tests that need no candidate and no known noise level. The first compares the residual's power where robots move
+//! with its power just above: sensor noise, white or correlated over milliseconds, has as much power in both, a missing
+//! torque follows the motion. The second needs a motion that repeats: what comes back in every period is not noise.
+
+use crate::signal::band_density;
+
+/// The band of motion and the band of reference, as multiples of the shared filter's cutoff.
+const MOTION_BAND: (f64, f64) = (0.03, 0.8);
+const REFERENCE_BAND: (f64, f64) = (1.2, 2.5);
+
+/// The residual is structured where its power in the band of motion is more than this many times that of the reference.
+const LEAST_RATIO: f64 = 4.0;
+
+/// The mean over periods is structured where its power is this many times what noise leaves in a mean.
+const LEAST_PERIODIC_RATIO: f64 = 2.0;
+
+/// Structure counts where its removal lowers the raw error by five percent: a tenth of the power.
+pub(super) const MATERIAL_SHARE: f64 = 0.1;
+
+/// Structure of one joint's residual.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Structure {
+    /// Power of the structured part, (N m)^2 or N^2.
+    pub power: f64,
+    /// Its share of the raw residual's power.
+    pub share: f64,
+    /// Power in the band of motion over power in the reference band.
+    pub ratio: f64,
+}
+
+impl Structure {
+    /// Whether something is missing on this joint that matters.
+    #[must_use]
+    pub fn is_material(&self) -> bool {
+        self.share > MATERIAL_SHARE
+    }
+}
+
+/// One log's raw residual: unfiltered torque minus the model's.
+pub(super) struct RawResidual<'a> {
+    pub(super) values: &'a [f64],
+    pub(super) rate_hz: f64,
+    pub(super) shared_hz: f64,
+    pub(super) period: Option<f64>,
+}
+
+/// Structure of one joint over all logs.
+pub(super) fn of(logs: &[RawResidual]) -> Structure {
+    let samples: usize = logs.iter().map(|log| log.values.len()).sum();
+    let mut found = Structure::default();
+    let mut total = 0.0;
+    for log in logs {
+        let weight = log.values.len() as f64 / samples.max(1) as f64;
+        let mean = log.values.iter().sum::<f64>() / log.values.len().max(1) as f64;
+        total += weight * log.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>()
+            / log.values.len().max(1) as f64;
+        let hz = log.shared_hz;
+        let low = band_density(
+            log.values,
+            log.rate_hz,
+            &[MOTION_BAND.0 * hz, MOTION_BAND.1 * hz],
+        )[0];
+        let reference = band_density(
+            log.values,
+            log.rate_hz,
+            &[REFERENCE_BAND.0 * hz, REFERENCE_BAND.1 * hz],
+        )[0];
+        let ratio = low / reference.max(f64::MIN_POSITIVE);
+        let above = if ratio > LEAST_RATIO {
+            (low - reference) * (MOTION_BAND.1 - MOTION_BAND.0) * hz
+        } else {
+            0.0
+        };
+        let periodic = log.period.map_or(0.0, |period| {
+            repeated_power(log.values, period * log.rate_hz)
+        });
+        found.power += weight * above.max(periodic);
+        found.ratio = found.ratio.max(ratio);
+    }
+    found.share = if total > 0.0 {
+        (found.power / total).min(1.0)
+    } else {
+        0.0
+    };
+    found
+}
+
+/// Power of what comes back in every period of `length` samples, less what noise leaves in a mean; 0 where that is not
+/// clearly more.
+fn repeated_power(values: &[f64], length: f64) -> f64 {
+    let bins = crate::signal::resample::whole_steps(length);
+    let periods = crate::signal::resample::whole_steps(values.len() as f64 / length.max(1.0));
+    if periods < 2 || bins < 2 {
+        return 0.0;
+    }
+    let at = |p: usize, k: usize| {
+        values[crate::signal::resample::whole_steps((p as f64 * length).round() + k as f64)
+            .min(values.len() - 1)]
+    };
+    // A slow wander of the zero is no structure: every period is compared about its own mean.
+    let means: Vec<f64> = (0..periods)
+        .map(|p| (0..bins).map(|k| at(p, k)).sum::<f64>() / bins as f64)
+        .collect();
+    let (mut repeated, mut rest) = (0.0, 0.0);
+    for k in 0..bins {
+        let mean = (0..periods).map(|p| at(p, k) - means[p]).sum::<f64>() / periods as f64;
+        repeated += mean * mean;
+        rest += (0..periods)
+            .map(|p| (at(p, k) - means[p] - mean).powi(2))
+            .sum::<f64>()
+            / (periods - 1) as f64;
+    }
+    let noise = rest / periods as f64;
+    if repeated > LEAST_PERIODIC_RATIO * noise {
+        (repeated - noise) / bins as f64
+    } else {
+        0.0
+    }
+}

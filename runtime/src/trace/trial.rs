@@ -1,0 +1,102 @@
+//! A candidate at given shapes, its columns filtered like the model's.
+
+use crate::columns::{Candidate, Entry};
+use crate::identify::filtered_columns;
+use crate::signal::Prepared;
+
+use super::score::{Present, Projected};
+
+/// Steps of the golden section between grid neighbors.
+const GOLDEN_STEPS: usize = 8;
+
+/// A candidate with values for its shape parameters.
+#[derive(Clone)]
+pub(super) struct Trial<'a> {
+    pub(super) candidate: &'a dyn Candidate,
+    pub(super) shapes: Vec<f64>,
+    pub(super) entries: Vec<Entry>,
+}
+
+impl<'a> Trial<'a> {
+    pub(super) fn new(candidate: &'a dyn Candidate, shapes: Vec<f64>, logs: &[Prepared]) -> Self {
+        let entries = filtered_columns(candidate, logs, &shapes);
+        Self {
+            candidate,
+            shapes,
+            entries,
+        }
+    }
+
+    /// One trial for every point of the candidate's grid.
+    pub(super) fn grid(candidate: &'a dyn Candidate, logs: &[Prepared]) -> Vec<Self> {
+        let mut points = vec![Vec::new()];
+        for shape in candidate.shapes() {
+            points = points
+                .iter()
+                .flat_map(|point: &Vec<f64>| {
+                    shape.grid.iter().map(move |value| {
+                        let mut longer = point.clone();
+                        longer.push(*value);
+                        longer
+                    })
+                })
+                .collect();
+        }
+        points
+            .into_iter()
+            .map(|shapes| Self::new(candidate, shapes, logs))
+            .collect()
+    }
+
+    /// Number of linear parameters.
+    pub(super) fn count(&self) -> usize {
+        self.candidate.unknowns().len()
+    }
+
+    /// Parameters that the effect adds to the model: what a simpler law has fewer of.
+    pub(super) fn complexity(&self) -> usize {
+        self.count() + self.shapes.len()
+    }
+
+    pub(super) fn project(&self, present: &Present) -> Option<Projected> {
+        present.project(&self.entries, self.count())
+    }
+
+    /// Moves each shape between its neighbors on the grid to where the candidate explains most.
+    pub(super) fn refined(&self, present: &Present, logs: &[Prepared]) -> Self {
+        let mut best = self.clone();
+        let drop = |trial: &Self| trial.project(present).map_or(0.0, |p| p.drop);
+        for number in 0..self.shapes.len() {
+            let grid = &self.candidate.shapes()[number].grid;
+            let at = grid.partition_point(|value| *value < self.shapes[number]);
+            let (mut low, mut high) = (
+                grid[at.saturating_sub(1)],
+                grid[(at + 1).min(grid.len() - 1)],
+            );
+            let start = best.clone();
+            let trial = |value: f64| {
+                let mut shapes = start.shapes.clone();
+                shapes[number] = value;
+                Self::new(self.candidate, shapes, logs)
+            };
+            let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
+            for _ in 0..GOLDEN_STEPS {
+                let inner = (
+                    trial(high - ratio * (high - low)),
+                    trial(low + ratio * (high - low)),
+                );
+                if drop(&inner.0) > drop(&inner.1) {
+                    high = inner.1.shapes[number];
+                } else {
+                    low = inner.0.shapes[number];
+                }
+                for inner in [inner.0, inner.1] {
+                    if drop(&inner) > drop(&best) {
+                        best = inner;
+                    }
+                }
+            }
+        }
+        best
+    }
+}

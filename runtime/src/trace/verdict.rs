@@ -1,0 +1,106 @@
+//! What a trace ends with.
+
+use std::fmt;
+
+use super::structure::Structure;
+
+/// Why an effect was accepted, in numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// Robust chi-square of the effect against the residual, every model column projected out, blocks of time as samples.
+    pub score: f64,
+    /// Probability of that score or more in noise, times the number of candidates and shapes tried.
+    pub p_value: f64,
+    /// Fall of the held-out error (shared band, cross-validation inside the identification logs), percent per joint.
+    pub held_out_percent: Vec<f64>,
+    /// The same for the error on raw samples, percent per joint.
+    pub raw_percent: Vec<f64>,
+    /// Folds in which the effect's joints got better, of all folds.
+    pub folds: (usize, usize),
+}
+
+/// A parameter of a found effect.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoundParameter {
+    /// Name in the effect's definition.
+    pub name: String,
+    /// Estimate, SI.
+    pub value: f64,
+    /// Whether it is a shape parameter.
+    pub shape: bool,
+}
+
+/// An effect that the spec does not declare.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// Kebab-case name.
+    pub kind: String,
+    /// Joints, from 0.
+    pub joints: Vec<usize>,
+    /// Parameters as found by the trace, linear ones first.
+    pub parameters: Vec<FoundParameter>,
+    /// Why it was accepted.
+    pub evidence: Evidence,
+}
+
+/// A candidate that the logs cannot tell from an accepted one, or nearly so.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    /// Kebab-case name.
+    pub kind: String,
+    /// Joints, from 0.
+    pub joints: Vec<usize>,
+    /// Index of the finding that it could stand for; `None` where nothing was accepted.
+    pub instead_of: Option<usize>,
+    /// Held-out error on raw samples relative to the finding's, percent; positive: worse.
+    pub worse_percent: f64,
+}
+
+/// How a trace ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// The declared model leaves no structure that matters.
+    NothingMissing,
+    /// The findings account for the structure.
+    Explained,
+    /// There is structure that no known effect accounts for.
+    Unexplained,
+}
+
+impl Outcome {
+    /// Name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::NothingMissing => "nothing-missing",
+            Self::Explained => "explained",
+            Self::Unexplained => "unexplained",
+        }
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// The result of a trace.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Verdict {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Effects that account for the structure, in the order of their discovery; empty unless the outcome is `Explained`.
+    pub findings: Vec<Finding>,
+    /// Effects that passed the gates although structure remains: the outcome is `Unexplained`, and these are leads.
+    pub leads: Vec<Finding>,
+    /// Effects that could stand for a finding.
+    pub alternatives: Vec<Alternative>,
+    /// Structure of the residual per joint, with the declared model.
+    pub before: Vec<Structure>,
+    /// Structure of the residual per joint, with the findings or leads.
+    pub after: Vec<Structure>,
+    /// Standard deviation per joint of the residual's part without structure, N m or N.
+    pub noise_floor: Vec<f64>,
+}
