@@ -89,9 +89,10 @@ impl Diagnostic {
         error.into_iter().map(|one| {
             let text = one.to_string();
             let (message, help) = match text.split_once(HELP_MARK) {
-                Some((message, help)) => (message, Some(help.to_owned())),
-                None => (text.as_str(), None),
+                Some((message, help)) => (message, help.to_owned()),
+                None => (text.as_str(), remedy(&text)),
             };
+            let help = Some(help);
             Self {
                 message: message.to_owned(),
                 labels: vec![Label {
@@ -101,6 +102,14 @@ impl Diagnostic {
                 help,
             }
         })
+    }
+}
+
+/// Help for an error of `syn`'s own: "expected `,`" says what to write.
+fn remedy(message: &str) -> String {
+    match message.rsplit_once("expected ") {
+        Some((_, "token")) | None => "remove this".to_owned(),
+        Some((_, expected)) => format!("write {expected} here"),
     }
 }
 

@@ -15,8 +15,16 @@ pub(crate) fn nearest<'a>(
             )
         })
         .filter(|(distance, name)| *distance <= reach || is_abbreviation(wrong, name))
-        .min_by_key(|(distance, _)| *distance)
+        .min_by_key(|(distance, name)| (*distance, !is_subsequence(wrong, name)))
         .map(|(_, name)| name)
+}
+
+/// Letters left out, as in `sgn` for `sign`: likelier than a letter exchanged, as in `sgn` for `sin`.
+fn is_subsequence(short: &str, long: &str) -> bool {
+    let mut letters = long.chars();
+    short
+        .chars()
+        .all(|wanted| letters.any(|letter| letter == wanted))
 }
 
 /// `viscous` for `viscous_friction`, `degrees` for `deg`.
@@ -33,6 +41,7 @@ fn is_abbreviation(wrong: &str, name: &str) -> bool {
 pub(crate) fn help<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
     match nearest(wrong, known.clone()) {
         Some(name) => format!("write `{name}`"),
+        None if known.clone().into_iter().count() == 1 => format!("write {}", list(known)),
         None => format!("write one of {}", list(known)),
     }
 }
@@ -56,6 +65,7 @@ mod tests {
         assert_eq!(nearest("elbwo", known), Some("elbow"));
         assert_eq!(nearest("Waist", known), Some("waist"));
         assert_eq!(nearest("gripper", known), None);
+        assert_eq!(nearest("sgn", ["sin", "sign"]), Some("sign"));
         assert_eq!(
             nearest("viscous", ["viscous_friction"]),
             Some("viscous_friction")

@@ -1,10 +1,11 @@
-//! Joints: kind, frame, limits; the three frame conventions end here, in one [`Placement`].
+//! Joints: kind, limits, actuator gain, the link that each moves; frames are in [`super::frame`].
 
 use std::collections::BTreeMap;
 
 use proc_macro2::Span;
 use syn::Ident;
 
+use super::frame::{Z, check_keys, check_placement};
 use super::setting::Settings;
 use super::unit::Dimension;
 use super::{Errors, check_unique, optional, value};
@@ -12,7 +13,6 @@ use crate::ast::{self, Robot, Value};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Convention, Inertial, Joint, JointKind, Limits, Link, Placement, Transform};
 use crate::suggest;
-use crate::transform::{rotation_rpy, rotation_x, rotation_z, snap};
 
 /// A joint as far as its own block tells.
 pub(super) struct CheckedJoint {
@@ -54,6 +54,7 @@ pub(super) fn check_joints(
             ),
         );
     }
+    let before = errors.len();
     check_unique(
         robot.joints.iter().map(|joint| &joint.name),
         "joint",
@@ -74,7 +75,9 @@ pub(super) fn check_joints(
         .iter()
         .map(|joint| check_joint(joint, convention, errors))
         .collect();
-    check_unique(joints.iter().map(|joint| &joint.link), "link", errors);
+    if errors.len() == before {
+        check_unique(joints.iter().map(|joint| &joint.link), "link", errors);
+    }
     joints
 }
 
@@ -132,212 +135,8 @@ fn check_kind(joint: &ast::Joint, errors: &mut Errors) -> Option<JointKind> {
     }
 }
 
-const COMMON_KEYS: [&str; 6] = [
-    "offset",
-    "position",
-    "velocity",
-    "torque",
-    "actuator_gain",
-    "link",
-];
-
-/// Keys that give the frame: required ones first, then those that default to zero.
-fn frame_keys(
-    convention: Convention,
-    kind: JointKind,
-) -> (&'static [&'static str], &'static [&'static str]) {
-    match (convention, kind) {
-        (Convention::Origin, _) => (&["xyz", "axis"], &["rpy"]),
-        (_, JointKind::Revolute) => (&["a", "alpha", "d"], &[]),
-        (_, JointKind::Prismatic) => (&["a", "alpha", "theta"], &[]),
-    }
-}
-
-/// Only the keys of the robot's convention, and all that it needs.
-fn check_keys(joint: &ast::Joint, convention: Convention, kind: JointKind, errors: &mut Errors) {
-    let (required, defaulted) = frame_keys(convention, kind);
-    let known: Vec<&str> = required
-        .iter()
-        .chain(defaulted)
-        .chain(&COMMON_KEYS)
-        .copied()
-        .collect();
-    for setting in &joint.settings {
-        let key = setting.key.to_string();
-        if known.contains(&key.as_str()) {
-            continue;
-        }
-        let spelling = convention_name(convention);
-        let help = match (key.as_str(), convention, kind) {
-            ("theta", Convention::StandardDh | Convention::ModifiedDh, _) => {
-                "`theta` is this joint's variable; write `offset` for what is added to it".to_owned()
-            }
-            ("d", Convention::StandardDh | Convention::ModifiedDh, _) => {
-                "`d` is this joint's variable; write `offset` for what is added to it, and `theta` for the fixed angle"
-                    .to_owned()
-            }
-            ("a" | "alpha" | "d" | "theta" | "xyz" | "rpy" | "axis", ..) => {
-                format!("with `convention = {spelling}` write {}", suggest::list(known.iter().copied().take(3)))
-            }
-            _ => suggest::help(&key, known.iter().copied()),
-        };
-        errors.push(
-            Diagnostic::new(
-                setting.key.span(),
-                format!("joint `{}` has no setting `{key}`", joint.name),
-                format!(
-                    "not a setting of {} {spelling} joint",
-                    if kind == JointKind::Revolute {
-                        "a revolute"
-                    } else {
-                        "a prismatic"
-                    }
-                ),
-            )
-            .help(help),
-        );
-    }
-    let missing: Vec<&str> = required
-        .iter()
-        .copied()
-        .filter(|key| !joint.settings.iter().any(|setting| setting.key == key))
-        .collect();
-    if !missing.is_empty() {
-        errors.push(
-            Diagnostic::new(
-                joint.name.span(),
-                format!(
-                    "joint `{}` does not give {}",
-                    joint.name,
-                    suggest::list(missing.iter().copied())
-                ),
-                "incomplete frame",
-            )
-            .help(format!("add {}", example(&missing))),
-        );
-    }
-}
-
-fn convention_name(convention: Convention) -> &'static str {
-    match convention {
-        Convention::StandardDh => "standard_dh",
-        Convention::ModifiedDh => "modified_dh",
-        Convention::Origin => "origin",
-    }
-}
-
-/// How to write the missing keys.
-fn example(missing: &[&str]) -> String {
-    let text = |key: &&str| match *key {
-        "xyz" => "`xyz = [0, 0, 0];`".to_owned(),
-        "axis" => "`axis = [0, 0, 1];`".to_owned(),
-        "alpha" | "theta" => format!("`{key} = 0 deg;`"),
-        key => format!("`{key} = 0;`"),
-    };
-    missing.iter().map(text).collect::<Vec<_>>().join(" and ")
-}
-
-const Z: [f64; 3] = [0.0, 0.0, 1.0];
-
-/// `before * motion * after`. Rotation and translation along one axis commute, which moves the fixed half of a screw to
-/// the side where the convention keeps its constants.
-fn check_placement(
-    joint: &ast::Joint,
-    settings: &Settings,
-    convention: Convention,
-    kind: JointKind,
-    errors: &mut Errors,
-) -> Option<Placement> {
-    let coordinate = coordinate_dimension(kind);
-    let offset = optional(
-        settings.get("offset"),
-        |v| value::scalar(v, coordinate),
-        errors,
-    )
-    .unwrap_or(0.0);
-    let offset = if kind == JointKind::Revolute {
-        snap(offset)
-    } else {
-        offset
-    };
-    let mut number =
-        |key, dimension| optional(settings.get(key), |v| value::scalar(v, dimension), errors);
-    if convention == Convention::Origin {
-        let xyz = optional(
-            settings.get("xyz"),
-            |v| value::vector(v, Dimension::LENGTH),
-            errors,
-        );
-        let rpy = match settings.get("rpy") {
-            None => Some([0.0; 3]),
-            Some(rpy) => optional(Some(rpy), |v| value::vector(v, Dimension::ANGLE), errors),
-        };
-        let axis = optional(settings.get("axis"), |v| check_axis(v, joint), errors);
-        let before = Transform {
-            rotation: rotation_rpy(rpy?),
-            translation: xyz?,
-        };
-        return Some(Placement {
-            before,
-            axis: axis?,
-            offset,
-            after: Transform::IDENTITY,
-        });
-    }
-    let (a, alpha) = (
-        number("a", Dimension::LENGTH),
-        number("alpha", Dimension::ANGLE),
-    );
-    let (fixed_key, dimension) = match kind {
-        JointKind::Revolute => ("d", Dimension::LENGTH),
-        JointKind::Prismatic => ("theta", Dimension::ANGLE),
-    };
-    let fixed = number(fixed_key, dimension)?;
-    let along_x = Transform {
-        rotation: rotation_x(alpha?),
-        translation: [a?, 0.0, 0.0],
-    };
-    let along_z = match kind {
-        JointKind::Revolute => Transform {
-            translation: [0.0, 0.0, fixed],
-            ..Transform::IDENTITY
-        },
-        JointKind::Prismatic => Transform {
-            rotation: rotation_z(fixed),
-            ..Transform::IDENTITY
-        },
-    };
-    Some(match convention {
-        Convention::StandardDh => Placement {
-            before: Transform::IDENTITY,
-            axis: Z,
-            offset,
-            after: along_z.then(&along_x),
-        },
-        _ => Placement {
-            before: along_x.then(&along_z),
-            axis: Z,
-            offset,
-            after: Transform::IDENTITY,
-        },
-    })
-}
-
-fn check_axis(value: &Value, joint: &ast::Joint) -> Result<[f64; 3], Diagnostic> {
-    let axis: [f64; 3] = value::vector(value, Dimension::NONE)?;
-    let length = axis[0].hypot(axis[1]).hypot(axis[2]);
-    if length > 0.0 && length.is_finite() {
-        return Ok(axis.map(|x| x / length));
-    }
-    Err(Diagnostic::new(
-        value.span(),
-        format!("the axis of joint `{}` has no direction", joint.name),
-        "length zero",
-    )
-    .help("write the direction of positive motion, such as `axis = [0, 0, 1];`"))
-}
-
-fn coordinate_dimension(kind: JointKind) -> Dimension {
+/// Dimension of the joint's coordinate.
+pub(super) fn coordinate_dimension(kind: JointKind) -> Dimension {
     match kind {
         JointKind::Revolute => Dimension::ANGLE,
         JointKind::Prismatic => Dimension::LENGTH,

@@ -5,6 +5,7 @@
 mod chain;
 mod declared;
 mod definition;
+mod frame;
 mod linear;
 mod link;
 mod resolve;

@@ -42,8 +42,20 @@ pub(super) fn any_scalar(value: &Value) -> Checked<f64> {
 fn single(value: &Value) -> Checked<&Expr> {
     match value {
         Value::Scalar(expr) => Ok(expr),
-        Value::List(_, span) => Err(shape_of(*span, "one number", "a list")),
-        Value::Range(..) => Err(shape_of(value.span(), "one number", "a range")),
+        _ => Err(shape_of(value.span(), "one number", describe(value))),
+    }
+}
+
+/// What a right-hand side is, in messages.
+fn describe(value: &Value) -> &'static str {
+    match value {
+        Value::Scalar(Expr {
+            kind: ExprKind::Name(_),
+            ..
+        }) => "a word",
+        Value::Scalar(_) => "one number",
+        Value::List(..) => "a list",
+        Value::Range(..) => "a range",
     }
 }
 
@@ -53,7 +65,7 @@ pub(super) fn vector<const N: usize>(value: &Value, expected: Dimension) -> Chec
         return Err(shape_of(
             value.span(),
             &format!("{N} numbers in brackets"),
-            "something else",
+            describe(value),
         ));
     };
     if items.len() != N {
@@ -76,7 +88,7 @@ pub(super) fn range(value: &Value, expected: Dimension) -> Checked<(f64, f64)> {
         return Err(shape_of(
             value.span(),
             "a range `low .. high`",
-            "something else",
+            describe(value),
         ));
     };
     let ends = (in_dimension(low, expected)?, in_dimension(high, expected)?);

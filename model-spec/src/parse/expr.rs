@@ -97,7 +97,7 @@ impl Climber {
         if input.peek(Lit) && !input.peek(syn::LitBool) {
             return number(input);
         }
-        let name = word(input, "a value")?;
+        let name = word(input, "a value such as `0.3`, `90 deg` or `pi/2`")?;
         if !input.peek(syn::token::Paren) {
             return Ok(Expr {
                 span: name.span(),
@@ -155,7 +155,7 @@ fn unexpected(content: ParseStream) -> syn::Error {
     syn_error(
         content.span(),
         &format!("expected an operator or `)`{}", found(content)),
-        None,
+        Some("write `+`, `-`, `*`, `/` or `^` between values, and close the bracket"),
     )
 }
 
@@ -183,7 +183,7 @@ fn number(input: ParseStream) -> syn::Result<Expr> {
     };
     let value: f64 = digits
         .parse()
-        .map_err(|_| syn_error(span, "this is not a number", None))?;
+        .map_err(|_| syn_error(span, "this is not a number", Some("write a decimal number")))?;
     let unit = if suffix.is_empty() {
         unit(input)?
     } else {

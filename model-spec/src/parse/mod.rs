@@ -138,7 +138,7 @@ fn word(input: ParseStream, expected: &str) -> syn::Result<Ident> {
     Err(syn_error(
         input.span(),
         &format!("expected {expected}{}", found(input)),
-        None,
+        Some(&format!("write {expected} here")),
     ))
 }
 
@@ -207,7 +207,7 @@ fn block<'a>(
         return Err(syn_error(
             input.span(),
             &format!("expected {expected}{}", found(input)),
-            None,
+            Some(&format!("write {expected} here")),
         ));
     }
     let content;

@@ -1,0 +1,21 @@
+//! Specs with one mistake each, named by the mistake: the exact words that an author reads.
+use std::fs;
+
+#[test]
+fn every_mistake_is_told_with_its_place_and_its_remedy() {
+    insta::glob!("../../tests/specs/fail", "*.robot", |path| {
+        let name = path.file_name().unwrap().to_string_lossy();
+        let text = fs::read_to_string(path).unwrap();
+        let errors = robot_model_spec::load(&name, &text).expect_err("has a mistake");
+        let rendered = errors.render(false);
+        assert!(rendered.contains(&format!("--> {name}:")), "{rendered}");
+        assert_eq!(
+            rendered.matches("= help: ").count(),
+            errors.len(),
+            "{rendered}"
+        );
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!("refused", rendered);
+        });
+    });
+}

@@ -1,0 +1,5 @@
+robot Arm {
+    gravity = [0, 0, -9.81];
+    joint waist: revolute { a = 0; alpha = 90 deg; d = 0; }
+    joint elbow: revolute { a = 0.4; alpha = 0; d = 0; }
+}

@@ -1,0 +1,1 @@
+effect drag(j) { linear c; torque(j) = c * dq(j); }

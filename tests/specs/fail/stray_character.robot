@@ -1,0 +1,3 @@
+robot Arm {
+    gravity = [0, 0, -9.81 §];
+}
