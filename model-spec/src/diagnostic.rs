@@ -240,3 +240,35 @@ impl fmt::Display for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
+
+#[cfg(test)]
+mod tests {
+    use super::{Diagnostic, Diagnostics};
+    use proc_macro2::Span;
+
+    #[test]
+    fn errors_may_cross_threads() {
+        fn check<T: Send + Sync + 'static>() {}
+        check::<Diagnostics>();
+    }
+
+    #[test]
+    fn help_survives_a_syn_error() {
+        let mistake = Diagnostic::new(Span::call_site(), "wrong", "here").help("do it right");
+        let again: Vec<Diagnostic> = Diagnostic::from_syn(mistake.to_syn_error()).collect();
+        assert_eq!(again[0].message(), "wrong");
+        assert_eq!(again[0].help_text(), Some("do it right"));
+    }
+
+    #[test]
+    fn colors_come_on_request_only() {
+        let errors = Diagnostics::new(
+            "r.robot",
+            "robot",
+            vec![Diagnostic::new(Span::call_site(), "wrong", "")],
+        );
+        assert!(!errors.render(false).contains('\u{1b}'));
+        assert!(errors.render(true).contains('\u{1b}'));
+        assert_eq!(errors.to_string(), errors.render(false));
+    }
+}

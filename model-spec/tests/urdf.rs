@@ -158,7 +158,11 @@ fn a_branching_tree_needs_its_tip() {
         tip: Some(tip.to_owned()),
         ..ImportOptions::default()
     };
-    let (_, arm) = imported(&parts, &to("tool"));
+    let (text, arm) = imported(&parts, &to("tool"));
+    assert!(
+        text.contains("part of the links that carry them: pan.\n"),
+        "{text}"
+    );
     assert_eq!(arm.joints.len(), 2);
     // The camera stands still on the upper link.
     assert!(matches!(arm.joints[0].link.inertial, Inertial::Nominal(ten) if ten[0] == 5.0));

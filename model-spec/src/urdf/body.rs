@@ -1,6 +1,6 @@
 //! What a link of the chain carries: its own inertial and those of everything that does not move against it.
 
-use urdf_rs::Link;
+use urdf_rs::{JointType, Link};
 
 use super::ImportError;
 use super::tree::{Chain, ChainJoint, Tree, origin};
@@ -16,9 +16,21 @@ pub(super) struct Body {
     pub(super) inertia: [[f64; 3]; 3],
 }
 
-/// The bodies behind `joint` down to the next joint of the chain, as one; joints of side branches stand at zero.
-pub(super) fn carried(tree: &Tree, chain: &Chain, joint: &ChainJoint) -> Result<Body, ImportError> {
+/// What hangs on a joint of the chain down to the next one, as one body.
+pub(super) struct Carried<'a> {
+    pub(super) body: Body,
+    /// Moving joints of side branches, which stand at zero.
+    pub(super) held: Vec<&'a str>,
+}
+
+/// Collects what moves together with the link behind `joint`.
+pub(super) fn carried<'a>(
+    tree: &Tree<'a>,
+    chain: &Chain,
+    joint: &ChainJoint<'a>,
+) -> Result<Carried<'a>, ImportError> {
     let mut bodies = Vec::new();
+    let mut held = Vec::new();
     let mut open = vec![(joint.joint.child.link.as_str(), Transform::IDENTITY)];
     while let Some((name, pose)) = open.pop() {
         if let Some(link) = tree.links.get(name) {
@@ -32,6 +44,9 @@ pub(super) fn carried(tree: &Tree, chain: &Chain, joint: &ChainJoint) -> Result<
             {
                 continue;
             }
+            if next.joint_type != JointType::Fixed {
+                held.push(next.name.as_str());
+            }
             let here = origin(
                 &next.origin,
                 &format!("the origin of joint `{}`", next.name),
@@ -39,7 +54,10 @@ pub(super) fn carried(tree: &Tree, chain: &Chain, joint: &ChainJoint) -> Result<
             open.push((next.child.link.as_str(), pose.then(&here)));
         }
     }
-    Ok(sum(&bodies))
+    Ok(Carried {
+        body: sum(&bodies),
+        held,
+    })
 }
 
 fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {

@@ -114,14 +114,14 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<String, ImportError
         urdf_rs::read_from_string(urdf).map_err(|error| ImportError::Parse(error.to_string()))?;
     let tree = tree::Tree::new(&robot)?;
     let chain = tree.chain(options.base.as_deref(), options.tip.as_deref())?;
-    let links = chain
+    let carried = chain
         .joints
         .iter()
         .map(|joint| body::carried(&tree, &chain, joint))
         .collect::<Result<Vec<_>, _>>()?;
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
-    let text = write::spec(&robot.name, &chain, &names, &links, &effects, options);
+    let text = write::spec(&robot.name, &chain, &names, &carried, &effects, options);
     crate::load("imported.robot", &text).map_err(ImportError::Refused)?;
     Ok(text)
 }

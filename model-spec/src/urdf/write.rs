@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use urdf_rs::JointType;
 
-use super::body::Body;
+use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
 use super::{ImportOptions, Inertials};
 use crate::transform::{quarter_turns, rpy, upper_camel};
@@ -64,7 +64,7 @@ pub(super) fn spec(
     robot: &str,
     chain: &Chain,
     names: &Names,
-    bodies: &[Body],
+    carried: &[Carried],
     effects: &[String],
     options: &ImportOptions,
 ) -> String {
@@ -72,6 +72,18 @@ pub(super) fn spec(
         "// Imported from a URDF: the chain that stands on link `{}`.\n",
         comment(chain.base)
     );
+    let held: Vec<String> = carried
+        .iter()
+        .flat_map(|one| &one.held)
+        .map(|name| comment(name))
+        .collect();
+    if !held.is_empty() {
+        let _ = writeln!(
+            text,
+            "// Beside the chain, held at zero and part of the links that carry them: {}.",
+            held.join(", ")
+        );
+    }
     let name = upper_camel(robot);
     let _ = writeln!(
         text,
@@ -92,7 +104,7 @@ pub(super) fn spec(
     };
     if let Some(status) = status {
         text.push('\n');
-        for (name, body) in names.links.iter().zip(bodies) {
+        for (name, Carried { body, .. }) in names.links.iter().zip(carried) {
             let i = body.inertia;
             let six = [i[0][0], i[0][1], i[0][2], i[1][1], i[1][2], i[2][2]].map(readable);
             let (mass, com, inertia) = (
