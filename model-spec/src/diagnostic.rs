@@ -23,20 +23,61 @@ pub struct Diagnostic {
 /// A place in the text and what is to be seen there.
 #[derive(Debug, Clone)]
 struct Label {
-    span: Span,
+    place: Place,
     text: String,
+}
+
+/// Where a label points.
+#[derive(Debug, Clone)]
+enum Place {
+    /// Tokens of a file or of a macro's input.
+    Tokens(Span),
+    /// Bytes of a text that could not be made into tokens.
+    Bytes(Range<usize>),
+}
+
+impl Place {
+    fn span(&self) -> Span {
+        match self {
+            Self::Tokens(span) => *span,
+            Self::Bytes(_) => Span::call_site(),
+        }
+    }
+
+    /// Kept inside `text`: within a macro the compiler's spans may belong to another file.
+    fn byte_range(&self, text: &str) -> Range<usize> {
+        let mut range = match self {
+            Self::Tokens(span) => span.byte_range(),
+            Self::Bytes(range) => range.clone(),
+        };
+        range.end = range.end.min(text.len());
+        range.start = range.start.min(range.end);
+        while !text.is_char_boundary(range.start) {
+            range.start -= 1;
+        }
+        while !text.is_char_boundary(range.end) {
+            range.end += 1;
+        }
+        range
+    }
 }
 
 impl Diagnostic {
     /// A mistake at a place. The message stands alone; the label is short and points.
     #[must_use]
     pub fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
+        Self::at(Place::Tokens(span), message.into(), label.into())
+    }
+
+    /// A mistake in a text that has no tokens yet.
+    pub(crate) fn in_text(bytes: Range<usize>, message: impl Into<String>, label: &str) -> Self {
+        Self::at(Place::Bytes(bytes), message.into(), label.to_owned())
+    }
+
+    fn at(place: Place, message: String, label: String) -> Self {
         Self {
-            message: message.into(),
-            labels: vec![Label {
-                span,
-                text: label.into(),
-            }],
+            message,
+            labels: vec![Label { place, text: label }],
             help: None,
         }
     }
@@ -45,8 +86,17 @@ impl Diagnostic {
     #[must_use]
     pub fn also(mut self, span: Span, label: impl Into<String>) -> Self {
         self.labels.push(Label {
-            span,
+            place: Place::Tokens(span),
             text: label.into(),
+        });
+        self
+    }
+
+    /// [`Self::also`] in a text that has no tokens yet.
+    pub(crate) fn also_in_text(mut self, bytes: Range<usize>, label: &str) -> Self {
+        self.labels.push(Label {
+            place: Place::Bytes(bytes),
+            text: label.to_owned(),
         });
         self
     }
@@ -75,7 +125,7 @@ impl Diagnostic {
     pub fn span(&self) -> Span {
         self.labels
             .first()
-            .map_or_else(Span::call_site, |label| label.span)
+            .map_or_else(Span::call_site, |label| label.place.span())
     }
 
     /// For a macro: an error at the same tokens, the help in its message.
@@ -94,12 +144,8 @@ impl Diagnostic {
             };
             let help = Some(help);
             Self {
-                message: message.to_owned(),
-                labels: vec![Label {
-                    span: one.span(),
-                    text: String::new(),
-                }],
                 help,
+                ..Self::new(one.span(), message, "")
             }
         })
     }
@@ -148,7 +194,7 @@ impl Diagnostics {
                 labels: mistake
                     .labels
                     .into_iter()
-                    .map(|l| (byte_range(l.span, text), l.text))
+                    .map(|l| (l.place.byte_range(text), l.text))
                     .collect(),
                 help: mistake.help,
             })
@@ -217,20 +263,6 @@ impl Diagnostics {
             None => group,
         }
     }
-}
-
-/// Where a span lies in `text`, kept inside it: within a macro the compiler's spans may belong to another file.
-fn byte_range(span: Span, text: &str) -> Range<usize> {
-    let mut range = span.byte_range();
-    range.end = range.end.min(text.len());
-    range.start = range.start.min(range.end);
-    while !text.is_char_boundary(range.start) {
-        range.start -= 1;
-    }
-    while !text.is_char_boundary(range.end) {
-        range.end += 1;
-    }
-    range
 }
 
 impl fmt::Display for Diagnostics {

@@ -5,7 +5,10 @@ pub(crate) fn nearest<'a>(
     wrong: &str,
     known: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
-    let reach = (wrong.chars().count() / 3).max(1);
+    let reach = match wrong.chars().count() {
+        0 | 1 => 0,
+        letters => (letters / 3).max(1),
+    };
     known
         .into_iter()
         .map(|name| {

@@ -208,6 +208,13 @@ fn check_target(
 }
 
 fn check_joint(robot: &Robot, name: &Ident, errors: &mut Errors) -> Option<usize> {
+    if name == "all" {
+        errors.push(
+            Diagnostic::new(name.span(), "`all` stands alone", "beside other joints")
+                .help("write `on all` without other joints"),
+        );
+        return None;
+    }
     let found = robot.joints.iter().position(|joint| joint.name == *name);
     if found.is_none() {
         let names: Vec<String> = robot

@@ -3,6 +3,7 @@
 //! One `syn` front end serves files and macros. A statement that does not parse is reported and skipped, so that one run
 //! shows the mistakes of all statements.
 
+mod brackets;
 mod effect;
 mod expr;
 mod robot;
@@ -23,10 +24,15 @@ const MAX_NESTING: usize = 48;
 /// Parses a spec's text.
 pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
     let tokens = TokenStream::from_str(text).map_err(|error| {
-        vec![
-            Diagnostic::new(error.span(), "the text cannot be split into words, numbers and brackets", "from here on")
-                .help("close every `(`, `[`, `{` and `\"`, and remove characters that belong to no word or number"),
-        ]
+        let general = || {
+            Diagnostic::new(
+                error.span(),
+                "the text is not made of words, numbers and brackets",
+                "from here on",
+            )
+            .help("remove characters that belong to no word or number, and close every `\"`")
+        };
+        vec![brackets::unbalanced(text).unwrap_or_else(general)]
     })?;
     parse_tokens(tokens).map_err(|error| Diagnostic::from_syn(error).collect())
 }
