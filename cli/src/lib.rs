@@ -1,1 +1,86 @@
-//! Placeholder until the first stage lands.
+//! The robot-model command line.
+//!
+//! One file a verb; each reads its inputs, calls the libraries once, and writes its results. Results go to standard output
+//! or to files, messages and progress to standard error. Exit codes: 0 done, 1 the input is at fault, 2 usage.
+
+mod check;
+mod close_the_loop;
+mod diff;
+
+mod error;
+mod eval;
+mod identify;
+mod import;
+
+pub mod interpreted;
+mod output;
+mod parameters;
+mod progress;
+mod show;
+mod spec;
+mod trace;
+
+use std::ffi::OsString;
+use std::io::IsTerminal;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+pub use error::Error;
+
+/// Robot arms from one spec: equations, code, identification, and what the model lacks.
+#[derive(Debug, Parser)]
+#[command(name = "robot-model", version, about, max_term_width = 100)]
+struct CommandLine {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Check(check::Check),
+    Show(show::Show),
+    Eval(eval::Eval),
+    Import(import::Import),
+    Identify(identify::IdentifyArguments),
+    Trace(trace::TraceArguments),
+}
+
+impl Verb {
+    fn run(&self) -> Result<(), Error> {
+        match self {
+            Self::Check(verb) => verb.run(),
+            Self::Show(verb) => verb.run(),
+            Self::Eval(verb) => verb.run(),
+            Self::Import(verb) => verb.run(),
+            Self::Identify(verb) => verb.run(),
+            Self::Trace(verb) => verb.run(),
+        }
+    }
+}
+
+/// The program: arguments of the process in, exit code out.
+#[must_use]
+pub fn main() -> ExitCode {
+    run(std::env::args_os())
+}
+
+/// Runs one command. The first argument is the program's name.
+#[must_use]
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let line = match CommandLine::try_parse_from(arguments) {
+        Ok(line) => line,
+        Err(error) => {
+            // Nothing is left to say where the terminal is gone.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match line.verb.run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{}", error.render(std::io::stderr().is_terminal()));
+            ExitCode::FAILURE
+        }
+    }
+}

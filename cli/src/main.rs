@@ -1,2 +1,7 @@
-//! Placeholder until the first stage lands.
-fn main() {}
+//! `robot-model`: write an arm down once, identify it, find what the model lacks.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    robot_model_cli::main()
+}

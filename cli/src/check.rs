@@ -1,0 +1,75 @@
+//! `robot-model check`: is the spec sound, and what does it describe?
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model_codegen::Compiled;
+use robot_model_codegen::base::RankStatus;
+use robot_model_spec::model::JointKind;
+
+use crate::spec::compile;
+use crate::{Error, output};
+
+/// Check a spec: every mistake with its source line and what to do, or what the spec describes.
+#[derive(Debug, Args)]
+pub(crate) struct Check {
+    /// The `.robot` file.
+    spec: PathBuf,
+}
+
+impl Check {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let compiled = compile(&self.spec)?;
+        if let RankStatus::Unclear(_) = compiled.base.rank {
+            eprintln!("warning: {}", compiled.base.rank);
+        }
+        output::print(&summary(&compiled))
+    }
+}
+
+/// Counts, joints and effects in a few lines.
+fn summary(compiled: &Compiled) -> String {
+    let model = &compiled.model;
+    let mut text = format!(
+        "{}: {}, {} of {}\n",
+        model.name,
+        counted(model.joints.len(), "joint"),
+        counted(compiled.base.kept.len(), "base parameter"),
+        counted(compiled.standard.len(), "standard parameter"),
+    );
+    let width = model
+        .joints
+        .iter()
+        .map(|joint| joint.name.len())
+        .max()
+        .unwrap_or(0);
+    for (index, joint) in model.joints.iter().enumerate() {
+        let kind = match joint.kind {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+        };
+        let effects: Vec<String> = model
+            .effects
+            .iter()
+            .filter(|effect| effect.joints.contains(&index))
+            .map(|effect| effect.definition.name.clone())
+            .collect();
+        let line = format!(
+            "  {:2}  {:width$}  {kind:9}  {}",
+            index + 1,
+            joint.name,
+            effects.join(", ")
+        );
+        writeln!(text, "{}", line.trim_end()).expect("a string takes all");
+    }
+    text
+}
+
+fn counted(count: usize, what: &str) -> String {
+    if count == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{count} {what}s")
+    }
+}

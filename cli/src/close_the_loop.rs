@@ -1,0 +1,115 @@
+//! The loop itself: identify, trace, amend the text, compile that text, identify again, compare.
+
+use robot_model::columns::{Arm, Candidate};
+use robot_model::identify::{Errors, Estimate, Identify};
+use robot_model::log::Log;
+use robot_model::trace::{Finding, Trace, Verdict};
+use robot_model_codegen::compile_model;
+use robot_model_spec::amend::{Amendment, amend};
+use robot_model_spec::load;
+
+use crate::Error;
+use crate::interpreted::InterpretedArm;
+use crate::progress::Progress;
+
+/// A model, what was identified with it, and how it does on data that it was not fitted on.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    pub arm: InterpretedArm,
+    pub estimate: Estimate,
+    /// On the validation log, where there is one.
+    pub validation: Option<Errors>,
+}
+
+/// The loop, closed.
+#[derive(Debug)]
+pub(crate) struct Loop {
+    pub before: Stage,
+    pub verdict: Verdict,
+    /// The spec with the traced effects declared; the text as it was where there are none.
+    pub amended: String,
+    /// None where the spec did not change.
+    pub changed: Option<Stage>,
+}
+
+impl Loop {
+    /// The last model and its numbers.
+    pub(crate) fn after(&self) -> &Stage {
+        self.changed.as_ref().unwrap_or(&self.before)
+    }
+}
+
+/// Runs the loop. `logs` are fitted and traced; `validate` is used for numbers only, once per model.
+pub(crate) fn close(
+    source_name: &str,
+    text: &str,
+    logs: &[Log],
+    validate: Option<&Log>,
+    progress: &Progress,
+) -> Result<Loop, Error> {
+    progress.step("identifying the declared model");
+    let before = Stage::identify(source_name, text, logs, validate)?;
+    let candidates = before.arm.candidates();
+    let candidates = candidates
+        .iter()
+        .map(|candidate| candidate as &dyn Candidate)
+        .collect();
+    let verdict =
+        Trace::new(candidates).run(&before.arm, logs, &mut |stage| progress.step(stage))?;
+
+    let amendments: Vec<Amendment> = verdict
+        .findings
+        .iter()
+        .map(|finding| amendment(finding, &before.arm))
+        .collect();
+    let amended = amend(source_name, text, &amendments)?;
+    let changed = if amendments.is_empty() {
+        None
+    } else {
+        progress.step("identifying the amended model");
+        Some(Stage::identify(source_name, &amended, logs, validate)?)
+    };
+    Ok(Loop {
+        before,
+        verdict,
+        amended,
+        changed,
+    })
+}
+
+impl Stage {
+    fn identify(
+        source_name: &str,
+        text: &str,
+        logs: &[Log],
+        validate: Option<&Log>,
+    ) -> Result<Self, Error> {
+        let arm = InterpretedArm::new(compile_model(&load(source_name, text)?));
+        let estimate = Identify::default().fit(&arm, logs)?;
+        let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
+        Ok(Self {
+            arm,
+            estimate,
+            validation,
+        })
+    }
+}
+
+/// What a finding says, as a line of a spec.
+fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
+    let shapes = finding
+        .parameters
+        .iter()
+        .filter(|parameter| parameter.shape);
+    Amendment {
+        effect: finding.kind.replace('-', "_"),
+        joints: finding
+            .joints
+            .iter()
+            .map(|&joint| arm.joints()[joint].clone())
+            .collect(),
+        shapes: shapes
+            .map(|parameter| (parameter.name.clone(), parameter.value))
+            .collect(),
+    }
+}

@@ -1,0 +1,85 @@
+//! What the command line refuses, and the words for it.
+
+use std::path::{Path, PathBuf};
+
+use robot_model::identify::IdentifyError;
+use robot_model::log::LogError;
+use robot_model_spec::Diagnostics;
+use thiserror::Error;
+
+/// Why a command ended without a result. Exit code 1, the message on stderr.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file cannot be read.
+    #[error("cannot read `{}`: {reason}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// A file cannot be written.
+    #[error("cannot write `{}`: {reason}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: String,
+    },
+    /// The results cannot be printed.
+    #[error("cannot write to standard output: {0}")]
+    Print(std::io::Error),
+    /// The spec has mistakes.
+    #[error("{0}")]
+    Spec(#[from] Diagnostics),
+    /// The log has mistakes.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// The arm cannot be identified from its logs.
+    #[error(transparent)]
+    Identify(#[from] IdentifyError),
+    /// A JSON file is not what it should be.
+    #[error("{}: {reason}", path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it, with line and column where they are known.
+        reason: String,
+    },
+    /// An argument that is well formed and makes no sense.
+    #[error("{0}")]
+    Argument(String),
+}
+
+impl Error {
+    /// The message as stderr shows it; spec mistakes carry their own headings.
+    #[must_use]
+    pub fn render(&self, color: bool) -> String {
+        match self {
+            Self::Spec(diagnostics) => diagnostics.render(color),
+            other => format!("error: {other}"),
+        }
+    }
+
+    pub(crate) fn read(path: &Path, error: &std::io::Error) -> Self {
+        Self::Read {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        }
+    }
+
+    pub(crate) fn write(path: &Path, error: &std::io::Error) -> Self {
+        Self::Write {
+            path: path.to_owned(),
+            reason: error.to_string(),
+        }
+    }
+
+    pub(crate) fn json(path: &Path, reason: &impl ToString) -> Self {
+        Self::Json {
+            path: path.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+}

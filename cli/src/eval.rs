@@ -1,0 +1,196 @@
+//! `robot-model eval`: the equations' values at given states.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::interpreter::Program;
+use robot_model_codegen::{Block, Compiled};
+use serde::{Deserialize, Serialize};
+
+use crate::parameters::{self, Values};
+use crate::spec::{compile, read_text};
+use crate::{Error, output};
+
+/// Mass matrix, Coriolis matrix, gravity, torque and regressors at given states, as JSON.
+#[derive(Debug, Args)]
+pub(crate) struct Eval {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// States: `{"states":[{"q":[..],"dq":[..],"ddq":[..]}]}`, in rad and m.
+    #[arg(long, value_name = "FILE.json")]
+    states: PathBuf,
+    /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct States {
+    states: Vec<State>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct State {
+    q: Vec<f64>,
+    dq: Vec<f64>,
+    ddq: Vec<f64>,
+    /// For effects that depend on it, s.
+    #[serde(default)]
+    time: f64,
+}
+
+#[derive(Serialize)]
+struct Evaluation<'a> {
+    robot: &'a str,
+    dof: usize,
+    standard_parameters: Vec<&'a str>,
+    base_parameters: Vec<BaseParameter<'a>>,
+    states: Vec<StateValues>,
+}
+
+#[derive(Serialize)]
+struct BaseParameter<'a> {
+    name: &'a str,
+    /// Names are listed in alphabetical order.
+    combination: BTreeMap<&'a str, f64>,
+}
+
+type Matrix = Vec<Vec<f64>>;
+
+#[derive(Serialize)]
+struct StateValues {
+    mass_matrix: Matrix,
+    coriolis_matrix: Matrix,
+    gravity: Vec<f64>,
+    torque: Vec<f64>,
+    regressor: Matrix,
+    base_regressor: Matrix,
+}
+
+impl Eval {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let compiled = compile(&self.spec)?;
+        let states = self.read_states(compiled.dof())?;
+        let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
+        let programs = Programs::new(&compiled);
+        let evaluation = Evaluation {
+            robot: &compiled.model.name,
+            dof: compiled.dof(),
+            standard_parameters: compiled
+                .standard
+                .iter()
+                .map(|parameter| parameter.name.as_str())
+                .collect(),
+            base_parameters: base_parameters(&compiled),
+            states: states
+                .iter()
+                .map(|state| programs.eval(state, &values))
+                .collect(),
+        };
+        output::print(&output::json(&evaluation))
+    }
+
+    fn read_states(&self, dof: usize) -> Result<Vec<State>, Error> {
+        let path = &self.states;
+        let States { states } =
+            serde_json::from_str(&read_text(path)?).map_err(|error| Error::json(path, &error))?;
+        for (k, state) in states.iter().enumerate() {
+            for (name, values) in [("q", &state.q), ("dq", &state.dq), ("ddq", &state.ddq)] {
+                if values.len() != dof {
+                    let found = values.len();
+                    let reason = format!(
+                        "state {}: `{name}` has {found} values, the arm has {dof} joints",
+                        k + 1
+                    );
+                    return Err(Error::json(path, &reason));
+                }
+            }
+        }
+        Ok(states)
+    }
+}
+
+fn base_parameters(compiled: &Compiled) -> Vec<BaseParameter<'_>> {
+    let base = &compiled.base;
+    let combination = |terms: &Vec<(usize, f64)>| {
+        terms
+            .iter()
+            .map(|&(k, coefficient)| (compiled.standard[k].name.as_str(), coefficient))
+            .collect()
+    };
+    base.names
+        .iter()
+        .zip(&base.combinations)
+        .map(|(name, terms)| BaseParameter {
+            name,
+            combination: combination(terms),
+        })
+        .collect()
+}
+
+/// The programs of all forms.
+struct Programs {
+    dof: usize,
+    standard: usize,
+    base: usize,
+    mass_matrix: Program,
+    coriolis_matrix: Program,
+    gravity: Program,
+    rigid_torque: Program,
+    torque: Program,
+    regressor: Block,
+    base_regressor: Block,
+}
+
+impl Programs {
+    fn new(compiled: &Compiled) -> Self {
+        Self {
+            dof: compiled.dof(),
+            standard: compiled.standard.len(),
+            base: compiled.base.kept.len(),
+            mass_matrix: compiled.mass_matrix(),
+            coriolis_matrix: compiled.coriolis_matrix(),
+            gravity: compiled.gravity(),
+            rigid_torque: compiled.rigid_torque(),
+            torque: compiled.inverse_dynamics(),
+            regressor: compiled.regressor(),
+            base_regressor: compiled.base_regressor(),
+        }
+    }
+
+    fn eval(&self, state: &State, values: &Values) -> StateValues {
+        let bind = |rigid_torque: &[f64], symbol| match symbol {
+            Symbol::Q(joint) => state.q[joint],
+            Symbol::Dq(joint) => state.dq[joint],
+            Symbol::Ddq(joint) => state.ddq[joint],
+            Symbol::Time => state.time,
+            Symbol::Parameter(k) => values.parameters[k],
+            Symbol::Shape(k) => values.shapes[k],
+            Symbol::RigidTorque(joint) => rigid_torque[joint],
+        };
+        // The load comes first: effects may depend on it.
+        let load = self.rigid_torque.eval(&|symbol| bind(&[], symbol));
+        let run = |program: &Program| program.eval(&|symbol| bind(&load, symbol));
+        let square =
+            |program: &Program| run(program).chunks(self.dof).map(<[f64]>::to_vec).collect();
+        let columns = |block: &Block, count: usize| {
+            let mut matrix = vec![vec![0.0; count]; self.dof];
+            for (&(joint, column), value) in block.entries.iter().zip(run(&block.program)) {
+                matrix[joint][column] = value;
+            }
+            matrix
+        };
+        StateValues {
+            mass_matrix: square(&self.mass_matrix),
+            coriolis_matrix: square(&self.coriolis_matrix),
+            gravity: run(&self.gravity),
+            torque: run(&self.torque),
+            regressor: columns(&self.regressor, self.standard),
+            base_regressor: columns(&self.base_regressor, self.base),
+        }
+    }
+}

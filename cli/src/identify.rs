@@ -1,0 +1,215 @@
+//! `robot-model identify`: parameters from measured logs.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model::columns::Arm;
+use robot_model::identify::{Errors, Estimate, Identify, Method};
+use robot_model::log::Log;
+use robot_model::signal::Bands;
+use serde::Serialize;
+
+use crate::Error;
+use crate::interpreted::InterpretedArm;
+use crate::output::{self, OutFile};
+use crate::progress::Progress;
+use crate::spec::{compile, read_log};
+
+/// Identify an arm's parameters from measured logs.
+#[derive(Debug, Args)]
+pub(crate) struct IdentifyArguments {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// Logs to fit: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// A log that is not fitted, to judge the model on.
+    #[arg(long, value_name = "LOG")]
+    validate: Option<PathBuf>,
+    /// How joints are weighed against each other.
+    #[arg(long, value_enum, default_value_t)]
+    method: MethodArgument,
+    /// Cutoffs of the zero-phase filters, Hz: shared by torque and columns, of rigid-body kinematics, of effects'
+    /// kinematics; without it they are chosen from the logs.
+    #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
+    bands: Option<Bands>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum MethodArgument {
+    /// Ordinary least squares.
+    Ls,
+    /// Least squares weighted by each joint's residual.
+    #[default]
+    Wls,
+}
+
+impl From<MethodArgument> for Method {
+    fn from(method: MethodArgument) -> Self {
+        match method {
+            MethodArgument::Ls => Self::Ls,
+            MethodArgument::Wls => Self::Wls,
+        }
+    }
+}
+
+fn parse_bands(text: &str) -> Result<Bands, String> {
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect();
+    match numbers.as_deref() {
+        Ok(&[shared_hz, smooth_hz, wide_hz]) => Ok(Bands {
+            smooth_hz,
+            wide_hz,
+            shared_hz,
+        }),
+        _ => Err("write three numbers, such as `10,30,90`".to_owned()),
+    }
+}
+
+/// What `--json` writes; a contract.
+#[derive(Serialize)]
+struct Report<'a> {
+    method: &'static str,
+    parameters: Vec<Parameter<'a>>,
+    rmse: &'a [f64],
+    rmse_validate: Option<&'a [f64]>,
+    relative_percent: &'a [f64],
+    relative_percent_validate: Option<&'a [f64]>,
+    condition: f64,
+    rank: usize,
+    unexcited: &'a [String],
+    bands_hz: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct Parameter<'a> {
+    name: &'a str,
+    value: f64,
+    /// None for shape parameters.
+    std: Option<f64>,
+}
+
+impl IdentifyArguments {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let arm = InterpretedArm::new(compile(&self.spec)?);
+        let json = self.json.as_deref().map(OutFile::create).transpose()?;
+        let progress = Progress::new();
+        let logs = self
+            .logs
+            .iter()
+            .map(|path| read_log(path, arm.dof(), &progress))
+            .collect::<Result<Vec<_>, _>>()?;
+        let validate = self
+            .validate
+            .as_deref()
+            .map(|path| read_log(path, arm.dof(), &progress))
+            .transpose()?;
+
+        progress.step("identifying");
+        let identify = Identify {
+            method: self.method.into(),
+            bands: self.bands,
+        };
+        let estimate = identify.fit(&arm, &logs)?;
+        let train = errors_of_all(&estimate, &arm, &logs)?;
+        let validation = validate
+            .as_ref()
+            .map(|log| estimate.errors(&arm, log))
+            .transpose()?;
+        drop(progress);
+
+        if let Some(file) = json {
+            file.commit(output::json(&report(&estimate, &train, validation.as_ref())).as_bytes())?;
+        }
+        output::print(&format!(
+            "{estimate}\n{}",
+            table(&estimate, &train, validation.as_ref())
+        ))
+    }
+}
+
+/// Errors over several logs: root mean squares over all their samples.
+fn errors_of_all(estimate: &Estimate, arm: &InterpretedArm, logs: &[Log]) -> Result<Errors, Error> {
+    let mut sum = vec![0.0; arm.dof()];
+    let mut samples = 0.0;
+    for log in logs {
+        let count = log.time.len() as f64;
+        for (sum, rmse) in sum.iter_mut().zip(estimate.errors(arm, log)?.rmse) {
+            *sum += count * rmse * rmse;
+        }
+        samples += count;
+    }
+    let rmse = sum.into_iter().map(|sum| (sum / samples).sqrt()).collect();
+    Ok(Errors {
+        rmse,
+        relative_percent: estimate.relative_percent.clone(),
+    })
+}
+
+fn report<'a>(
+    estimate: &'a Estimate,
+    train: &'a Errors,
+    validation: Option<&'a Errors>,
+) -> Report<'a> {
+    let linear = estimate.parameters.iter().map(|parameter| Parameter {
+        name: &parameter.name,
+        value: parameter.value,
+        std: Some(parameter.std),
+    });
+    let shapes = estimate.shapes.iter().map(|(name, value)| Parameter {
+        name,
+        value: *value,
+        std: None,
+    });
+    Report {
+        method: estimate.method.name(),
+        parameters: linear.chain(shapes).collect(),
+        rmse: &train.rmse,
+        rmse_validate: validation.map(|errors| errors.rmse.as_slice()),
+        relative_percent: &train.relative_percent,
+        relative_percent_validate: validation.map(|errors| errors.relative_percent.as_slice()),
+        condition: estimate.condition,
+        rank: estimate.rank,
+        unexcited: &estimate.unexcited,
+        bands_hz: [
+            estimate.bands.shared_hz,
+            estimate.bands.smooth_hz,
+            estimate.bands.wide_hz,
+        ],
+    }
+}
+
+/// Errors per joint, side by side.
+fn table(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> String {
+    let width = estimate
+        .joints
+        .iter()
+        .map(String::len)
+        .max()
+        .unwrap_or(0)
+        .max("joint".len());
+    let mut text = format!("{:width$}  {:>10}  {:>10}", "joint", "RMSE", "relative");
+    if validation.is_some() {
+        write!(text, "  {:>10}  {:>10}", "validation", "relative").expect("a string takes all");
+    }
+    text.push('\n');
+    for (joint, name) in estimate.joints.iter().enumerate() {
+        write!(text, "{name:width$}").expect("a string takes all");
+        for errors in std::iter::once(train).chain(validation) {
+            write!(
+                text,
+                "  {:>10.4}  {:>8.2} %",
+                errors.rmse[joint], errors.relative_percent[joint]
+            )
+            .expect("a string takes all");
+        }
+        text.push('\n');
+    }
+    text
+}

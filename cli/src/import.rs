@@ -1,0 +1,85 @@
+//! `robot-model import`: a URDF to a spec.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model_spec::urdf::{ImportError, ImportOptions, Inertials, import};
+
+use crate::Error;
+use crate::output::OutFile;
+use crate::spec::read_text;
+
+/// Turn a URDF into a spec.
+#[derive(Debug, Args)]
+pub(crate) struct Import {
+    /// The URDF file.
+    urdf: PathBuf,
+    /// The spec to write.
+    #[arg(short, long, value_name = "SPEC")]
+    output: PathBuf,
+    /// Link that stands still; the root of the tree where it is not given.
+    #[arg(long, value_name = "LINK")]
+    base: Option<String>,
+    /// Link at the end of the chain; needed where the tree has several ends.
+    #[arg(long, value_name = "LINK")]
+    tip: Option<String>,
+    /// Effects to declare: joints by number from 1, by name, or `all`, such as
+    /// `all:viscous_friction,coulomb_friction;3:motor_inertia`.
+    #[arg(long, default_value = "")]
+    effects: String,
+    /// What to make of the inertials.
+    #[arg(long, value_enum, default_value_t)]
+    inertials: InertialsArgument,
+    /// Acceleration of gravity in the base link's frame, m/s^2.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, default_value = "0,0,-9.81", allow_hyphen_values = true)]
+    gravity: [f64; 3],
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum InertialsArgument {
+    /// CAD values, to be identified.
+    #[default]
+    Nominal,
+    /// Exact, kept.
+    Fixed,
+    /// Left out, to be identified without a first value.
+    None,
+}
+
+fn parse_vector(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) if [x, y, z].iter().all(|value| value.is_finite()) => Ok([x, y, z]),
+        _ => Err("write three numbers, such as `0,0,-9.81`".to_owned()),
+    }
+}
+
+impl Import {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let urdf = read_text(&self.urdf)?;
+        let options = ImportOptions {
+            base: self.base.clone(),
+            tip: self.tip.clone(),
+            effects: self.effects.clone(),
+            inertials: match self.inertials {
+                InertialsArgument::Nominal => Inertials::Nominal,
+                InertialsArgument::Fixed => Inertials::Fixed,
+                InertialsArgument::None => Inertials::None,
+            },
+            gravity: self.gravity,
+        };
+        let file = OutFile::create(&self.output)?;
+        let spec = import(&urdf, &options).map_err(|error| self.refused(error))?;
+        file.commit(spec.as_bytes())
+    }
+
+    fn refused(&self, error: ImportError) -> Error {
+        match error {
+            ImportError::Refused(diagnostics) => Error::Spec(diagnostics),
+            other => Error::Argument(format!("{}: {other}", self.urdf.display())),
+        }
+    }
+}

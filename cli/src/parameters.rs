@@ -1,0 +1,197 @@
+//! Parameter files and the values that a spec holds itself.
+//!
+//! A file is a JSON object of names and values, or what `identify --json` writes: `{"parameters":[{"name","value"}]}`.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use robot_model_codegen::Compiled;
+use robot_model_codegen::base::shape_values;
+use robot_model_spec::parameter::Status;
+use serde::Deserialize;
+
+use crate::Error;
+use crate::spec::read_text;
+
+/// Values for everything in an arm that is not a number yet.
+#[derive(Debug)]
+pub(crate) struct Values {
+    /// One per standard parameter, as [`Compiled::parameter_values`] gives them.
+    pub parameters: Vec<f64>,
+    /// One per shape parameter of the declared effects.
+    pub shapes: Vec<f64>,
+}
+
+/// The two forms of a parameter file.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum File {
+    Identified { parameters: Vec<Parameter> },
+    Plain(BTreeMap<String, f64>),
+}
+
+#[derive(Deserialize)]
+struct Parameter {
+    name: String,
+    value: f64,
+}
+
+/// Reads a parameter file.
+fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
+    let text = read_text(path)?;
+    // The two forms are tried on a value that is known to be JSON, so that a slip of the pen is told with its line.
+    let json: serde_json::Value =
+        serde_json::from_str(&text).map_err(|error| Error::json(path, &error))?;
+    let file = File::deserialize(json).map_err(|_| {
+        Error::json(path, &"write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`")
+    })?;
+    match file {
+        File::Plain(values) => Ok(values),
+        File::Identified { parameters } => {
+            let mut values = BTreeMap::new();
+            for Parameter { name, value } in parameters {
+                if values.insert(name.clone(), value).is_some() {
+                    return Err(Error::json(
+                        path,
+                        &format!("parameter `{name}` stands there twice"),
+                    ));
+                }
+            }
+            Ok(values)
+        }
+    }
+}
+
+/// Values from a file, and from the spec where the file has none or there is no file.
+pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values, Error> {
+    let (given, source) = match file {
+        Some(path) => (read(path)?, path.display().to_string()),
+        None => (BTreeMap::new(), compiled.model.source.clone()),
+    };
+    let fault = |reason: String| Error::Argument(format!("{source}: {reason}"));
+
+    let shape_names = compiled.shape_names();
+    let standard_names: Vec<&str> = compiled
+        .standard
+        .iter()
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    let base_names: Vec<&str> = compiled.base.names.iter().map(String::as_str).collect();
+    let linear: Vec<&str> = given
+        .keys()
+        .map(String::as_str)
+        .filter(|name| !shape_names.iter().any(|shape| shape == name))
+        .collect();
+    // Regrouped base parameters have names of their own; they stand for all standard parameters or for none.
+    let is_base = !base_names.is_empty()
+        && linear.len() == base_names.len()
+        && base_names.iter().all(|name| linear.contains(name));
+    let known = if is_base {
+        &base_names
+    } else {
+        &standard_names
+    };
+    let unknown: Vec<&str> = linear
+        .iter()
+        .copied()
+        .filter(|name| !known.contains(name))
+        .collect();
+    if !unknown.is_empty() {
+        let all_base = unknown.iter().all(|name| base_names.contains(name));
+        let why = if all_base {
+            "; base parameters are accepted only as a whole set, and with no others"
+        } else {
+            ""
+        };
+        return Err(fault(format!(
+            "{} has no parameter {}{why}",
+            compiled.model.name,
+            list(&unknown)
+        )));
+    }
+
+    let beta = if is_base {
+        base_names.iter().map(|name| given[*name]).collect()
+    } else {
+        compiled
+            .base
+            .beta(&standard(compiled, &given).map_err(fault)?)
+    };
+    let mut shapes = shape_values(&compiled.model);
+    let free = compiled.free_shapes();
+    let mut missing = Vec::new();
+    for (k, name) in shape_names.iter().enumerate() {
+        match given.get(name) {
+            Some(value) if free.contains(&k) => shapes[k] = *value,
+            Some(value) if differ(*value, shapes[k]) => {
+                return Err(fault(format!(
+                    "`{name}` is {value} here and {} in the spec",
+                    shapes[k]
+                )));
+            }
+            None if free.contains(&k) => missing.push(name.as_str()),
+            _ => {}
+        }
+    }
+    if !missing.is_empty() {
+        return Err(fault(no_value(&missing)));
+    }
+    Ok(Values {
+        parameters: compiled.parameter_values(&beta),
+        shapes,
+    })
+}
+
+/// A value for every standard parameter that some torque depends on.
+fn standard(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Vec<f64>, String> {
+    let mut values = vec![0.0; compiled.standard.len()];
+    let mut missing = Vec::new();
+    for (k, parameter) in compiled.standard.iter().enumerate() {
+        values[k] = match (given.get(&parameter.name).copied(), parameter.status) {
+            (Some(value), Status::Fixed(fixed)) if differ(value, fixed) => {
+                return Err(format!(
+                    "`{}` is {value} here and fixed to {fixed} in the spec",
+                    parameter.name
+                ));
+            }
+            (Some(value), _) | (None, Status::Nominal(value) | Status::Fixed(value)) => value,
+            (None, Status::Unknown) => {
+                if !compiled.base.unidentifiable.contains(&k) {
+                    missing.push(parameter.name.as_str());
+                }
+                0.0
+            }
+        };
+    }
+    if missing.is_empty() {
+        Ok(values)
+    } else {
+        Err(no_value(&missing))
+    }
+}
+
+fn no_value(names: &[&str]) -> String {
+    format!(
+        "no value for {}; give it in a file with `--parameters`",
+        list(names)
+    )
+}
+
+/// More than rounding apart.
+fn differ(left: f64, right: f64) -> bool {
+    (left - right).abs() > 1e-12 * left.abs().max(right.abs())
+}
+
+/// Names in backticks; a long list keeps its first twelve.
+fn list(names: &[&str]) -> String {
+    const SHOWN: usize = 12;
+    let mut text: Vec<String> = names
+        .iter()
+        .take(SHOWN)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    if names.len() > SHOWN {
+        text.push(format!("and {} more", names.len() - SHOWN));
+    }
+    text.join(", ")
+}

@@ -1,0 +1,149 @@
+//! A folder of inputs, and the program run on them.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use tempfile::TempDir;
+
+/// A mass on a rail: every number of a test can be checked by hand.
+pub const CART: &str = "\
+robot Cart {
+    gravity = [0, 0, -9.81];
+    convention = origin;
+    joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; }   // runs level
+    effects {
+        viscous_friction on rail;
+    }
+}
+";
+
+/// A double pendulum with CAD values.
+pub const PENDULUM: &str = "\
+robot Pendulum {
+    gravity = [0, -9.81, 0];
+    convention = standard_dh;
+    joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
+    joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
+    link upper { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+    link lower { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
+}
+";
+
+/// What a run left behind.
+pub struct Run {
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+/// A folder of its own for each test.
+pub struct Folder(TempDir);
+
+impl Folder {
+    pub fn new() -> Self {
+        Self(tempfile::tempdir().expect("a temporary folder"))
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    pub fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.path(name), text).expect("a file in the folder");
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path(name)).expect("a file in the folder")
+    }
+
+    /// Names of all files, hidden ones too, in order.
+    pub fn files(&self) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.path()).expect("the folder");
+        let name = |entry: std::io::Result<std::fs::DirEntry>| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .into_string()
+                .expect("a readable name")
+        };
+        let mut names: Vec<String> = entries.map(name).collect();
+        names.sort();
+        names
+    }
+
+    /// Runs the program inside the folder.
+    pub fn run(&self, arguments: &[&str]) -> Run {
+        run_in(self.0.path(), arguments)
+    }
+
+    /// Runs the program, which must succeed; what it prints.
+    pub fn succeed(&self, arguments: &[&str]) -> String {
+        let run = self.run(arguments);
+        assert_eq!(run.code, Some(0), "{arguments:?}: {}", run.stderr);
+        run.stdout
+    }
+
+    /// Runs the program, which must refuse: exit code 1, nothing printed, no file added. What it says.
+    pub fn refuse(&self, arguments: &[&str]) -> String {
+        let before = self.files();
+        let run = self.run(arguments);
+        assert_eq!(
+            run.code,
+            Some(1),
+            "{arguments:?}: {}{}",
+            run.stdout,
+            run.stderr
+        );
+        assert_eq!(run.stdout, "", "{arguments:?}");
+        assert_eq!(self.files(), before, "{arguments:?}: nothing half-written");
+        assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
+        run.stderr
+    }
+}
+
+fn run_in(folder: &Path, arguments: &[&str]) -> Run {
+    let output = Command::new(env!("CARGO_BIN_EXE_robot-model"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("the program starts");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");
+    Run {
+        code: output.status.code(),
+        stdout: text(output.stdout),
+        stderr: text(output.stderr),
+    }
+}
+
+/// A log of the cart at 200 Hz: mass 3 kg, viscous friction 5 N s/m, Coulomb friction `coulomb` N, a little noise.
+pub fn cart_log(seconds: u32, coulomb: f64, phase: f64) -> String {
+    let mut text = String::from("time,q1,tau1\n");
+    let mut noise = 12_345_u64;
+    for k in 0..seconds * 200 {
+        let t = f64::from(k) / 200.0;
+        let tones = [
+            (0.20, 1.3, phase),
+            (0.05, 4.1, 1.0 + phase),
+            (0.02, 7.9, 2.0),
+        ];
+        let sum = |f: &dyn Fn(f64, f64, f64) -> f64| {
+            tones
+                .iter()
+                .map(|&(a, w, p)| f(a, w, w * t + p))
+                .sum::<f64>()
+        };
+        let q = sum(&|a, _, angle| a * angle.sin());
+        let dq = sum(&|a, w, angle| a * w * angle.cos());
+        let ddq = sum(&|a, w, angle| -a * w * w * angle.sin());
+        // A linear congruence is random enough for a sensor.
+        noise = noise
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        let white =
+            f64::from(u32::try_from(noise >> 33).expect("31 bits")) / f64::from(1_u32 << 31) - 0.5;
+        let tau = 3.0 * ddq + 5.0 * dq + coulomb * dq.signum() + 0.1 * white;
+        writeln!(text, "{t:.3},{q:.9},{tau:.6}").expect("a string takes all");
+    }
+    text
+}
