@@ -5,6 +5,7 @@
 
 use crate::identify::Segment;
 use crate::motion::Motion;
+use crate::signal::resample::whole_steps;
 
 /// Number of folds.
 pub(super) const FOLDS: usize = 5;
@@ -35,7 +36,7 @@ pub(super) struct Fold {
 
 /// The period of a motion in s, where it fits at least twice into the log and all joints repeat.
 pub(super) fn period(motion: &Motion, rate_hz: f64) -> Option<f64> {
-    let step = crate::signal::resample::whole_steps((rate_hz / PERIOD_RATE_HZ).max(1.0));
+    let step = whole_steps((rate_hz / PERIOD_RATE_HZ).max(1.0));
     let joints: Vec<Vec<f64>> = motion
         .wide
         .q
@@ -52,8 +53,7 @@ pub(super) fn period(motion: &Motion, rate_hz: f64) -> Option<f64> {
         .map(|q| (q, spread(q)))
         .filter(|(_, s)| *s > 1e-8)
         .collect();
-    let shortest =
-        crate::signal::resample::whole_steps(SHORTEST_PERIOD_S * rate_hz / step as f64).max(1);
+    let shortest = whole_steps(SHORTEST_PERIOD_S * rate_hz / step as f64).max(1);
     (shortest..=samples / 2)
         .find(|&lag| {
             !moving.is_empty()
@@ -79,20 +79,15 @@ pub(super) fn cut(segments: &[Segment], periods: &[Option<f64>]) -> Vec<Fold> {
             .last()
             .map_or(0.0, |last| last - first)
             .max(f64::MIN_POSITIVE);
-        let (cycle, intervals) = match period {
-            Some(period) => (*period, FOLDS * INTERVALS_PER_FOLD),
-            None => {
-                let blocks =
-                    crate::signal::resample::whole_steps(length / (BLOCK_S * FOLDS as f64));
-                (
-                    length * (1.0 + 1e-9),
-                    FOLDS * blocks.max(LEAST_BLOCKS_PER_FOLD),
-                )
-            }
+        let (cycle, intervals) = if let Some(period) = period {
+            (*period, FOLDS * INTERVALS_PER_FOLD)
+        } else {
+            let blocks = whole_steps(length / (BLOCK_S * FOLDS as f64)).max(LEAST_BLOCKS_PER_FOLD);
+            (length * (1.0 + 1e-9), FOLDS * blocks)
         };
         number.extend(segment.time.iter().map(|time| {
             let phase = ((time - first) / cycle).fract();
-            crate::signal::resample::whole_steps(phase * intervals as f64) % FOLDS
+            whole_steps(phase * intervals as f64) % FOLDS
         }));
     }
     (0..FOLDS)
@@ -106,7 +101,7 @@ pub(super) fn cut(segments: &[Segment], periods: &[Option<f64>]) -> Vec<Fold> {
                 } else {
                     1.0
                 };
-                let gap = crate::signal::resample::whole_steps(GAP_S * rate);
+                let gap = whole_steps(GAP_S * rate);
                 for k in (segment.start..segment.start + rows).filter(|k| number[*k] == fold) {
                     let from = k.saturating_sub(gap).max(segment.start);
                     let to = (k + gap + 1).min(segment.start + rows);
@@ -127,7 +122,7 @@ mod tests {
     use crate::motion::Kinematics;
 
     fn motion(f: impl Fn(f64) -> f64, seconds: f64, rate: f64) -> Motion {
-        let time: Vec<f64> = (0..crate::signal::resample::whole_steps(seconds * rate))
+        let time: Vec<f64> = (0..whole_steps(seconds * rate))
             .map(|k| k as f64 / rate)
             .collect();
         let q = vec![time.iter().map(|t| f(*t)).collect()];

@@ -24,8 +24,8 @@ pub(super) struct Baseline<'a> {
     pub(super) present: Present<'a>,
     pub(super) gram: &'a Gram,
     pub(super) held_out: HeldOut,
-    /// Power of the residual on raw samples per joint.
-    pub(super) raw_power: &'a [f64],
+    /// Power of the raw residual per joint that no filtered fit can remove: noise above the shared band.
+    pub(super) noise_power: &'a [f64],
     /// Candidates and shapes tried.
     pub(super) tried: usize,
 }
@@ -48,14 +48,14 @@ impl<'a> Baseline<'a> {
         gram: &'a Gram,
         sigma: &'a [f64],
         residuals: &'a [Vec<f64>],
-        raw_power: &'a [f64],
+        noise_power: &'a [f64],
         tried: usize,
     ) -> Self {
         Self {
             present: Present::new(stack, gram, sigma, residuals),
             held_out: gram.held_out(sigma),
             gram,
-            raw_power,
+            noise_power,
             tried,
         }
     }
@@ -67,17 +67,12 @@ impl<'a> Baseline<'a> {
         let held_out = gram.held_out(self.present.sigma);
         let dof = stack.dof();
 
-        let fall: Vec<f64> = (0..dof)
-            .map(|j| self.held_out.mean(j) - held_out.mean(j))
-            .collect();
-        let raw_power: Vec<f64> = (0..dof)
-            // The held-out error holds the structure, the raw error the noise as well; neither can end below zero.
-            .map(|j| {
-                (self.raw_power[j] - fall[j])
-                    .max(held_out.mean(j))
-                    .max(f64::MIN_POSITIVE)
-            })
-            .collect();
+        let raw = |held_out: &HeldOut| -> Vec<f64> {
+            (0..dof)
+                .map(|j| self.noise_power[j] + held_out.mean(j).max(f64::MIN_POSITIVE))
+                .collect()
+        };
+        let (raw_before, raw_power) = (raw(&self.held_out), raw(&held_out));
         let percent = |after: f64, before: f64| {
             100.0 * (1.0 - (after / before.max(f64::MIN_POSITIVE)).sqrt())
         };
@@ -104,7 +99,7 @@ impl<'a> Baseline<'a> {
                 .map(|j| percent(held_out.mean(j), self.held_out.mean(j)))
                 .collect(),
             raw_percent: (0..dof)
-                .map(|j| percent(raw_power[j], self.raw_power[j]))
+                .map(|j| percent(raw_power[j], raw_before[j]))
                 .collect(),
             folds: (improved, folds),
         };

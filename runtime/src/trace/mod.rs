@@ -7,9 +7,11 @@
 //! the right sign; each time the full system of all joints is fitted again. Last, *structure* asks whether what is left
 //! still follows the motion; then no name is given.
 
+mod conclude;
 mod folds;
 mod gate;
 mod gram;
+mod residual;
 mod score;
 mod search;
 mod structure;

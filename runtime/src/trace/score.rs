@@ -2,6 +2,7 @@
 
 use crate::columns::Entry;
 use crate::identify::Stack;
+use crate::signal::resample::whole_steps;
 
 use super::gram::{Gram, Normal};
 
@@ -177,9 +178,7 @@ impl<'a> Present<'a> {
                 continue;
             }
             let seconds = segment.time[rows - 1] - segment.time[0];
-            let count = crate::signal::resample::whole_steps(seconds / BLOCK_S)
-                .max(LEAST_BLOCKS)
-                .min(rows);
+            let count = whole_steps(seconds / BLOCK_S).max(LEAST_BLOCKS).min(rows);
             blocks.extend(
                 (0..count).map(|b| {
                     segment.start + b * rows / count..segment.start + (b + 1) * rows / count

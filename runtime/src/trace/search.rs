@@ -3,17 +3,16 @@
 use crate::columns::{Arm, Candidate};
 use crate::identify::{
     Identify, IdentifyError, Method, Solution, Stack, check_logs, prepare_all, slowest_bands,
-    torque_of,
 };
 use crate::log::Log;
 use crate::signal::Prepared;
 
+use super::conclude::verdict;
 use super::folds::{self, Fold};
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::gram::Gram;
-use super::structure::{self, RawResidual, Structure};
 use super::trial::Trial;
-use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Verdict};
+use super::verdict::{Alternative, Evidence, Verdict};
 
 /// No more effects than this are looked for: a model that misses more is another model.
 const MOST_EFFECTS: usize = 6;
@@ -21,27 +20,24 @@ const MOST_EFFECTS: usize = 6;
 /// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
 const FINALISTS: usize = 16;
 
-/// Structure is accounted for where less than this share of it is left.
-const LEFT_SHARE: f64 = 0.25;
-
 /// A trace: candidates against the residual of an arm's declared model.
 pub struct Trace<'a> {
     candidates: Vec<&'a dyn Candidate>,
 }
 
 /// An effect that was accepted.
-struct Accepted<'a> {
-    trial: Trial<'a>,
-    evidence: super::verdict::Evidence,
-    rivals: Vec<Alternative>,
+pub(super) struct Accepted<'a> {
+    pub(super) trial: Trial<'a>,
+    pub(super) evidence: Evidence,
+    pub(super) rivals: Vec<Alternative>,
 }
 
 /// Everything that changes when an effect is accepted.
-struct State<'a> {
-    stack: Stack,
-    solution: Solution,
-    residuals: Vec<Vec<f64>>,
-    accepted: Vec<Accepted<'a>>,
+pub(super) struct State<'a> {
+    pub(super) stack: Stack,
+    pub(super) solution: Solution,
+    pub(super) residuals: Vec<Vec<f64>>,
+    pub(super) accepted: Vec<Accepted<'a>>,
 }
 
 impl<'a> Trace<'a> {
@@ -126,13 +122,13 @@ impl<'a> Trace<'a> {
 }
 
 /// What stays the same through a search, but for the rigid-body torque in the motions.
-struct Search<'s> {
-    arm: &'s dyn Arm,
-    identify: &'s Identify,
-    shapes: Vec<f64>,
-    prepared: Vec<Prepared>,
-    periods: Vec<Option<f64>>,
-    folds: Vec<Fold>,
+pub(super) struct Search<'s> {
+    pub(super) arm: &'s dyn Arm,
+    pub(super) identify: &'s Identify,
+    pub(super) shapes: Vec<f64>,
+    pub(super) prepared: Vec<Prepared>,
+    pub(super) periods: Vec<Option<f64>>,
+    pub(super) folds: Vec<Fold>,
 }
 
 impl Search<'_> {
@@ -203,14 +199,14 @@ impl Search<'_> {
     /// One round: the best candidate that passes, with its rivals.
     fn round<'a>(&self, state: &State, grids: &[Vec<Trial<'a>>]) -> Option<Accepted<'a>> {
         let gram = Gram::new(&state.stack, &self.folds);
-        let raw_power = self.raw_power(state);
+        let noise_power = self.noise_power(state);
         let tried = grids.iter().map(Vec::len).sum();
         let baseline = Baseline::new(
             &state.stack,
             &gram,
             &state.solution.sigma,
             &state.residuals,
-            &raw_power,
+            &noise_power,
             tried,
         );
         let mut best: Vec<(f64, &Trial)> = grids
@@ -244,13 +240,13 @@ impl Search<'_> {
             let effect = state.accepted.remove(number);
             state = self.refit(state)?;
             let gram = Gram::new(&state.stack, &self.folds);
-            let raw_power = self.raw_power(&state);
+            let noise_power = self.noise_power(&state);
             let baseline = Baseline::new(
                 &state.stack,
                 &gram,
                 &state.solution.sigma,
                 &state.residuals,
-                &raw_power,
+                &noise_power,
                 1,
             );
             let needed = effect
@@ -272,95 +268,6 @@ impl Search<'_> {
             }
         }
         Ok(state)
-    }
-
-    /// Raw residuals of one log, `[joint][sample]`, both ends cut.
-    fn raw_residuals(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
-        let own = self.arm.unknowns().len();
-        let mut torque = torque_of(
-            self.arm,
-            &log.motion,
-            &self.shapes,
-            &state.solution.estimate,
-            self.arm.dof(),
-        );
-        let mut first = own;
-        for effect in &state.accepted {
-            let estimate = &state.solution.estimate[first..first + effect.trial.count()];
-            let part = torque_of(
-                effect.trial.candidate,
-                &log.motion,
-                &effect.trial.shapes,
-                estimate,
-                self.arm.dof(),
-            );
-            for (sum, part) in torque.iter_mut().zip(part) {
-                sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
-            }
-            first += effect.trial.count();
-        }
-        let known = self.arm.known_torque(&log.motion);
-        let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
-        (0..self.arm.dof())
-            .map(|j| {
-                let gain = self.arm.actuator_gain()[j];
-                inner
-                    .clone()
-                    .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
-                    .collect()
-            })
-            .collect()
-    }
-
-    /// Mean square of the raw residual per joint over all logs.
-    fn raw_power(&self, state: &State) -> Vec<f64> {
-        let logs: Vec<Vec<Vec<f64>>> = self
-            .prepared
-            .iter()
-            .map(|log| self.raw_residuals(state, log))
-            .collect();
-        (0..self.arm.dof())
-            .map(|j| {
-                let count: usize = logs.iter().map(|log| log[j].len()).sum();
-                logs.iter()
-                    .flat_map(|log| &log[j])
-                    .map(|r| r * r)
-                    .sum::<f64>()
-                    / count.max(1) as f64
-            })
-            .collect()
-    }
-
-    /// Structure per joint, and the power of what is not structure.
-    fn structure(&self, state: &State) -> (Vec<Structure>, Vec<f64>) {
-        let raw: Vec<Vec<Vec<f64>>> = self
-            .prepared
-            .iter()
-            .map(|log| self.raw_residuals(state, log))
-            .collect();
-        let power = self.raw_power(state);
-        let found: Vec<Structure> = (0..self.arm.dof())
-            .map(|j| {
-                let logs: Vec<RawResidual> = raw
-                    .iter()
-                    .zip(&self.prepared)
-                    .zip(&self.periods)
-                    .map(|((residuals, log), period)| RawResidual {
-                        values: &residuals[j],
-                        rate_hz: log.rate_hz,
-                        shared_hz: self.identify.bands.map_or(0.0, |bands| bands.shared_hz),
-                        period: *period,
-                    })
-                    .collect();
-                structure::of(&logs)
-            })
-            .collect();
-        let noise = power
-            .iter()
-            .zip(&found)
-            .map(|(p, s)| (p - s.power).max(0.0))
-            .collect();
-        (found, noise)
     }
 }
 
@@ -388,76 +295,4 @@ fn choose<'a>(judged: Vec<Judged<'a>>, number: usize) -> Option<Accepted<'a>> {
         trial: chosen.trial,
         rivals,
     })
-}
-
-fn verdict(
-    state: &State,
-    before: Vec<Structure>,
-    after: Vec<Structure>,
-    noise_power: &[f64],
-) -> Verdict {
-    let mut first = state.stack.unknowns.len()
-        - state
-            .accepted
-            .iter()
-            .map(|effect| effect.trial.count())
-            .sum::<usize>();
-    let mut found = Vec::new();
-    for effect in &state.accepted {
-        let candidate = effect.trial.candidate;
-        let values = &state.solution.estimate[first..first + effect.trial.count()];
-        first += effect.trial.count();
-        let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
-        let linear = candidate
-            .unknowns()
-            .iter()
-            .zip(values)
-            .map(|(unknown, value)| FoundParameter {
-                name: last_part(&unknown.name),
-                value: *value,
-                shape: false,
-            });
-        let shapes = candidate
-            .shapes()
-            .iter()
-            .zip(&effect.trial.shapes)
-            .map(|(shape, value)| FoundParameter {
-                name: last_part(&shape.name),
-                value: *value,
-                shape: true,
-            });
-        found.push(Finding {
-            kind: candidate.kind().to_owned(),
-            joints: candidate.joints().to_vec(),
-            parameters: linear.chain(shapes).collect(),
-            evidence: effect.evidence.clone(),
-        });
-    }
-    let left = before
-        .iter()
-        .zip(&after)
-        .any(|(before, after)| after.is_material() && after.power > LEFT_SHARE * before.power);
-    let outcome = match (left, found.is_empty()) {
-        (true, _) => Outcome::Unexplained,
-        (false, true) => Outcome::NothingMissing,
-        (false, false) => Outcome::Explained,
-    };
-    let (findings, leads) = if outcome == Outcome::Explained {
-        (found, Vec::new())
-    } else {
-        (Vec::new(), found)
-    };
-    Verdict {
-        outcome,
-        findings,
-        leads,
-        alternatives: state
-            .accepted
-            .iter()
-            .flat_map(|effect| effect.rivals.clone())
-            .collect(),
-        before,
-        after,
-        noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
-    }
 }

@@ -5,6 +5,7 @@
 //! torque follows the motion. The second needs a motion that repeats: what comes back in every period is not noise.
 
 use crate::signal::band_density;
+use crate::signal::resample::whole_steps;
 
 /// The band of motion and the band of reference, as multiples of the shared filter's cutoff.
 const MOTION_BAND: (f64, f64) = (0.03, 0.8);
@@ -41,6 +42,10 @@ impl Structure {
 /// One log's raw residual: unfiltered torque minus the model's.
 pub(super) struct RawResidual<'a> {
     pub(super) values: &'a [f64],
+    /// The same residual, filtered and decimated.
+    pub(super) filtered: &'a [f64],
+    /// Rate of the decimated samples.
+    pub(super) filtered_hz: f64,
     pub(super) rate_hz: f64,
     pub(super) shared_hz: f64,
     pub(super) period: Option<f64>,
@@ -74,7 +79,7 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
             0.0
         };
         let periodic = log.period.map_or(0.0, |period| {
-            repeated_power(log.values, period * log.rate_hz)
+            repeated_power(log.filtered, period * log.filtered_hz)
         });
         found.power += weight * above.max(periodic);
         found.ratio = found.ratio.max(ratio);
@@ -87,17 +92,18 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
     found
 }
 
-/// Power of what comes back in every period of `length` samples, less what noise leaves in a mean; 0 where that is not
-/// clearly more.
+/// Power of what comes back in every period, less what noise leaves in a mean; 0 where that is not clearly more.
+///
+/// `values` are filtered by the shared low-pass: above it, model and motion differ by the filters of the motion alone, and
+/// that difference repeats as well.
 fn repeated_power(values: &[f64], length: f64) -> f64 {
-    let bins = crate::signal::resample::whole_steps(length);
-    let periods = crate::signal::resample::whole_steps(values.len() as f64 / length.max(1.0));
+    let bins = whole_steps(length);
+    let periods = whole_steps(values.len() as f64 / length.max(1.0));
     if periods < 2 || bins < 2 {
         return 0.0;
     }
     let at = |p: usize, k: usize| {
-        values[crate::signal::resample::whole_steps((p as f64 * length).round() + k as f64)
-            .min(values.len() - 1)]
+        values[whole_steps((p as f64 * length).round() + k as f64).min(values.len() - 1)]
     };
     // A slow wander of the zero is no structure: every period is compared about its own mean.
     let means: Vec<f64> = (0..periods)

@@ -1,0 +1,95 @@
+//! From accepted effects and what they leave to a verdict.
+
+use super::search::{Accepted, State};
+use super::structure::Structure;
+use super::verdict::{Finding, FoundParameter, Outcome, Verdict};
+
+/// Structure is accounted for where less than this share of it is left.
+const LEFT_SHARE: f64 = 0.25;
+
+/// The verdict on a finished search.
+pub(super) fn verdict(
+    state: &State,
+    before: Vec<Structure>,
+    after: Vec<Structure>,
+    noise_power: &[f64],
+) -> Verdict {
+    let mut first = state.stack.unknowns.len()
+        - state
+            .accepted
+            .iter()
+            .map(|effect| effect.trial.count())
+            .sum::<usize>();
+    let mut found = Vec::new();
+    for effect in &state.accepted {
+        let candidate = effect.trial.candidate;
+        let values = &state.solution.estimate[first..first + effect.trial.count()];
+        first += effect.trial.count();
+        let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
+        let linear = candidate
+            .unknowns()
+            .iter()
+            .zip(values)
+            .map(|(unknown, value)| FoundParameter {
+                name: last_part(&unknown.name),
+                value: *value,
+                shape: false,
+            });
+        let shapes = candidate
+            .shapes()
+            .iter()
+            .zip(&effect.trial.shapes)
+            .map(|(shape, value)| FoundParameter {
+                name: last_part(&shape.name),
+                value: *value,
+                shape: true,
+            });
+        found.push(Finding {
+            kind: candidate.kind().to_owned(),
+            joints: candidate.joints().to_vec(),
+            parameters: linear.chain(shapes).collect(),
+            evidence: effect.evidence.clone(),
+        });
+    }
+    let left = unsettled(&before, &after, state);
+    let outcome = match (left, found.is_empty()) {
+        (true, _) => Outcome::Unexplained,
+        (false, true) => Outcome::NothingMissing,
+        (false, false) => Outcome::Explained,
+    };
+    let (findings, leads) = if outcome == Outcome::Explained {
+        (found, Vec::new())
+    } else {
+        (Vec::new(), found)
+    };
+    Verdict {
+        outcome,
+        findings,
+        leads,
+        alternatives: state
+            .accepted
+            .iter()
+            .flat_map(|effect| effect.rivals.clone())
+            .collect(),
+        before,
+        after,
+        noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
+    }
+}
+
+/// Whether structure that matters is left which the findings should have accounted for, or which makes them doubtful.
+///
+/// A law that is true needs no helper: where structure is left on a joint that no effect acts on, effects elsewhere stand
+/// as long as one per joint was enough. Where names pile up on a joint and structure remains all the same, the names are
+/// those of something else.
+fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
+    let laws = |joint: usize| {
+        let acts = |effect: &&Accepted| effect.trial.candidate.joints().contains(&joint);
+        state.accepted.iter().filter(acts).count()
+    };
+    let left: Vec<usize> = (0..after.len())
+        .filter(|&j| after[j].is_material() && after[j].power > LEFT_SHARE * before[j].power)
+        .collect();
+    let one_law_each = !state.accepted.is_empty() && (0..after.len()).all(|j| laws(j) <= 1);
+    left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
+}
