@@ -26,7 +26,7 @@ pub(crate) struct Stage {
 pub(crate) struct Loop {
     pub before: Stage,
     pub verdict: Verdict,
-    /// The spec with the traced effects declared; the text as it was where there are none.
+    /// The spec with the findings and leads declared, in that order; the text as it was where there are none.
     pub amended: String,
     /// None where the spec did not change.
     pub changed: Option<Stage>,
@@ -57,9 +57,9 @@ pub(crate) fn close(
     let verdict =
         Trace::new(candidates).run(&before.arm, logs, &mut |stage| progress.step(stage))?;
 
-    let amendments: Vec<Amendment> = verdict
-        .findings
-        .iter()
+    // Leads hold on unseen data as findings do; only they are not the whole story.
+    let found = verdict.findings.iter().chain(&verdict.leads);
+    let amendments: Vec<Amendment> = found
         .map(|finding| amendment(finding, &before.arm))
         .collect();
     let amended = amend(source_name, text, &amendments)?;

@@ -163,19 +163,18 @@ impl<'a> Report<'a> {
             errors.as_ref().map(|errors| errors.rmse.as_slice())
         };
         let effects = verdict.findings.iter().enumerate();
+        let leads = verdict.leads.iter().enumerate();
         Self {
             outcome: verdict.outcome.name(),
             effects: effects
-                .map(|(k, finding)| effect(finding, closed, Some(k)))
+                .map(|(k, finding)| effect(finding, closed, k))
                 .collect(),
             rmse_before: rmse(&closed.before.validation),
             rmse_after: rmse(&closed.after().validation),
             alternatives: verdict.alternatives.iter().map(alternative).collect(),
             noise_floor: &verdict.noise_floor,
-            leads: verdict
-                .leads
-                .iter()
-                .map(|lead| effect(lead, closed, None))
+            leads: leads
+                .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
                 .collect(),
         }
     }
@@ -192,10 +191,10 @@ impl Joints {
     }
 }
 
-/// A finding with the values that the amended model was identified with; `place` is its place among the findings.
-fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: Option<usize>) -> EffectReport<'a> {
+/// A finding or lead with the values that the amended model was identified with; `place` is its place among both.
+fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectReport<'a> {
     let parameters = finding.parameters.iter().map(|parameter| {
-        let identified = place.and_then(|place| identified(closed, place, &parameter.name));
+        let identified = identified(closed, place, &parameter.name);
         ParameterReport {
             name: &parameter.name,
             value: identified.map_or(parameter.value, |(value, _)| value),
@@ -224,14 +223,14 @@ fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: Option<usize>) -> E
     }
 }
 
-/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings.
+/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings and leads.
 fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
     let after = closed.after();
     let model = &after.arm.compiled().model;
     let first = model
         .effects
         .len()
-        .checked_sub(closed.verdict.findings.len())?;
+        .checked_sub(closed.verdict.findings.len() + closed.verdict.leads.len())?;
     let full = format!("{}.{name}", model.effect_name(first + place));
     let parameter = after
         .estimate
@@ -263,7 +262,7 @@ pub(crate) fn summary(closed: &Loop, text: &str) -> String {
                 .to_owned()
         }
     };
-    let mut show = |finding: &Finding, place: Option<usize>| {
+    let mut show = |finding: &Finding, place: usize| {
         let effect = effect(finding, closed, place);
         let parameters: Vec<String> = effect
             .parameters
@@ -287,12 +286,10 @@ pub(crate) fn summary(closed: &Loop, text: &str) -> String {
         )
         .expect("a string takes all");
     };
-    verdict
-        .findings
-        .iter()
+    let found = verdict.findings.iter().chain(&verdict.leads);
+    found
         .enumerate()
-        .for_each(|(k, finding)| show(finding, Some(k)));
-    verdict.leads.iter().for_each(|lead| show(lead, None));
+        .for_each(|(place, finding)| show(finding, place));
 
     let change = diff(text, &closed.amended);
     if !change.is_empty() {

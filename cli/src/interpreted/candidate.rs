@@ -1,0 +1,186 @@
+//! Effects that a spec does not declare, as candidates of the tracer.
+
+use std::collections::BTreeSet;
+
+use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::motion::{Kinematics, Motion};
+use robot_model_codegen::effect_columns;
+use robot_model_spec::model::{EffectDefinition, Model};
+
+use super::InterpretedArm;
+use super::band::{EffectBlock, is_rough};
+use super::shape::grid;
+
+impl InterpretedArm {
+    /// Every effect that the spec may declare and does not, on every joint or group of joints. A declared effect comes again
+    /// where it has shape parameters: a second ripple has another period.
+    #[must_use]
+    pub fn candidates(&self) -> Vec<InterpretedCandidate> {
+        let model = &self.compiled.model;
+        let mut candidates = Vec::new();
+        for definition in &model.definitions {
+            let mut seen: Vec<(BTreeSet<usize>, Vec<Entry>)> = Vec::new();
+            for joints in tuples(model.joints.len(), definition.joints.len()) {
+                let group: BTreeSet<usize> = joints.iter().copied().collect();
+                let candidate = InterpretedCandidate::new(model, definition, &joints);
+                let probe = candidate.probe(model.joints.len());
+                // A symmetric effect is the same on `(j, k)` and on `(k, j)`.
+                if seen
+                    .iter()
+                    .any(|(other, entries)| *other == group && same(entries, &probe))
+                {
+                    continue;
+                }
+                let declared = model.effects.iter().any(|effect| {
+                    effect.definition.name == definition.name
+                        && same(
+                            &InterpretedCandidate::new(model, definition, &effect.joints)
+                                .probe(model.joints.len()),
+                            &probe,
+                        )
+                });
+                seen.push((group, probe));
+                if !declared || !definition.shapes.is_empty() {
+                    candidates.push(candidate);
+                }
+            }
+        }
+        candidates
+    }
+}
+
+/// An effect of the spec's library on joints where the spec does not declare it.
+#[derive(Debug, Clone)]
+pub struct InterpretedCandidate {
+    kind: String,
+    joints: Vec<usize>,
+    unknowns: Vec<Unknown>,
+    shapes: Vec<Shape>,
+    columns: EffectBlock,
+    uses_rigid_torque: bool,
+}
+
+impl InterpretedCandidate {
+    /// `definition` on `joints` (from 0) of the arm of `model`.
+    #[must_use]
+    pub fn new(model: &Model, definition: &EffectDefinition, joints: &[usize]) -> Self {
+        let prefix = next_name(model, definition, joints);
+        let unknowns = definition.linear.iter().map(|linear| Unknown {
+            name: format!("{prefix}.{}", linear.name),
+            nonnegative: linear.nonnegative,
+        });
+        let shapes = definition.shapes.iter().map(|shape| Shape {
+            name: format!("{prefix}.{}", shape.name),
+            grid: grid(shape),
+        });
+        let columns = effect_columns(definition, joints, model.joints.len());
+        Self {
+            kind: definition.name.replace('_', "-"),
+            joints: joints.to_vec(),
+            unknowns: unknowns.collect(),
+            shapes: shapes.collect(),
+            columns: EffectBlock::new(columns.block, |parameter| is_rough(definition, parameter)),
+            uses_rigid_torque: columns.uses_rigid_torque,
+        }
+    }
+
+    /// Its columns over a few states that have nothing to do with each other, in a canonical order.
+    fn probe(&self, dof: usize) -> Vec<Entry> {
+        const STATES: usize = 5;
+        // Multiples of the golden ratio: no two joints, signals or states alike.
+        let value = |signal: usize, joint: usize, state: usize| {
+            let place = (signal * dof + joint) * STATES + state + 1;
+            2.0 * (0.618_033_988_749_895 * place as f64).fract() - 1.0
+        };
+        let signal = |signal: usize| -> Vec<Vec<f64>> {
+            (0..dof)
+                .map(|joint| {
+                    (0..STATES)
+                        .map(|state| value(signal, joint, state))
+                        .collect()
+                })
+                .collect()
+        };
+        let kinematics = Kinematics {
+            q: signal(0),
+            dq: signal(1),
+            ddq: signal(2),
+        };
+        let motion = Motion {
+            time: vec![1.0; STATES],
+            smooth: kinematics.clone(),
+            wide: kinematics,
+            rigid_torque: signal(3),
+        };
+        let shapes: Vec<f64> = self
+            .shapes
+            .iter()
+            .map(|shape| shape.grid[shape.grid.len() / 2])
+            .collect();
+        let mut entries = self.entries(&motion, &shapes);
+        entries.sort_by_key(|entry| (entry.column, entry.joint));
+        entries
+    }
+}
+
+impl Columns for InterpretedCandidate {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        self.uses_rigid_torque
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        self.columns.run(motion, shapes)
+    }
+}
+
+impl Candidate for InterpretedCandidate {
+    fn kind(&self) -> &str {
+        &self.kind
+    }
+
+    fn joints(&self) -> &[usize] {
+        &self.joints
+    }
+}
+
+/// The name that the effect would have if it were declared last: `JOINT.EFFECT`, or `JOINT.EFFECT2`.
+fn next_name(model: &Model, definition: &EffectDefinition, joints: &[usize]) -> String {
+    let same = |effect: &&robot_model_spec::model::Effect| {
+        effect.definition.name == definition.name && effect.joints[0] == joints[0]
+    };
+    let joint = &model.joints[joints[0]].name;
+    match model.effects.iter().filter(same).count() {
+        0 => format!("{joint}.{}", definition.name),
+        declared => format!("{joint}.{}{}", definition.name, declared + 1),
+    }
+}
+
+/// All ways to draw `count` different joints of `dof`, in order.
+fn tuples(dof: usize, count: usize) -> Vec<Vec<usize>> {
+    (0..count).fold(vec![Vec::new()], |shorter, _| {
+        let longer = |tuple: Vec<usize>| {
+            let free: Vec<usize> = (0..dof).filter(|joint| !tuple.contains(joint)).collect();
+            free.into_iter()
+                .map(move |joint| [tuple.as_slice(), &[joint]].concat())
+        };
+        shorter.into_iter().flat_map(longer).collect()
+    })
+}
+
+/// Equal up to rounding.
+fn same(left: &[Entry], right: &[Entry]) -> bool {
+    let close = |(x, y): (&f64, &f64)| (x - y).abs() <= 1e-12 * (1.0 + x.abs());
+    left.len() == right.len()
+        && left.iter().zip(right).all(|(left, right)| {
+            (left.joint, left.column) == (right.joint, right.column)
+                && left.values.iter().zip(&right.values).all(close)
+        })
+}

@@ -1,0 +1,182 @@
+//! The interpreter behind the runtime's traits: any spec, no Rust toolchain.
+//!
+//! Columns that jump or have a kink where a velocity changes sign read the wide kinematics of a motion (see [`Motion`]), so
+//! that the reversal stays where it was. All others read the smooth ones: an acceleration from the wide band is mostly
+//! noise.
+
+mod band;
+mod candidate;
+mod program;
+mod shape;
+
+pub use candidate::InterpretedCandidate;
+
+use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
+use robot_model::motion::Motion;
+use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::interpreter::{Operand, Program};
+use robot_model_codegen::{Block, Compiled};
+use robot_model_spec::model::ShapeParameter;
+use robot_model_spec::parameter::Owner;
+
+use band::{EffectBlock, is_rough};
+use program::{bind, run, run_block};
+use shape::grid;
+
+/// A compiled spec as an [`Arm`]: unknowns are its base parameters, those of declared effects among them.
+#[derive(Debug, Clone)]
+pub struct InterpretedArm {
+    compiled: Compiled,
+    unknowns: Vec<Unknown>,
+    shapes: Vec<Shape>,
+    /// Values of all shape parameters; those that are free stand for themselves in `free`.
+    given: Vec<f64>,
+    free: Vec<usize>,
+    joints: Vec<String>,
+    actuator_gain: Vec<f64>,
+    rigid: Block,
+    effects: EffectBlock,
+    rigid_torque: Program,
+    known_torque: Program,
+}
+
+impl InterpretedArm {
+    /// Puts a compiled spec behind the traits.
+    #[must_use]
+    pub fn new(compiled: Compiled) -> Self {
+        let model = &compiled.model;
+        let names = compiled.shape_names();
+        let parameters: Vec<&ShapeParameter> = model
+            .effects
+            .iter()
+            .flat_map(|effect| &effect.definition.shapes)
+            .collect();
+        let free = compiled.free_shapes();
+        let given = model
+            .effects
+            .iter()
+            .flat_map(|effect| &effect.shapes)
+            .map(|value| value.unwrap_or(f64::NAN));
+        Self {
+            unknowns: unknowns(&compiled),
+            shapes: free
+                .iter()
+                .map(|&k| Shape {
+                    name: names[k].clone(),
+                    grid: grid(parameters[k]),
+                })
+                .collect(),
+            given: given.collect(),
+            free,
+            joints: model
+                .joints
+                .iter()
+                .map(|joint| joint.name.clone())
+                .collect(),
+            actuator_gain: model
+                .joints
+                .iter()
+                .map(|joint| joint.actuator_gain)
+                .collect(),
+            rigid: compiled.rigid_columns(),
+            effects: declared_effects(&compiled),
+            rigid_torque: compiled.rigid_torque(),
+            known_torque: compiled.known_torque(),
+            compiled,
+        }
+    }
+
+    /// What was compiled.
+    #[must_use]
+    pub fn compiled(&self) -> &Compiled {
+        &self.compiled
+    }
+}
+
+impl Columns for InterpretedArm {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        reads_rigid_torque(&self.effects.block.program)
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let mut values = self.given.clone();
+        for (&k, &value) in self.free.iter().zip(shapes) {
+            values[k] = value;
+        }
+        let mut entries = run_block(&self.rigid, motion, &motion.smooth, &values);
+        entries.extend(self.effects.run(motion, &values));
+        entries
+    }
+}
+
+impl Arm for InterpretedArm {
+    fn dof(&self) -> usize {
+        self.joints.len()
+    }
+
+    fn joints(&self) -> &[String] {
+        &self.joints
+    }
+
+    fn actuator_gain(&self) -> &[f64] {
+        &self.actuator_gain
+    }
+
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        run(&self.known_torque, motion, &|symbol| {
+            bind(motion, &motion.smooth, &[], symbol)
+        })
+    }
+
+    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+        let parameters = self.compiled.parameter_values(estimate);
+        run(&self.rigid_torque, motion, &|symbol| match symbol {
+            Symbol::Parameter(k) => Operand::Constant(parameters[k]),
+            other => bind(motion, &motion.smooth, &[], other),
+        })
+    }
+}
+
+/// Base parameters as unknowns; only an effect's parameter that stands alone has a sign.
+fn unknowns(compiled: &Compiled) -> Vec<Unknown> {
+    let nonnegative = |base: usize| match compiled.standard[compiled.base.kept[base]].owner {
+        Owner::Effect { effect, parameter } => {
+            compiled.base.combinations[base].len() == 1
+                && compiled.model.effects[effect].definition.linear[parameter].nonnegative
+        }
+        Owner::Link { .. } => false,
+    };
+    let names = compiled.base.names.iter().enumerate();
+    names
+        .map(|(base, name)| Unknown {
+            name: name.clone(),
+            nonnegative: nonnegative(base),
+        })
+        .collect()
+}
+
+fn reads_rigid_torque(program: &Program) -> bool {
+    program
+        .symbols()
+        .iter()
+        .any(|symbol| matches!(symbol, Symbol::RigidTorque(_)))
+}
+
+fn declared_effects(compiled: &Compiled) -> EffectBlock {
+    EffectBlock::new(compiled.effect_columns(), |column| {
+        match compiled.standard[compiled.base.kept[column]].owner {
+            Owner::Effect { effect, parameter } => {
+                is_rough(&compiled.model.effects[effect].definition, parameter)
+            }
+            Owner::Link { .. } => false,
+        }
+    })
+}
