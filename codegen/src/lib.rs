@@ -6,11 +6,14 @@
 
 pub mod base;
 pub mod dynamics;
+pub mod emit;
 pub mod expr;
 pub mod interpreter;
 mod random;
 pub mod regressor;
 
+mod build_script;
 mod compiled;
 
+pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, EffectColumns, compile_model, effect_columns};

@@ -7,9 +7,22 @@ pub mod columns;
 pub mod identify;
 #[cfg(feature = "std")]
 pub mod log;
+pub mod math;
+pub mod model;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod signal;
 #[cfg(feature = "std")]
 pub mod trace;
+
+pub use model::{Matrix, RobotModel, State, Vector};
+
+/// Includes what `robot_model_codegen::compile` wrote for a spec in the build script: `include_robot!("arm")` for
+/// `arm.robot`.
+#[macro_export]
+macro_rules! include_robot {
+    ($name:literal) => {
+        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+    };
+}

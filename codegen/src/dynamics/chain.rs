@@ -8,7 +8,7 @@ use robot_model_spec::model::{JointKind, Model};
 
 use super::frame::{Frame, frame};
 use super::vector::{self, Matrix, Vector};
-use crate::expr::{Dag, ExprId};
+use crate::expr::{Dag, ExprId, Label};
 
 /// A link's inertial parameters as expressions, in the order of `InertialElement::ALL`.
 pub type LinkParameters = [ExprId; 10];
@@ -27,6 +27,8 @@ pub struct Excitation {
     pub ddq: Vec<ExprId>,
     /// Acceleration of gravity in the base frame.
     pub gravity: [f64; 3],
+    /// Whether velocities, accelerations and forces are labeled with their names in the recursion.
+    pub labeled: bool,
 }
 
 /// Motion of a link, in link coordinates.
@@ -56,7 +58,7 @@ impl Chain {
     /// Torque of every joint, N m or N.
     pub fn torque(&self, dag: &mut Dag, excitation: &Excitation) -> Vec<ExprId> {
         let motions = self.forward(dag, excitation);
-        self.backward(dag, &motions)
+        self.backward(dag, &motions, excitation.labeled)
     }
 
     /// Base to tip: velocities and accelerations. Gravity is an upward acceleration of the base.
@@ -81,20 +83,30 @@ impl Chain {
                 excitation.dq[index],
                 excitation.ddq[index],
             );
+            if excitation.labeled {
+                label(dag, "w", index, motion.w);
+                label(dag, "dw", index, motion.dw);
+                label(dag, "a", index, motion.a);
+            }
             motions.push(motion);
         }
         motions
     }
 
     /// Tip to base: forces and moments, and their part along each joint.
-    fn backward(&self, dag: &mut Dag, motions: &[LinkMotion]) -> Vec<ExprId> {
+    fn backward(&self, dag: &mut Dag, motions: &[LinkMotion], labeled: bool) -> Vec<ExprId> {
         let mut torque = Vec::with_capacity(motions.len());
         // Force and moment about the origin of link i, that joint i + 1 takes from it.
         let mut carried = (vector::zero(dag), vector::zero(dag));
-        for ((frame, link), motion) in self.frames.iter().zip(&self.links).zip(motions).rev() {
+        for (index, motion) in motions.iter().enumerate().rev() {
+            let (frame, link) = (&self.frames[index], &self.links[index]);
             let (own_force, own_moment) = motion.wrench(dag, link);
             let force = vector::add(dag, own_force, carried.0);
             let moment = vector::add(dag, own_moment, carried.1);
+            if labeled {
+                label(dag, "f", index, force);
+                label(dag, "n", index, moment);
+            }
             let lever = vector::cross(dag, frame.to_origin, force);
             let joint_moment = vector::add(dag, moment, lever);
             torque.push(match frame.kind {
@@ -108,6 +120,12 @@ impl Chain {
         }
         torque.reverse();
         torque
+    }
+}
+
+fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
+    for (axis, x) in v.into_iter().enumerate() {
+        dag.set_label(x, Label::Component { stem, link, axis });
     }
 }
 

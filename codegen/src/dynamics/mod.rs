@@ -11,7 +11,7 @@ mod vector;
 
 use robot_model_spec::model::Model;
 
-use crate::expr::{Dag, ExprId, Symbol};
+use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::{Chain, Excitation};
 
 /// What stands for each standard parameter in the derivation.
@@ -57,20 +57,19 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     let ddq: Vec<ExprId> = (0..dof)
         .map(|joint| dag.symbol(Symbol::Ddq(joint)))
         .collect();
-    let torque = |dag: &mut Dag, dq: &[ExprId], ddq: &[ExprId], gravity| {
-        chain.torque(
-            dag,
-            &Excitation {
-                dq: dq.to_vec(),
-                ddq: ddq.to_vec(),
-                gravity,
-            },
-        )
+    let torque = |dag: &mut Dag, dq: &[ExprId], ddq: &[ExprId], gravity, labeled| {
+        let excitation = Excitation {
+            dq: dq.to_vec(),
+            ddq: ddq.to_vec(),
+            gravity,
+            labeled,
+        };
+        chain.torque(dag, &excitation)
     };
-    let rigid_torque = torque(dag, &dq, &ddq, model.gravity);
-    let bias = torque(dag, &dq, &zero, model.gravity);
-    let gravity = torque(dag, &zero, &zero, model.gravity);
-    let velocity_torque = torque(dag, &dq, &zero, [0.0; 3]);
+    let rigid_torque = torque(dag, &dq, &ddq, model.gravity, true);
+    let bias = torque(dag, &dq, &zero, model.gravity, false);
+    let gravity = torque(dag, &zero, &zero, model.gravity, false);
+    let velocity_torque = torque(dag, &dq, &zero, [0.0; 3], false);
 
     // Column j of M is the torque of a unit acceleration of joint j; rows below the diagonal are mirrored.
     let one = dag.constant(1.0);
@@ -78,10 +77,18 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     for j in 0..dof {
         let mut unit = zero.clone();
         unit[j] = one;
-        let column = torque(dag, &zero, &unit, [0.0; 3]);
+        let column = torque(dag, &zero, &unit, [0.0; 3], false);
         for i in 0..=j {
             mass_matrix[i][j] = column[i];
             mass_matrix[j][i] = column[i];
+            dag.set_label(
+                column[i],
+                Label::Entry {
+                    stem: "m",
+                    row: i,
+                    column: j,
+                },
+            );
         }
     }
     let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
@@ -119,6 +126,7 @@ pub fn rigid_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprI
             dq,
             ddq,
             gravity: model.gravity,
+            labeled: false,
         },
     )
 }

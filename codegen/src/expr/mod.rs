@@ -152,12 +152,37 @@ impl Node {
     }
 }
 
+/// What an expression means to people, where it has a meaning of its own. Indices count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Label {
+    /// A component of a vector that belongs to a link: `w` of link 3 along x.
+    Component {
+        /// The vector.
+        stem: &'static str,
+        /// The link.
+        link: usize,
+        /// 0 to 2 for x to z.
+        axis: usize,
+    },
+    /// An entry of a matrix: `m` in row 1, column 2.
+    Entry {
+        /// The matrix.
+        stem: &'static str,
+        /// Its row.
+        row: usize,
+        /// Its column.
+        column: usize,
+    },
+}
+
 /// The arena of expressions.
 #[derive(Debug, Clone, Default)]
 pub struct Dag {
     nodes: Vec<Node>,
     // Looked up only; its iteration order never matters.
     index: HashMap<Node, ExprId>,
+    // Looked up only.
+    labels: HashMap<ExprId, Label>,
 }
 
 impl Dag {
@@ -171,6 +196,19 @@ impl Dag {
     #[must_use]
     pub fn node(&self, x: ExprId) -> Node {
         self.nodes[x.index()]
+    }
+
+    /// Says what a sum, product or call means; the first label stays.
+    pub fn set_label(&mut self, x: ExprId, label: Label) {
+        if matches!(self.node(x), Node::Add(..) | Node::Mul(..)) {
+            self.labels.entry(x).or_insert(label);
+        }
+    }
+
+    /// What an expression means, if that was said.
+    #[must_use]
+    pub fn label(&self, x: ExprId) -> Option<Label> {
+        self.labels.get(&x).copied()
     }
 
     /// Number of nodes.

@@ -2,13 +2,13 @@
 //!
 //! A rule changes no value by more than rounding, and never turns a finite value into an infinite one.
 
-mod trigonometry;
+mod products;
 
 #[cfg(test)]
 mod tests;
 
 use super::{Dag, ExprId, Function, Node};
-use trigonometry::{cosine_of_sum, pythagoras, sine_of_sum};
+use products::{collect_reordered, cosine_of_sum, pythagoras, sine_of_sum};
 
 /// An identity of a node with two operands.
 pub struct Rule {
@@ -43,6 +43,10 @@ pub const SUM: &[Rule] = &[
     Rule {
         name: "(y + c x) + d x = y + (c + d) x",
         apply: collect_nested,
+    },
+    Rule {
+        name: "c x (y z) + d (x y) z = (c + d) x y z",
+        apply: collect_reordered,
     },
     Rule {
         name: "k cos^2 x + k sin^2 x = k",

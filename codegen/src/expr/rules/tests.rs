@@ -56,6 +56,15 @@ const TABLE: &[(&str, Build, &str)] = &[
         "q2",
     ),
     (
+        "c x (y z) + d (x y) z = (c + d) x y z",
+        |d, x, y, k| {
+            let (xy, yk) = (d.mul(x, y), d.mul(y, k));
+            let (left, right) = (d.mul(xy, k), d.mul(x, yk));
+            d.sub(left, right)
+        },
+        "0",
+    ),
+    (
         "k cos^2 x + k sin^2 x = k",
         |d, x, _, k| {
             let c = product(d, k, (Function::Cos, x), (Function::Cos, x));

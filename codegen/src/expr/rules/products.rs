@@ -1,4 +1,4 @@
-//! Sums of products of sines and cosines: where parallel axes follow each other, their angles add.
+//! Sums of two products, compared factor by factor. Where parallel axes follow each other, their angles add.
 
 use crate::expr::{Dag, ExprId, Function, Node};
 
@@ -90,6 +90,21 @@ fn times_common(dag: &mut Dag, pair: &Pair, coefficient: f64, value: ExprId) -> 
         None => value,
     };
     dag.scale(coefficient, product)
+}
+
+/// Products of the same factors in another order.
+pub(super) fn collect_reordered(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
+    if !matches!((dag.node(x), dag.node(y)), (Node::Mul(..), Node::Mul(..))) {
+        return None;
+    }
+    let (mut left, mut right) = (factors(dag, x)?, factors(dag, y)?);
+    left.factors.sort_unstable();
+    right.factors.sort_unstable();
+    if left.factors != right.factors {
+        return None;
+    }
+    let (_, product) = dag.coefficient(x);
+    Some(dag.scale(left.coefficient + right.coefficient, product?))
 }
 
 pub(super) fn pythagoras(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {

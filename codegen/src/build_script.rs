@@ -1,0 +1,101 @@
+//! The `build.rs` route: a spec beside the crate in, `OUT_DIR/<spec>.rs` out.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use robot_model_spec::Diagnostics;
+
+use crate::base::RankStatus;
+use crate::compiled::compile_model;
+use crate::emit;
+
+/// Why a spec was not compiled.
+pub enum CompileError {
+    /// The spec was not read or the code was not written.
+    Io(PathBuf, std::io::Error),
+    /// Cargo sets this variable for build scripts; it is missing.
+    NotInBuildScript(&'static str),
+    /// The path names no file, so the generated file would have no name.
+    NoFileName(PathBuf),
+    /// The spec has mistakes.
+    Spec(Box<Diagnostics>),
+    /// The base parameters could not be decided.
+    Rank(String, RankStatus),
+}
+
+impl fmt::Display for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Io(path, error) => write!(f, "cannot use `{}`: {error}", path.display()),
+            Self::NotInBuildScript(variable) => {
+                write!(
+                    f,
+                    "`{variable}` is not set: `compile` is for build scripts; call `emit::rust::module` elsewhere"
+                )
+            }
+            Self::NoFileName(path) => write!(f, "`{}` names no file", path.display()),
+            Self::Spec(diagnostics) => write!(f, "{diagnostics}"),
+            Self::Rank(source, status) => write!(
+                f,
+                "the base parameters of {source} are not certain: {status}; write exact values where lengths or angles \
+                 are nearly equal or nearly zero"
+            ),
+        }
+    }
+}
+
+/// A build script's `unwrap` prints this: the message, not the enum.
+impl fmt::Debug for CompileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "\n{self}")
+    }
+}
+
+impl std::error::Error for CompileError {}
+
+/// Compiles a spec in a build script. `spec` is relative to the crate's folder; `robot_model::include_robot!` takes its
+/// name without folder and extension.
+///
+/// # Errors
+/// A file that cannot be read or written, mistakes in the spec, base parameters that are not certain.
+pub fn compile(spec: impl AsRef<Path>) -> Result<(), CompileError> {
+    let variable =
+        |name: &'static str| std::env::var_os(name).ok_or(CompileError::NotInBuildScript(name));
+    let (root, out) = (variable("CARGO_MANIFEST_DIR")?, variable("OUT_DIR")?);
+    let spec = spec.as_ref();
+    let path = Path::new(&root).join(spec);
+    announce(&path);
+    let stem = spec
+        .file_stem()
+        .ok_or_else(|| CompileError::NoFileName(spec.to_owned()))?;
+    let target = Path::new(&out).join(stem).with_extension("rs");
+
+    let text = std::fs::read_to_string(&path).map_err(|error| CompileError::Io(path, error))?;
+    let page = compile_text(&spec.to_string_lossy(), &text)?;
+    std::fs::write(&target, page).map_err(|error| CompileError::Io(target, error))
+}
+
+/// A spec's text to a page of Rust.
+///
+/// # Errors
+/// Mistakes in the spec, base parameters that are not certain.
+pub fn compile_text(source_name: &str, text: &str) -> Result<String, CompileError> {
+    let model = robot_model_spec::load(source_name, text)
+        .map_err(|errors| CompileError::Spec(Box::new(errors)))?;
+    let compiled = compile_model(&model);
+    match compiled.base.rank {
+        RankStatus::Clear { .. } => Ok(emit::rust::module(&compiled)),
+        RankStatus::Unclear(_) => Err(CompileError::Rank(
+            source_name.to_owned(),
+            compiled.base.rank,
+        )),
+    }
+}
+
+#[expect(
+    clippy::print_stdout,
+    reason = "standard output is how a build script speaks to Cargo"
+)]
+fn announce(path: &Path) {
+    println!("cargo:rerun-if-changed={}", path.display());
+}

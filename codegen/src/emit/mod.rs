@@ -1,0 +1,3 @@
+//! Source code from the derived forms.
+
+pub mod rust;

@@ -1,0 +1,153 @@
+//! Function bodies: which expressions get a name, in which order they are computed, and what that costs.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use super::names::Namer;
+use super::render::{Binding, Renderer};
+use crate::expr::{Dag, ExprId, Function, Names, Node, Symbol};
+
+/// An expression with more operations than this is broken up by a named part.
+const LONGEST_EXPRESSION: usize = 12;
+
+/// Operations of a function, as emitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cost {
+    /// Multiplications.
+    pub mul: usize,
+    /// Additions and subtractions.
+    pub add: usize,
+    /// Divisions.
+    pub div: usize,
+    /// Sines and cosines.
+    pub trig: usize,
+    /// Other function calls.
+    pub call: usize,
+}
+
+impl std::fmt::Display for Cost {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} mul, {} add, {} trig", self.mul, self.add, self.trig)?;
+        for (count, name) in [(self.div, "div"), (self.call, "other")] {
+            if count > 0 {
+                write!(f, ", {count} {name}")?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The statements of a function before its outputs are written.
+pub struct Body {
+    /// `let` statements under their section comments.
+    pub statements: TokenStream,
+    /// One expression per output.
+    pub outputs: Vec<TokenStream>,
+    /// What all of it costs.
+    pub cost: Cost,
+    /// Symbols that are read.
+    pub symbols: Vec<Symbol>,
+}
+
+/// Schedules the outputs of one function.
+pub fn body(dag: &Dag, names: &Names, binding: &Binding<'_>, outputs: &[ExprId]) -> Body {
+    let order = dag.reachable(outputs);
+    let named = named_expressions(dag, &order, outputs);
+    let mut namer = Namer::new(dag, names);
+    let mut renderer = Renderer::new(dag, binding);
+    let (mut trigonometry, mut shared) = (Vec::new(), Vec::new());
+    for &x in order.iter().filter(|x| named[x.index()]) {
+        let value = renderer.definition(x);
+        let name = Ident::new(&namer.name(x), Span::call_site());
+        let statement = quote!(let #name = #value;);
+        if is_trigonometry_of_positions(dag, x) {
+            trigonometry.push(statement);
+        } else {
+            shared.push(statement);
+        }
+        renderer.set_name(x, name);
+    }
+    let outputs: Vec<TokenStream> = outputs.iter().map(|&x| renderer.value(x)).collect();
+    let section = |title: &str, statements: &[TokenStream]| {
+        let title = Literal::string(title);
+        if statements.is_empty() {
+            quote!()
+        } else {
+            quote!(__comment!(#title); #(#statements)* __blank!();)
+        }
+    };
+    let trigonometry = section("Trigonometry.", &trigonometry);
+    let shared = section("Shared terms.", &shared);
+    Body {
+        statements: quote!(#trigonometry #shared),
+        outputs,
+        cost: renderer.cost(),
+        symbols: dag.symbols(&order),
+    }
+}
+
+/// Sines and cosines of sums of positions can be computed first, and so can these sums.
+fn is_trigonometry_of_positions(dag: &Dag, x: ExprId) -> bool {
+    let argument = match dag.node(x) {
+        Node::Call(Function::Sin | Function::Cos, argument) => argument,
+        _ => x,
+    };
+    dag.reachable(&[argument])
+        .iter()
+        .all(|&part| match dag.node(part) {
+            Node::Constant(_) | Node::Symbol(Symbol::Q(_)) | Node::Add(..) => true,
+            Node::Mul(..) => is_negation(dag, part),
+            _ => false,
+        })
+}
+
+/// Which expressions become temporaries: those used more than once, function calls, and parts of long expressions.
+fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec<bool> {
+    let mut uses = vec![0usize; dag.len()];
+    for &output in outputs {
+        uses[through_sign(dag, output).index()] += 1;
+    }
+    for &x in order.iter().rev().filter(|&&x| !is_negation(dag, x)) {
+        // What only hung on a negation was counted for its operand.
+        if uses[x.index()] > 0 {
+            for operand in dag.node(x).operands() {
+                uses[through_sign(dag, operand).index()] += 1;
+            }
+        }
+    }
+    let mut named = vec![false; dag.len()];
+    // Operations in the expression if it is written out where it is used.
+    let mut size = vec![0usize; dag.len()];
+    for &x in order {
+        let inline: usize = dag
+            .node(x)
+            .operands()
+            .map(|operand| size[operand.index()])
+            .sum();
+        let (atom, call) = match dag.node(x) {
+            Node::Constant(_) | Node::Symbol(_) => (true, false),
+            Node::Call(function, _) => (false, function != Function::Recip),
+            _ => (false, false),
+        };
+        if atom || is_negation(dag, x) {
+            size[x.index()] = inline;
+        } else if call || uses[x.index()] > 1 || inline + 1 > LONGEST_EXPRESSION {
+            named[x.index()] = uses[x.index()] > 0;
+        } else {
+            size[x.index()] = inline + 1;
+        }
+    }
+    named
+}
+
+/// `-x` costs nothing where it is added or multiplied; it is never a temporary.
+pub fn is_negation(dag: &Dag, x: ExprId) -> bool {
+    matches!(dag.node(x), Node::Mul(..)) && dag.coefficient(x).0.to_bits() == (-1.0f64).to_bits()
+}
+
+fn through_sign(dag: &Dag, x: ExprId) -> ExprId {
+    match (is_negation(dag, x), dag.coefficient(x).1) {
+        (true, Some(positive)) => positive,
+        _ => x,
+    }
+}

@@ -1,0 +1,157 @@
+//! The one owner of identifiers in emitted Rust: a temporary is named by its meaning where it has a short one.
+
+use std::collections::HashMap;
+
+use crate::expr::{Dag, ExprId, Function, Label, Names, Node, Style, Symbol};
+
+/// Longer names say less than a number.
+const LONGEST_NAME: usize = 30;
+/// Products of more factors are numbered.
+const MOST_FACTORS: usize = 3;
+/// What a function body names besides its temporaries.
+const RESERVED: [&str; 8] = [
+    "q",
+    "dq",
+    "ddq",
+    "beta",
+    "standard",
+    "time",
+    "rigid_torque",
+    "out",
+];
+
+/// Gives identifiers to the temporaries of one function.
+pub struct Namer<'a> {
+    dag: &'a Dag,
+    names: &'a Names,
+    // Looked up only.
+    taken: HashMap<String, usize>,
+    given: HashMap<ExprId, String>,
+    numbered: usize,
+}
+
+impl<'a> Namer<'a> {
+    /// A namer with nothing but the arguments taken.
+    pub fn new(dag: &'a Dag, names: &'a Names) -> Self {
+        let taken = RESERVED
+            .iter()
+            .map(|name| ((*name).to_owned(), 1))
+            .collect();
+        Self {
+            dag,
+            names,
+            taken,
+            given: HashMap::new(),
+            numbered: 0,
+        }
+    }
+
+    /// The identifier of a temporary; the same one each time.
+    pub fn name(&mut self, x: ExprId) -> String {
+        if let Some(name) = self.given.get(&x) {
+            return name.clone();
+        }
+        let name = match self.meaning(x, MOST_FACTORS) {
+            Some((name, _)) if name.len() <= LONGEST_NAME => self.unique(name),
+            _ => {
+                self.numbered += 1;
+                self.unique(format!("t{}", self.numbered - 1))
+            }
+        };
+        self.given.insert(x, name.clone());
+        name
+    }
+
+    fn unique(&mut self, name: String) -> String {
+        let count = self.taken.entry(name.clone()).or_insert(0);
+        *count += 1;
+        if *count == 1 {
+            return name;
+        }
+        let suffixed = format!("{name}_{count}");
+        self.unique(suffixed)
+    }
+
+    /// A name made of the expression's meaning and the number of factors in it.
+    fn meaning(&self, x: ExprId, most: usize) -> Option<(String, usize)> {
+        if let Some(label) = self.dag.label(x) {
+            return Some((label_name(label), 1));
+        }
+        match self.dag.node(x) {
+            Node::Symbol(symbol) => Some((identifier(&self.names.symbol(symbol, Style::Text)), 1)),
+            Node::Mul(p, q) => {
+                let (left, m) = self.meaning(p, most)?;
+                let (right, n) = self.meaning(q, most)?;
+                (m + n <= most).then(|| (format!("{left}_{right}"), m + n))
+            }
+            Node::Add(..) if self.is_angle(x) => Some((self.argument(x)?, 1)),
+            Node::Call(function, inside) if function != Function::Recip => {
+                Some((format!("{}_{}", function.name(), self.argument(inside)?), 1))
+            }
+            _ => None,
+        }
+    }
+
+    /// A sum of positions.
+    fn is_angle(&self, x: ExprId) -> bool {
+        self.dag
+            .symbols(&[x])
+            .iter()
+            .all(|symbol| matches!(symbol, Symbol::Q(_)))
+    }
+
+    /// The argument of a call in a name: a symbol, or a short sum of symbols.
+    fn argument(&self, x: ExprId) -> Option<String> {
+        match self.dag.node(x) {
+            Node::Symbol(Symbol::Parameter(_)) => None,
+            Node::Symbol(symbol) => Some(identifier(&self.names.symbol(symbol, Style::Text))),
+            Node::Add(p, q) => {
+                let (left, right) = (self.dag.coefficient(p), self.dag.coefficient(q));
+                match (left, right) {
+                    ((1.0, Some(p)), (1.0, Some(q))) => {
+                        Some(format!("{}_{}", self.argument(p)?, self.argument(q)?))
+                    }
+                    ((1.0, Some(p)), (-1.0, Some(q))) | ((-1.0, Some(q)), (1.0, Some(p))) => {
+                        Some(format!("{}_minus_{}", self.argument(p)?, self.argument(q)?))
+                    }
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+}
+
+/// Indices count from 1 in names.
+fn label_name(label: Label) -> String {
+    match label {
+        Label::Component { stem, link, axis } => {
+            format!("{stem}{}{}", link + 1, ["x", "y", "z"][axis])
+        }
+        Label::Entry { stem, row, column } if row < 9 && column < 9 => {
+            format!("{stem}_{}{}", row + 1, column + 1)
+        }
+        Label::Entry { stem, row, column } => format!("{stem}_{}_{}", row + 1, column + 1),
+    }
+}
+
+/// A user's name as an identifier in snake case.
+pub fn identifier(name: &str) -> String {
+    let text: String = name
+        .chars()
+        .map(|c| {
+            if c.is_ascii_alphanumeric() {
+                c.to_ascii_lowercase()
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    if text.starts_with(|c: char| c.is_ascii_digit())
+        || syn::parse_str::<syn::Ident>(&text).is_err()
+    {
+        format!("{text}_")
+    } else {
+        text
+    }
+}

@@ -1,0 +1,208 @@
+//! Expressions as Rust tokens, with as few parentheses as the reader needs.
+
+use std::collections::HashMap;
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+
+use super::body::Cost;
+use crate::expr::{Dag, ExprId, Function, Node, Symbol};
+
+/// What symbols are in the function's arguments.
+pub struct Binding<'a> {
+    /// Tokens of a standard parameter.
+    pub parameter: &'a dyn Fn(usize) -> TokenStream,
+    /// Tokens of a shape parameter.
+    pub shape: &'a dyn Fn(usize) -> TokenStream,
+}
+
+impl Binding<'_> {
+    fn symbol(&self, symbol: Symbol) -> TokenStream {
+        let indexed = |name: &str, k: usize| {
+            let (name, k) = (
+                Ident::new(name, Span::call_site()),
+                Literal::usize_unsuffixed(k),
+            );
+            quote!(#name[#k])
+        };
+        match symbol {
+            Symbol::Q(j) => indexed("q", j),
+            Symbol::Dq(j) => indexed("dq", j),
+            Symbol::Ddq(j) => indexed("ddq", j),
+            Symbol::RigidTorque(j) => indexed("rigid_torque", j),
+            Symbol::Time => quote!(time),
+            Symbol::Parameter(k) => (self.parameter)(k),
+            Symbol::Shape(k) => (self.shape)(k),
+        }
+    }
+}
+
+/// How loosely an expression holds together.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Strength {
+    Sum,
+    Product,
+    Atom,
+}
+
+/// Writes expressions and counts their operations.
+pub struct Renderer<'a> {
+    dag: &'a Dag,
+    binding: &'a Binding<'a>,
+    // Looked up only.
+    names: HashMap<ExprId, Ident>,
+    cost: Cost,
+}
+
+impl<'a> Renderer<'a> {
+    /// A renderer without temporaries.
+    pub fn new(dag: &'a Dag, binding: &'a Binding<'a>) -> Self {
+        Self {
+            dag,
+            binding,
+            names: HashMap::new(),
+            cost: Cost::default(),
+        }
+    }
+
+    /// From now on the expression is its temporary.
+    pub fn set_name(&mut self, x: ExprId, name: Ident) {
+        self.names.insert(x, name);
+    }
+
+    /// Operations written so far.
+    pub fn cost(&self) -> Cost {
+        self.cost
+    }
+
+    /// The expression, by its temporary if it has one.
+    pub fn value(&mut self, x: ExprId) -> TokenStream {
+        self.write(x).0
+    }
+
+    /// The right-hand side of the expression's temporary.
+    pub fn definition(&mut self, x: ExprId) -> TokenStream {
+        self.write_node(x).0
+    }
+
+    fn write(&mut self, x: ExprId) -> (TokenStream, Strength) {
+        match self.names.get(&x) {
+            Some(name) => (quote!(#name), Strength::Atom),
+            None => self.write_node(x),
+        }
+    }
+
+    fn at_least(&mut self, x: ExprId, strength: Strength) -> TokenStream {
+        let (tokens, own) = self.write(x);
+        if own < strength {
+            quote!((#tokens))
+        } else {
+            tokens
+        }
+    }
+
+    fn write_node(&mut self, x: ExprId) -> (TokenStream, Strength) {
+        match self.dag.node(x) {
+            Node::Constant(value) => (
+                number(value.get()),
+                if value.get() < 0.0 {
+                    Strength::Product
+                } else {
+                    Strength::Atom
+                },
+            ),
+            Node::Symbol(symbol) => (self.binding.symbol(symbol), Strength::Atom),
+            Node::Add(p, q) => self.write_sum(p, q),
+            Node::Mul(p, q) => self.write_product(p, q),
+            Node::Power(p, q) => {
+                self.cost.call += 1;
+                let (p, q) = (self.value(p), self.value(q));
+                (quote!(math::pow(#p, #q)), Strength::Atom)
+            }
+            Node::Call(Function::Recip, p) => {
+                self.cost.div += 1;
+                let p = self.at_least(p, Strength::Atom);
+                (quote!(1.0 / #p), Strength::Product)
+            }
+            Node::Call(function, p) => {
+                if matches!(function, Function::Sin | Function::Cos) {
+                    self.cost.trig += 1;
+                } else {
+                    self.cost.call += 1;
+                }
+                let name = Ident::new(function.name(), Span::call_site());
+                let p = self.value(p);
+                (quote!(math::#name(#p)), Strength::Atom)
+            }
+        }
+    }
+
+    /// Whether the written form starts with a minus that a subtraction can take.
+    fn is_negative(&self, x: ExprId) -> bool {
+        !self.names.contains_key(&x) && self.dag.coefficient(x).0 < 0.0
+    }
+
+    fn write_sum(&mut self, p: ExprId, q: ExprId) -> (TokenStream, Strength) {
+        self.cost.add += 1;
+        let (p, q) = match (self.is_negative(p), self.is_negative(q)) {
+            (true, false) => (q, p),
+            // A number reads better behind what it is added to.
+            (false, false) if self.dag.as_constant(p).is_some() => (q, p),
+            _ => (p, q),
+        };
+        let left = self.at_least(p, Strength::Sum);
+        if !self.is_negative(q) {
+            let right = self.at_least(q, Strength::Sum);
+            return (quote!(#left + #right), Strength::Sum);
+        }
+        let right = match self.dag.coefficient(q) {
+            (c, None) => number(-c),
+            (c, Some(rest)) => self.scaled(-c, rest),
+        };
+        (quote!(#left - #right), Strength::Sum)
+    }
+
+    /// `c x` with positive `c`, as an operand of a subtraction.
+    fn scaled(&mut self, c: f64, x: ExprId) -> TokenStream {
+        let rest = self.at_least(x, Strength::Product);
+        if c.to_bits() == 1.0f64.to_bits() {
+            return rest;
+        }
+        self.cost.mul += 1;
+        let c = number(c);
+        quote!(#c * #rest)
+    }
+
+    fn write_product(&mut self, p: ExprId, q: ExprId) -> (TokenStream, Strength) {
+        if self
+            .dag
+            .as_constant(p)
+            .is_some_and(|c| c.to_bits() == (-1.0f64).to_bits())
+        {
+            let rest = self.at_least(q, Strength::Product);
+            return (quote!(-#rest), Strength::Product);
+        }
+        if let (Node::Call(Function::Recip, q), false) =
+            (self.dag.node(q), self.names.contains_key(&q))
+        {
+            self.cost.div += 1;
+            let left = self.at_least(p, Strength::Product);
+            let right = self.at_least(q, Strength::Atom);
+            return (quote!(#left / #right), Strength::Product);
+        }
+        self.cost.mul += 1;
+        let left = self.at_least(p, Strength::Product);
+        let right = self.at_least(q, Strength::Product);
+        (quote!(#left * #right), Strength::Product)
+    }
+}
+
+/// A number as a literal that reads back to the same bits.
+pub fn number(value: f64) -> TokenStream {
+    let literal = Literal::f64_unsuffixed(value.abs());
+    if value < 0.0 {
+        quote!(-#literal)
+    } else {
+        quote!(#literal)
+    }
+}
