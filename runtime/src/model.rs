@@ -105,6 +105,7 @@ mod tests {
             (matrix[(0, 2)].to_bits(), matrix[(1, 0)].to_bits()),
             (3f64.to_bits(), 4f64.to_bits())
         );
-        assert_eq!(as_array(&Vector::<2>::new(7.0, 8.0)), &[7.0, 8.0]);
+        let bits = as_array(&Vector::<2>::new(7.0, 8.0)).map(f64::to_bits);
+        assert_eq!(bits, [7.0f64, 8.0].map(f64::to_bits));
     }
 }
