@@ -179,12 +179,22 @@ fn kinematics(positions: &[Vec<f64>], filter: &LowPass, step: f64, stride: usize
     for position in positions {
         let q = filtered(filter, position);
         derivative(&q, step, &mut dq);
+        rest(&mut dq);
         derivative(&dq, step, &mut ddq);
         kinematics.q.push(resample::every(&q, stride));
         kinematics.dq.push(resample::every(&dq, stride));
         kinematics.ddq.push(resample::every(&ddq, stride));
     }
     kinematics
+}
+
+/// A joint that stands still has no velocity: what rounding in the filter leaves would have a sign.
+fn rest(velocity: &mut [f64]) {
+    const ROUNDING: f64 = 1e-10;
+    velocity
+        .iter_mut()
+        .filter(|v| v.abs() < ROUNDING)
+        .for_each(|v| *v = 0.0);
 }
 
 fn filtered(filter: &LowPass, signal: &[f64]) -> Vec<f64> {

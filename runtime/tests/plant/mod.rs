@@ -1,0 +1,283 @@
+//! A plant for tests: two joints without coupling, each a pendulum with friction, its columns written by hand.
+
+use std::f64::consts::TAU;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use robot_model::columns::{Arm, Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::log::Log;
+use robot_model::motion::{Kinematics, Motion};
+
+/// Inertia, gravity torque, viscous and dry friction of each joint.
+pub const TRUTH: [f64; 8] = [1.2, 9.0, 2.0, 3.0, 0.5, 4.0, 1.0, 1.5];
+
+const NAMES: [&str; 4] = ["izz", "mx", "viscous_friction.fv", "coulomb_friction.fc"];
+
+/// The declared model: every joint has `izz ddq + mx sin(q) + fv dq + fc sign(dq)`.
+pub struct Pendulums {
+    unknowns: Vec<Unknown>,
+    names: Vec<String>,
+}
+
+impl Pendulums {
+    pub fn new() -> Self {
+        let unknown = |k: usize| Unknown {
+            name: format!("joint{}.{}", k / 4 + 1, NAMES[k % 4]),
+            nonnegative: k % 4 >= 2,
+        };
+        Self {
+            unknowns: (0..8).map(unknown).collect(),
+            names: vec!["joint1".to_owned(), "joint2".to_owned()],
+        }
+    }
+}
+
+/// `signum` that is 0 at rest.
+fn sign(v: f64) -> f64 {
+    if v == 0.0 { 0.0 } else { v.signum() }
+}
+
+fn column(values: impl Iterator<Item = f64>, joint: usize, column: usize) -> Entry {
+    Entry {
+        joint,
+        column,
+        values: values.collect(),
+    }
+}
+
+impl Columns for Pendulums {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        let Kinematics { q, ddq, .. } = &motion.smooth;
+        let dq = &motion.wide.dq;
+        (0..2)
+            .flat_map(|j| {
+                [
+                    column(ddq[j].iter().copied(), j, 4 * j),
+                    column(q[j].iter().map(|q| q.sin()), j, 4 * j + 1),
+                    column(dq[j].iter().copied(), j, 4 * j + 2),
+                    column(dq[j].iter().map(|v| sign(*v)), j, 4 * j + 3),
+                ]
+            })
+            .collect()
+    }
+}
+
+impl Arm for Pendulums {
+    fn dof(&self) -> usize {
+        2
+    }
+
+    fn joints(&self) -> &[String] {
+        &self.names
+    }
+
+    fn actuator_gain(&self) -> &[f64] {
+        &[1.0, 1.0]
+    }
+
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]; 2]
+    }
+
+    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+        let Kinematics { q, ddq, .. } = &motion.smooth;
+        (0..2)
+            .map(|j| {
+                q[j].iter()
+                    .zip(&ddq[j])
+                    .map(|(q, a)| estimate[4 * j] * a + estimate[4 * j + 1] * q.sin())
+                    .collect()
+            })
+            .collect()
+    }
+}
+
+/// One column on one joint, a function of `(q, dq, shape)`.
+pub struct Law {
+    kind: &'static str,
+    joint: [usize; 1],
+    unknowns: [Unknown; 1],
+    shapes: Vec<Shape>,
+    law: fn(f64, f64, f64) -> f64,
+}
+
+impl Law {
+    fn new(
+        kind: &'static str,
+        joint: usize,
+        nonnegative: bool,
+        grid: Option<Vec<f64>>,
+        law: fn(f64, f64, f64) -> f64,
+    ) -> Self {
+        Self {
+            kind,
+            joint: [joint],
+            unknowns: [Unknown {
+                name: format!("joint{}.{kind}.c", joint + 1),
+                nonnegative,
+            }],
+            shapes: grid
+                .into_iter()
+                .map(|grid| Shape {
+                    name: format!("joint{}.{kind}.shape", joint + 1),
+                    grid,
+                })
+                .collect(),
+            law,
+        }
+    }
+
+    /// A small library on both joints.
+    pub fn library() -> Vec<Self> {
+        let speeds: Vec<f64> = (0..12)
+            .map(|k| 0.005 * 100.0_f64.powf(f64::from(k) / 11.0))
+            .collect();
+        (0..2)
+            .flat_map(|j| {
+                [
+                    Self::new("torque-offset", j, false, None, |_, _, _| 1.0),
+                    Self::new("asymmetric-viscous", j, false, None, |_, v, _| v.abs()),
+                    Self::new("quadratic-viscous", j, true, None, |_, v, _| v * v.abs()),
+                    Self::new("joint-spring", j, true, None, |q, _, _| q),
+                    Self::new("stribeck", j, true, Some(speeds.clone()), |_, v, s| {
+                        sign(v) * (-(v / s).powi(2)).exp()
+                    }),
+                ]
+            })
+            .collect()
+    }
+}
+
+impl Columns for Law {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let j = self.joint[0];
+        let shape = shapes.first().copied().unwrap_or(0.0);
+        let Kinematics { q, dq, .. } = &motion.wide;
+        vec![column(
+            q[j].iter()
+                .zip(&dq[j])
+                .map(|(q, v)| (self.law)(*q, *v, shape)),
+            j,
+            0,
+        )]
+    }
+}
+
+impl Candidate for Law {
+    fn kind(&self) -> &str {
+        self.kind
+    }
+
+    fn joints(&self) -> &[usize] {
+        &self.joint
+    }
+}
+
+/// How a log is made.
+pub struct Plant {
+    pub seed: u64,
+    pub seconds: f64,
+    /// Repeat every 10 s, or never.
+    pub periodic: bool,
+    /// Standard deviation of white torque noise.
+    pub white: f64,
+    /// Standard deviation of torque noise that is correlated over 5 ms.
+    pub colored: f64,
+    /// Added to the torque: a function of joint, `q`, `dq`.
+    pub extra: fn(usize, [f64; 2], [f64; 2]) -> f64,
+}
+
+impl Default for Plant {
+    fn default() -> Self {
+        Self {
+            seed: 1,
+            seconds: 30.0,
+            periodic: true,
+            white: 0.05,
+            colored: 0.0,
+            extra: |_, _, _| 0.0,
+        }
+    }
+}
+
+impl Plant {
+    /// Simulates a log at 500 Hz: five sines a joint, encoders of 1e-5 rad.
+    pub fn log(&self) -> Log {
+        let mut random = ChaCha8Rng::seed_from_u64(self.seed);
+        let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
+        let sines: Vec<Vec<[f64; 3]>> = (0..2)
+            .map(|_| {
+                (1..=5)
+                    .map(|k| {
+                        let hz = if self.periodic {
+                            0.1 * f64::from(k)
+                        } else {
+                            0.1 * f64::from(k) * (1.0 + 0.1 * normal())
+                        };
+                        [0.4 + 0.1 * normal(), TAU * hz, 3.0 * normal()]
+                    })
+                    .collect()
+            })
+            .collect();
+        let samples = (500.0 * self.seconds).round() as u32;
+        let time: Vec<f64> = (0..samples).map(|k| f64::from(k) / 500.0).collect();
+        let (mut q, mut tau) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
+        let mut wander = [0.0; 2];
+        let keep = (-0.002_f64 / 0.005).exp();
+        for t in &time {
+            let at = |j: usize| {
+                sines[j]
+                    .iter()
+                    .fold([0.0; 3], |sum, [amplitude, w, phase]| {
+                        let (sin, cos) = (w * t + phase).sin_cos();
+                        [
+                            sum[0] + amplitude * sin,
+                            sum[1] + amplitude * w * cos,
+                            sum[2] - amplitude * w * w * sin,
+                        ]
+                    })
+            };
+            let states = [at(0), at(1)];
+            let (positions, velocities) = (states.map(|s| s[0]), states.map(|s| s[1]));
+            for j in 0..2 {
+                let [x, v, a] = states[j];
+                let p = &TRUTH[4 * j..];
+                wander[j] = keep * wander[j] + (1.0 - keep * keep).sqrt() * normal();
+                let noise = self.white * normal() + self.colored * wander[j];
+                let torque = p[0] * a
+                    + p[1] * x.sin()
+                    + p[2] * v
+                    + p[3] * v.signum()
+                    + (self.extra)(j, positions, velocities);
+                q[j].push((x * 1e5).round() * 1e-5);
+                tau[j].push(torque + noise);
+            }
+        }
+        Log::from_samples("a simulated log", time, q, tau).expect("samples are in order")
+    }
+}

@@ -1,0 +1,148 @@
+//! The tracer on a plant: names what is missing, says nothing when nothing is, abstains when it knows no name.
+
+mod plant;
+
+use plant::{Law, Pendulums, Plant};
+use robot_model::columns::Candidate;
+use robot_model::trace::{Outcome, Trace, Verdict};
+
+fn trace(plant: &Plant) -> Verdict {
+    let library = Law::library();
+    let candidates = library.iter().map(|law| law as &dyn Candidate).collect();
+    Trace::new(candidates)
+        .run(&Pendulums::new(), &[plant.log()], &mut |_| ())
+        .expect("the log is sound")
+}
+
+fn names(verdict: &Verdict) -> Vec<(&str, usize)> {
+    verdict
+        .findings
+        .iter()
+        .map(|finding| (finding.kind.as_str(), finding.joints[0] + 1))
+        .collect()
+}
+
+#[test]
+fn nothing_missing_in_white_and_colored_noise() {
+    for seed in 1..6 {
+        for (white, colored) in [(0.05, 0.0), (0.02, 0.08)] {
+            for periodic in [true, false] {
+                let verdict = trace(&Plant {
+                    seed,
+                    white,
+                    colored,
+                    periodic,
+                    ..Plant::default()
+                });
+                assert_eq!(
+                    verdict.outcome,
+                    Outcome::NothingMissing,
+                    "seed {seed}, {periodic}: {verdict:#?}"
+                );
+                assert!(verdict.findings.is_empty() && verdict.leads.is_empty());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_missing_effect_is_named_on_its_joint() {
+    type Extra = fn(usize, [f64; 2], [f64; 2]) -> f64;
+    let cases: [(&str, usize, Extra); 4] = [
+        ("quadratic-viscous", 1, |j, _, v| {
+            if j == 0 { 0.6 * v[0] * v[0].abs() } else { 0.0 }
+        }),
+        (
+            "joint-spring",
+            2,
+            |j, q, _| if j == 1 { 1.5 * q[1] } else { 0.0 },
+        ),
+        ("asymmetric-viscous", 2, |j, _, v| {
+            if j == 1 { 0.3 * v[1].abs() } else { 0.0 }
+        }),
+        ("stribeck", 1, |j, _, v| {
+            if j == 0 {
+                1.2 * v[0].signum() * (-(v[0] / 0.2_f64).powi(2)).exp()
+            } else {
+                0.0
+            }
+        }),
+    ];
+    for (kind, joint, extra) in cases {
+        for periodic in [true, false] {
+            let verdict = trace(&Plant {
+                extra,
+                periodic,
+                ..Plant::default()
+            });
+            assert_eq!(verdict.outcome, Outcome::Explained, "{kind}: {verdict:#?}");
+            assert_eq!(names(&verdict), [(kind, joint)]);
+        }
+    }
+}
+
+#[test]
+fn the_shape_and_size_of_a_found_effect_are_right() {
+    let verdict = trace(&Plant {
+        extra: |j, _, v| {
+            if j == 0 {
+                1.2 * v[0].signum() * (-(v[0] / 0.2_f64).powi(2)).exp()
+            } else {
+                0.0
+            }
+        },
+        ..Plant::default()
+    });
+    let found = &verdict.findings[0].parameters;
+    assert!((found[0].value - 1.2).abs() < 0.1, "{found:?}");
+    assert!(
+        found[1].shape && (found[1].value - 0.2).abs() < 0.03,
+        "{found:?}"
+    );
+}
+
+#[test]
+fn two_effects_on_two_joints_are_both_found() {
+    let verdict = trace(&Plant {
+        extra: |j, _, v| if j == 0 { 0.8 } else { 0.5 * v[1] * v[1].abs() },
+        ..Plant::default()
+    });
+    let mut found = names(&verdict);
+    found.sort_unstable();
+    assert_eq!(found, [("quadratic-viscous", 2), ("torque-offset", 1)]);
+}
+
+#[test]
+fn an_effect_outside_the_library_gets_no_name() {
+    for periodic in [true, false] {
+        let verdict = trace(&Plant {
+            extra: |j, _, v| if j == 0 { 1.5 * v[0] * v[1] } else { 0.0 },
+            periodic,
+            ..Plant::default()
+        });
+        assert_eq!(verdict.outcome, Outcome::Unexplained, "{verdict:#?}");
+        assert!(verdict.findings.is_empty());
+        assert!(verdict.after[0].is_material() && !verdict.after[1].is_material());
+    }
+}
+
+#[test]
+fn a_negative_coefficient_is_no_law() {
+    // Torque that falls with the square of speed is not churning: its coefficient would be negative.
+    let verdict = trace(&Plant {
+        extra: |j, _, v| {
+            if j == 0 {
+                -0.6 * v[0] * v[0].abs()
+            } else {
+                0.0
+            }
+        },
+        ..Plant::default()
+    });
+    assert!(
+        names(&verdict)
+            .iter()
+            .all(|(kind, _)| *kind != "quadratic-viscous"),
+        "{verdict:#?}"
+    );
+}
