@@ -6,6 +6,7 @@
 mod check;
 mod close_the_loop;
 mod diff;
+mod emit;
 
 mod error;
 mod eval;
@@ -40,6 +41,7 @@ struct CommandLine {
 enum Verb {
     Check(check::Check),
     Show(show::Show),
+    Emit(emit::Emit),
     Eval(eval::Eval),
     Import(import::Import),
     Identify(identify::IdentifyArguments),
@@ -51,6 +53,7 @@ impl Verb {
         match self {
             Self::Check(verb) => verb.run(),
             Self::Show(verb) => verb.run(),
+            Self::Emit(verb) => verb.run(),
             Self::Eval(verb) => verb.run(),
             Self::Import(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),

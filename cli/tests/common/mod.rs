@@ -30,6 +30,18 @@ robot Pendulum {
 }
 ";
 
+/// A lift with a pendulum on it.
+pub const URDF: &str = r#"<robot name="arm">
+  <link name="base"/>
+  <link name="sledge"><inertial><mass value="4"/><origin xyz="0 0 0.1"/>
+    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
+  <link name="pendulum"><inertial><mass value="1"/><origin xyz="0 0 -0.3"/>
+    <inertia ixx="0.02" ixy="0" ixz="0" iyy="0.02" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="lift" type="prismatic"><parent link="base"/><child link="sledge"/><axis xyz="0 0 1"/>
+    <limit lower="0" upper="1" effort="100" velocity="1"/></joint>
+  <joint name="swing" type="continuous"><parent link="sledge"/><child link="pendulum"/><axis xyz="0 1 0"/></joint>
+</robot>"#;
+
 /// What a run left behind.
 pub struct Run {
     pub code: Option<i32>,
