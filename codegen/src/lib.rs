@@ -11,6 +11,7 @@ pub mod expr;
 pub mod interpreter;
 mod random;
 pub mod regressor;
+pub mod show;
 
 mod build_script;
 mod compiled;

@@ -69,10 +69,42 @@ impl Dag {
     /// The expression as built: nested, with the user's names.
     #[must_use]
     pub fn display(&self, x: ExprId, names: &Names, style: Style) -> String {
-        self.write(x, names, style, Binding::Sum)
+        self.display_with(x, names, style, &|_| None)
     }
 
-    fn write(&self, x: ExprId, names: &Names, style: Style, around: Binding) -> String {
+    /// The definition of `x` with other expressions by the names that `given` has for them.
+    #[must_use]
+    pub fn display_with(
+        &self,
+        x: ExprId,
+        names: &Names,
+        style: Style,
+        given: &dyn Fn(ExprId) -> Option<String>,
+    ) -> String {
+        Writer {
+            dag: self,
+            names,
+            style,
+            given,
+        }
+        .node(x, Binding::Sum)
+    }
+}
+
+/// What stays the same while an expression is written.
+struct Writer<'a> {
+    dag: &'a Dag,
+    names: &'a Names,
+    style: Style,
+    given: &'a dyn Fn(ExprId) -> Option<String>,
+}
+
+impl Writer<'_> {
+    fn write(&self, x: ExprId, around: Binding) -> String {
+        (self.given)(x).unwrap_or_else(|| self.node(x, around))
+    }
+
+    fn node(&self, x: ExprId, around: Binding) -> String {
         let parenthesize = |text: String, own: Binding| {
             if own < around {
                 format!("({text})")
@@ -80,7 +112,7 @@ impl Dag {
                 text
             }
         };
-        match self.node(x) {
+        match self.dag.node(x) {
             Node::Constant(value) => parenthesize(
                 number(value.get()),
                 if value.get() < 0.0 {
@@ -89,53 +121,53 @@ impl Dag {
                     Binding::Power
                 },
             ),
-            Node::Symbol(symbol) => names.symbol(symbol, style),
+            Node::Symbol(symbol) => self.names.symbol(symbol, self.style),
             Node::Add(p, q) => {
-                let left = self.write(p, names, style, Binding::Sum);
-                let right = self.write(q, names, style, Binding::Sum);
+                let left = self.write(p, Binding::Sum);
+                let right = self.write(q, Binding::Sum);
                 let text = match right.strip_prefix('-') {
                     Some(right) => format!("{left} - {right}"),
                     None => format!("{left} + {right}"),
                 };
                 parenthesize(text, Binding::Sum)
             }
-            Node::Mul(p, q) => self.write_product(p, q, names, style, around),
+            Node::Mul(p, q) => self.product(p, q, around),
             Node::Power(p, q) => {
-                let base = self.write(p, names, style, Binding::Power);
-                let exponent = self.write(q, names, style, Binding::Sum);
-                match style {
+                let base = self.write(p, Binding::Power);
+                let exponent = self.write(q, Binding::Sum);
+                match self.style {
                     Style::Text => format!("{base}^({exponent})"),
                     Style::Latex => format!("{{{base}}}^{{{exponent}}}"),
                 }
             }
             Node::Call(Function::Recip, p) => parenthesize(
-                format!("1 / {}", self.write(p, names, style, Binding::Power)),
+                format!("1 / {}", self.write(p, Binding::Power)),
                 Binding::Product,
             ),
-            Node::Call(function, p) => {
-                call(function, &self.write(p, names, style, Binding::Sum), style)
-            }
+            Node::Call(function, p) => call(function, &self.write(p, Binding::Sum), self.style),
         }
     }
 
-    fn write_product(
-        &self,
-        p: ExprId,
-        q: ExprId,
-        names: &Names,
-        style: Style,
-        around: Binding,
-    ) -> String {
-        let right = self.write(q, names, style, Binding::Product);
-        let text = match (self.as_constant(p), self.node(q)) {
+    fn product(&self, p: ExprId, q: ExprId, around: Binding) -> String {
+        if p == q {
+            let base = self.write(p, Binding::Power);
+            return base
+                + if self.style == Style::Latex {
+                    "^{2}"
+                } else {
+                    "^2"
+                };
+        }
+        let right = self.write(q, Binding::Product);
+        let text = match (self.dag.as_constant(p), self.dag.node(q)) {
             (Some(-1.0), _) => format!("-{right}"),
             (_, Node::Call(Function::Recip, q)) => format!(
                 "{} / {}",
-                self.write(p, names, style, Binding::Product),
-                self.write(q, names, style, Binding::Power)
+                self.write(p, Binding::Product),
+                self.write(q, Binding::Power)
             ),
             (Some(c), _) => format!("{} {right}", number(c)),
-            _ => format!("{} {right}", self.write(p, names, style, Binding::Product)),
+            _ => format!("{} {right}", self.write(p, Binding::Product)),
         };
         let binding = if text.starts_with('-') {
             Binding::Sum

@@ -14,6 +14,7 @@ pub mod rules;
 
 use std::collections::HashMap;
 
+pub(crate) use display::number;
 pub use display::{Names, Style};
 
 /// An expression of one [`Dag`].

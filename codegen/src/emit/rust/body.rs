@@ -102,7 +102,7 @@ fn is_trigonometry_of_positions(dag: &Dag, x: ExprId) -> bool {
 }
 
 /// Which expressions become temporaries: those used more than once, function calls, and parts of long expressions.
-fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec<bool> {
+pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec<bool> {
     let mut uses = vec![0usize; dag.len()];
     for &output in outputs {
         uses[through_sign(dag, output).index()] += 1;

@@ -2,10 +2,10 @@
 //!
 //! In: [`Compiled`]. Out: text for `include!`. Same spec, same bytes.
 
-mod body;
+pub(crate) mod body;
 mod function;
 mod implementation;
-mod names;
+pub(crate) mod names;
 mod pretty;
 mod render;
 

@@ -1,0 +1,214 @@
+//! Expressions multiplied out into sums of products of readable factors, in a fixed order.
+
+use std::collections::BTreeMap;
+
+use crate::expr::{Dag, ExprId, Names, Node, Style, Symbol};
+
+/// Expressions with more terms than this are shown with intermediate names instead.
+pub const MOST_TERMS: usize = 24;
+/// While multiplying out, terms may be this many: identities then bring them together.
+const MOST_TERMS_ON_THE_WAY: usize = 96;
+
+/// A factor: parameters first, then functions, then coordinates; each kind in its own order.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Factor {
+    kind: u8,
+    index: usize,
+    /// Distinguishes functions.
+    text: String,
+    expr: ExprId,
+}
+
+/// Factors with their powers, ascending.
+type Monomial = Vec<(Factor, u32)>;
+
+/// A sum of products; shorter products first.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Polynomial(BTreeMap<(u32, Monomial), f64>);
+
+impl Polynomial {
+    fn of(monomial: Monomial, coefficient: f64) -> Self {
+        let mut polynomial = Self::default();
+        polynomial.add_term(monomial, coefficient);
+        polynomial
+    }
+
+    fn add_term(&mut self, monomial: Monomial, coefficient: f64) {
+        /// Sums of lengths cancel to rounding.
+        const CANCELED: f64 = 1e-14;
+        let degree = monomial.iter().map(|(_, power)| power).sum();
+        let sum = self.0.entry((degree, monomial)).or_insert(0.0);
+        let scale = sum.abs().max(coefficient.abs());
+        *sum += coefficient;
+        if sum.abs() <= CANCELED * scale {
+            *sum = 0.0;
+        }
+        self.0.retain(|_, coefficient| *coefficient != 0.0);
+    }
+
+    fn terms(&self) -> impl Iterator<Item = (&Monomial, f64)> {
+        self.0
+            .iter()
+            .map(|((_, monomial), &coefficient)| (monomial, coefficient))
+    }
+}
+
+/// Multiplies out; `None` if that takes too many terms.
+pub fn expand(dag: &mut Dag, x: ExprId, names: &Names) -> Option<Polynomial> {
+    let mut known: BTreeMap<ExprId, Polynomial> = BTreeMap::new();
+    for part in dag.reachable(&[x]) {
+        let polynomial = match dag.node(part) {
+            Node::Constant(value) => Polynomial::of(Vec::new(), value.get()),
+            Node::Add(p, q) => {
+                let mut sum = known[&p].clone();
+                for (monomial, coefficient) in known[&q].terms() {
+                    sum.add_term(monomial.clone(), coefficient);
+                }
+                sum
+            }
+            Node::Mul(p, q) => product(&known[&p], &known[&q]),
+            Node::Symbol(_) | Node::Power(..) | Node::Call(..) => {
+                Polynomial::of(vec![(factor(dag, part, names), 1)], 1.0)
+            }
+        };
+        if polynomial.0.len() > MOST_TERMS_ON_THE_WAY {
+            return None;
+        }
+        known.insert(part, polynomial);
+    }
+    let merged = merge(dag, known.remove(&x)?, names);
+    (merged.0.len() <= MOST_TERMS).then_some(merged)
+}
+
+fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
+    let mut product = Polynomial::default();
+    for (p, c) in left.terms() {
+        for (q, d) in right.terms() {
+            let mut factors: BTreeMap<Factor, u32> = p.iter().cloned().collect();
+            for (factor, power) in q {
+                *factors.entry(factor.clone()).or_insert(0) += power;
+            }
+            product.add_term(factors.into_iter().collect(), c * d);
+        }
+    }
+    product
+}
+
+fn factor(dag: &Dag, x: ExprId, names: &Names) -> Factor {
+    let (kind, index) = match dag.node(x) {
+        Node::Symbol(Symbol::Parameter(k)) => (0, k),
+        Node::Symbol(Symbol::Shape(k)) => (1, k),
+        Node::Symbol(Symbol::RigidTorque(j)) => (3, j),
+        Node::Symbol(Symbol::Q(j)) => (4, j),
+        Node::Symbol(Symbol::Ddq(j)) => (5, j),
+        Node::Symbol(Symbol::Dq(j)) => (6, j),
+        Node::Symbol(Symbol::Time) => (7, 0),
+        _ => (2, 0),
+    };
+    let text = if kind == 2 {
+        dag.display(x, names, Style::Text)
+    } else {
+        String::new()
+    };
+    Factor {
+        kind,
+        index,
+        text,
+        expr: x,
+    }
+}
+
+/// Brings pairs of terms together where the rule table makes one of them: `cos^2 + sin^2`, sums of angles.
+fn merge(dag: &mut Dag, mut polynomial: Polynomial, names: &Names) -> Polynomial {
+    'again: loop {
+        let terms: Vec<(Monomial, f64)> = polynomial
+            .terms()
+            .map(|(monomial, c)| (monomial.clone(), c))
+            .collect();
+        for (k, left) in terms.iter().enumerate() {
+            for right in terms[k + 1..].iter().filter(|right| is_pair(left, right)) {
+                let (x, y) = (build(dag, left), build(dag, right));
+                let sum = dag.add(x, y);
+                let (coefficient, rest) = dag.coefficient(sum);
+                let Some(one) = one_product(dag, rest, names) else {
+                    continue;
+                };
+                polynomial.add_term(left.0.clone(), -left.1);
+                polynomial.add_term(right.0.clone(), -right.1);
+                polynomial.add_term(one, coefficient);
+                continue 'again;
+            }
+        }
+        return polynomial;
+    }
+}
+
+/// Rules that bring products together ask for equal coefficients; float noise does not part them.
+fn is_pair(left: &(Monomial, f64), right: &(Monomial, f64)) -> bool {
+    /// Relative.
+    const NOISE: f64 = 1e-12;
+    (left.1.abs() - right.1.abs()).abs() <= NOISE * left.1.abs()
+        && [left, right]
+            .iter()
+            .all(|term| term.0.iter().any(|(factor, _)| factor.kind == 2))
+}
+
+/// The term as an expression, its coefficient without float noise.
+fn build(dag: &mut Dag, (monomial, coefficient): &(Monomial, f64)) -> ExprId {
+    let rounded: f64 = format!("{coefficient:.12e}")
+        .parse()
+        .unwrap_or(*coefficient);
+    let mut product = dag.constant(1.0);
+    for (factor, power) in monomial {
+        for _ in 0..*power {
+            product = dag.mul(product, factor.expr);
+        }
+    }
+    dag.scale(rounded, product)
+}
+
+/// The factors of an expression that is a single product.
+fn one_product(dag: &Dag, x: Option<ExprId>, names: &Names) -> Option<Monomial> {
+    let mut factors: BTreeMap<Factor, u32> = BTreeMap::new();
+    let mut stack: Vec<ExprId> = x.into_iter().collect();
+    while let Some(x) = stack.pop() {
+        match dag.node(x) {
+            Node::Add(..) => return None,
+            Node::Mul(p, q) => stack.extend([p, q]),
+            Node::Constant(_) => {}
+            _ => *factors.entry(factor(dag, x, names)).or_insert(0) += 1,
+        }
+    }
+    Some(factors.into_iter().collect())
+}
+
+/// A term's sign (true is negative) and what stands behind it.
+pub type SignedTerm = (bool, String);
+
+/// The terms of the sum as text; none if it is zero.
+#[must_use]
+pub fn terms(dag: &Dag, polynomial: &Polynomial, names: &Names, style: Style) -> Vec<SignedTerm> {
+    polynomial
+        .terms()
+        .map(|(monomial, coefficient)| {
+            let mut factors: Vec<String> = Vec::new();
+            let number = crate::expr::number(coefficient.abs());
+            if number != "1" || monomial.is_empty() {
+                factors.push(number);
+            }
+            for (factor, power) in monomial {
+                let text = dag.display(factor.expr, names, style);
+                let exponent = match style {
+                    _ if *power == 1 => String::new(),
+                    Style::Text => format!("^{power}"),
+                    Style::Latex => format!("^{{{power}}}"),
+                };
+                factors.push(text + &exponent);
+            }
+            (
+                coefficient < 0.0,
+                factors.join(if style == Style::Latex { " \\, " } else { " " }),
+            )
+        })
+        .collect()
+}
