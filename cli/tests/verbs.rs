@@ -122,38 +122,29 @@ fn usage_is_code_two() {
 fn show_writes_equations() {
     let folder = Folder::new();
     folder.write("pendulum.robot", PENDULUM);
-    let shown = folder.succeed(&["show", "pendulum.robot", "--what", "mass-matrix"]);
-    assert!(shown.starts_with("M[1,1] = "), "{shown}");
+    let show = |what: &str, notation: &str| {
+        folder.succeed(&["show", "pendulum.robot", "--what", what, "--as", notation])
+    };
+    let mass_matrix = show("mass-matrix", "text");
+    assert!(mass_matrix.starts_with("M[1,1] = "), "{mass_matrix}");
     assert!(
-        shown.contains("(= M[2,1])")
-            && shown.contains("cos(q2)")
-            && shown.contains("M[2,2] = lower.izzr"),
-        "{shown}"
+        mass_matrix.contains("(= M[2,1])") && mass_matrix.contains("cos(q2)"),
+        "{mass_matrix}"
     );
-    let shown = folder.succeed(&["show", "pendulum.robot", "--what", "base-parameters"]);
-    assert!(shown.contains("without influence: "), "{shown}");
-    let latex = folder.succeed(&[
-        "show",
-        "pendulum.robot",
-        "--what",
-        "coriolis",
-        "--as",
-        "latex",
-    ]);
-    assert!(
-        latex.starts_with("\\begin{aligned}\nC_{1,1} &= ") && latex.contains("\\dot q_{2}"),
-        "{latex}"
-    );
-    assert!(latex.contains("C_{2,2} &= 0"), "{latex}");
-    for what in ["gravity", "inverse-dynamics", "regressor", "base-regressor"] {
-        for notation in ["text", "latex"] {
-            assert!(
-                !folder
-                    .succeed(&["show", "pendulum.robot", "--what", what, "--as", notation])
-                    .is_empty()
-            );
-        }
-    }
+    let whole = folder.succeed(&["show", "pendulum.robot"]);
+    assert!(whole.contains(&mass_matrix), "{whole}");
+    assert!(show("coriolis", "latex").contains("\\dot q_{2}"));
+    let others = [
+        "gravity",
+        "inverse-dynamics",
+        "regressor",
+        "base-regressor",
+        "base-parameters",
+        "cost",
+    ];
+    let pages: std::collections::BTreeSet<String> =
+        others.into_iter().map(|what| show(what, "text")).collect();
+    assert_eq!(pages.len(), others.len(), "every form is another page");
 }
 
 #[test]
