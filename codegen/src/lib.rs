@@ -5,6 +5,7 @@
 //! ```
 
 pub mod base;
+pub mod derive_input;
 pub mod dynamics;
 pub mod emit;
 pub mod expr;

@@ -18,6 +18,9 @@ pub mod trace;
 
 pub use model::{Matrix, RobotModel, State, Vector};
 
+#[cfg(feature = "derive")]
+pub use robot_model_derive::RobotModel;
+
 /// Includes what `robot_model_codegen::compile` wrote for a spec in the build script: `include_robot!("arm")` for
 /// `arm.robot`.
 #[macro_export]

@@ -35,6 +35,23 @@ pub fn module(compiled: &Compiled) -> String {
     pretty::page(&header(compiled), &items)
 }
 
+/// The page's functions and the implementation for a type that exists already, hidden in an anonymous constant.
+#[must_use]
+pub fn implementation_for(compiled: &Compiled, name: &Ident) -> TokenStream {
+    let (functions, _) = functions(compiled);
+    let shapes = shape_constants(compiled);
+    let items = functions.iter().map(|function| &function.item);
+    let implementation = implementation::implementation(compiled, &functions, name);
+    pretty::without_markers(quote! {
+        const _: () = {
+            use ::robot_model::math;
+            #(#shapes)*
+            #(#items)*
+            #implementation
+        };
+    })
+}
+
 /// What each emitted function costs.
 #[must_use]
 pub fn costs(compiled: &Compiled) -> Costs {
