@@ -26,7 +26,8 @@ pub(crate) struct Stage {
 pub(crate) struct Loop {
     pub before: Stage,
     pub verdict: Verdict,
-    /// The spec with the findings and leads declared, in that order; the text as it was where there are none.
+    /// The spec with the findings declared, in their order; the text as it was where there are none. Leads stay out: what
+    /// does not explain the residual is no part of the arm.
     pub amended: String,
     /// None where the spec did not change.
     pub changed: Option<Stage>,
@@ -48,7 +49,7 @@ pub(crate) fn close(
     progress: &Progress,
 ) -> Result<Loop, Error> {
     progress.step("identifying the declared model");
-    let before = Stage::identify(source_name, text, logs, validate)?;
+    let before = Stage::identify(source_name, text, logs, validate, Identify::default())?;
     let candidates = before.arm.candidates();
     let candidates = candidates
         .iter()
@@ -57,9 +58,9 @@ pub(crate) fn close(
     let verdict =
         Trace::new(candidates).run(&before.arm, logs, &mut |stage| progress.step(stage))?;
 
-    // Leads hold on unseen data as findings do; only they are not the whole story.
-    let found = verdict.findings.iter().chain(&verdict.leads);
-    let amendments: Vec<Amendment> = found
+    let amendments: Vec<Amendment> = verdict
+        .findings
+        .iter()
         .map(|finding| amendment(finding, &before.arm))
         .collect();
     let amended = amend(source_name, text, &amendments)?;
@@ -67,7 +68,18 @@ pub(crate) fn close(
         None
     } else {
         progress.step("identifying the amended model");
-        Some(Stage::identify(source_name, &amended, logs, validate)?)
+        // The same band as before, so that the errors are those of the same samples.
+        let same_band = Identify {
+            bands: Some(before.estimate.bands),
+            ..Identify::default()
+        };
+        Some(Stage::identify(
+            source_name,
+            &amended,
+            logs,
+            validate,
+            same_band,
+        )?)
     };
     Ok(Loop {
         before,
@@ -83,9 +95,10 @@ impl Stage {
         text: &str,
         logs: &[Log],
         validate: Option<&Log>,
+        identify: Identify,
     ) -> Result<Self, Error> {
         let arm = InterpretedArm::new(compile_model(&load(source_name, text)?));
-        let estimate = Identify::default().fit(&arm, logs)?;
+        let estimate = identify.fit(&arm, logs)?;
         let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {
             arm,
@@ -109,7 +122,12 @@ fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
             .map(|&joint| arm.joints()[joint].clone())
             .collect(),
         shapes: shapes
-            .map(|parameter| (parameter.name.clone(), parameter.value))
+            .map(|parameter| (parameter.name.clone(), readable(parameter.value)))
             .collect(),
     }
+}
+
+/// Four digits: more of a shape parameter is not known, and a person will read it.
+fn readable(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

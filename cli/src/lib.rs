@@ -5,6 +5,7 @@
 
 mod check;
 mod close_the_loop;
+mod demo;
 mod diff;
 mod emit;
 
@@ -46,6 +47,7 @@ enum Verb {
     Import(import::Import),
     Identify(identify::IdentifyArguments),
     Trace(trace::TraceArguments),
+    Demo(demo::Demo),
 }
 
 impl Verb {
@@ -58,6 +60,7 @@ impl Verb {
             Self::Import(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
+            Self::Demo(verb) => verb.run(),
         }
     }
 }

@@ -101,11 +101,16 @@ fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
 
 /// What `--json` writes; a contract. Joints count from 1.
 #[derive(Serialize)]
-struct Report<'a> {
+pub(crate) struct Report<'a> {
     outcome: &'static str,
     effects: Vec<EffectReport<'a>>,
     rmse_before: Option<&'a [f64]>,
     rmse_after: Option<&'a [f64]>,
+    /// Errors are of raw samples, first and last second cut.
+    domain: &'static str,
+    /// `100 || error || / || tau ||` per joint on the validation log, in the identification's band.
+    relative_percent_before: Option<&'a [f64]>,
+    relative_percent_after: Option<&'a [f64]>,
     alternatives: Vec<AlternativeReport<'a>>,
     noise_floor: &'a [f64],
     /// Effects that passed the gates although structure remains.
@@ -157,10 +162,15 @@ struct EvidenceReport<'a> {
 }
 
 impl<'a> Report<'a> {
-    fn new(closed: &'a Loop) -> Self {
+    pub(crate) fn new(closed: &'a Loop) -> Self {
         let verdict = &closed.verdict;
         let rmse = |errors: &'a Option<robot_model::identify::Errors>| {
             errors.as_ref().map(|errors| errors.rmse.as_slice())
+        };
+        let relative = |errors: &'a Option<robot_model::identify::Errors>| {
+            errors
+                .as_ref()
+                .map(|errors| errors.relative_percent.as_slice())
         };
         let effects = verdict.findings.iter().enumerate();
         let leads = verdict.leads.iter().enumerate();
@@ -171,6 +181,9 @@ impl<'a> Report<'a> {
                 .collect(),
             rmse_before: rmse(&closed.before.validation),
             rmse_after: rmse(&closed.after().validation),
+            domain: "raw",
+            relative_percent_before: relative(&closed.before.validation),
+            relative_percent_after: relative(&closed.after().validation),
             alternatives: verdict.alternatives.iter().map(alternative).collect(),
             noise_floor: &verdict.noise_floor,
             leads: leads
@@ -223,14 +236,18 @@ fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectRep
     }
 }
 
-/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings and leads.
+/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings; none for
+/// a lead, which is not declared.
 fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
     let after = closed.after();
     let model = &after.arm.compiled().model;
     let first = model
         .effects
         .len()
-        .checked_sub(closed.verdict.findings.len() + closed.verdict.leads.len())?;
+        .checked_sub(closed.verdict.findings.len())?;
+    if place >= closed.verdict.findings.len() {
+        return None;
+    }
     let full = format!("{}.{name}", model.effect_name(first + place));
     let parameter = after
         .estimate
