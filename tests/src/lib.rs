@@ -1,1 +1,11 @@
-//! Placeholder until the first stage lands.
+//! What the crates promise together, tested from outside: the specs, their independent twin, the oracles and real logs.
+
+pub mod cases;
+pub mod emitted;
+pub mod evaluate;
+pub mod expression;
+pub mod oracle;
+pub mod shared;
+pub mod specs;
+pub mod states;
+pub mod twin;

@@ -1,0 +1,26 @@
+// A planar arm on a turntable that declares every standard effect once: what an effect means is tested on it.
+robot EveryEffect {
+    gravity = [0, 0, -9.81];
+    convention = modified_dh;
+
+    joint turntable: revolute { alpha = 0;      a = 0;   d = 0.4; }
+    joint shoulder:  revolute { alpha = 90 deg; a = 0.1; d = 0;   offset = 30 deg; }
+    joint elbow:     revolute { alpha = 0;      a = 0.5; d = 0.05; }
+
+    effects {
+        viscous_friction on all;
+        coulomb_friction on all;
+        motor_inertia on elbow;
+        torque_offset on turntable;
+        asymmetric_coulomb on shoulder;
+        asymmetric_viscous on shoulder;
+        quadratic_viscous on turntable;
+        cubic_viscous on elbow;
+        stribeck(vs = 0.1) on turntable;
+        joint_spring on elbow;
+        gear_coupling on (turntable, elbow);
+        // No rotor's inertia of the shoulder: it would regroup into the link's, and count as load.
+        load_dependent_friction on shoulder;
+        torque_ripple(k = 12) on turntable;
+    }
+}

@@ -1,0 +1,113 @@
+//! Emitted code of every spec, included as users include it, with warnings denied.
+
+use nalgebra::DMatrix;
+use robot_model::{Matrix, RobotModel, State as ArmState, Vector};
+
+use crate::evaluate::Forms;
+use crate::states::State;
+
+/// One emitted arm behind a face without sizes in its type.
+#[derive(Clone, Copy)]
+pub struct Robot {
+    /// Name of the spec file.
+    pub spec: &'static str,
+    /// Name of the robot.
+    pub name: &'static str,
+    /// Names of the joints.
+    pub joints: &'static [&'static str],
+    /// Names of the standard parameters.
+    pub standard_parameters: &'static [&'static str],
+    /// Names of the base parameters.
+    pub base_parameter_names: &'static [&'static str],
+    /// `beta` of standard parameters.
+    pub base_parameters: fn(&[f64]) -> Vec<f64>,
+    /// All forms at a state, with base parameters from standard ones.
+    pub forms: fn(&[f64], &State) -> Forms,
+}
+
+macro_rules! robots {
+    ($($module:ident $file:literal $robot:ident;)*) => {
+        $(
+            #[doc = concat!("Emitted from `", $file, ".robot`.")]
+            #[deny(warnings)]
+            pub mod $module {
+                robot_model::include_robot!($file);
+            }
+        )*
+
+        /// Every emitted arm.
+        pub const ROBOTS: &[Robot] = &[$(Robot::of::<$module::$robot, _, _, _>($file)),*];
+    };
+}
+
+robots! {
+    emps "emps" Emps;
+    every_effect "every_effect" EveryEffect;
+    panda "panda" Panda;
+    puma560 "puma560" Puma560;
+    slider "slider" Slider;
+    two_link "two_link" TwoLink;
+    tx40 "tx40" Tx40;
+    ur10 "ur10" Ur10;
+}
+
+impl Robot {
+    const fn of<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+        spec: &'static str,
+    ) -> Self
+    where
+        R: RobotModel<DOF, STANDARD, BASE>,
+    {
+        Self {
+            spec,
+            name: R::NAME,
+            joints: &R::JOINTS,
+            standard_parameters: &R::STANDARD_PARAMETERS,
+            base_parameter_names: &R::BASE_PARAMETERS,
+            base_parameters: base_parameters::<R, DOF, STANDARD, BASE>,
+            forms: forms::<R, DOF, STANDARD, BASE>,
+        }
+    }
+}
+
+fn base_parameters<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+    standard: &[f64],
+) -> Vec<f64>
+where
+    R: RobotModel<DOF, STANDARD, BASE>,
+{
+    R::base_parameters(&Vector::from_column_slice(standard))
+        .as_slice()
+        .to_vec()
+}
+
+fn forms<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+    standard: &[f64],
+    state: &State,
+) -> Forms
+where
+    R: RobotModel<DOF, STANDARD, BASE>,
+{
+    let beta = R::base_parameters(&Vector::from_column_slice(standard));
+    let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
+    let mut state = ArmState {
+        time: state.time,
+        ..ArmState::new(vector(&state.q), vector(&state.dq), vector(&state.ddq))
+    };
+    let mass_matrix = R::mass_matrix(&state, &beta);
+    let bias = R::bias(&state, &beta);
+    state.rigid_torque = mass_matrix * state.ddq + bias;
+    Forms {
+        mass_matrix: dense(&mass_matrix),
+        coriolis_matrix: dense(&R::coriolis_matrix(&state, &beta)),
+        gravity: dense(&R::gravity(&state, &beta)),
+        bias: dense(&bias),
+        inverse_dynamics: dense(&R::inverse_dynamics(&state, &beta)),
+        regressor: dense(&R::regressor(&state)),
+        base_regressor: dense(&R::base_regressor(&state)),
+    }
+}
+
+fn dense<const ROWS: usize, const COLUMNS: usize>(matrix: &Matrix<ROWS, COLUMNS>) -> DMatrix<f64> {
+    DMatrix::from_column_slice(ROWS, COLUMNS, matrix.as_slice())
+}

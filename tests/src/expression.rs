@@ -1,0 +1,63 @@
+//! The value of an effect's expression, straight from its tree: what the language says, with no compiler between.
+
+use robot_model_spec::model::{BinaryOp, Expr, Function, Signal};
+
+/// What the names of an expression stand for.
+#[derive(Debug, Clone, Copy)]
+pub struct Scope<'a> {
+    /// Values of the definition's linear parameters.
+    pub linear: &'a [f64],
+    /// Values of its shape parameters.
+    pub shapes: &'a [f64],
+    /// Joint of each formal joint.
+    pub joints: &'a [usize],
+    /// Position, velocity, acceleration and rigid-body torque of every joint.
+    pub signals: [&'a [f64]; 4],
+    /// Seconds since the start of the log.
+    pub time: f64,
+}
+
+/// Evaluates an expression.
+#[must_use]
+pub fn value(expr: &Expr, scope: &Scope<'_>) -> f64 {
+    match expr {
+        Expr::Number(number) => *number,
+        Expr::Linear(k) => scope.linear[*k],
+        Expr::Shape(k) => scope.shapes[*k],
+        Expr::Time => scope.time,
+        Expr::Signal(signal, formal) => {
+            let values = scope.signals[match signal {
+                Signal::Position => 0,
+                Signal::Velocity => 1,
+                Signal::Acceleration => 2,
+                Signal::RigidTorque => 3,
+            }];
+            values[scope.joints[*formal]]
+        }
+        Expr::Neg(x) => -value(x, scope),
+        Expr::Binary(op, x, y) => {
+            let (x, y) = (value(x, scope), value(y, scope));
+            match op {
+                BinaryOp::Add => x + y,
+                BinaryOp::Sub => x - y,
+                BinaryOp::Mul => x * y,
+                BinaryOp::Div => x / y,
+                BinaryOp::Pow => x.powf(y),
+            }
+        }
+        Expr::Call(function, x) => {
+            let x = value(x, scope);
+            match function {
+                Function::Sin => x.sin(),
+                Function::Cos => x.cos(),
+                Function::Exp => x.exp(),
+                Function::Sqrt => x.sqrt(),
+                Function::Abs => x.abs(),
+                Function::Tanh => x.tanh(),
+                Function::Sign if x > 0.0 => 1.0,
+                Function::Sign if x < 0.0 => -1.0,
+                Function::Sign => 0.0,
+            }
+        }
+    }
+}

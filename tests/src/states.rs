@@ -1,0 +1,98 @@
+//! Random states and random arms that could be built, from fixed seeds.
+
+use rand::RngExt;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use robot_model_spec::Model;
+use robot_model_spec::parameter::{Owner, Status};
+
+/// Where an arm is and how it moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// Positions.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub dq: Vec<f64>,
+    /// Accelerations.
+    pub ddq: Vec<f64>,
+    /// Seconds since the start of the log.
+    pub time: f64,
+}
+
+/// The generator of a test: the same numbers on every machine and in every run.
+#[must_use]
+pub fn generator(seed: u64) -> ChaCha8Rng {
+    ChaCha8Rng::seed_from_u64(seed)
+}
+
+/// A state without special values.
+pub fn state(random: &mut ChaCha8Rng, dof: usize) -> State {
+    let mut uniform = |limit: f64| -> Vec<f64> {
+        (0..dof)
+            .map(|_| random.random_range(-limit..limit))
+            .collect()
+    };
+    let (q, dq, ddq) = (uniform(3.0), uniform(2.0), uniform(5.0));
+    State {
+        q,
+        dq,
+        ddq,
+        time: random.random_range(0.0..10.0),
+    }
+}
+
+/// Standard parameters of an arm that could be built: every link is eight point masses, so its ten numbers are those of a body.
+///
+/// Effects' parameters are positive. What the spec fixes keeps its value.
+pub fn physical(random: &mut ChaCha8Rng, model: &Model) -> Vec<f64> {
+    let mut standard: Vec<f64> = (0..model.joints.len()).flat_map(|_| body(random)).collect();
+    for parameter in model.standard_parameters().iter().skip(standard.len()) {
+        assert!(matches!(parameter.owner, Owner::Effect { .. }));
+        standard.push(random.random_range(0.1..1.0));
+    }
+    keep_fixed(model, &mut standard);
+    standard
+}
+
+/// Any numbers as standard parameters: linear laws hold for them too. What the spec fixes keeps its value.
+pub fn arbitrary(random: &mut ChaCha8Rng, model: &Model) -> Vec<f64> {
+    let mut standard: Vec<f64> = model
+        .standard_parameters()
+        .iter()
+        .map(|_| random.random_range(-2.0..2.0))
+        .collect();
+    keep_fixed(model, &mut standard);
+    standard
+}
+
+fn keep_fixed(model: &Model, standard: &mut [f64]) {
+    for (value, parameter) in standard.iter_mut().zip(model.standard_parameters()) {
+        if let Status::Fixed(fixed) = parameter.status {
+            *value = fixed;
+        }
+    }
+}
+
+fn body(random: &mut ChaCha8Rng) -> [f64; 10] {
+    let mut sum = [0.0; 10];
+    for _ in 0..8 {
+        let m = random.random_range(0.1..1.0);
+        let [x, y, z]: [f64; 3] = std::array::from_fn(|_| random.random_range(-0.3..0.3));
+        let part = [
+            1.0,
+            x,
+            y,
+            z,
+            y * y + z * z,
+            -x * y,
+            -x * z,
+            x * x + z * z,
+            -y * z,
+            x * x + y * y,
+        ];
+        for (sum, part) in sum.iter_mut().zip(part) {
+            *sum += m * part;
+        }
+    }
+    sum
+}

@@ -1,0 +1,105 @@
+//! The open benchmark cases: imported, compiled, identified; and silence on arms that miss nothing.
+
+use robot_model::columns::{Arm, Candidate, Columns};
+use robot_model::identify::Identify;
+use robot_model::log::Log;
+use robot_model::trace::{Outcome, Trace};
+use robot_model_cli::interpreted::InterpretedArm;
+use robot_model_codegen::base::RankStatus;
+use robot_model_codegen::compile_model;
+use robot_model_spec::parameter::Owner;
+use robot_model_tests::cases::{self, Case};
+
+fn arm(case: &Case) -> InterpretedArm {
+    let model =
+        robot_model_spec::load(&case.name, &case.spec).unwrap_or_else(|errors| panic!("{errors}"));
+    InterpretedArm::new(compile_model(&model))
+}
+
+fn log(case: &Case) -> Log {
+    Log::read(&case.identify, case.dof).unwrap_or_else(|error| panic!("{error}"))
+}
+
+#[test]
+fn imported_arms_compile_with_a_clear_rank() {
+    for case in cases::open() {
+        let arm = arm(&case);
+        let compiled = arm.compiled();
+        assert!(
+            matches!(compiled.base.rank, RankStatus::Clear { .. }),
+            "{}: {}",
+            case.name,
+            compiled.base.rank
+        );
+        assert_eq!(arm.dof(), case.dof, "{}", case.name);
+        // The first link only turns, and every later one has at least one of its ten regrouped into links before it (three
+        // behind a revolute joint): of n links, no more than 7 n - 6 are left (Gautier & Khalil 1990).
+        let rigid = compiled
+            .base
+            .kept
+            .iter()
+            .filter(|&&k| matches!(compiled.standard[k].owner, Owner::Link { .. }))
+            .count();
+        let most = 7 * case.dof;
+        let fixed = !compiled.base.fixed.is_empty();
+        assert!(
+            if fixed {
+                rigid == 0
+            } else {
+                (1..=most).contains(&rigid)
+            },
+            "{}: {rigid} base parameters of {} links",
+            case.name,
+            case.dof
+        );
+    }
+}
+
+/// Every unknown gets a number from every log, and no joint is left without explanation of most of its torque.
+#[test]
+fn every_case_is_identified() {
+    for case in cases::open() {
+        let arm = arm(&case);
+        let estimate = Identify::default()
+            .fit(&arm, &[log(&case)])
+            .unwrap_or_else(|error| panic!("{}: {error}", case.name));
+        assert_eq!(estimate.parameters.len(), arm.unknowns().len());
+        for parameter in &estimate.parameters {
+            let numbers = parameter.value.is_finite() && parameter.std.is_finite();
+            assert!(numbers, "{}: {parameter:?}", case.name);
+        }
+        // What is missing in the worst of the cases (a coupled wrist) is as large as the rest of the joint's torque.
+        for (joint, percent) in estimate.relative_percent.iter().enumerate() {
+            assert!(
+                *percent < 60.0,
+                "{} joint {}: {percent} %",
+                case.name,
+                joint + 1
+            );
+        }
+    }
+}
+
+#[test]
+fn nothing_is_named_on_arms_that_miss_nothing() {
+    for case in cases::open() {
+        if case.expected_outcome != "nothing-missing" {
+            continue;
+        }
+        let arm = arm(&case);
+        let candidates = arm.candidates();
+        let candidates: Vec<&dyn Candidate> =
+            candidates.iter().map(|c| c as &dyn Candidate).collect();
+        let verdict = Trace::new(candidates)
+            .run(&arm, &[log(&case)], &mut |_| ())
+            .unwrap_or_else(|error| panic!("{}: {error}", case.name));
+        assert_eq!(
+            verdict.outcome,
+            Outcome::NothingMissing,
+            "{}: {:?} {:?}",
+            case.name,
+            verdict.findings,
+            verdict.leads
+        );
+    }
+}

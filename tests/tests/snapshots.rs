@@ -1,0 +1,122 @@
+//! Equations and code as their readers see them, one file a form: what changes in a review of a change.
+//!
+//! That they are right is for `laws.rs` and `oracle.rs` to say.
+
+use std::fmt::Write;
+
+use robot_model_codegen::Compiled;
+use robot_model_codegen::compile_text;
+use robot_model_codegen::expr::Style;
+use robot_model_codegen::show::{What, form};
+use robot_model_tests::specs::{self, Spec};
+
+/// A planar arm, an arm with a prismatic joint and fixed inertials, and the arm of the books.
+const ROBOTS: [&str; 3] = ["two_link", "slider", "puma560"];
+
+fn for_each(name: &str, text: impl Fn(&Spec, &Compiled) -> String) {
+    for robot in ROBOTS {
+        let spec = specs::named(&format!("pass/{robot}"));
+        let text = text(&spec, &spec.compiled());
+        let mut settings = insta::Settings::clone_current();
+        settings.set_snapshot_path(format!("snapshots/{robot}"));
+        settings.set_prepend_module_to_snapshot(false);
+        settings.set_omit_expression(true);
+        settings.bind(|| insta::assert_snapshot!(name, text));
+    }
+}
+
+fn forms(compiled: &Compiled, whats: &[What]) -> String {
+    let forms = whats.iter().map(|&what| form(compiled, what, Style::Text));
+    forms.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn model() {
+    for_each("model", |_, compiled| {
+        let model = &compiled.model;
+        let mut text = format!(
+            "{} from {}, {:?}, gravity {:?}\n",
+            model.name, model.source, model.convention, model.gravity
+        );
+        for joint in &model.joints {
+            let placement = &joint.placement;
+            writeln!(
+                text,
+                "\n{} (line {}), {:?}",
+                joint.name, joint.line, joint.kind
+            )
+            .unwrap();
+            for (place, transform) in [("before", placement.before), ("after", placement.after)] {
+                writeln!(
+                    text,
+                    "  {place:6} rotation {:?}, translation {:?}",
+                    transform.rotation, transform.translation
+                )
+                .unwrap();
+            }
+            writeln!(
+                text,
+                "  axis   {:?}, offset {:?}",
+                placement.axis, placement.offset
+            )
+            .unwrap();
+            writeln!(text, "  limits {:?}", joint.limits).unwrap();
+            writeln!(text, "  gain   {:?}", joint.actuator_gain).unwrap();
+            writeln!(
+                text,
+                "  link   {}: {:?}",
+                joint.link.name, joint.link.inertial
+            )
+            .unwrap();
+        }
+        text.push('\n');
+        for (k, effect) in model.effects.iter().enumerate() {
+            let name = model.effect_name(k);
+            writeln!(
+                text,
+                "{name} on {:?}, shapes {:?}",
+                effect.joints, effect.shapes
+            )
+            .unwrap();
+        }
+        text
+    });
+}
+
+#[test]
+fn dynamics() {
+    let whats = [
+        What::MassMatrix,
+        What::CoriolisMatrix,
+        What::Gravity,
+        What::InverseDynamics,
+    ];
+    for_each("dynamics", |_, compiled| forms(compiled, &whats));
+}
+
+#[test]
+fn regressor() {
+    for_each("regressor", |_, compiled| {
+        forms(compiled, &[What::BaseRegressor])
+    });
+}
+
+#[test]
+fn base() {
+    for_each("base", |_, compiled| {
+        forms(compiled, &[What::BaseParameters])
+    });
+}
+
+#[test]
+fn cost() {
+    for_each("cost", |_, compiled| forms(compiled, &[What::Cost]));
+}
+
+#[test]
+fn emitted() {
+    for_each("emitted", |spec, _| {
+        compile_text(&format!("{}.robot", spec.name), &spec.text)
+            .unwrap_or_else(|error| panic!("{error}"))
+    });
+}
