@@ -113,6 +113,9 @@ pub(crate) struct Report<'a> {
     relative_percent_after: Option<&'a [f64]>,
     alternatives: Vec<AlternativeReport<'a>>,
     noise_floor: &'a [f64],
+    /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
+    structure_before: Vec<f64>,
+    structure_after: Vec<f64>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
 }
@@ -186,6 +189,8 @@ impl<'a> Report<'a> {
             relative_percent_after: relative(&closed.after().validation),
             alternatives: verdict.alternatives.iter().map(alternative).collect(),
             noise_floor: &verdict.noise_floor,
+            structure_before: verdict.before.iter().map(|s| s.share).collect(),
+            structure_after: verdict.after.iter().map(|s| s.share).collect(),
             leads: leads
                 .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
                 .collect(),
@@ -308,6 +313,17 @@ pub(crate) fn summary(closed: &Loop, text: &str) -> String {
         .enumerate()
         .for_each(|(place, finding)| show(finding, place));
 
+    for (joint, left) in verdict.after.iter().enumerate() {
+        if left.is_material() {
+            let name = &closed.before.arm.joints()[joint];
+            let share = 100.0 * left.share;
+            writeln!(
+                out,
+                "  {share:.0} % of the error's power on {name} still follows the motion"
+            )
+            .expect("a string takes all");
+        }
+    }
     let change = diff(text, &closed.amended);
     if !change.is_empty() {
         write!(out, "\n{change}").expect("a string takes all");

@@ -13,18 +13,87 @@ pub struct Kinematics {
 
 /// One log's motion on a uniform time grid, in two bandwidths.
 ///
-/// Rigid-body terms are products of derivatives and want little noise; friction changes sign within milliseconds and wants
-/// the reversal where it was. Hence two low-pass filters on the same positions: `smooth` for the rigid body, `wide` for
-/// effects. Both are zero-phase. The filter that is shared by torque and regressor columns comes after, and makes their
-/// bands equal.
+/// Rigid-body terms are products of derivatives and want little noise; dry friction changes sign within milliseconds and
+/// wants the reversal where it was. Hence two low-pass filters on the same positions: `smooth` for the rigid body and for
+/// effects that are smooth in their signals, `wide` for columns that jump or have a kink where a velocity changes sign. Both
+/// are zero-phase. The filter that is shared by torque and regressor columns comes after, and makes their bands equal.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Motion {
     /// Seconds since the start of the log, uniform.
     pub time: Vec<f64>,
-    /// For rigid-body terms.
+    /// For rigid-body terms and smooth effects.
     pub smooth: Kinematics,
-    /// For effects.
+    /// For columns that jump with the sign of a velocity.
     pub wide: Kinematics,
     /// Torque of the rigid body alone at the present estimate, `[joint][sample]`; empty until an estimate exists.
     pub rigid_torque: Vec<Vec<f64>>,
+}
+
+impl Motion {
+    /// The motion's wide band, time and rigid-body torque a part of a sample later (`-0.5 ..= 0.5`), linearly between
+    /// samples; the smooth band stays empty.
+    ///
+    /// A logged torque is a mean over its sample interval. A column that jumps is one only if it is averaged over the
+    /// interval as well: over a few such motions.
+    #[must_use]
+    pub fn within_sample(&self, part: f64) -> Self {
+        let shifted = |channels: &[Vec<f64>]| {
+            channels
+                .iter()
+                .map(|values| between(values, part))
+                .collect()
+        };
+        Self {
+            time: between(&self.time, part),
+            smooth: Kinematics::default(),
+            wide: Kinematics {
+                q: shifted(&self.wide.q),
+                dq: shifted(&self.wide.dq),
+                ddq: shifted(&self.wide.ddq),
+            },
+            rigid_torque: shifted(&self.rigid_torque),
+        }
+    }
+}
+
+/// `values` a part of a sample later; the last (or first) sample is held.
+fn between(values: &[f64], part: f64) -> Vec<f64> {
+    let last = values.len().saturating_sub(1);
+    (0..values.len())
+        .map(|k| {
+            let neighbor = if part < 0.0 {
+                k.saturating_sub(1)
+            } else {
+                (k + 1).min(last)
+            };
+            values[k] + part.abs() * (values[neighbor] - values[k])
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_within_a_sample_averages_to_its_share() {
+        // The velocity crosses zero a quarter of a sample after sample 1.
+        let motion = Motion {
+            time: vec![0.0, 1.0, 2.0],
+            wide: Kinematics {
+                q: vec![vec![0.0; 3]],
+                dq: vec![vec![-5.0, -1.0, 3.0]],
+                ddq: vec![vec![4.0; 3]],
+            },
+            ..Motion::default()
+        };
+        let parts = [-0.375, -0.125, 0.125, 0.375];
+        let mean: f64 = parts
+            .iter()
+            .map(|part| motion.within_sample(*part).wide.dq[0][1].signum())
+            .sum::<f64>()
+            / 4.0;
+        assert!((mean - (-0.5)).abs() < 1e-12, "{mean}");
+        assert_eq!(motion.within_sample(0.25).time, [0.25, 1.25, 2.0]);
+    }
 }

@@ -1,11 +1,14 @@
 //! Which band of a motion an effect's column reads.
 
 use robot_model::columns::Entry;
-use robot_model::motion::{Kinematics, Motion};
+use robot_model::motion::Motion;
 use robot_model_codegen::Block;
 use robot_model_spec::model::{BinaryOp, EffectDefinition, Expr, Function};
 
 use super::program::run_block;
+
+/// Instants of a sample interval over which columns that jump are averaged.
+const INSTANTS: i32 = 4;
 
 /// Columns of effects, each with the band that it reads.
 #[derive(Debug, Clone)]
@@ -26,15 +29,8 @@ impl EffectBlock {
         Self { block, wide }
     }
 
+    /// The columns over a motion; those that jump are averaged over the sample interval, as the logged torque is.
     pub(super) fn run(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let band = |kinematics: &Kinematics, wide: bool| {
-            let wanted = self.wide.contains(&wide);
-            if wanted {
-                run_block(&self.block, motion, kinematics, shapes)
-            } else {
-                Vec::new()
-            }
-        };
         let keep = |entries: Vec<Entry>, wide: bool| {
             entries
                 .into_iter()
@@ -42,8 +38,44 @@ impl EffectBlock {
                 .filter(move |(_, of)| **of == wide)
                 .map(|(entry, _)| entry)
         };
-        let smooth = keep(band(&motion.smooth, false), false);
-        smooth.chain(keep(band(&motion.wide, true), true)).collect()
+        let mut columns = Vec::new();
+        if self.wide.contains(&false) {
+            columns.extend(keep(
+                run_block(&self.block, motion, &motion.smooth, shapes),
+                false,
+            ));
+        }
+        if self.wide.contains(&true) {
+            columns.extend(keep(self.averaged(motion, shapes), true));
+        }
+        columns
+    }
+
+    /// Mean of the columns at a few instants of every sample interval.
+    fn averaged(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let mut sum: Vec<Entry> = Vec::new();
+        for instant in 0..INSTANTS {
+            let part = (f64::from(instant) + 0.5) / f64::from(INSTANTS) - 0.5;
+            let motion = motion.within_sample(part);
+            let entries = run_block(&self.block, &motion, &motion.wide, shapes);
+            if sum.is_empty() {
+                sum = entries;
+            } else {
+                for (sum, entry) in sum.iter_mut().zip(entries) {
+                    sum.values
+                        .iter_mut()
+                        .zip(entry.values)
+                        .for_each(|(s, v)| *s += v);
+                }
+            }
+        }
+        for entry in &mut sum {
+            entry
+                .values
+                .iter_mut()
+                .for_each(|v| *v /= f64::from(INSTANTS));
+        }
+        sum
     }
 }
 

@@ -13,6 +13,10 @@ const LEAST_RATIO: f64 = 2.0;
 const NARROWEST_HZ: f64 = 10.0;
 const WIDEST_HZ: f64 = 50.0;
 
+/// The motion's filters relative to the shared one, at least.
+const SMOOTH_RATIO: f64 = 1.25;
+const WIDE_RATIO: f64 = 2.0;
+
 /// Width of the bands in which powers are compared, Hz.
 const STEP_HZ: f64 = 3.0;
 
@@ -21,7 +25,7 @@ const STEP_HZ: f64 = 3.0;
 /// Least squares gains from every frequency at which the model's torque is larger than noise and model error, and loses at
 /// every other. The band ends at the first 3 Hz in which the power of the modeled torque falls below twice that of the
 /// residual, on the joint where that is first, and lies within 10 Hz .. 50 Hz and below a tenth of the sample rate. The
-/// motion's own filters stay at least twice as wide.
+/// motion's own filters stay wider: the smooth one a little, as every hertz of it adds noise to accelerations.
 pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate: &[f64]) -> Bands {
     let rate_hz = logs
         .iter()
@@ -76,7 +80,7 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
         .max(NARROWEST_HZ.min(base.shared_hz));
     Bands {
         shared_hz,
-        smooth_hz: base.smooth_hz.max(2.0 * shared_hz),
-        wide_hz: base.wide_hz.max(2.0 * shared_hz),
+        smooth_hz: base.smooth_hz.max(SMOOTH_RATIO * shared_hz),
+        wide_hz: base.wide_hz.max(WIDE_RATIO * shared_hz),
     }
 }

@@ -5,7 +5,7 @@ use super::structure::Structure;
 use super::verdict::{Finding, FoundParameter, Outcome, Verdict};
 
 /// Structure is accounted for where less than this share of it is left.
-const LEFT_SHARE: f64 = 0.25;
+const LEFT_SHARE: f64 = 0.3;
 
 /// The verdict on a finished search.
 pub(super) fn verdict(
@@ -79,17 +79,24 @@ pub(super) fn verdict(
 
 /// Whether structure that matters is left which the findings should have accounted for, or which makes them doubtful.
 ///
-/// A law that is true needs no helper: where structure is left on a joint that no effect acts on, effects elsewhere stand
-/// as long as one per joint was enough. Where names pile up on a joint and structure remains all the same, the names are
-/// those of something else.
+/// Findings stand beside structure on other joints as long as they are most of the story: one law was enough for every
+/// joint, and more of the joints on which something was missing are settled than not. Where names pile up on a joint, or
+/// most of the structure is elsewhere, the names are those of something else.
 fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
     let laws = |joint: usize| {
         let acts = |effect: &&Accepted| effect.trial.candidate.joints().contains(&joint);
         state.accepted.iter().filter(acts).count()
     };
-    let left: Vec<usize> = (0..after.len())
+    let joints = 0..after.len();
+    let left: Vec<usize> = joints
+        .clone()
         .filter(|&j| after[j].is_material() && after[j].power > LEFT_SHARE * before[j].power)
         .collect();
-    let one_law_each = !state.accepted.is_empty() && (0..after.len()).all(|j| laws(j) <= 1);
+    let settled = joints
+        .clone()
+        .filter(|j| laws(*j) > 0 && !left.contains(j))
+        .count();
+    let one_law_each = joints.clone().all(|j| laws(j) <= 1);
     left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
+        || (!left.is_empty() && left.len() >= settled)
 }
