@@ -45,7 +45,9 @@ robots! {
     every_effect "every_effect" EveryEffect;
     panda "panda" Panda;
     puma560 "puma560" Puma560;
+    skew "skew" Skew;
     slider "slider" Slider;
+    stanford "stanford" Stanford;
     two_link "two_link" TwoLink;
     tx40 "tx40" Tx40;
     ur10 "ur10" Ur10;

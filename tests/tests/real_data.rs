@@ -116,7 +116,8 @@ fn named(verdict: &Verdict) -> &[Finding] {
 }
 
 /// Published: M = 95.109 kg, Fv = 203.50 N s/m, Fc = 20.394 N, offset = -3.165 N with standard deviations of 0.11, 0.56, 0.50
-/// and 1.40 %; relative error 4.08 %, on the pulses 5.98 %. The tolerances are twice those deviations, rounded: filters differ.
+/// and 1.40 %; relative error 4.08 %, on the pulses 5.98 %. Tolerances are about twice the larger deviations: filters and bands
+/// differ, while an unmodeled tenth of any of the four would show.
 #[test]
 fn emps_is_identified_as_published() {
     let Some(emps) = Machine::find("emps") else {
