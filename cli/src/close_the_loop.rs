@@ -49,7 +49,7 @@ pub(crate) fn close(
     progress: &Progress,
 ) -> Result<Loop, Error> {
     progress.step("identifying the declared model");
-    let before = Stage::identify(source_name, text, logs, validate, Identify::default())?;
+    let before = Stage::identify(source_name, text, logs, validate, &Identify::default())?;
     let candidates = before.arm.candidates();
     let candidates = candidates
         .iter()
@@ -78,7 +78,7 @@ pub(crate) fn close(
             &amended,
             logs,
             validate,
-            same_band,
+            &same_band,
         )?)
     };
     Ok(Loop {
@@ -95,7 +95,7 @@ impl Stage {
         text: &str,
         logs: &[Log],
         validate: Option<&Log>,
-        identify: Identify,
+        identify: &Identify,
     ) -> Result<Self, Error> {
         let arm = InterpretedArm::new(compile_model(&load(source_name, text)?));
         let estimate = identify.fit(&arm, logs)?;

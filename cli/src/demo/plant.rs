@@ -22,10 +22,10 @@ use crate::interpreted::InterpretedArm;
 /// Fourier coefficients of the motions.
 const MOTIONS: &str = include_str!("motions.csv");
 
-/// Base frequency of the motions, Hz; length and rate of the logs.
+/// Base frequency of the motions, Hz; rate of the logs, Hz, and their length: 30 s.
 const BASE_HZ: f64 = 0.1;
-const SECONDS: f64 = 30.0;
 const RATE_HZ: f64 = 500.0;
+const SAMPLES: u32 = 15_000;
 
 /// Steps of the encoders, rad; torque noise relative to each joint's torque, white and correlated over 4 ms.
 const ENCODER: f64 = 2e-5;
@@ -56,10 +56,7 @@ impl Plant {
 
     /// Moves the plant along one of the embedded motions and logs it.
     pub(super) fn log(&self, motion: &str, seed: u64) -> Result<Log, Error> {
-        let time: Vec<f64> = (0_u32..)
-            .map(|k| f64::from(k) / RATE_HZ)
-            .take_while(|t| *t < SECONDS)
-            .collect();
+        let time: Vec<f64> = (0..SAMPLES).map(|k| f64::from(k) / RATE_HZ).collect();
         let exact = kinematics(motion, &time, self.arm.dof())?;
         let mut state = Motion {
             time,
@@ -87,7 +84,7 @@ impl Plant {
             .iter()
             .map(|q| q.iter().map(|x| (x / ENCODER).round() * ENCODER).collect())
             .collect();
-        Log::from_samples(&format!("{motion} log"), state.time, q, tau)
+        Log::from_samples(format!("{motion} log"), state.time, q, tau)
             .map_err(|error| Error::Argument(error.to_string()))
     }
 }

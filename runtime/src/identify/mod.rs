@@ -10,6 +10,7 @@ mod stack;
 pub use error::IdentifyError;
 pub use estimate::{Errors, Estimate, Identified};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+pub(crate) use shapes::{golden, neighbors};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
 use crate::columns::Arm;

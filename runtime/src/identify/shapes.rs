@@ -52,13 +52,7 @@ pub(super) fn refine(
 ) -> Result<Vec<f64>, IdentifyError> {
     for number in 0..shapes.len() {
         let grid = &arm.shapes()[number].grid;
-        let above = grid
-            .partition_point(|value| *value < shapes[number])
-            .min(grid.len() - 1);
-        let (low, high) = (
-            grid[above.saturating_sub(1)],
-            grid[(above + 1).min(grid.len() - 1)],
-        );
+        let (low, high) = neighbors(grid, shapes[number]);
         let mut at = |value: f64| {
             let mut trial = shapes.clone();
             trial[number] = value;
@@ -73,10 +67,7 @@ pub(super) fn refine(
 ///
 /// # Errors
 /// Those of `at`.
-pub(crate) fn minimize<E>(
-    grid: &[f64],
-    at: &mut impl FnMut(f64) -> Result<f64, E>,
-) -> Result<f64, E> {
+fn minimize<E>(grid: &[f64], at: &mut impl FnMut(f64) -> Result<f64, E>) -> Result<f64, E> {
     let mut best = (f64::INFINITY, 0);
     for (k, value) in grid.iter().enumerate() {
         let cost = at(*value)?;
@@ -85,11 +76,8 @@ pub(crate) fn minimize<E>(
         }
     }
     let k = best.1;
-    let refined = golden(
-        grid[k.saturating_sub(1)],
-        grid[(k + 1).min(grid.len() - 1)],
-        at,
-    )?;
+    let (low, high) = neighbors(grid, grid[k]);
+    let refined = golden(low, high, at)?;
     Ok(if at(refined)? < best.0 {
         refined
     } else {
@@ -97,8 +85,21 @@ pub(crate) fn minimize<E>(
     })
 }
 
+/// The grid points around a value: the interval in which a search on the grid leaves it.
+pub(crate) fn neighbors(grid: &[f64], value: f64) -> (f64, f64) {
+    let last = grid.len() - 1;
+    let below = grid
+        .partition_point(|point| *point < value)
+        .saturating_sub(1);
+    let above = grid.partition_point(|point| *point <= value).min(last);
+    (grid[below], grid[above])
+}
+
 /// Golden section on an interval.
-fn golden<E>(
+///
+/// # Errors
+/// Those of `at`.
+pub(crate) fn golden<E>(
     mut low: f64,
     mut high: f64,
     at: &mut impl FnMut(f64) -> Result<f64, E>,
@@ -137,5 +138,14 @@ mod tests {
         let grid = [1.0, 2.0, 3.0];
         let found = minimize(&grid, &mut |x: f64| Ok::<_, ()>(-x)).expect("the cost has no errors");
         assert!((found - 3.0).abs() < 0.02 && found <= 3.0, "{found}");
+    }
+
+    #[test]
+    fn neighbors_of_points_and_of_values_between() {
+        let grid = [1.0, 2.0, 4.0];
+        assert_eq!(neighbors(&grid, 2.0), (1.0, 4.0));
+        assert_eq!(neighbors(&grid, 3.0), (2.0, 4.0));
+        assert_eq!(neighbors(&grid, 1.0), (1.0, 2.0));
+        assert_eq!(neighbors(&grid, 4.0), (2.0, 4.0));
     }
 }

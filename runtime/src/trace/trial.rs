@@ -1,13 +1,12 @@
 //! A candidate at given shapes, its columns filtered like the model's.
 
+use std::convert::Infallible;
+
 use crate::columns::{Candidate, Entry};
-use crate::identify::filtered_columns;
+use crate::identify::{filtered_columns, golden, neighbors};
 use crate::signal::Prepared;
 
 use super::score::{Present, Projected};
-
-/// Steps of the golden section between grid neighbors.
-const GOLDEN_STEPS: usize = 8;
 
 /// A candidate with values for its shape parameters.
 #[derive(Clone)]
@@ -68,33 +67,18 @@ impl<'a> Trial<'a> {
         let drop = |trial: &Self| trial.project(present).map_or(0.0, |p| p.drop);
         for number in 0..self.shapes.len() {
             let grid = &self.candidate.shapes()[number].grid;
-            let at = grid.partition_point(|value| *value < self.shapes[number]);
-            let (mut low, mut high) = (
-                grid[at.saturating_sub(1)],
-                grid[(at + 1).min(grid.len() - 1)],
-            );
-            let start = best.clone();
-            let trial = |value: f64| {
-                let mut shapes = start.shapes.clone();
+            let at = |value: f64| {
+                let mut shapes = best.shapes.clone();
                 shapes[number] = value;
                 Self::new(self.candidate, shapes, logs)
             };
-            let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
-            for _ in 0..GOLDEN_STEPS {
-                let inner = (
-                    trial(high - ratio * (high - low)),
-                    trial(low + ratio * (high - low)),
-                );
-                if drop(&inner.0) > drop(&inner.1) {
-                    high = inner.1.shapes[number];
-                } else {
-                    low = inner.0.shapes[number];
-                }
-                for inner in [inner.0, inner.1] {
-                    if drop(&inner) > drop(&best) {
-                        best = inner;
-                    }
-                }
+            let (low, high) = neighbors(grid, best.shapes[number]);
+            let Ok(value) = golden(low, high, &mut |value| {
+                Ok::<_, Infallible>(-drop(&at(value)))
+            });
+            let refined = at(value);
+            if drop(&refined) > drop(&best) {
+                best = refined;
             }
         }
         best
