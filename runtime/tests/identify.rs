@@ -106,7 +106,7 @@ fn errors_are_those_of_the_noise() {
     let arm = Pendulums::new();
     let log = Plant::default().log();
     let estimate = Identify::default()
-        .fit(&arm, &[log.clone()])
+        .fit(&arm, std::slice::from_ref(&log))
         .expect("the log is sound");
     let errors = estimate.errors(&arm, &log).expect("the log is sound");
     // White noise of 0.05 N m, and dry friction that is wrong for the sample in which its sign changes.

@@ -2,9 +2,103 @@
 
 mod plant;
 
-use plant::{Law, Pendulums, Plant};
-use robot_model::columns::Candidate;
+use plant::{Pendulums, Plant, column, sign};
+use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::motion::{Kinematics, Motion};
 use robot_model::trace::{Outcome, Trace, Verdict};
+
+/// One column on one joint, a function of `(q, dq, shape)`.
+struct Law {
+    kind: &'static str,
+    joint: [usize; 1],
+    unknowns: [Unknown; 1],
+    shapes: Vec<Shape>,
+    torque: fn(f64, f64, f64) -> f64,
+}
+
+impl Law {
+    fn new(
+        kind: &'static str,
+        joint: usize,
+        nonnegative: bool,
+        grid: Option<Vec<f64>>,
+        torque: fn(f64, f64, f64) -> f64,
+    ) -> Self {
+        Self {
+            kind,
+            joint: [joint],
+            unknowns: [Unknown {
+                name: format!("joint{}.{kind}.c", joint + 1),
+                nonnegative,
+            }],
+            shapes: grid
+                .into_iter()
+                .map(|grid| Shape {
+                    name: format!("joint{}.{kind}.shape", joint + 1),
+                    grid,
+                })
+                .collect(),
+            torque,
+        }
+    }
+
+    /// A small library on both joints.
+    fn library() -> Vec<Self> {
+        let speeds: Vec<f64> = (0..12)
+            .map(|k| 0.005 * 100.0_f64.powf(f64::from(k) / 11.0))
+            .collect();
+        (0..2)
+            .flat_map(|j| {
+                [
+                    Self::new("torque-offset", j, false, None, |_, _, _| 1.0),
+                    Self::new("asymmetric-viscous", j, false, None, |_, v, _| v.abs()),
+                    Self::new("quadratic-viscous", j, true, None, |_, v, _| v * v.abs()),
+                    Self::new("joint-spring", j, true, None, |q, _, _| q),
+                    Self::new("stribeck", j, true, Some(speeds.clone()), |_, v, s| {
+                        sign(v) * (-(v / s).powi(2)).exp()
+                    }),
+                ]
+            })
+            .collect()
+    }
+}
+
+impl Columns for Law {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &self.shapes
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let j = self.joint[0];
+        let shape = shapes.first().copied().unwrap_or(0.0);
+        let Kinematics { q, dq, .. } = &motion.wide;
+        vec![column(
+            q[j].iter()
+                .zip(&dq[j])
+                .map(|(q, v)| (self.torque)(*q, *v, shape)),
+            j,
+            0,
+        )]
+    }
+}
+
+impl Candidate for Law {
+    fn kind(&self) -> &str {
+        self.kind
+    }
+
+    fn joints(&self) -> &[usize] {
+        &self.joint
+    }
+}
 
 fn trace(plant: &Plant) -> Verdict {
     let library = Law::library();
@@ -29,9 +123,9 @@ fn nothing_missing_in_white_and_colored_noise() {
             for periodic in [true, false] {
                 let verdict = trace(&Plant {
                     seed,
+                    periodic,
                     white,
                     colored,
-                    periodic,
                     ..Plant::default()
                 });
                 assert_eq!(
@@ -71,8 +165,8 @@ fn a_missing_effect_is_named_on_its_joint() {
     for (kind, joint, extra) in cases {
         for periodic in [true, false] {
             let verdict = trace(&Plant {
-                extra,
                 periodic,
+                extra,
                 ..Plant::default()
             });
             assert_eq!(verdict.outcome, Outcome::Explained, "{kind}: {verdict:#?}");

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot_model::columns::{Arm, Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
 use robot_model::log::Log;
 use robot_model::motion::{Kinematics, Motion};
 
@@ -34,11 +34,11 @@ impl Pendulums {
 }
 
 /// `signum` that is 0 at rest.
-fn sign(v: f64) -> f64 {
+pub fn sign(v: f64) -> f64 {
     if v == 0.0 { 0.0 } else { v.signum() }
 }
 
-fn column(values: impl Iterator<Item = f64>, joint: usize, column: usize) -> Entry {
+pub fn column(values: impl Iterator<Item = f64>, joint: usize, column: usize) -> Entry {
     Entry {
         joint,
         column,
@@ -105,103 +105,11 @@ impl Arm for Pendulums {
     }
 }
 
-/// One column on one joint, a function of `(q, dq, shape)`.
-pub struct Law {
-    kind: &'static str,
-    joint: [usize; 1],
-    unknowns: [Unknown; 1],
-    shapes: Vec<Shape>,
-    law: fn(f64, f64, f64) -> f64,
-}
-
-impl Law {
-    fn new(
-        kind: &'static str,
-        joint: usize,
-        nonnegative: bool,
-        grid: Option<Vec<f64>>,
-        law: fn(f64, f64, f64) -> f64,
-    ) -> Self {
-        Self {
-            kind,
-            joint: [joint],
-            unknowns: [Unknown {
-                name: format!("joint{}.{kind}.c", joint + 1),
-                nonnegative,
-            }],
-            shapes: grid
-                .into_iter()
-                .map(|grid| Shape {
-                    name: format!("joint{}.{kind}.shape", joint + 1),
-                    grid,
-                })
-                .collect(),
-            law,
-        }
-    }
-
-    /// A small library on both joints.
-    pub fn library() -> Vec<Self> {
-        let speeds: Vec<f64> = (0..12)
-            .map(|k| 0.005 * 100.0_f64.powf(f64::from(k) / 11.0))
-            .collect();
-        (0..2)
-            .flat_map(|j| {
-                [
-                    Self::new("torque-offset", j, false, None, |_, _, _| 1.0),
-                    Self::new("asymmetric-viscous", j, false, None, |_, v, _| v.abs()),
-                    Self::new("quadratic-viscous", j, true, None, |_, v, _| v * v.abs()),
-                    Self::new("joint-spring", j, true, None, |q, _, _| q),
-                    Self::new("stribeck", j, true, Some(speeds.clone()), |_, v, s| {
-                        sign(v) * (-(v / s).powi(2)).exp()
-                    }),
-                ]
-            })
-            .collect()
-    }
-}
-
-impl Columns for Law {
-    fn unknowns(&self) -> &[Unknown] {
-        &self.unknowns
-    }
-
-    fn shapes(&self) -> &[Shape] {
-        &self.shapes
-    }
-
-    fn uses_rigid_torque(&self) -> bool {
-        false
-    }
-
-    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let j = self.joint[0];
-        let shape = shapes.first().copied().unwrap_or(0.0);
-        let Kinematics { q, dq, .. } = &motion.wide;
-        vec![column(
-            q[j].iter()
-                .zip(&dq[j])
-                .map(|(q, v)| (self.law)(*q, *v, shape)),
-            j,
-            0,
-        )]
-    }
-}
-
-impl Candidate for Law {
-    fn kind(&self) -> &str {
-        self.kind
-    }
-
-    fn joints(&self) -> &[usize] {
-        &self.joint
-    }
-}
-
 /// How a log is made.
 pub struct Plant {
     pub seed: u64,
-    pub seconds: f64,
+    /// Length, s.
+    pub seconds: u32,
     /// Repeat every 10 s, or never.
     pub periodic: bool,
     /// Standard deviation of white torque noise.
@@ -216,7 +124,7 @@ impl Default for Plant {
     fn default() -> Self {
         Self {
             seed: 1,
-            seconds: 30.0,
+            seconds: 30,
             periodic: true,
             white: 0.05,
             colored: 0.0,
@@ -244,7 +152,7 @@ impl Plant {
                     .collect()
             })
             .collect();
-        let samples = (500.0 * self.seconds).round() as u32;
+        let samples = 500 * self.seconds;
         let time: Vec<f64> = (0..samples).map(|k| f64::from(k) / 500.0).collect();
         let (mut q, mut tau) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
         let mut wander = [0.0; 2];
