@@ -135,7 +135,7 @@ struct AlternativeReport<'a> {
     #[serde(flatten)]
     joints: Joints,
     /// Place in `effects`, from 1.
-    instead_of: Option<usize>,
+    instead_of: usize,
     worse_percent: f64,
 }
 
@@ -266,7 +266,7 @@ fn alternative(alternative: &Alternative) -> AlternativeReport<'_> {
     AlternativeReport {
         kind: &alternative.kind,
         joints: Joints::new(&alternative.joints),
-        instead_of: alternative.instead_of.map(|place| place + 1),
+        instead_of: alternative.instead_of + 1,
         worse_percent: alternative.worse_percent,
     }
 }

@@ -12,6 +12,9 @@ use super::stack::Stack;
 /// would amplify errors a million times.
 pub const RANK_TOLERANCE: f64 = 1e-6;
 
+/// Smallest deviation of a joint's residual relative to the largest.
+const LEAST_SIGMA: f64 = 1e-6;
+
 /// How often weights follow the residuals of the estimate that they gave.
 const REWEIGHTINGS: usize = 5;
 
@@ -34,7 +37,7 @@ pub struct Solution {
     pub unexcited: Vec<usize>,
     /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.
     pub condition: f64,
-    /// Standard deviation of the residual per joint, the reciprocal of its weight.
+    /// Standard deviation of the residual per joint, the reciprocal of its weight; never below a tiny share of the largest.
     pub sigma: Vec<f64>,
 }
 
@@ -90,14 +93,7 @@ impl Factors {
     pub fn weighted(&self, correlation: &[f64]) -> Solution {
         let mut solution = self.ordinary(correlation);
         for _ in 0..REWEIGHTINGS {
-            let floor = 1e-12
-                * solution
-                    .sigma
-                    .iter()
-                    .copied()
-                    .fold(f64::MIN_POSITIVE, f64::max);
-            let sigma: Vec<f64> = solution.sigma.iter().map(|s| s.max(floor)).collect();
-            solution = self.solve(&sigma, correlation);
+            solution = self.solve(&solution.sigma, correlation);
         }
         solution
     }
@@ -171,20 +167,21 @@ impl Factors {
     fn sigma(&self, estimate: &[f64], rank: usize) -> Vec<f64> {
         let share = rank as f64 / self.joints.len() as f64;
         let freedom = (self.samples as f64 - share).max(1.0);
-        self.joints
-            .iter()
-            .map(|block| {
-                let sum: f64 = (0..block.nrows())
-                    .map(|row| {
-                        let fitted: f64 = (0..self.unknowns)
-                            .map(|c| block[(row, c)] * estimate[c])
-                            .sum();
-                        (block[(row, self.unknowns)] - fitted).powi(2)
-                    })
-                    .sum();
-                (sum / freedom).sqrt()
-            })
-            .collect()
+        let of = |block: &Mat<f64>| {
+            let sum: f64 = (0..block.nrows())
+                .map(|row| {
+                    let fitted: f64 = (0..self.unknowns)
+                        .map(|c| block[(row, c)] * estimate[c])
+                        .sum();
+                    (block[(row, self.unknowns)] - fitted).powi(2)
+                })
+                .sum();
+            (sum / freedom).sqrt()
+        };
+        let sigma: Vec<f64> = self.joints.iter().map(of).collect();
+        // A channel that is fitted exactly, such as a dead one, has no infinite weight.
+        let floor = LEAST_SIGMA * sigma.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        sigma.into_iter().map(|s| s.max(floor)).collect()
     }
 
     /// Square roots of the diagonal of `A^-1 B A^-1` with `A = sum W_j' W_j / scale_j^2` and

@@ -82,7 +82,7 @@ impl Identify {
         let mut bands = slowest_bands(logs);
         bands.smooth_hz = bands.wide_hz;
         let mut prepared = prepare_all(logs, &bands)?;
-        let (solution, shapes, _) = self.solve(arm, &mut prepared, Some(middle(arm)))?;
+        let (solution, shapes, _) = self.solve(arm, &mut prepared, Some(shapes::middle(arm)))?;
         Ok(band::choose(arm, &prepared, &shapes, &solution.estimate))
     }
 
@@ -93,35 +93,36 @@ impl Identify {
         logs: &mut [Prepared],
         shapes: Option<Vec<f64>>,
     ) -> Result<(Solution, Vec<f64>, Stack), IdentifyError> {
-        let passes = if arm.uses_rigid_torque() {
-            RIGID_TORQUE_PASSES
-        } else {
-            1
+        let loaded = arm.uses_rigid_torque();
+        if loaded {
+            // Effects of the load need a load: that of a first estimate, shapes in the middle of their ranges.
+            let shapes = shapes.clone().unwrap_or_else(|| shapes::middle(arm));
+            let first = self.solve_stack(&Stack::new(arm, logs, &shapes))?;
+            update_load(arm, logs, &first.estimate);
+        }
+        let free = shapes.is_none() && !arm.shapes().is_empty();
+        let cost = |logs: &[Prepared], shapes: &[f64]| self.cost(arm, logs, shapes);
+        let mut shapes = match shapes {
+            Some(shapes) => shapes,
+            None => shapes::search(arm, logs, cost)?,
         };
-        let mut shapes = shapes.map_or_else(
-            || shapes::search(arm, logs, |logs, shapes| self.cost(arm, logs, shapes)),
-            Ok,
-        )?;
         let mut last = None;
-        for pass in 0..passes {
-            if pass > 0 && !arm.shapes().is_empty() {
-                shapes = shapes::refine(arm, logs, shapes, |logs, shapes| {
-                    self.cost(arm, logs, shapes)
-                })?;
+        for pass in 0..if loaded { RIGID_TORQUE_PASSES } else { 1 } {
+            if pass > 0 && free {
+                shapes = shapes::refine(arm, logs, shapes, cost)?;
             }
             let stack = Stack::new(arm, logs, &shapes);
             let solution = self.solve_stack(&stack)?;
-            if passes > 1 {
-                for log in logs.iter_mut() {
-                    log.motion.rigid_torque = arm.rigid_torque(&log.motion, &solution.estimate);
-                }
+            if loaded {
+                update_load(arm, logs, &solution.estimate);
             }
             last = Some((solution, shapes.clone(), stack));
         }
         last.ok_or(IdentifyError::NoLog)
     }
 
-    /// Sum over joints of samples times the logarithm of the residual variance: what free shape parameters minimize.
+    /// Sum over joints of the logarithm of the residual's deviation: what free shape parameters minimize. It does not depend
+    /// on the unit of a joint's torque.
     fn cost(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Result<f64, IdentifyError> {
         let stack = Stack::new(arm, logs, shapes);
         let solution = self.solve_stack(&stack)?;
@@ -168,11 +169,11 @@ pub(crate) fn slowest_bands(logs: &[Log]) -> Bands {
     Bands::for_rate(logs.iter().map(Log::rate_hz).fold(f64::INFINITY, f64::min))
 }
 
-fn middle(arm: &dyn Arm) -> Vec<f64> {
-    arm.shapes()
-        .iter()
-        .map(|shape| shape.grid[shape.grid.len() / 2])
-        .collect()
+/// The torque of the rigid body at an estimate, for the effects that depend on it.
+fn update_load(arm: &dyn Arm, logs: &mut [Prepared], estimate: &[f64]) {
+    for log in logs {
+        log.motion.rigid_torque = arm.rigid_torque(&log.motion, estimate);
+    }
 }
 
 pub(crate) fn prepare_all(logs: &[Log], bands: &Bands) -> Result<Vec<Prepared>, IdentifyError> {

@@ -11,6 +11,14 @@ const SWEEPS: usize = 2;
 /// Steps of the golden section inside the best grid interval: narrows it a hundred times.
 const GOLDEN_STEPS: usize = 10;
 
+/// The middle of every shape's grid.
+pub(super) fn middle(arm: &dyn Arm) -> Vec<f64> {
+    arm.shapes()
+        .iter()
+        .map(|shape| shape.grid[shape.grid.len() / 2])
+        .collect()
+}
+
 /// Looks through the whole range of each free shape parameter.
 ///
 /// # Errors
@@ -20,11 +28,7 @@ pub(super) fn search(
     logs: &[Prepared],
     cost: impl Fn(&[Prepared], &[f64]) -> Result<f64, IdentifyError>,
 ) -> Result<Vec<f64>, IdentifyError> {
-    let mut shapes: Vec<f64> = arm
-        .shapes()
-        .iter()
-        .map(|shape| shape.grid[shape.grid.len() / 2])
-        .collect();
+    let mut shapes = middle(arm);
     let sweeps = if shapes.len() > 1 { SWEEPS } else { 1 };
     for _ in 0..sweeps {
         for number in 0..shapes.len() {
@@ -58,7 +62,10 @@ pub(super) fn refine(
             trial[number] = value;
             cost(logs, &trial)
         };
-        shapes[number] = golden(low, high, &mut at)?;
+        let value = golden(low, high, &mut at)?;
+        if at(value)? < at(shapes[number])? {
+            shapes[number] = value;
+        }
     }
     Ok(shapes)
 }

@@ -88,7 +88,7 @@ impl Stack {
     /// Rows per joint.
     #[must_use]
     pub fn samples(&self) -> usize {
-        self.joints.first().map_or(0, |rows| rows.tau.len())
+        self.joints.first().map_or(0, |rows| rows.target.len())
     }
 
     /// Degrees of freedom.
@@ -110,6 +110,14 @@ impl Stack {
             rows.columns.sort_by_key(|(column, _)| *column);
         }
         first
+    }
+
+    /// Makes columns zero, so that their unknowns are out of every fit.
+    pub fn silence(&mut self, unknowns: &[usize]) {
+        for rows in &mut self.joints {
+            rows.columns
+                .retain(|(column, _)| !unknowns.contains(column));
+        }
     }
 
     /// Forgets the columns behind the first `unknowns`.

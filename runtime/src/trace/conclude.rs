@@ -2,7 +2,7 @@
 
 use super::search::{Accepted, State};
 use super::structure::Structure;
-use super::verdict::{Finding, FoundParameter, Outcome, Verdict};
+use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Verdict};
 
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
@@ -66,15 +66,24 @@ pub(super) fn verdict(
         outcome,
         findings,
         leads,
-        alternatives: state
-            .accepted
-            .iter()
-            .flat_map(|effect| effect.rivals.clone())
-            .collect(),
+        alternatives: alternatives(state),
         before,
         after,
         noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
     }
+}
+
+/// The rivals of every accepted effect, with its place after pruning.
+fn alternatives(state: &State) -> Vec<Alternative> {
+    let numbered = state.accepted.iter().enumerate();
+    numbered
+        .flat_map(|(place, effect)| {
+            effect.rivals.iter().map(move |rival| Alternative {
+                instead_of: place,
+                ..rival.clone()
+            })
+        })
+        .collect()
 }
 
 /// Whether structure that matters is left which the findings should have accounted for, or which makes them doubtful.

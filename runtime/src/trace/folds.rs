@@ -10,22 +10,27 @@ use crate::signal::resample::whole_steps;
 /// Number of folds.
 pub(super) const FOLDS: usize = 5;
 
-/// Intervals of the phase per fold for periodic motions.
-const INTERVALS_PER_FOLD: usize = 2;
+/// Shortest interval of the phase of which a fold has two, s; below it has one.
+const INTERVAL_S: f64 = 1.0;
 
 /// Length of a block of a motion without period, s, and the least number of blocks per fold.
 const BLOCK_S: f64 = 3.0;
 const LEAST_BLOCKS_PER_FOLD: usize = 2;
 
-/// Gap between training and test samples, s: several times the shared filter's memory.
+/// Gap between training and test samples, s: several times the shared filter's memory; and its largest share of a period,
+/// so that short periods keep rows to train on.
 const GAP_S: f64 = 0.4;
+const GAP_SHARE: f64 = 0.08;
 
 /// A motion repeats when samples a period apart differ, relative to the motion's spread, by no more than this.
 const REPEAT_TOLERANCE: f64 = 0.02;
 
-/// Shortest period that is looked for, s, and rate at which it is looked for, Hz.
-const SHORTEST_PERIOD_S: f64 = 2.0;
-const PERIOD_RATE_HZ: f64 = 20.0;
+/// The same on the coarse grid of lags, where the lag may be off by half a step.
+const COARSE_TOLERANCE: f64 = 0.3;
+
+/// Shortest period that is looked for, s, and rate of the coarse grid of lags, Hz.
+const SHORTEST_PERIOD_S: f64 = 0.5;
+const COARSE_HZ: f64 = 20.0;
 
 /// One fold: rows to judge on, rows to fit on.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,86 +39,148 @@ pub(super) struct Fold {
     pub(super) train: Vec<usize>,
 }
 
-/// The period of a motion in s, where it fits at least twice into the log and all joints repeat.
+/// The shortest period of a motion in s, where it fits at least twice into the log and all joints repeat.
 pub(super) fn period(motion: &Motion, rate_hz: f64) -> Option<f64> {
-    let step = whole_steps((rate_hz / PERIOD_RATE_HZ).max(1.0));
-    let joints: Vec<Vec<f64>> = motion
-        .wide
-        .q
-        .iter()
-        .map(|q| q.iter().step_by(step).copied().collect())
+    let step = whole_steps((rate_hz / COARSE_HZ).max(1.0));
+    let fine = Repeats::new(motion.wide.q.iter().map(Vec::clone).collect());
+    let coarse = Repeats::new(
+        motion
+            .wide
+            .q
+            .iter()
+            .map(|q| q.iter().step_by(step).copied().collect())
+            .collect(),
+    );
+    let samples = coarse.joints.first()?.len();
+    let shortest = whole_steps(SHORTEST_PERIOD_S * rate_hz / step as f64).max(2);
+    let changes: Vec<f64> = (shortest - 1..=samples / 2 + 1)
+        .map(|lag| coarse.change(lag))
         .collect();
-    let samples = joints.first()?.len();
-    let spread = |q: &Vec<f64>| {
-        let mean = q.iter().sum::<f64>() / samples as f64;
-        q.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / samples as f64
-    };
-    let moving: Vec<(&Vec<f64>, f64)> = joints
-        .iter()
-        .map(|q| (q, spread(q)))
-        .filter(|(_, s)| *s > 1e-8)
-        .collect();
-    let shortest = whole_steps(SHORTEST_PERIOD_S * rate_hz / step as f64).max(1);
-    (shortest..=samples / 2)
-        .find(|&lag| {
-            !moving.is_empty()
-                && moving.iter().all(|(q, spread)| {
-                    let change: f64 = q[lag..]
-                        .iter()
-                        .zip(q.iter())
-                        .map(|(a, b)| (a - b).powi(2))
-                        .sum();
-                    change / ((samples - lag) as f64) < 2.0 * spread * REPEAT_TOLERANCE.powi(2)
-                })
+    (1..changes.len().saturating_sub(1))
+        .filter(|&k| {
+            changes[k] < COARSE_TOLERANCE.powi(2)
+                && changes[k] <= changes[k - 1]
+                && changes[k] <= changes[k + 1]
         })
-        .map(|lag| (lag * step) as f64 / rate_hz)
+        .find_map(|k| fine.minimum((shortest - 1 + k) * step, step))
+        .map(|lag| lag / rate_hz)
+}
+
+/// Positions of the joints that move, less their means, each over its spread.
+struct Repeats {
+    joints: Vec<Vec<f64>>,
+}
+
+impl Repeats {
+    fn new(joints: Vec<Vec<f64>>) -> Self {
+        let scaled = joints.into_iter().filter_map(|mut q| {
+            let samples = q.len() as f64;
+            let mean = q.iter().sum::<f64>() / samples;
+            q.iter_mut().for_each(|x| *x -= mean);
+            let spread = (q.iter().map(|x| x * x).sum::<f64>() / samples).sqrt();
+            q.iter_mut().for_each(|x| *x /= spread);
+            (spread > 1e-4).then_some(q)
+        });
+        Self {
+            joints: scaled.collect(),
+        }
+    }
+
+    /// Mean square of what changes over `lag` samples, of the joint where that is most: 0 for a repetition, 1 for noise.
+    fn change(&self, lag: usize) -> f64 {
+        let of = |q: &Vec<f64>| {
+            let pairs = q.len().saturating_sub(lag);
+            q.iter()
+                .skip(lag)
+                .zip(q)
+                .map(|(a, b)| (a - b).powi(2))
+                .sum::<f64>()
+                / (2 * pairs.max(1)) as f64
+        };
+        self.joints.iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// The lag within `reach` of `about` at which the motion repeats, between samples by a parabola.
+    fn minimum(&self, about: usize, reach: usize) -> Option<f64> {
+        let lags: Vec<usize> = (about.saturating_sub(reach).max(1)..=about + reach).collect();
+        let changes: Vec<f64> = lags.iter().map(|lag| self.change(*lag)).collect();
+        let k =
+            (1..lags.len().saturating_sub(1)).min_by(|a, b| changes[*a].total_cmp(&changes[*b]))?;
+        let (before, at, after) = (changes[k - 1], changes[k], changes[k + 1]);
+        let curvature = before - 2.0 * at + after;
+        let part = if curvature > 0.0 {
+            (0.5 * (before - after) / curvature).clamp(-0.5, 0.5)
+        } else {
+            0.0
+        };
+        (at < REPEAT_TOLERANCE.powi(2)).then_some(lags[k] as f64 + part)
+    }
 }
 
 /// Cuts the rows of all logs into folds. `periods` has one entry a log.
 pub(super) fn cut(segments: &[Segment], periods: &[Option<f64>]) -> Vec<Fold> {
-    let mut number = Vec::new();
+    // For every row the fold that it tests, and those of the instants a gap before and after it.
+    let mut places: Vec<[usize; 3]> = Vec::new();
     for (segment, period) in segments.iter().zip(periods) {
+        let cut = Cut::new(segment, *period);
+        places.extend(
+            segment
+                .time
+                .iter()
+                .map(|time| [-cut.gap, 0.0, cut.gap].map(|shift| cut.fold(time + shift))),
+        );
+    }
+    (0..FOLDS)
+        .map(|fold| Fold {
+            test: (0..places.len())
+                .filter(|k| places[*k][1] == fold)
+                .collect(),
+            train: (0..places.len())
+                .filter(|k| !places[*k].contains(&fold))
+                .collect(),
+        })
+        .collect()
+}
+
+/// How one log is cut.
+struct Cut {
+    first: f64,
+    /// Period of the motion, or length of the log, s.
+    cycle: f64,
+    intervals: usize,
+    gap: f64,
+}
+
+impl Cut {
+    fn new(segment: &Segment, period: Option<f64>) -> Self {
         let first = segment.time.first().copied().unwrap_or(0.0);
         let length = segment
             .time
             .last()
             .map_or(0.0, |last| last - first)
             .max(f64::MIN_POSITIVE);
-        let (cycle, intervals) = if let Some(period) = period {
-            (*period, FOLDS * INTERVALS_PER_FOLD)
-        } else {
-            let blocks = whole_steps(length / (BLOCK_S * FOLDS as f64)).max(LEAST_BLOCKS_PER_FOLD);
-            (length * (1.0 + 1e-9), FOLDS * blocks)
+        let (cycle, per_fold) = match period {
+            Some(period) if period >= 2.0 * FOLDS as f64 * INTERVAL_S => (period, 2),
+            Some(period) => (period, 1),
+            None => (
+                length,
+                whole_steps(length / (BLOCK_S * FOLDS as f64)).max(LEAST_BLOCKS_PER_FOLD),
+            ),
         };
-        number.extend(segment.time.iter().map(|time| {
-            let phase = ((time - first) / cycle).fract();
-            whole_steps(phase * intervals as f64) % FOLDS
-        }));
+        Self {
+            first,
+            cycle,
+            intervals: FOLDS * per_fold,
+            gap: GAP_S.min(GAP_SHARE * cycle),
+        }
     }
-    (0..FOLDS)
-        .map(|fold| {
-            let test: Vec<usize> = (0..number.len()).filter(|k| number[*k] == fold).collect();
-            let mut near = vec![false; number.len()];
-            for segment in segments {
-                let rows = segment.time.len();
-                let rate = if rows > 1 {
-                    (rows - 1) as f64 / (segment.time[rows - 1] - segment.time[0])
-                } else {
-                    1.0
-                };
-                let gap = whole_steps(GAP_S * rate);
-                for k in (segment.start..segment.start + rows).filter(|k| number[*k] == fold) {
-                    let from = k.saturating_sub(gap).max(segment.start);
-                    let to = (k + gap + 1).min(segment.start + rows);
-                    near[from..to].fill(true);
-                }
-            }
-            Fold {
-                test,
-                train: (0..number.len()).filter(|k| !near[*k]).collect(),
-            }
-        })
-        .collect()
+
+    /// The fold that tests an instant. The ends of a cycle touch; those of a log without period may as well.
+    fn fold(&self, time: f64) -> usize {
+        // A little more than nothing: a sample on a boundary falls to the same side in every period.
+        let phase = ((time - self.first) / self.cycle + 1e-9).rem_euclid(1.0);
+        whole_steps(phase * self.intervals as f64) % FOLDS
+    }
 }
 
 #[cfg(test)]
@@ -138,18 +205,18 @@ mod tests {
 
     #[test]
     fn a_repeated_motion_has_its_period() {
-        let found = period(
-            &motion(
-                |t| {
-                    (std::f64::consts::TAU * t / 5.0).sin()
-                        + (std::f64::consts::TAU * t / 2.5).cos()
-                },
-                20.0,
+        for true_period in [0.8, 2.53, 5.0, 20.0 / 3.0, 10.0] {
+            let w = std::f64::consts::TAU / true_period;
+            let found = period(
+                &motion(|t| (w * t).sin() + (2.0 * w * t + 1.0).cos(), 25.0, 500.0),
                 500.0,
-            ),
-            500.0,
-        );
-        assert!((found.expect("it repeats") - 5.0).abs() < 0.06, "{found:?}");
+            );
+            let found = found.expect("it repeats");
+            assert!(
+                (found - true_period).abs() < 1e-3,
+                "{found} for {true_period}"
+            );
+        }
     }
 
     #[test]
@@ -169,27 +236,32 @@ mod tests {
 
     #[test]
     fn folds_of_a_periodic_log_never_share_a_phase() {
-        let time: Vec<f64> = (0..1200).map(|k| 0.1 + f64::from(k) / 40.0).collect();
-        let phase = |k: usize| ((time[k] - time[0]) / 10.0).fract();
-        let folds = cut(
-            &[Segment {
+        for cycle in [0.8, 2.0, 5.0, 20.0 / 3.0, 10.0] {
+            let time: Vec<f64> = (0..1200).map(|k| 0.1 + f64::from(k) / 40.0).collect();
+            let phase = |k: usize| ((time[k] - time[0]) / cycle).fract();
+            let segment = Segment {
                 start: 0,
                 time: time.clone(),
-            }],
-            &[Some(10.0)],
-        );
-        assert_eq!(folds.iter().map(|f| f.test.len()).sum::<usize>(), 1200);
-        for fold in &folds {
-            for &test in &fold.test {
-                let nearest = fold
-                    .train
-                    .iter()
-                    .map(|k| (phase(*k) - phase(test)).abs())
-                    .fold(f64::INFINITY, f64::min);
+            };
+            let folds = cut(&[segment], &[Some(cycle)]);
+            assert_eq!(folds.iter().map(|f| f.test.len()).sum::<usize>(), 1200);
+            for fold in &folds {
                 assert!(
-                    nearest > 0.03,
-                    "a phase of the test is in the training rows: {nearest}"
+                    fold.train.len() > 400,
+                    "period {cycle}: {} rows to train on",
+                    fold.train.len()
                 );
+                for &test in &fold.test {
+                    let apart = |k: &usize| {
+                        let difference = (phase(*k) - phase(test)).abs();
+                        difference.min(1.0 - difference)
+                    };
+                    let nearest = fold.train.iter().map(apart).fold(f64::INFINITY, f64::min);
+                    assert!(
+                        nearest > 0.02,
+                        "period {cycle}: a phase of the test is trained on: {nearest}"
+                    );
+                }
             }
         }
     }

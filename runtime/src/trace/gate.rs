@@ -3,7 +3,7 @@
 use crate::identify::Stack;
 
 use super::gram::{Gram, HeldOut};
-use super::score::{Present, Projected, chi_square_tail};
+use super::score::{Present, Projected};
 use super::trial::Trial;
 use super::verdict::Evidence;
 
@@ -34,7 +34,7 @@ pub(super) struct Baseline<'a> {
 pub(super) struct Judged<'a> {
     pub(super) trial: Trial<'a>,
     pub(super) evidence: Evidence,
-    /// Mean over joints of the fall of the logarithm of the held-out error: larger is better.
+    /// Sum over joints of the fall of the logarithm of the held-out error: larger is better.
     pub(super) merit: f64,
     /// Held-out power on raw samples per joint.
     pub(super) raw_power: Vec<f64>,
@@ -91,9 +91,9 @@ impl<'a> Baseline<'a> {
 
         let gain = gram.normal(self.present.sigma).solve()[self.gram.unknowns()..].to_vec();
         let score = self.present.score(&trial.entries, projected);
-        let p_value = (self.tried as f64 * chi_square_tail(count, score)).min(1.0);
+        let p_value = (self.tried as f64 * score.p_value).min(1.0);
         let evidence = Evidence {
-            score,
+            score: score.f,
             p_value,
             held_out_percent: (0..dof)
                 .map(|j| percent(held_out.mean(j), self.held_out.mean(j)))

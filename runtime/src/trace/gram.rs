@@ -12,8 +12,9 @@ use crate::identify::{JointRows, Stack};
 
 use super::folds::Fold;
 
-/// Added to the unit diagonal of the scaled normal matrix: far below what any excited column contributes.
-const RIDGE: f64 = 1e-12;
+/// Added to the diagonal, relative to what a column has over all rows: far below what an excited column contributes, and
+/// what keeps the estimate of a column small in a fold that hardly sees it.
+const RIDGE: f64 = 1e-10;
 
 /// Products of one joint's columns, in the order unknowns then target, over one set of rows.
 type Products = Mat<f64>;
@@ -81,15 +82,29 @@ impl Gram {
 
     /// Normal equations of all rows.
     pub(super) fn normal(&self, sigma: &[f64]) -> Normal {
-        Normal::new(&self.all.joints, sigma, self.unknowns)
+        Normal::new(&self.all.joints, sigma, &self.squares(sigma))
+    }
+
+    /// Weighted sum of squares of every column over all rows.
+    fn squares(&self, sigma: &[f64]) -> Vec<f64> {
+        let of = |c: usize| {
+            self.all
+                .joints
+                .iter()
+                .zip(sigma)
+                .map(|(g, s)| g[(c, c)] / (s * s))
+                .sum()
+        };
+        (0..self.unknowns).map(of).collect()
     }
 
     /// Held-out mean squared error per fold and joint, each fold fitted on its training rows.
     pub(super) fn held_out(&self, sigma: &[f64]) -> HeldOut {
+        let squares = self.squares(sigma);
         let estimates: Vec<Vec<f64>> = self
             .train
             .iter()
-            .map(|train| Normal::new(&train.joints, sigma, self.unknowns).solve())
+            .map(|train| Normal::new(&train.joints, sigma, &squares).solve())
             .collect();
         let errors = estimates
             .iter()
@@ -219,19 +234,25 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    pub(super) fn new(products: &[Products], sigma: &[f64], unknowns: usize) -> Self {
+    /// `squares` are the weighted sums of squares of the columns over all rows.
+    fn new(products: &[Products], sigma: &[f64], squares: &[f64]) -> Self {
+        let unknowns = squares.len();
         let mut sum = Mat::<f64>::zeros(unknowns + 1, unknowns + 1);
         for (g, s) in products.iter().zip(sigma) {
             sum += faer::Scale(1.0 / (s * s)) * g;
         }
+        for (c, square) in squares.iter().enumerate() {
+            sum[(c, c)] += RIDGE * square;
+        }
         let norms: Vec<f64> = (0..unknowns).map(|c| sum[(c, c)].sqrt()).collect();
         let scaled = Mat::from_fn(unknowns, unknowns, |a, b| {
-            let unit = if norms[a] > 0.0 && norms[b] > 0.0 {
+            if a == b {
+                1.0
+            } else if norms[a] > 0.0 && norms[b] > 0.0 {
                 sum[(a, b)] / (norms[a] * norms[b])
             } else {
                 0.0
-            };
-            if a == b { 1.0 + RIDGE } else { unit }
+            }
         });
         let right = (0..unknowns).map(|c| sum[(c, unknowns)]).collect();
         Self {
@@ -266,5 +287,124 @@ impl Normal {
                 }
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::{Factors, Segment};
+
+    /// Two joints, three unknowns, the third on both joints; a row pattern without special values.
+    fn stack() -> Stack {
+        let wave = |a: f64, b: f64| {
+            (0..200)
+                .map(|k| (a * f64::from(k) + b).sin())
+                .collect::<Vec<f64>>()
+        };
+        let rows = |first: usize, shift: f64| {
+            let columns = vec![(first, wave(0.37, shift)), (2, wave(0.11, 2.0 * shift))];
+            let noise = wave(2.9, shift);
+            let target = (0..200)
+                .map(|k| 1.5 * columns[0].1[k] - 0.7 * columns[1].1[k] + 0.1 * noise[k])
+                .collect();
+            JointRows {
+                tau: Vec::new(),
+                target,
+                columns,
+            }
+        };
+        let unknown = |name: &str| Unknown {
+            name: name.to_owned(),
+            nonnegative: false,
+        };
+        Stack {
+            unknowns: vec![unknown("a"), unknown("b"), unknown("c")],
+            joints: vec![rows(0, 0.3), rows(1, 1.1)],
+            segments: vec![Segment {
+                start: 0,
+                time: (0..200).map(f64::from).collect(),
+            }],
+        }
+    }
+
+    #[test]
+    fn normal_equations_agree_with_qr() {
+        let stack = stack();
+        let sigma = [0.5, 2.0];
+        let found = Gram::new(&stack, &[]).normal(&sigma).solve();
+        let weighted = Stack {
+            joints: stack
+                .joints
+                .iter()
+                .zip(sigma)
+                .map(|(rows, s)| JointRows {
+                    tau: Vec::new(),
+                    target: rows.target.iter().map(|t| t / s).collect(),
+                    columns: rows
+                        .columns
+                        .iter()
+                        .map(|(c, v)| (*c, v.iter().map(|v| v / s).collect()))
+                        .collect(),
+                })
+                .collect(),
+            ..stack.clone()
+        };
+        let qr = Factors::new(&weighted).ordinary(&[1.0, 1.0]).estimate;
+        for (a, b) in found.iter().zip(&qr) {
+            assert!((a - b).abs() < 1e-8, "{found:?} {qr:?}");
+        }
+    }
+
+    #[test]
+    fn held_out_errors_are_those_of_residuals() {
+        let stack = stack();
+        let fold = Fold {
+            test: (0..60).collect(),
+            train: (80..200).collect(),
+        };
+        let held_out = Gram::new(&stack, &[fold]).held_out(&[1.0, 1.0]);
+        let residuals = stack.residuals(&held_out.estimates[0]);
+        for joint in 0..2 {
+            let direct = residuals[joint][..60].iter().map(|r| r * r).sum::<f64>() / 60.0;
+            assert!((held_out.mean(joint) / direct - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_bordered_gram_is_that_of_the_longer_stack() {
+        let stack = stack();
+        let values: Vec<f64> = (0..200).map(|k| (0.05 * f64::from(k)).cos()).collect();
+        let entries = [
+            Entry {
+                joint: 1,
+                column: 0,
+                values: values.clone(),
+            },
+            Entry {
+                joint: 1,
+                column: 1,
+                values: values.iter().map(|v| v * v).collect(),
+            },
+        ];
+        let fold = Fold {
+            test: (0..60).collect(),
+            train: (80..200).collect(),
+        };
+        let bordered = Gram::new(&stack, std::slice::from_ref(&fold)).extended(&stack, &entries, 2);
+        let mut longer = stack.clone();
+        let unknown = |name: &str| Unknown {
+            name: name.to_owned(),
+            nonnegative: false,
+        };
+        longer.append(&[unknown("d"), unknown("e")], &entries);
+        let (one, other) = (
+            bordered.held_out(&[1.0, 2.0]),
+            Gram::new(&longer, &[fold]).held_out(&[1.0, 2.0]),
+        );
+        for (a, b) in one.estimates[0].iter().zip(&other.estimates[0]) {
+            assert!((a - b).abs() < 1e-9);
+        }
     }
 }

@@ -45,32 +45,29 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Mean square of the raw residual per joint over all logs.
-    fn raw_power(&self, state: &State) -> Vec<f64> {
-        let logs: Vec<Vec<Vec<f64>>> = self
-            .prepared
-            .iter()
-            .map(|log| self.raw_residuals(state, log))
-            .collect();
+    /// Mean square of the raw residual per joint over all logs; the logs are those of [`Self::raw_residuals`].
+    fn raw_power(&self, logs: &[Vec<Vec<f64>>]) -> Vec<f64> {
         (0..self.arm.dof())
             .map(|j| {
                 let count: usize = logs.iter().map(|log| log[j].len()).sum();
-                logs.iter()
-                    .flat_map(|log| &log[j])
-                    .map(|r| r * r)
-                    .sum::<f64>()
-                    / count.max(1) as f64
+                let square: f64 = logs.iter().flat_map(|log| &log[j]).map(|r| r * r).sum();
+                square / count.max(1) as f64
             })
             .collect()
     }
 
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
     pub(super) fn noise_power(&self, state: &State) -> Vec<f64> {
-        let raw = self.raw_power(state);
+        let raw: Vec<_> = self
+            .prepared
+            .iter()
+            .map(|log| self.raw_residuals(state, log))
+            .collect();
         let filtered = state
             .residuals
             .iter()
             .map(|r| r.iter().map(|r| r * r).sum::<f64>() / r.len().max(1) as f64);
+        let raw = self.raw_power(&raw);
         raw.iter()
             .zip(filtered)
             .map(|(raw, filtered)| (raw - filtered).max(0.0))
@@ -79,32 +76,31 @@ impl Search<'_> {
 
     /// Structure per joint, and the power of what is not structure.
     pub(super) fn structure(&self, state: &State) -> (Vec<Structure>, Vec<f64>) {
-        let raw: Vec<Vec<Vec<f64>>> = self
+        let raw: Vec<_> = self
             .prepared
             .iter()
             .map(|log| self.raw_residuals(state, log))
             .collect();
-        let power = self.raw_power(state);
-        let found: Vec<Structure> = (0..self.arm.dof())
-            .map(|j| {
-                let logs: Vec<RawResidual> = raw
-                    .iter()
-                    .zip(&self.prepared)
-                    .zip(&self.periods)
-                    .zip(&state.stack.segments)
-                    .map(|(((residuals, log), period), segment)| RawResidual {
-                        values: &residuals[j],
-                        filtered: &state.residuals[j]
-                            [segment.start..segment.start + segment.time.len()],
-                        filtered_hz: log.rate_hz / log.shared.stride() as f64,
-                        rate_hz: log.rate_hz,
-                        shared_hz: self.identify.bands.map_or(0.0, |bands| bands.shared_hz),
-                        period: *period,
-                    })
-                    .collect();
-                structure::of(&logs)
-            })
-            .collect();
+        let of_joint = |j: usize| {
+            let logs: Vec<RawResidual> = raw
+                .iter()
+                .zip(&self.prepared)
+                .zip(&self.periods)
+                .zip(&state.stack.segments)
+                .map(|(((residuals, log), period), segment)| RawResidual {
+                    values: &residuals[j],
+                    filtered: &state.residuals[j]
+                        [segment.start..segment.start + segment.time.len()],
+                    filtered_hz: log.rate_hz / log.shared.stride() as f64,
+                    rate_hz: log.rate_hz,
+                    shared_hz: self.shared_hz,
+                    period: *period,
+                })
+                .collect();
+            structure::of(&logs)
+        };
+        let found: Vec<Structure> = (0..self.arm.dof()).map(of_joint).collect();
+        let power = self.raw_power(&raw);
         let noise = power
             .iter()
             .zip(&found)

@@ -1,17 +1,29 @@
 //! How much of the residual a candidate's columns explain once every column of the model is projected out of them.
 
 use crate::columns::Entry;
-use crate::identify::Stack;
+use crate::identify::{Stack, correlation_time};
 use crate::signal::resample::whole_steps;
+
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
 use super::gram::{Gram, Normal};
 
 /// A candidate's columns are called new only if this share of their norm is outside the model's columns.
 const LEAST_NEW: f64 = 1e-3;
 
-/// Shortest block whose samples count as one independent sample, s; fewest blocks.
+/// Length of a block that counts as one independent sample: so many correlation times of what the candidate leaves, and at
+/// least this many seconds. Fewest blocks of a log.
+const BLOCK_CORRELATIONS: f64 = 4.0;
 const BLOCK_S: f64 = 0.25;
 const LEAST_BLOCKS: usize = 10;
+
+/// A candidate's score.
+pub(super) struct Score {
+    /// `F` statistic: `gain' S V^-1 S gain`, per parameter, scaled for the number of blocks.
+    pub(super) f: f64,
+    /// Probability of it or more where the candidate is not there.
+    pub(super) p_value: f64,
+}
 
 /// The present model's fit, against which candidates are scored.
 pub(super) struct Present<'a> {
@@ -111,26 +123,38 @@ impl<'a> Present<'a> {
         })
     }
 
-    /// Robust chi-square of the candidate: `gain' S V^-1 S gain`, where `V` sums products of the scores of whole blocks of
-    /// time, so neighboring samples do not count as independent.
-    pub(super) fn score(&self, entries: &[Entry], projected: &Projected) -> f64 {
+    /// Wald test of the candidate: `gain' S V^-1 S gain`, where `V` sums products of the scores of whole blocks of time, so
+    /// that samples of one block do not count as independent. With `B` blocks and `p` parameters,
+    /// `(B - p) / (p B)` times it is compared with `F(p, B - p)`.
+    pub(super) fn score(&self, entries: &[Entry], projected: &Projected) -> Score {
         let count = projected.gain.len();
-        let projected_columns = self.projected_columns(entries, projected);
-        let blocks = self.blocks();
+        let columns = self.projected_columns(entries, projected);
+        let rest: Vec<Vec<f64>> = columns
+            .iter()
+            .zip(self.residuals)
+            .map(|(columns, residual)| {
+                let mut rest = residual.clone();
+                for (column, gain) in columns.iter().zip(&projected.gain) {
+                    add(&mut rest, -gain, column);
+                }
+                rest
+            })
+            .collect();
+        let touched = entries
+            .iter()
+            .map(|entry| correlation_time(&rest[entry.joint]));
+        let blocks = self.blocks(touched.fold(1.0, f64::max));
         let mut information = vec![vec![0.0; count]; count];
         let mut variance = vec![vec![0.0; count]; count];
         for block in &blocks {
             let mut score = vec![0.0; count];
-            for (joint, columns) in projected_columns.iter().enumerate() {
+            for (joint, columns) in columns.iter().enumerate() {
                 let weight = self.sigma[joint].powi(-2);
-                for k in block.clone() {
-                    let fitted: f64 = (0..count).map(|c| projected.gain[c] * columns[c][k]).sum();
-                    let rest = self.residuals[joint][k] - fitted;
-                    for a in 0..count {
-                        score[a] += weight * columns[a][k] * rest;
-                        for b in 0..count {
-                            information[a][b] += weight * columns[a][k] * columns[b][k];
-                        }
+                for a in 0..count {
+                    let column = &columns[a][block.clone()];
+                    score[a] += weight * dot(column, &rest[joint][block.clone()]);
+                    for b in 0..count {
+                        information[a][b] += weight * dot(column, &columns[b][block.clone()]);
                     }
                 }
             }
@@ -144,9 +168,12 @@ impl<'a> Present<'a> {
             .iter()
             .map(|row| dot(row, &projected.gain))
             .collect();
-        let solved = solve_symmetric(&variance, &moved);
-        let finite = (blocks.len().saturating_sub(1 + count)) as f64 / blocks.len() as f64;
-        finite * dot(&moved, &solved)
+        let wald = dot(&moved, &solve_symmetric(&variance, &moved));
+        let (parameters, blocks) = (count as f64, blocks.len() as f64);
+        let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
+        let p_value = FisherSnedecor::new(parameters, blocks - parameters)
+            .map_or(1.0, |distribution| distribution.sf(f));
+        Score { f, p_value }
     }
 
     /// The candidate's columns less the model's, `[joint][column][sample]`.
@@ -169,8 +196,8 @@ impl<'a> Present<'a> {
             .collect()
     }
 
-    /// Blocks of neighboring rows that never cross from one log into another.
-    fn blocks(&self) -> Vec<std::ops::Range<usize>> {
+    /// Blocks of neighboring rows that never cross from one log into another. `correlation` is a number of samples.
+    fn blocks(&self, correlation: f64) -> Vec<std::ops::Range<usize>> {
         let mut blocks = Vec::new();
         for segment in &self.stack.segments {
             let rows = segment.time.len();
@@ -178,7 +205,8 @@ impl<'a> Present<'a> {
                 continue;
             }
             let seconds = segment.time[rows - 1] - segment.time[0];
-            let count = whole_steps(seconds / BLOCK_S).max(LEAST_BLOCKS).min(rows);
+            let length = BLOCK_S.max(BLOCK_CORRELATIONS * correlation * seconds / rows as f64);
+            let count = whole_steps(seconds / length).max(LEAST_BLOCKS).min(rows);
             blocks.extend(
                 (0..count).map(|b| {
                     segment.start + b * rows / count..segment.start + (b + 1) * rows / count
@@ -187,27 +215,6 @@ impl<'a> Present<'a> {
         }
         blocks
     }
-}
-
-/// Probability that a chi-square variable with `freedom` degrees of freedom exceeds `x`.
-pub(super) fn chi_square_tail(freedom: usize, x: f64) -> f64 {
-    let half = 0.5 * x.max(0.0);
-    // Q(k + 2) = Q(k) + (x/2)^(k/2) exp(-x/2) / Gamma(k/2 + 1), from Q(1) or Q(2).
-    let (mut tail, mut term, mut k) = if freedom.is_multiple_of(2) {
-        ((-half).exp(), half * (-half).exp(), 2)
-    } else {
-        (
-            libm::erfc(half.sqrt()),
-            2.0 * (half / std::f64::consts::PI).sqrt() * (-half).exp(),
-            1,
-        )
-    };
-    while k < freedom {
-        tail += term;
-        k += 2;
-        term *= half / (0.5 * k as f64);
-    }
-    tail
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -264,23 +271,6 @@ fn solve_symmetric(matrix: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn chi_square_tails_of_tables() {
-        // 5 % points of the chi-square distribution.
-        for (freedom, point) in [
-            (1, 3.841_459),
-            (2, 5.991_465),
-            (3, 7.814_728),
-            (4, 9.487_729),
-            (6, 12.591_587),
-        ] {
-            assert!(
-                (chi_square_tail(freedom, point) - 0.05).abs() < 1e-6,
-                "{freedom}"
-            );
-        }
-    }
 
     #[test]
     fn a_direction_without_information_is_left_alone() {

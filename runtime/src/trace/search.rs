@@ -65,11 +65,14 @@ impl<'a> Trace<'a> {
         };
         let mut prepared = prepare_all(logs, &bands)?;
         progress("fitting the declared model");
-        let (solution, shapes, stack) = identify.solve(arm, &mut prepared, None)?;
+        let (solution, shapes, mut stack) = identify.solve(arm, &mut prepared, None)?;
+        stack.silence(&solution.unexcited);
         let mut search = Search {
             arm,
             identify: &identify,
             shapes,
+            shared_hz: bands.shared_hz,
+            unexcited: solution.unexcited.clone(),
             prepared,
             periods: Vec::new(),
             folds: Vec::new(),
@@ -126,6 +129,10 @@ pub(super) struct Search<'s> {
     pub(super) arm: &'s dyn Arm,
     pub(super) identify: &'s Identify,
     pub(super) shapes: Vec<f64>,
+    /// Cutoff of the shared filter, Hz.
+    pub(super) shared_hz: f64,
+    /// Unknowns that the logs do not excite: held at zero throughout.
+    unexcited: Vec<usize>,
     pub(super) prepared: Vec<Prepared>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
@@ -164,12 +171,12 @@ impl Search<'_> {
     fn refit<'a>(&mut self, state: State<'a>) -> Result<State<'a>, IdentifyError> {
         let State {
             mut stack,
-            solution,
-            residuals,
             mut accepted,
+            ..
         } = state;
         if self.arm.uses_rigid_torque() {
             stack = Stack::new(self.arm, &self.prepared, &self.shapes);
+            stack.silence(&self.unexcited);
         } else {
             stack.truncate(self.arm.unknowns().len());
         }
@@ -183,7 +190,6 @@ impl Search<'_> {
             }
             stack.append(effect.trial.candidate.unknowns(), &effect.trial.entries);
         }
-        drop((solution, residuals));
         let solution = self.identify.solve_stack(&stack)?;
         let residuals = stack.residuals(&solution.estimate);
         let state = State {
@@ -230,7 +236,7 @@ impl Search<'_> {
             .filter(|judged| judged.passes)
             .collect();
         judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
-        choose(judged, state.accepted.len())
+        choose(judged)
     }
 
     /// Drops effects that later ones made needless.
@@ -272,7 +278,7 @@ impl Search<'_> {
 }
 
 /// The best candidate and those that are as good within the size that matters; of these the simplest is taken.
-fn choose<'a>(judged: Vec<Judged<'a>>, number: usize) -> Option<Accepted<'a>> {
+fn choose<'a>(judged: Vec<Judged<'a>>) -> Option<Accepted<'a>> {
     let best = judged.first()?.raw_power.clone();
     let mut class: Vec<Judged<'a>> = judged
         .into_iter()
@@ -286,7 +292,7 @@ fn choose<'a>(judged: Vec<Judged<'a>>, number: usize) -> Option<Accepted<'a>> {
         .map(|rival| Alternative {
             kind: rival.trial.candidate.kind().to_owned(),
             joints: rival.trial.candidate.joints().to_vec(),
-            instead_of: Some(number),
+            instead_of: 0,
             worse_percent: gate::worse_percent(&rival.raw_power, &chosen.raw_power),
         })
         .collect();

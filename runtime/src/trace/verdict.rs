@@ -7,7 +7,7 @@ use super::structure::Structure;
 /// Why an effect was accepted, in numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
-    /// Robust chi-square of the effect against the residual, every model column projected out, blocks of time as samples.
+    /// `F` statistic of the effect against the residual: every model column projected out, blocks of time as samples.
     pub score: f64,
     /// Probability of that score or more in noise, times the number of candidates and shapes tried.
     pub p_value: f64,
@@ -50,8 +50,8 @@ pub struct Alternative {
     pub kind: String,
     /// Joints, from 0.
     pub joints: Vec<usize>,
-    /// Index of the finding that it could stand for; `None` where nothing was accepted.
-    pub instead_of: Option<usize>,
+    /// Place of the effect that it could stand for among the findings (or leads), from 0.
+    pub instead_of: usize,
     /// Held-out error on raw samples relative to the finding's, percent; positive: worse.
     pub worse_percent: f64,
 }
