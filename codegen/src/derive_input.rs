@@ -52,7 +52,26 @@ fn implementation(input: TokenStream) -> syn::Result<TokenStream> {
             format!("base parameters are not certain: {}", compiled.base.rank),
         ));
     }
-    Ok(emit::rust::implementation_for(&compiled, name))
+    let implementation = emit::rust::implementation_for(&compiled, name);
+    let reads = reads_of_joints(&input);
+    Ok(quote!(#implementation #reads))
+}
+
+/// The fields carry attributes only, and nobody reads them; rustc need not warn of that.
+fn reads_of_joints(input: &DeriveInput) -> TokenStream {
+    let name = &input.ident;
+    let joints: Vec<_> = match &input.data {
+        Data::Struct(data) => data.fields.iter().map(|field| &field.ident).collect(),
+        _ => Vec::new(),
+    };
+    quote! {
+        const _: () = {
+            #[allow(dead_code, reason = "reads the joints once")]
+            fn joints(robot: &#name) {
+                #(let _ = &robot.#joints;)*
+            }
+        };
+    }
 }
 
 /// The struct as a spec: `robot Name { .. }`.

@@ -1,1 +1,46 @@
-//! Placeholder until the first stage lands.
+//! What a controller's firmware would hold: the compiled arm and a control law. No `std`, no allocator.
+#![no_std]
+
+use robot_model::{RobotModel, State, Vector};
+
+robot_model::include_robot!("arm");
+
+/// Number of base parameters.
+pub const BASE: usize = TwoLinkArm::BASE_PARAMETERS.len();
+
+/// Standard parameters of one such arm, by name, in SI units; those that are not listed are 0.
+pub const MEASURED: [(&str, f64); 8] = [
+    ("shoulder.m", 4.0),
+    ("shoulder.mx", -0.90),
+    ("shoulder.izz", 0.28),
+    ("elbow.m", 2.5),
+    ("elbow.mx", -0.45),
+    ("elbow.izz", 0.12),
+    ("shoulder.viscous_friction.fv", 1.5),
+    ("elbow.viscous_friction.fv", 0.6),
+];
+
+/// Base parameters of the arm in [`TwoLinkArm`]'s order.
+#[must_use]
+pub fn beta() -> Vector<BASE> {
+    let standard = TwoLinkArm::STANDARD_PARAMETERS.map(|name| {
+        let known = MEASURED.iter().find(|(known, _)| *known == name);
+        known.map_or(0.0, |(_, value)| *value)
+    });
+    TwoLinkArm::base_parameters(&standard.into())
+}
+
+/// Computed torque: `tau = M (ddq_r + kd (dq_r - dq) + kp (q_r - q)) + bias + friction`, N m.
+///
+/// With an exact model the error obeys `ddq + kd dq + kp q = 0`; `kd = 2 sqrt(kp)` damps it critically.
+#[must_use]
+pub fn computed_torque(
+    now: &State<2>,
+    reference: &State<2>,
+    kp: f64,
+    beta: &Vector<BASE>,
+) -> Vector<2> {
+    let kd = 2.0 * robot_model::math::sqrt(kp);
+    let ddq = reference.ddq + kd * (reference.dq - now.dq) + kp * (reference.q - now.q);
+    TwoLinkArm::inverse_dynamics(&State { ddq, ..*now }, beta)
+}
