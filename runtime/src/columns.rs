@@ -2,6 +2,36 @@
 //!
 //! Identification and tracing see models, declared effects and candidate effects through these traits only; emitted code
 //! and the interpreter both stand behind them.
+//!
+//! # Examples
+//! An effect of one's own, on the first joint: `tau = k q`.
+//! ```
+//! use robot_model::columns::{Columns, Entry, Shape, Unknown};
+//! use robot_model::motion::Motion;
+//!
+//! struct Spring([Unknown; 1]);
+//!
+//! impl Columns for Spring {
+//!     fn unknowns(&self) -> &[Unknown] {
+//!         &self.0
+//!     }
+//!     fn shapes(&self) -> &[Shape] {
+//!         &[]
+//!     }
+//!     fn uses_rigid_torque(&self) -> bool {
+//!         false
+//!     }
+//!     fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+//!         vec![Entry { joint: 0, column: 0, values: motion.smooth.q[0].clone() }]
+//!     }
+//! }
+//!
+//! let mut motion = Motion { time: vec![0.0, 0.1], ..Motion::default() };
+//! motion.smooth.q = vec![vec![0.3, 0.4]];
+//! let stiffness = Unknown { name: "shoulder.spring.k".to_owned(), nonnegative: true };
+//! let torque = robot_model::identify::torque_of(&Spring([stiffness]), &motion, &[], &[10.0], 1);
+//! assert_eq!(torque, [[3.0, 4.0]]);
+//! ```
 
 use crate::motion::Motion;
 

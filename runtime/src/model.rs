@@ -25,6 +25,14 @@ pub struct State<const DOF: usize> {
 
 impl<const DOF: usize> State<DOF> {
     /// A motion, with no load and time zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector};
+    /// let state = State::new(Vector::from([0.1]), Vector::from([2.0]), Vector::zeros());
+    /// assert_eq!((state.dq[0], state.time), (2.0, 0.0));
+    /// assert_eq!(State::at_rest(state.q), State { dq: Vector::zeros(), ..state });
+    /// ```
     #[must_use]
     pub fn new(q: Vector<DOF>, dq: Vector<DOF>, ddq: Vector<DOF>) -> Self {
         Self {
@@ -46,6 +54,33 @@ impl<const DOF: usize> State<DOF> {
 /// The equations of motion of one arm: `tau = M(q) * ddq + C(q, dq) * dq + G(q) + effects`.
 ///
 /// `beta` are the base parameters in the order of [`Self::BASE_PARAMETERS`]; what the spec fixes is inside the functions.
+///
+/// # Examples
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// use robot_model::{RobotModel, State, Vector};
+///
+/// #[derive(RobotModel)]
+/// #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+/// struct Pendulum {
+///     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+///     #[effects(viscous_friction)]
+///     pivot: (),
+/// }
+///
+/// // 2 kg at the tip, 0.1 N m s/rad.
+/// let standard = Pendulum::STANDARD_PARAMETERS.map(|name| match name {
+///     "pivot.m" => 2.0,
+///     "pivot.viscous_friction.fv" => 0.1,
+///     _ => 0.0,
+/// });
+/// let beta = Pendulum::base_parameters(&standard.into());
+/// let state = State::new(Vector::from([0.0]), Vector::from([3.0]), Vector::from([1.0]));
+/// // m l^2 ddq + fv dq + m g l cos(q)
+/// let tau = Pendulum::inverse_dynamics(&state, &beta);
+/// assert!((tau[0] - (0.5 + 0.3 + 9.81)).abs() < 1e-12);
+/// assert!((tau - Pendulum::base_regressor(&state) * beta).norm() < 1e-12);
+/// ```
 pub trait RobotModel<const DOF: usize, const STANDARD: usize, const BASE: usize> {
     /// Name of the robot.
     const NAME: &'static str;
@@ -83,12 +118,24 @@ pub trait RobotModel<const DOF: usize, const STANDARD: usize, const BASE: usize>
 }
 
 /// A vector's numbers as an array.
+///
+/// # Examples
+/// ```
+/// use robot_model::{Vector, model::as_array};
+/// assert_eq!(as_array(&Vector::from([1.0, 2.0])), &[1.0, 2.0]);
+/// ```
 #[must_use]
 pub fn as_array<const N: usize>(vector: &Vector<N>) -> &[f64; N] {
     &vector.data.0[0]
 }
 
 /// A matrix from `[row][column]`.
+///
+/// # Examples
+/// ```
+/// use robot_model::model::from_rows;
+/// assert_eq!(from_rows(&[[1.0, 2.0], [3.0, 4.0]])[(1, 0)], 3.0);
+/// ```
 #[must_use]
 pub fn from_rows<const R: usize, const C: usize>(rows: &[[f64; C]; R]) -> Matrix<R, C> {
     Matrix::from_fn(|row, column| rows[row][column])

@@ -117,6 +117,19 @@ impl Estimate {
     ///
     /// # Errors
     /// [`IdentifyError`] where the log is of another arm or cannot be filtered.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let (arm, log) = (pendulum(), measure(0.0));
+    /// let estimate = Identify::default().fit(&arm, std::slice::from_ref(&log))?;
+    /// let torque = estimate.predict(&arm, &log)?;
+    /// assert_eq!(torque[0].len(), log.time.len());
+    /// assert!((torque[0][5000] - log.tau[0][5000]).abs() < 0.1);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn predict(&self, arm: &dyn Arm, log: &Log) -> Result<Vec<Vec<f64>>, IdentifyError> {
         super::check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare(log, &self.bands)?;
@@ -132,6 +145,20 @@ impl Estimate {
     ///
     /// # Errors
     /// Those of [`Self::predict`].
+    ///
+    /// # Examples
+    /// What the model lacks, dry friction of 0.7 N m, shows in the error.
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let arm = pendulum();
+    /// let estimate = Identify::default().fit(&arm, &[measure(0.0)])?;
+    /// let (same, worn) = (estimate.errors(&arm, &measure(0.0))?, estimate.errors(&arm, &measure(0.7))?);
+    /// assert!(same.rmse[0] < 0.05);
+    /// assert!((worn.rmse[0] - 0.7).abs() < 0.05);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn errors(&self, arm: &dyn Arm, log: &Log) -> Result<Errors, IdentifyError> {
         super::check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare(log, &self.bands)?;

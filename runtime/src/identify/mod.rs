@@ -1,4 +1,20 @@
 //! Identification: from logs and a model's columns to parameters with their uncertainty.
+//!
+//! # Examples
+//! A pendulum, `tau = izz ddq + mx sin(q) + fv dq`, whose machine has `izz = 2`, `mx = 9`, `fv = 1`.
+//! ```
+//! # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+//! # use pendulum::{measure, pendulum};
+//! use robot_model::identify::Identify;
+//!
+//! let (arm, log) = (pendulum(), measure(0.0));
+//! let estimate = Identify::default().fit(&arm, &[log])?;
+//! println!("{estimate}");
+//! for (value, truth) in estimate.values().iter().zip([2.0, 9.0, 1.0]) {
+//!     assert!((value - truth).abs() < 0.01 * truth);
+//! }
+//! # Ok::<(), robot_model::identify::IdentifyError>(())
+//! ```
 
 mod band;
 mod error;

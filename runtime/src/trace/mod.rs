@@ -6,6 +6,26 @@
 //! error on data that it was not fitted on, by an amount that matters, in nearly every fold, with steady coefficients of
 //! the right sign; each time the full system of all joints is fitted again. Last, *structure* asks whether what is left
 //! still follows the motion; then no name is given.
+//!
+//! # Examples
+//! A pendulum's model declares inertia, gravity and viscous friction; the machine has dry friction, too.
+//! ```
+//! # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+//! # use pendulum::{dry_friction, measure, pendulum};
+//! use robot_model::trace::{Outcome, Trace};
+//!
+//! let (arm, candidate) = (pendulum(), dry_friction());
+//! let trace = Trace::new(vec![&candidate]);
+//!
+//! let verdict = trace.run(&arm, &[measure(0.7)], &mut |stage| eprintln!("{stage}"))?;
+//! assert_eq!(verdict.outcome, Outcome::Explained);
+//! assert_eq!(verdict.findings[0].kind, "coulomb-friction");
+//! assert!((verdict.findings[0].parameters[0].value - 0.7).abs() < 0.02);
+//!
+//! let verdict = trace.run(&arm, &[measure(0.0)], &mut |_| ())?;
+//! assert_eq!(verdict.outcome, Outcome::NothingMissing);
+//! # Ok::<(), robot_model::identify::IdentifyError>(())
+//! ```
 
 mod conclude;
 mod folds;

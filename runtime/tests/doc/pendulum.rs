@@ -1,0 +1,143 @@
+// The arm of the documentation's examples, which include this file: one pendulum, its columns written by hand, a candidate, a log.
+
+use robot_model::columns::{Arm, Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::log::Log;
+use robot_model::motion::Motion;
+
+/// `tau = izz ddq + mx sin(q) + fv dq`
+pub struct Pendulum {
+    unknowns: [Unknown; 3],
+    joints: [String; 1],
+}
+
+/// `tau = fc sign(dq)`
+pub struct DryFriction([Unknown; 1]);
+
+fn unknown(name: &str) -> Unknown {
+    Unknown {
+        name: name.to_owned(),
+        nonnegative: true,
+    }
+}
+
+pub fn pendulum() -> Pendulum {
+    Pendulum {
+        unknowns: [
+            unknown("link.izz"),
+            unknown("link.mx"),
+            unknown("joint.viscous_friction.fv"),
+        ],
+        joints: ["joint".to_owned()],
+    }
+}
+
+pub fn dry_friction() -> DryFriction {
+    DryFriction([unknown("joint.coulomb_friction.fc")])
+}
+
+/// 20 s at 500 Hz of a pendulum with `izz = 2`, `mx = 9`, `fv = 1`, dry friction `fc`, and a little noise.
+pub fn measure(fc: f64) -> Log {
+    let time: Vec<f64> = (0..10_000).map(|k| 0.002 * f64::from(k)).collect();
+    let wave = |t: f64, power: i32, shift: f64| -> f64 {
+        let terms = [(0.1, 0.9), (0.4, 0.4), (0.9, 0.1)].iter();
+        terms
+            .map(|(hz, size)| (std::f64::consts::TAU * hz, size))
+            .map(|(w, size)| size * w.powi(power) * (w * t + w + shift).sin())
+            .sum()
+    };
+    let quarter = 0.25 * std::f64::consts::TAU;
+    let mut random = 1_u32;
+    let tau = time.iter().map(|&t| {
+        let (q, dq, ddq) = (
+            wave(t, 0, 0.0),
+            wave(t, 1, quarter),
+            wave(t, 2, 2.0 * quarter),
+        );
+        random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let noise = 0.1 * (f64::from(random) / f64::from(u32::MAX) - 0.5);
+        2.0 * ddq + 9.0 * q.sin() + dq + fc * robot_model::math::sign(dq) + noise
+    });
+    let tau = vec![tau.collect()];
+    let q = vec![time.iter().map(|&t| wave(t, 0, 0.0)).collect()];
+    Log::from_samples("pendulum", time, q, tau).expect("the samples are finite and uniform")
+}
+
+fn entry(column: usize, values: impl Iterator<Item = f64>) -> Entry {
+    Entry {
+        joint: 0,
+        column,
+        values: values.collect(),
+    }
+}
+
+impl Columns for Pendulum {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        let (smooth, wide) = (&motion.smooth, &motion.wide);
+        vec![
+            entry(0, smooth.ddq[0].iter().copied()),
+            entry(1, smooth.q[0].iter().map(|q| q.sin())),
+            entry(2, wide.dq[0].iter().copied()),
+        ]
+    }
+}
+
+impl Arm for Pendulum {
+    fn dof(&self) -> usize {
+        1
+    }
+    fn joints(&self) -> &[String] {
+        &self.joints
+    }
+    fn actuator_gain(&self) -> &[f64] {
+        &[1.0]
+    }
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]]
+    }
+    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+        let signals = motion.smooth.ddq[0].iter().zip(&motion.smooth.q[0]);
+        vec![
+            signals
+                .map(|(ddq, q)| estimate[0] * ddq + estimate[1] * q.sin())
+                .collect(),
+        ]
+    }
+}
+
+impl Columns for DryFriction {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.0
+    }
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        vec![entry(
+            0,
+            motion.wide.dq[0]
+                .iter()
+                .map(|&dq| robot_model::math::sign(dq)),
+        )]
+    }
+}
+
+impl Candidate for DryFriction {
+    fn kind(&self) -> &str {
+        "coulomb-friction"
+    }
+    fn joints(&self) -> &[usize] {
+        &[0]
+    }
+}
