@@ -33,8 +33,8 @@ impl Motion {
     /// The motion's wide band, time and rigid-body torque a part of a sample later (`-0.5 ..= 0.5`), linearly between
     /// samples; the smooth band stays empty.
     ///
-    /// A logged torque is a mean over its sample interval. A column that jumps is one only if it is averaged over the
-    /// interval as well: over a few such motions.
+    /// A column that jumps between two samples has power above half the sample rate; read at the sample instants alone, that
+    /// power would fold into the band below. Its mean over a few such motions is the low-pass that keeps it out.
     #[must_use]
     pub fn within_sample(&self, part: f64) -> Self {
         let shifted = |channels: &[Vec<f64>]| {

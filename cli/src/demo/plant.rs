@@ -1,23 +1,24 @@
 //! The demo's plant: an arm that moves along embedded trajectories, with noise and encoders.
 //!
-//! Torque is that of the compiled plant on the exact motion, so its dry friction changes sign where the velocity does. The
-//! log that comes out holds what a real one holds: positions in encoder steps, torque with noise that is partly correlated.
+//! Torque is the inverse dynamics of the compiled plant on the exact motion, state by state, so its dry friction changes sign
+//! where the velocity does. The log that comes out holds what a real one holds: positions in encoder steps, torque with noise
+//! that is partly correlated. Identification gets its own filtered motion from these positions.
 
 use std::f64::consts::TAU;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot_model::columns::Arm;
-use robot_model::identify::torque_of;
 use robot_model::log::Log;
-use robot_model::motion::{Kinematics, Motion};
+use robot_model::motion::Kinematics;
+use robot_model_codegen::base::shape_values;
+use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::load;
 use robot_model_spec::parameter::Status;
 
 use crate::Error;
-use crate::interpreted::InterpretedArm;
 
 /// Fourier coefficients of the motions.
 const MOTIONS: &str = include_str!("motions.csv");
@@ -35,8 +36,11 @@ const CORRELATION_S: f64 = 0.004;
 
 /// A compiled spec with a number for every parameter.
 pub(super) struct Plant {
-    arm: InterpretedArm,
-    beta: Vec<f64>,
+    inverse_dynamics: Program,
+    /// Values of standard parameters, and of shape parameters.
+    parameters: Vec<f64>,
+    shapes: Vec<f64>,
+    dof: usize,
 }
 
 impl Plant {
@@ -49,23 +53,35 @@ impl Plant {
         let compiled = compile_model(&load(source_name, text)?);
         let beta = compiled.base.beta(&standard(&compiled, effects)?);
         Ok(Self {
-            arm: InterpretedArm::new(compiled),
-            beta,
+            inverse_dynamics: compiled.inverse_dynamics(),
+            parameters: compiled.parameter_values(&beta),
+            shapes: shape_values(&compiled.model),
+            dof: compiled.dof(),
         })
+    }
+
+    /// Torque at every instant of a motion: one state at a time, nothing filtered or averaged.
+    fn torque(&self, time: &[f64], exact: &Kinematics) -> Vec<Vec<f64>> {
+        let mut torque = vec![Vec::new(); self.dof];
+        let bind = |symbol| match symbol {
+            Symbol::Q(joint) => Operand::Column(&exact.q[joint]),
+            Symbol::Dq(joint) => Operand::Column(&exact.dq[joint]),
+            Symbol::Ddq(joint) => Operand::Column(&exact.ddq[joint]),
+            Symbol::Time => Operand::Column(time),
+            Symbol::Parameter(k) => Operand::Constant(self.parameters[k]),
+            Symbol::Shape(k) => Operand::Constant(self.shapes[k]),
+            Symbol::RigidTorque(_) => unreachable!("inverse dynamics knows its own load"),
+        };
+        self.inverse_dynamics
+            .eval_batch(time.len(), &bind, &mut torque);
+        torque
     }
 
     /// Moves the plant along one of the embedded motions and logs it.
     pub(super) fn log(&self, motion: &str, seed: u64) -> Result<Log, Error> {
         let time: Vec<f64> = (0..SAMPLES).map(|k| f64::from(k) / RATE_HZ).collect();
-        let exact = kinematics(motion, &time, self.arm.dof())?;
-        let mut state = Motion {
-            time,
-            smooth: exact.clone(),
-            wide: exact,
-            rigid_torque: Vec::new(),
-        };
-        state.rigid_torque = self.arm.rigid_torque(&state, &self.beta);
-        let mut tau = torque_of(&self.arm, &state, &[], &self.beta, self.arm.dof());
+        let exact = kinematics(motion, &time, self.dof)?;
+        let mut tau = self.torque(&time, &exact);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         for torque in &mut tau {
             let size = (torque.iter().map(|t| t * t).sum::<f64>() / torque.len() as f64).sqrt();
@@ -78,13 +94,9 @@ impl Plant {
                 *value += size * (WHITE * white + CORRELATED * slow);
             }
         }
-        let q = state
-            .wide
-            .q
-            .iter()
-            .map(|q| q.iter().map(|x| (x / ENCODER).round() * ENCODER).collect())
-            .collect();
-        Log::from_samples(format!("{motion} log"), state.time, q, tau)
+        let encoder = |q: &Vec<f64>| q.iter().map(|x| (x / ENCODER).round() * ENCODER).collect();
+        let q = exact.q.iter().map(encoder).collect();
+        Log::from_samples(format!("{motion} log"), time, q, tau)
             .map_err(|error| Error::Argument(error.to_string()))
     }
 }

@@ -29,7 +29,8 @@ impl EffectBlock {
         Self { block, wide }
     }
 
-    /// The columns over a motion; those that jump are averaged over the sample interval, as the logged torque is.
+    /// The columns over a motion; those that jump are averaged over the sample interval (see
+    /// [`Motion::within_sample`]).
     pub(super) fn run(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
         let keep = |entries: Vec<Entry>, wide: bool| {
             entries

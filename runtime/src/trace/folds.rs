@@ -76,9 +76,13 @@ impl Repeats {
         let scaled = joints.into_iter().filter_map(|mut q| {
             let samples = q.len() as f64;
             let mean = q.iter().sum::<f64>() / samples;
-            q.iter_mut().for_each(|x| *x -= mean);
+            for x in &mut q {
+                *x -= mean;
+            }
             let spread = (q.iter().map(|x| x * x).sum::<f64>() / samples).sqrt();
-            q.iter_mut().for_each(|x| *x /= spread);
+            for x in &mut q {
+                *x /= spread;
+            }
             (spread > 1e-4).then_some(q)
         });
         Self {
