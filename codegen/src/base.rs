@@ -178,6 +178,9 @@ fn base_names(
         .collect()
 }
 
+/// One state in so many has a given joint at rest.
+const REST_EVERY: usize = 7;
+
 /// The regressor's columns at random states, stacked over joints.
 fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -> Vec<Vec<f64>> {
     /// Any fixed number: same spec, same states.
@@ -194,7 +197,7 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
     let program = Program::new(dag, &outputs);
 
     let mut generator = Generator::new(SEED);
-    let shapes = shape_values(model);
+    let shapes = generic_shapes(model, &mut generator);
     // Drawn for every symbol in a fixed order, so that a state does not depend on what the program reads.
     let mut draw = |scale: f64| -> Vec<f64> {
         (0..samples)
@@ -202,10 +205,18 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
             .collect()
     };
     let q: Vec<Vec<f64>> = (0..dof).map(|_| draw(3.0)).collect();
-    let dq: Vec<Vec<f64>> = (0..dof).map(|_| draw(2.0)).collect();
+    let mut dq: Vec<Vec<f64>> = (0..dof).map(|_| draw(2.0)).collect();
     let ddq: Vec<Vec<f64>> = (0..dof).map(|_| draw(4.0)).collect();
     let rigid_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
-    let time = draw(20.0);
+    let time: Vec<f64> = draw(20.0).into_iter().map(f64::abs).collect();
+    // Some states have a joint at rest: laws that jump there are told from those that do not.
+    for (joint, velocities) in dq.iter_mut().enumerate() {
+        velocities
+            .iter_mut()
+            .skip(joint)
+            .step_by(REST_EVERY)
+            .for_each(|v| *v = 0.0);
+    }
     let bind = |symbol: Symbol| match symbol {
         Symbol::Q(joint) => Operand::Column(&q[joint]),
         Symbol::Dq(joint) => Operand::Column(&dq[joint]),
@@ -237,6 +248,19 @@ pub fn shape_values(model: &Model) -> Vec<f64> {
                 .iter()
                 .zip(&effect.definition.shapes)
                 .map(|(value, shape)| value.unwrap_or_else(|| middle(shape.low, shape.high)))
+        })
+        .collect()
+}
+
+/// The spec's values of shape parameters, and a value without meaning inside the range for every other: no law may look like
+/// another one because both stand at a special value.
+fn generic_shapes(model: &Model, generator: &mut Generator) -> Vec<f64> {
+    let effects = model.effects.iter();
+    effects
+        .flat_map(|effect| effect.shapes.iter().zip(&effect.definition.shapes))
+        .map(|(value, shape)| {
+            let part = 0.5 + 0.4 * generator.symmetric();
+            value.unwrap_or(shape.low + part * (shape.high - shape.low))
         })
         .collect()
 }
@@ -281,6 +305,14 @@ impl Selection {
             }
         }
         let residual = norm(&column);
+        if !residual.is_finite() {
+            // An effect that is no number at some state, such as the root of a negative signal.
+            self.unclear.push(UnclearColumn {
+                name: name.to_owned(),
+                residual,
+            });
+            return;
+        }
         if residual <= DEPENDENT_BELOW {
             self.largest_dropped = self.largest_dropped.max(residual);
             self.dropped.push((k, coordinates));
