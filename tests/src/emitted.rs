@@ -30,6 +30,7 @@ macro_rules! robots {
         $(
             #[doc = concat!("Emitted from `", $file, ".robot`.")]
             #[deny(warnings)]
+            #[allow(clippy::pedantic, reason = "derived, not written")]
             pub mod $module {
                 robot_model::include_robot!($file);
             }

@@ -83,12 +83,10 @@ impl Context<'_> {
         let cost = format!(" Cost: {}.", body.cost);
         let statements = &body.statements;
         let (kind, result) = self.result(task, &body.outputs);
-        let lints = lints();
         let item = quote! {
             #[doc = #doc]
             #[doc = ""]
             #[doc = #cost]
-            #lints
             #[must_use]
             pub fn #name(#(#parameters),*) -> #kind {
                 #statements
@@ -166,17 +164,5 @@ fn argument_of(symbol: Symbol, task: &Task) -> &'static str {
         Symbol::Parameter(_) if task.arguments.contains("standard") => "standard",
         Symbol::Parameter(_) => "beta",
         Symbol::Shape(_) => "",
-    }
-}
-
-/// Lints that speak of hand-written code, with the reason.
-fn lints() -> TokenStream {
-    quote! {
-        #[allow(
-            clippy::similar_names,
-            clippy::too_many_lines,
-            clippy::unreadable_literal,
-            reason = "derived, not written"
-        )]
     }
 }

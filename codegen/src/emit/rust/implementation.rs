@@ -19,10 +19,20 @@ pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub struct #name;
     };
-    vec![item, implementation(compiled, functions, &name)]
+    let implementation = implementation(compiled, functions, &name);
+    // The import stays inside: the page may be included beside a module of the same name.
+    let implementation = quote! {
+        const _: () = {
+            use ::robot_model::model::{self, as_array, from_rows};
+            __blank!();
+            #implementation
+        };
+    };
+    vec![item, implementation]
 }
 
-/// `impl RobotModel<DOF, STANDARD, BASE> for name`.
+/// `impl model::RobotModel<DOF, STANDARD, BASE> for name`, with the runtime's module `model`
+/// and its conversions in scope.
 pub fn implementation(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStream {
     let dof = Literal::usize_unsuffixed(compiled.dof());
     let standard = Literal::usize_unsuffixed(compiled.standard.len());
@@ -43,52 +53,48 @@ pub fn implementation(compiled: &Compiled, functions: &[Function], name: &Ident)
             .map(|&argument| argument_value(argument));
         quote!(#name(#(#arguments),*))
     };
-    let (mass_matrix, coriolis_matrix) = (call("mass_matrix"), call("coriolis_matrix"));
-    let (gravity, bias, inverse_dynamics) =
-        (call("gravity"), call("bias"), call("inverse_dynamics"));
-    let (regressor, base_regressor) = (call("regressor"), call("base_regressor"));
-    let base_parameters = call("base_parameters");
+    let vector = |call: TokenStream| quote!(#call.into());
+    let matrix = |call: TokenStream| quote!(from_rows(&#call));
+    let base_parameters = vector(call("base_parameters"));
+    let mut methods = vec![quote! {
+        fn base_parameters(standard: &model::Vector<#standard>) -> model::Vector<#base> {
+            #base_parameters
+        }
+    }];
+    for name in ["mass_matrix", "coriolis_matrix"] {
+        let value = matrix(call(name));
+        let name = Ident::new(name, Span::call_site());
+        methods.push(quote! {
+            fn #name(state: &model::State<#dof>, beta: &model::Vector<#base>) -> model::Matrix<#dof, #dof> {
+                #value
+            }
+        });
+    }
+    for name in ["gravity", "bias", "inverse_dynamics"] {
+        let value = vector(call(name));
+        let name = Ident::new(name, Span::call_site());
+        methods.push(quote! {
+            fn #name(state: &model::State<#dof>, beta: &model::Vector<#base>) -> model::Vector<#dof> {
+                #value
+            }
+        });
+    }
+    for (name, columns) in [("regressor", &standard), ("base_regressor", &base)] {
+        let value = matrix(call(name));
+        let name = Ident::new(name, Span::call_site());
+        methods.push(quote! {
+            fn #name(state: &model::State<#dof>) -> model::Matrix<#dof, #columns> {
+                #value
+            }
+        });
+    }
     quote! {
-        impl ::robot_model::RobotModel<#dof, #standard, #base> for #name {
+        impl model::RobotModel<#dof, #standard, #base> for #name {
             const NAME: &'static str = #robot;
             const JOINTS: [&'static str; #dof] = [#(#joints),*];
             const STANDARD_PARAMETERS: [&'static str; #standard] = [#(#standard_names),*];
             const BASE_PARAMETERS: [&'static str; #base] = [#(#base_names),*];
-
-            fn base_parameters(standard: &::robot_model::Vector<#standard>) -> ::robot_model::Vector<#base> {
-                #base_parameters.into()
-            }
-            fn mass_matrix(state: &::robot_model::State<#dof>, beta: &::robot_model::Vector<#base>)
-                -> ::robot_model::Matrix<#dof, #dof>
-            {
-                ::robot_model::model::from_rows(&#mass_matrix)
-            }
-            fn coriolis_matrix(state: &::robot_model::State<#dof>, beta: &::robot_model::Vector<#base>)
-                -> ::robot_model::Matrix<#dof, #dof>
-            {
-                ::robot_model::model::from_rows(&#coriolis_matrix)
-            }
-            fn gravity(state: &::robot_model::State<#dof>, beta: &::robot_model::Vector<#base>)
-                -> ::robot_model::Vector<#dof>
-            {
-                #gravity.into()
-            }
-            fn bias(state: &::robot_model::State<#dof>, beta: &::robot_model::Vector<#base>)
-                -> ::robot_model::Vector<#dof>
-            {
-                #bias.into()
-            }
-            fn inverse_dynamics(state: &::robot_model::State<#dof>, beta: &::robot_model::Vector<#base>)
-                -> ::robot_model::Vector<#dof>
-            {
-                #inverse_dynamics.into()
-            }
-            fn regressor(state: &::robot_model::State<#dof>) -> ::robot_model::Matrix<#dof, #standard> {
-                ::robot_model::model::from_rows(&#regressor)
-            }
-            fn base_regressor(state: &::robot_model::State<#dof>) -> ::robot_model::Matrix<#dof, #base> {
-                ::robot_model::model::from_rows(&#base_regressor)
-            }
+            #(__blank!(); #methods)*
         }
     }
 }
@@ -97,11 +103,11 @@ pub fn implementation(compiled: &Compiled, functions: &[Function], name: &Ident)
 fn argument_value(argument: &str) -> TokenStream {
     match argument {
         "time" => quote!(state.time),
-        "beta" => quote!(::robot_model::model::as_array(beta)),
-        "standard" => quote!(::robot_model::model::as_array(standard)),
+        "beta" => quote!(as_array(beta)),
+        "standard" => quote!(as_array(standard)),
         _ => {
             let name = Ident::new(argument, Span::call_site());
-            quote!(::robot_model::model::as_array(&state.#name))
+            quote!(as_array(&state.#name))
         }
     }
 }

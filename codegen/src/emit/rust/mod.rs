@@ -43,8 +43,10 @@ pub fn implementation_for(compiled: &Compiled, name: &Ident) -> TokenStream {
     let items = functions.iter().map(|function| &function.item);
     let implementation = implementation::implementation(compiled, &functions, name);
     pretty::without_markers(quote! {
+        #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
             use ::robot_model::math;
+            use ::robot_model::model::{self, as_array, from_rows};
             #(#shapes)*
             #(#items)*
             #implementation
@@ -76,6 +78,10 @@ fn header(compiled: &Compiled) -> String {
         header.push_str(&line);
         header.push('\n');
     }
+    header.push_str(
+        "// Clippy's pedantic lints speak of hand-written code: include the page in a module with\n\
+         // `#[allow(clippy::pedantic)]` if your crate turns them on.\n",
+    );
     header
 }
 
