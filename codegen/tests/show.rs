@@ -37,6 +37,7 @@ fn the_textbook_arm_reads_as_in_the_textbook() {
     let base = form(&arm, What::BaseParameters, Style::Text);
     assert!(base.contains("one.izzr = one.izz + 0.25 two.m\n"), "{base}");
     assert!(base.contains("one.mxr  = one.mx + 0.5 two.m\n"), "{base}");
+    assert!(base.contains("\ntwo.my\n"), "{base}");
     let gravity = form(&arm, What::Gravity, Style::Text);
     assert!(
         gravity.ends_with("G[2] = 9.81 two.mx cos(q1 + q2) - 9.81 two.my sin(q1 + q2)\n"),
@@ -64,8 +65,17 @@ fn large_arms_name_intermediate_results() {
     );
     let arm = compiled(&std::fs::read_to_string(path).expect("the spec is in the repository"));
     let text = form(&arm, What::MassMatrix, Style::Text);
+    for what in [
+        What::MassMatrix,
+        What::CoriolisMatrix,
+        What::InverseDynamics,
+    ] {
+        for line in form(&arm, what, Style::Text).lines() {
+            assert!(line.len() <= 130, "{line}");
+        }
+    }
     assert!(
-        text.contains("\nsin_q2_q3 = ") && text.contains("M[6,6] = "),
+        text.contains("\nt0 = ") && text.contains("M[6,6] = "),
         "{text}"
     );
 }

@@ -72,6 +72,29 @@ impl Dag {
         self.display_with(x, names, style, &|_| None)
     }
 
+    /// The terms of the definition of `x`, each with whether it is subtracted. As [`Self::display_with`] else.
+    pub(crate) fn terms(
+        &self,
+        x: ExprId,
+        names: &Names,
+        style: Style,
+        given: &dyn Fn(ExprId) -> Option<String>,
+    ) -> Vec<(bool, String)> {
+        let mut terms = Vec::new();
+        let Node::Add(p, q) = self.node(x) else {
+            return vec![signed(self.display_with(x, names, style, given))];
+        };
+        let mut stack = vec![q, p];
+        while let Some(x) = stack.pop() {
+            match (given(x), self.node(x)) {
+                (Some(name), _) => terms.push(name),
+                (None, Node::Add(p, q)) => stack.extend([q, p]),
+                (None, _) => terms.push(self.display_with(x, names, style, given)),
+            }
+        }
+        terms.into_iter().map(signed).collect()
+    }
+
     /// The definition of `x` with other expressions by the names that `given` has for them.
     #[must_use]
     pub fn display_with(
@@ -179,6 +202,14 @@ impl Writer<'_> {
         } else {
             text
         }
+    }
+}
+
+/// A term without its minus, and whether it had one.
+fn signed(term: String) -> (bool, String) {
+    match term.strip_prefix('-') {
+        Some(positive) => (true, positive.to_owned()),
+        None => (false, term),
     }
 }
 

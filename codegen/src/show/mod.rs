@@ -16,6 +16,8 @@ use crate::expr::{ExprId, Names, Style};
 
 /// Lines longer than this are broken between terms.
 const WIDTH: usize = 110;
+/// Room that a single term is broken ahead of the end of a line.
+const FOLD_AHEAD: usize = 30;
 
 /// A form of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -195,19 +197,41 @@ fn equation(
         .map(|(k, term)| signed(k, term))
         .collect();
     let one_line = terms.join(" ");
-    let broken = width + 3 + one_line.len() > WIDTH;
+    let broken = width.max(name.len()) + 3 + one_line.len() > WIDTH;
+    let indent = width.max(name.len()) + 3;
     let right = match (style, broken) {
         (_, false) => one_line,
-        (Style::Text, true) => terms.join(&format!("\n{:width$} ", "")),
+        (Style::Text, true) => terms
+            .iter()
+            .map(|term| folded(term, indent))
+            .collect::<Vec<_>>()
+            .join(&format!("\n{:indent$}", "")),
         (Style::Latex, true) => terms.join(" \\\\\n  &\\quad "),
     };
     match style {
         Style::Text => {
             let note = note.map_or(String::new(), |note| format!("    {note}"));
-            format!("{name:width$} = {right}{note}\n").replace("\n  ", "\n    ")
+            format!("{name:width$} = {right}{note}\n")
         }
         Style::Latex => format!("{name} &= {right} \\\\\n"),
     }
+}
+
+/// One term, broken before an operator where it is too long for a line; further lines are indented below the first.
+fn folded(term: &str, indent: usize) -> String {
+    let mut text = String::new();
+    let mut length = indent;
+    for word in term.split_inclusive(' ') {
+        let operator = matches!(word, "+ " | "- ");
+        if operator && length > WIDTH - FOLD_AHEAD {
+            text.truncate(text.trim_end().len());
+            let _ = write!(text, "\n{:indent$}    ", "");
+            length = indent + 4;
+        }
+        text.push_str(word);
+        length += word.len();
+    }
+    text
 }
 
 fn left(name: &str, style: Style) -> String {
@@ -272,13 +296,8 @@ fn with_intermediate_names(
             Style::Text => namer.name(x),
             Style::Latex => format!("\\mathrm{{{}}}", namer.name(x).replace('_', "\\_")),
         };
-        let value = dag.display_with(x, names, style, &|part| given.get(&part).cloned());
-        let separator = if style == Style::Latex { " &= " } else { " = " };
-        let _ = writeln!(
-            text,
-            "{name}{separator}{value}{}",
-            if style == Style::Latex { " \\\\" } else { "" }
-        );
+        let terms = dag.terms(x, names, style, &|part| given.get(&part).cloned());
+        text.push_str(&equation(&name, &terms, None, 0, style));
         given.insert(x, name);
     }
     let mut zeros = Vec::new();
@@ -287,12 +306,13 @@ fn with_intermediate_names(
             zeros.push(entry.name.as_str());
             continue;
         }
-        let value = given.get(&entry.value).cloned().unwrap_or_else(|| {
-            dag.display_with(entry.value, names, style, &|part| given.get(&part).cloned())
-        });
+        let terms = match given.get(&entry.value) {
+            Some(name) => vec![(false, name.clone())],
+            None => dag.terms(entry.value, names, style, &|part| given.get(&part).cloned()),
+        };
         text.push_str(&equation(
             &left(&entry.name, style),
-            &[(false, value)],
+            &terms,
             entry.note.as_ref(),
             0,
             style,
@@ -315,6 +335,10 @@ fn base_parameters(compiled: &Compiled, style: Style) -> String {
         .unwrap_or(0);
     let mut text = String::new();
     for (name, combination) in compiled.base.names.iter().zip(&compiled.base.combinations) {
+        if style == Style::Text && combination.len() == 1 {
+            let _ = writeln!(text, "{name}");
+            continue;
+        }
         let terms: Vec<SignedTerm> = combination
             .iter()
             .map(|&(k, coefficient)| {
