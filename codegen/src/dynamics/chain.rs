@@ -7,11 +7,9 @@
 use robot_model_spec::model::{JointKind, Model};
 
 use super::frame::{Frame, frame};
+use super::inertia::{self, LinkParameters};
 use super::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId, Label};
-
-/// A link's inertial parameters as expressions, in the order of `InertialElement::ALL`.
-pub type LinkParameters = [ExprId; 10];
 
 /// The frames of a chain with its parameters.
 pub struct Chain {
@@ -99,27 +97,48 @@ impl Chain {
         // Force and moment about the origin of link i, that joint i + 1 takes from it.
         let mut carried = (vector::zero(dag), vector::zero(dag));
         for (index, motion) in motions.iter().enumerate().rev() {
-            let (frame, link) = (&self.frames[index], &self.links[index]);
-            let (own_force, own_moment) = motion.wrench(dag, link);
+            let (own_force, own_moment) = motion.wrench(dag, &self.links[index]);
             let force = vector::add(dag, own_force, carried.0);
             let moment = vector::add(dag, own_moment, carried.1);
             if labeled {
                 label(dag, "f", index, force);
                 label(dag, "n", index, moment);
             }
-            let lever = vector::cross(dag, frame.to_origin, force);
-            let joint_moment = vector::add(dag, moment, lever);
-            torque.push(match frame.kind {
-                JointKind::Revolute => vector::dot(dag, frame.axis, joint_moment),
-                JointKind::Prismatic => vector::dot(dag, frame.axis, force),
-            });
-            let force = vector::apply(dag, &frame.rotation, force);
-            let moment = vector::apply(dag, &frame.rotation, joint_moment);
-            let lever = vector::cross(dag, frame.joint_point, force);
-            carried = (force, vector::add(dag, moment, lever));
+            let along_joint;
+            (along_joint, carried) = self.frames[index].transmit(dag, (force, moment));
+            torque.push(along_joint);
         }
         torque.reverse();
         torque
+    }
+
+    /// `M(q)`, `[row][column]`, by composite rigid bodies: when joint `j` alone accelerates, all links from `j` to the tip
+    /// move as one body, and the joints below carry its wrench. Source: Walker and Orin 1982.
+    pub fn mass_matrix(&self, dag: &mut Dag) -> Vec<Vec<ExprId>> {
+        let dof = self.frames.len();
+        let (zero, one) = (dag.zero(), dag.constant(1.0));
+        let still = vector::zero(dag);
+        let mut mass_matrix = vec![vec![zero; dof]; dof];
+        let mut composite: Option<LinkParameters> = None;
+        for j in (0..dof).rev() {
+            let body = match composite {
+                None => self.links[j],
+                Some(outer) => {
+                    let outer = inertia::in_parent(dag, &self.frames[j + 1], &outer);
+                    std::array::from_fn(|k| dag.add(self.links[j][k], outer[k]))
+                }
+            };
+            let motion = self.frames[j].advance(dag, still, still, still, zero, one);
+            let mut carried = motion.wrench(dag, &body);
+            for i in (0..=j).rev() {
+                let along_joint;
+                (along_joint, carried) = self.frames[i].transmit(dag, carried);
+                mass_matrix[i][j] = along_joint;
+                mass_matrix[j][i] = along_joint;
+            }
+            composite = Some(body);
+        }
+        mass_matrix
     }
 }
 
@@ -130,6 +149,25 @@ fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
 }
 
 impl Frame {
+    /// What the joint feels of a force on the link and a moment about the link's origin, and both on the parent, the
+    /// moment about the parent's origin.
+    fn transmit(
+        &self,
+        dag: &mut Dag,
+        (force, moment): (Vector, Vector),
+    ) -> (ExprId, (Vector, Vector)) {
+        let lever = vector::cross(dag, self.to_origin, force);
+        let joint_moment = vector::add(dag, moment, lever);
+        let along_joint = match self.kind {
+            JointKind::Revolute => vector::dot(dag, self.axis, joint_moment),
+            JointKind::Prismatic => vector::dot(dag, self.axis, force),
+        };
+        let force = vector::apply(dag, &self.rotation, force);
+        let moment = vector::apply(dag, &self.rotation, joint_moment);
+        let lever = vector::cross(dag, self.joint_point, force);
+        (along_joint, (force, vector::add(dag, moment, lever)))
+    }
+
     /// Motion of the link, given the parent's angular motion and the joint point's acceleration in parent coordinates.
     fn advance(
         &self,

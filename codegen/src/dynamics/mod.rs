@@ -7,6 +7,7 @@ mod chain;
 mod coriolis;
 pub mod effect;
 mod frame;
+mod inertia;
 mod vector;
 
 use robot_model_spec::model::Model;
@@ -71,22 +72,15 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     let gravity = torque(dag, &zero, &zero, model.gravity, false);
     let velocity_torque = torque(dag, &dq, &zero, [0.0; 3], false);
 
-    // Column j of M is the torque of a unit acceleration of joint j; rows below the diagonal are mirrored.
-    let one = dag.constant(1.0);
-    let mut mass_matrix = vec![zero.clone(); dof];
-    for j in 0..dof {
-        let mut unit = zero.clone();
-        unit[j] = one;
-        let column = torque(dag, &zero, &unit, [0.0; 3], false);
-        for i in 0..=j {
-            mass_matrix[i][j] = column[i];
-            mass_matrix[j][i] = column[i];
+    let mass_matrix = chain.mass_matrix(dag);
+    for (row, entries) in mass_matrix.iter().enumerate() {
+        for (column, &entry) in entries.iter().enumerate().skip(row) {
             dag.set_label(
-                column[i],
+                entry,
                 Label::Entry {
                     stem: "m",
-                    row: i,
-                    column: j,
+                    row,
+                    column,
                 },
             );
         }
