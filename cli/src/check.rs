@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_model_codegen::Compiled;
-use robot_model_codegen::base::RankStatus;
 use robot_model_spec::model::JointKind;
 
-use crate::spec::compile;
+use crate::spec::compile_to_look_at;
 use crate::{Error, output};
 
 /// Check a spec: every mistake with its source line and what to do, or what the spec describes.
@@ -20,11 +19,7 @@ pub(crate) struct Check {
 
 impl Check {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let compiled = compile(&self.spec)?;
-        if let RankStatus::Unclear(_) = compiled.base.rank {
-            eprintln!("warning: {}", compiled.base.rank);
-        }
-        output::print(&summary(&compiled))
+        output::print(&summary(&compile_to_look_at(&self.spec)?))
     }
 }
 

@@ -11,6 +11,7 @@ use robot_model_spec::load;
 use crate::Error;
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
+use crate::spec::clear;
 
 /// A model, what was identified with it, and how it does on data that it was not fitted on.
 #[derive(Debug)]
@@ -97,7 +98,7 @@ impl Stage {
         validate: Option<&Log>,
         identify: &Identify,
     ) -> Result<Self, Error> {
-        let arm = InterpretedArm::new(compile_model(&load(source_name, text)?));
+        let arm = InterpretedArm::new(clear(compile_model(&load(source_name, text)?))?);
         let estimate = identify.fit(&arm, logs)?;
         let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {

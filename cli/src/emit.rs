@@ -5,11 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, emit};
 
 use crate::Error;
-use crate::output::{self, OutFile};
+use crate::output::{self, Files};
 use crate::parameters;
 use crate::spec::compile;
 
@@ -38,10 +37,6 @@ enum Language {
 impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile(&self.spec)?;
-        if let RankStatus::Unclear(_) = compiled.base.rank {
-            let source = &compiled.model.source;
-            return Err(Error::Argument(format!("{source}: {}", compiled.base.rank)));
-        }
         let mut code = match self.lang {
             Language::Rust => emit::rust::module(&compiled),
         };
@@ -50,7 +45,10 @@ impl Emit {
         }
         let path = self.out.join(file_name(&self.spec));
         fs::create_dir_all(&self.out).map_err(|error| Error::write(&path, &error))?;
-        OutFile::create(&path)?.commit(code.as_bytes())?;
+        let inputs = std::iter::once(&self.spec).chain(&self.parameters);
+        Files::reading(inputs.map(PathBuf::as_path))
+            .claim(&path)?
+            .commit(code.as_bytes())?;
         output::print(&format!("{}\n", path.display()))
     }
 }

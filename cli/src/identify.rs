@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::interpreted::InterpretedArm;
-use crate::output::{self, OutFile};
+use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::spec::{compile, read_log};
 
@@ -77,6 +77,8 @@ fn parse_bands(text: &str) -> Result<Bands, String> {
 struct Report<'a> {
     method: &'static str,
     parameters: Vec<Parameter<'a>>,
+    /// Errors `rmse*` are of raw samples, first and last second cut.
+    domain: &'static str,
     rmse: &'a [f64],
     rmse_validate: Option<&'a [f64]>,
     relative_percent: &'a [f64],
@@ -90,15 +92,19 @@ struct Report<'a> {
 #[derive(Serialize)]
 struct Parameter<'a> {
     name: &'a str,
-    value: f64,
-    /// None for shape parameters.
+    /// None where the logs do not separate the parameter from others.
+    value: Option<f64>,
+    /// None for shape parameters too.
     std: Option<f64>,
 }
 
 impl IdentifyArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let arm = InterpretedArm::new(compile(&self.spec)?);
-        let json = self.json.as_deref().map(OutFile::create).transpose()?;
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate);
+        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
         let progress = Progress::new();
         let logs = self
             .logs
@@ -157,19 +163,23 @@ fn report<'a>(
     train: &'a Errors,
     validation: Option<&'a Errors>,
 ) -> Report<'a> {
-    let linear = estimate.parameters.iter().map(|parameter| Parameter {
-        name: &parameter.name,
-        value: parameter.value,
-        std: Some(parameter.std),
+    let linear = estimate.parameters.iter().map(|parameter| {
+        let measured = !estimate.unexcited.contains(&parameter.name);
+        Parameter {
+            name: &parameter.name,
+            value: measured.then_some(parameter.value),
+            std: measured.then_some(parameter.std),
+        }
     });
     let shapes = estimate.shapes.iter().map(|(name, value)| Parameter {
         name,
-        value: *value,
+        value: Some(*value),
         std: None,
     });
     Report {
         method: estimate.method.name(),
         parameters: linear.chain(shapes).collect(),
+        domain: "raw",
         rmse: &train.rmse,
         rmse_validate: validation.map(|errors| errors.rmse.as_slice()),
         relative_percent: &train.relative_percent,
@@ -186,6 +196,11 @@ fn report<'a>(
 }
 
 /// Errors per joint, side by side.
+///
+/// ```text
+/// joint   identification          validation
+///             RMSE    relative        RMSE    relative
+/// ```
 fn table(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> String {
     let width = estimate
         .joints
@@ -194,9 +209,18 @@ fn table(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> St
         .max()
         .unwrap_or(0)
         .max("joint".len());
-    let mut text = format!("{:width$}  {:>10}  {:>10}", "joint", "RMSE", "relative");
-    if validation.is_some() {
-        write!(text, "  {:>10}  {:>10}", "validation", "relative").expect("a string takes all");
+    let logs: &[&str] = if validation.is_some() {
+        &["identification", "validation"]
+    } else {
+        &["identification"]
+    };
+    let mut text = format!("{}\n{:width$}", output::ERRORS, "joint");
+    for name in logs {
+        write!(text, "  {name:>22}").expect("a string takes all");
+    }
+    write!(text, "\n{:width$}", "").expect("a string takes all");
+    for _ in logs {
+        write!(text, "  {:>10}  {:>10}", "RMSE", "relative").expect("a string takes all");
     }
     text.push('\n');
     for (joint, name) in estimate.joints.iter().enumerate() {

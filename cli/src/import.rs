@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model_spec::urdf::{ImportError, ImportOptions, Inertials, import};
 
 use crate::Error;
-use crate::output::OutFile;
+use crate::output::Files;
 use crate::spec::read_text;
 
 /// Turn a URDF into a spec.
@@ -23,8 +23,8 @@ pub(crate) struct Import {
     /// Link at the end of the chain; needed where the tree has several ends.
     #[arg(long, value_name = "LINK")]
     tip: Option<String>,
-    /// Effects to declare: joints by number from 1, by name, or `all`, such as
-    /// `all:viscous_friction,coulomb_friction;3:motor_inertia`.
+    /// Effects to declare: joints by number from 1, by name, in pairs for effects of two joints, or `all`, such as
+    /// `all:viscous_friction,coulomb_friction;3:motor_inertia;(5,6):gear_coupling`.
     #[arg(long, default_value = "")]
     effects: String,
     /// What to make of the inertials.
@@ -71,7 +71,7 @@ impl Import {
             },
             gravity: self.gravity,
         };
-        let file = OutFile::create(&self.output)?;
+        let file = Files::reading([self.urdf.as_path()]).claim(&self.output)?;
         let spec = import(&urdf, &options).map_err(|error| self.refused(error))?;
         file.commit(spec.as_bytes())
     }
@@ -79,6 +79,8 @@ impl Import {
     fn refused(&self, error: ImportError) -> Error {
         match error {
             ImportError::Refused(diagnostics) => Error::Spec(diagnostics),
+            // Its message begins with the argument, which is not in the URDF.
+            ImportError::Effects(_) => Error::Argument(error.to_string()),
             other => Error::Argument(format!("{}: {other}", self.urdf.display())),
         }
     }

@@ -85,7 +85,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match line.verb.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("{}", error.render(std::io::stderr().is_terminal()));
+            output::say(&error.render(std::io::stderr().is_terminal()));
             ExitCode::FAILURE
         }
     }

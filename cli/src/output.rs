@@ -1,12 +1,15 @@
 //! Where results go: standard output, and files that are there whole or not at all.
 
+use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
-use tempfile::NamedTempFile;
 
 use crate::Error;
+
+/// What the errors in a table are.
+pub(crate) const ERRORS: &str = "RMSE: raw samples, N m (prismatic joints: N), first and last second cut; relative: in the filtered band";
 
 /// Prints a result. A reader that has gone away has read what it wanted.
 pub(crate) fn print(text: &str) -> Result<(), Error> {
@@ -20,46 +23,184 @@ pub(crate) fn print(text: &str) -> Result<(), Error> {
     }
 }
 
-/// A file that is to be written: its place is claimed at once, so that a folder that is missing or closed is told before the
-/// work, and its content appears under its name in one step.
+/// Says a line on standard error. Where nobody listens any more, nothing is left to say.
+pub(crate) fn say(line: &str) {
+    let _ = writeln!(io::stderr().lock(), "{line}");
+}
+
+/// The files of one command: what it reads, and what it has claimed to write. No output may take the place of either.
+#[derive(Debug, Default)]
+pub(crate) struct Files {
+    inputs: Vec<(PathBuf, PathBuf)>,
+    outputs: Vec<(PathBuf, PathBuf)>,
+}
+
+impl Files {
+    /// The files that the command reads.
+    pub(crate) fn reading<'a>(inputs: impl IntoIterator<Item = &'a Path>) -> Self {
+        let known = |path: &'a Path| (identity(path), path.to_owned());
+        Self {
+            inputs: inputs.into_iter().map(known).collect(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// Claims a file to write, which is neither read nor written by the same command otherwise.
+    pub(crate) fn claim(&mut self, path: &Path) -> Result<OutFile, Error> {
+        let file = OutFile::create(path)?;
+        let identity = identity(path);
+        let same = |files: &[(PathBuf, PathBuf)]| {
+            let same = files.iter().find(|(known, _)| *known == identity);
+            same.map(|(_, as_given)| as_given.display().to_string())
+        };
+        if let Some(input) = same(&self.inputs) {
+            return Err(refused(
+                path,
+                &format!("it is the same file as the input `{input}`; give another name"),
+            ));
+        }
+        if let Some(output) = same(&self.outputs) {
+            return Err(refused(
+                path,
+                &format!(
+                    "it is the same file as the output `{output}`; give each a name of its own"
+                ),
+            ));
+        }
+        self.outputs.push((identity, path.to_owned()));
+        Ok(file)
+    }
+
+    /// Claims a file that may not be asked for.
+    pub(crate) fn claim_if(&mut self, path: Option<&Path>) -> Result<Option<OutFile>, Error> {
+        path.map(|path| self.claim(path)).transpose()
+    }
+}
+
+/// One path for all names of a file, as far as it exists; the rest is compared as it is written.
+fn identity(path: &Path) -> PathBuf {
+    if let Ok(found) = fs::canonicalize(path) {
+        return found;
+    }
+    let plain = without_dots(path);
+    match (plain.parent().map(fs::canonicalize), plain.file_name()) {
+        (Some(Ok(folder)), Some(name)) => folder.join(name),
+        _ => plain,
+    }
+}
+
+/// An absolute path without `.` and `..`.
+fn without_dots(path: &Path) -> PathBuf {
+    let mut plain = PathBuf::new();
+    let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    for component in absolute.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir => {
+                plain.pop();
+            }
+            other => plain.push(other),
+        }
+    }
+    plain
+}
+
+/// A file that is to be written: whether it can be is found out at once, before the work, and nothing is left in its folder
+/// until its content appears under its name in one step.
 #[derive(Debug)]
 pub(crate) struct OutFile {
     path: PathBuf,
-    file: NamedTempFile,
+    /// The file itself, where the path is a link to it.
+    target: PathBuf,
 }
 
 impl OutFile {
-    /// Claims a place in the file's folder.
+    /// Makes sure that the file can be written.
     pub(crate) fn create(path: &Path) -> Result<Self, Error> {
-        let failed = |reason| Error::Write {
-            path: path.to_owned(),
-            reason,
-        };
-        if path.is_dir() {
-            return Err(failed("it is a folder".to_owned()));
+        if path.file_name().is_none() {
+            return Err(refused(path, "it names no file"));
         }
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
+        let target = match fs::symlink_metadata(path) {
+            Ok(found) => existing(path, found.is_symlink())?,
+            Err(_) => path.to_owned(),
         };
-        let file = builder()
-            .tempfile_in(folder)
-            .map_err(|error| failed(reason(&error)))?;
+        let folder = folder_of(&target);
+        if !folder.exists() {
+            let reason = format!("there is no folder `{}`; make it first", folder.display());
+            return Err(refused(path, &reason));
+        }
+        if !folder.is_dir() {
+            return Err(refused(
+                path,
+                &format!("`{}` is not a folder", folder.display()),
+            ));
+        }
+        // A file without a name is a trial that leaves nothing behind, whatever ends the program.
+        tempfile::tempfile_in(folder).map_err(|error| {
+            let reason = format!("in folder `{}`: {}", folder.display(), reason(&error));
+            refused(path, &reason)
+        })?;
         Ok(Self {
             path: path.to_owned(),
-            file,
+            target,
         })
     }
 
+    /// Where the content goes, as it was asked for.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Puts the content in place.
-    pub(crate) fn commit(mut self, content: &[u8]) -> Result<(), Error> {
-        self.file
-            .write_all(content)
-            .map_err(|error| Error::write(&self.path, &error))?;
-        self.file
-            .persist(&self.path)
-            .map_err(|error| Error::write(&self.path, &error.error))?;
+    pub(crate) fn commit(self, content: &[u8]) -> Result<(), Error> {
+        let failed = |error: &io::Error| refused(&self.path, &reason(error));
+        let mut file = builder()
+            .tempfile_in(folder_of(&self.target))
+            .map_err(|error| failed(&error))?;
+        file.write_all(content).map_err(|error| failed(&error))?;
+        file.persist(&self.target)
+            .map_err(|error| failed(&error.error))?;
         Ok(())
+    }
+}
+
+/// The regular file, open to writing, that is at a path already.
+fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
+    let target = fs::canonicalize(path)
+        .map_err(|error| refused(path, &format!("it is a link that leads nowhere: {error}")))?;
+    let about = fs::metadata(&target).map_err(|error| refused(path, &reason(&error)))?;
+    if about.is_dir() {
+        return Err(refused(path, "it is a folder"));
+    }
+    // `/dev/stdout` is a link to whatever the shell has put there, a regular file at times.
+    let of_the_system = is_link && (path.starts_with("/dev") || path.starts_with("/proc"));
+    if !about.is_file() || of_the_system {
+        return Err(refused(
+            path,
+            "it is no regular file; results appear in one step, which takes a file",
+        ));
+    }
+    if about.permissions().readonly() {
+        return Err(refused(path, "it is read-only"));
+    }
+    OpenOptions::new()
+        .write(true)
+        .open(&target)
+        .map_err(|error| refused(path, &reason(&error)))?;
+    Ok(target)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn refused(path: &Path, reason: &str) -> Error {
+    Error::Write {
+        path: path.to_owned(),
+        reason: reason.to_owned(),
     }
 }
 
@@ -70,7 +211,7 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
     builder
 }

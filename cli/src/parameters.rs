@@ -26,14 +26,19 @@ pub(crate) struct Values {
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum File {
-    Identified { parameters: Vec<Parameter> },
-    Plain(BTreeMap<String, f64>),
+    Identified {
+        parameters: Vec<Parameter>,
+        #[serde(default)]
+        unexcited: Vec<String>,
+    },
+    Plain(BTreeMap<String, Option<f64>>),
 }
 
 #[derive(Deserialize)]
 struct Parameter {
     name: String,
-    value: f64,
+    /// None where an identification could not tell it from others.
+    value: Option<f64>,
 }
 
 /// Reads a parameter file.
@@ -45,9 +50,12 @@ fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
     let file = File::deserialize(json).map_err(|_| {
         Error::json(path, &"write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`")
     })?;
-    match file {
-        File::Plain(values) => Ok(values),
-        File::Identified { parameters } => {
+    let (given, unexcited) = match file {
+        File::Plain(values) => (values, Vec::new()),
+        File::Identified {
+            parameters,
+            unexcited,
+        } => {
             let mut values = BTreeMap::new();
             for Parameter { name, value } in parameters {
                 if values.insert(name.clone(), value).is_some() {
@@ -57,9 +65,38 @@ fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
                     ));
                 }
             }
-            Ok(values)
+            (values, unexcited)
+        }
+    };
+    measured(path, given, &unexcited)
+}
+
+/// All values, where every one of them was measured: a zero in place of one that was not is wrong on every other motion.
+fn measured(
+    path: &Path,
+    given: BTreeMap<String, Option<f64>>,
+    unexcited: &[String],
+) -> Result<BTreeMap<String, f64>, Error> {
+    let mut values = BTreeMap::new();
+    let mut without: Vec<&str> = unexcited.iter().map(String::as_str).collect();
+    for (name, value) in &given {
+        match value {
+            Some(value) => {
+                values.insert(name.clone(), *value);
+            }
+            None if !without.contains(&name.as_str()) => without.push(name),
+            None => {}
         }
     }
+    if without.is_empty() {
+        return Ok(values);
+    }
+    let reason = format!(
+        "the logs did not separate {} from other parameters, so the file holds no value that is valid on another motion; \
+         identify on logs that move the joints concerned, or give values in a file of your own",
+        list(&without)
+    );
+    Err(Error::json(path, &reason))
 }
 
 /// Values from a file, and from the spec where the file has none or there is no file.

@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use crate::output;
+
 /// A line that says what is being done: a spinner on a terminal, one plain line a step elsewhere.
 #[derive(Debug)]
 pub(crate) struct Progress {
@@ -27,7 +29,7 @@ impl Progress {
     pub(crate) fn step(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.set_message(what.to_owned()),
-            None => eprintln!("{what}"),
+            None => output::say(what),
         }
     }
 
@@ -35,7 +37,7 @@ impl Progress {
     pub(crate) fn note(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.println(what),
-            None => eprintln!("{what}"),
+            None => output::say(what),
         }
     }
 }

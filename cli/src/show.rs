@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model_codegen::expr::Style;
 use robot_model_codegen::show::{What, form, whole};
 
-use crate::spec::compile;
+use crate::spec::compile_to_look_at;
 use crate::{Error, output};
 
 /// Show an arm's equations.
@@ -68,7 +68,7 @@ enum Notation {
 
 impl Show {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let compiled = compile(&self.spec)?;
+        let compiled = compile_to_look_at(&self.spec)?;
         let style = match self.notation {
             Notation::Text => Style::Text,
             Notation::Latex => Style::Latex,

@@ -4,11 +4,12 @@ use std::fs;
 use std::path::Path;
 
 use robot_model::log::Log;
+use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
 
-use crate::Error;
 use crate::progress::Progress;
+use crate::{Error, output};
 
 /// Reads a text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
@@ -21,9 +22,36 @@ pub(crate) fn load(path: &Path) -> Result<Model, Error> {
     Ok(robot_model_spec::load(&path.display().to_string(), &text)?)
 }
 
-/// Reads, checks and compiles a spec.
+/// Reads, checks and compiles a spec whose base parameters are beyond doubt.
 pub(crate) fn compile(path: &Path) -> Result<Compiled, Error> {
-    Ok(compile_model(&load(path)?))
+    clear(compile_model(&load(path)?))
+}
+
+/// Reads, checks and compiles a spec to be looked at: base parameters in doubt are told.
+pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
+    let compiled = compile_model(&load(path)?);
+    if let Some(doubt) = doubt(&compiled) {
+        output::say(&format!("warning: {doubt}"));
+    }
+    Ok(compiled)
+}
+
+/// The gate before everything that computes with base parameters.
+pub(crate) fn clear(compiled: Compiled) -> Result<Compiled, Error> {
+    match doubt(&compiled) {
+        Some(doubt) => Err(Error::Argument(doubt)),
+        None => Ok(compiled),
+    }
+}
+
+/// Why it is not clear which base parameters the arm has, with the numbers.
+fn doubt(compiled: &Compiled) -> Option<String> {
+    match compiled.base.rank {
+        RankStatus::Unclear(_) => {
+            Some(format!("{}: {}", compiled.model.source, compiled.base.rank))
+        }
+        RankStatus::Clear { .. } => None,
+    }
 }
 
 /// Reads a log of an arm with `dof` joints, and says what is remarkable about it.

@@ -224,6 +224,14 @@ impl Diagnostics {
         self.entries.iter().map(|entry| entry.message.as_str())
     }
 
+    /// The one-line messages with what to do, by place: for readers who do not have the text before them.
+    pub fn messages_with_help(&self) -> impl Iterator<Item = String> {
+        self.entries.iter().map(|entry| match &entry.help {
+            Some(help) => format!("{}; {help}", entry.message),
+            None => entry.message.clone(),
+        })
+    }
+
     /// The way rustc shows errors: message, place, source line, help; with ANSI colors on request.
     #[must_use]
     pub fn render(&self, color: bool) -> String {

@@ -98,7 +98,7 @@ fn a_joint_that_does_not_move_is_named() {
         "joint2.coulomb_friction.fc",
     ];
     assert_eq!(estimate.unexcited, still);
-    assert!(estimate.to_string().contains("not excited"));
+    assert!(estimate.to_string().contains("not separable"));
 }
 
 #[test]

@@ -122,6 +122,16 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<String, ImportError
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
     let text = write::spec(&robot.name, &chain, &names, &carried, &effects, options);
-    crate::load("imported.robot", &text).map_err(ImportError::Refused)?;
-    Ok(text)
+    let Err(refused) = crate::load("imported.robot", &text) else {
+        return Ok(text);
+    };
+    // Where the spec is sound without the effects, the mistake is in the argument, and the author has not seen the text.
+    let bare = write::spec(&robot.name, &chain, &names, &carried, &[], options);
+    Err(match crate::load("imported.robot", &bare) {
+        Ok(_) => {
+            let mistakes: Vec<String> = refused.messages_with_help().collect();
+            ImportError::Effects(mistakes.join("; "))
+        }
+        Err(_) => ImportError::Refused(refused),
+    })
 }

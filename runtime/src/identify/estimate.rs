@@ -251,7 +251,7 @@ impl fmt::Display for Estimate {
         )?;
         for p in &self.parameters {
             if self.unexcited.contains(&p.name) {
-                writeln!(f, "{:width$}  {:>12}", p.name, "not excited")?;
+                writeln!(f, "{:width$}  {:>12}", p.name, "not separable")?;
             } else {
                 let relative = if p.value == 0.0 {
                     f64::INFINITY
@@ -277,6 +277,13 @@ impl fmt::Display for Estimate {
             self.samples,
             self.bands.shared_hz,
             self.method.name()
+        )?;
+        if self.unexcited.is_empty() {
+            return Ok(());
+        }
+        writeln!(
+            f,
+            "not separable: these columns cannot be told from others in the logs: their effect is in the other parameters"
         )
     }
 }

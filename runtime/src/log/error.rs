@@ -36,8 +36,28 @@ pub enum LogError {
         /// The file.
         source_name: String,
     },
+    /// The header has one field, with other separators in it.
+    #[error(
+        "{source_name}:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"
+    )]
+    Separator {
+        /// The file.
+        source_name: String,
+    },
+    /// Bytes that are no text.
+    #[error(
+        "{source_name}:{line}: the log is not UTF-8 text; save it as CSV in UTF-8, plain or gzip"
+    )]
+    NotText {
+        /// The file.
+        source_name: String,
+        /// Line of the first such bytes.
+        line: u64,
+    },
     /// A header field is empty.
-    #[error("{source_name}:1: column {column} has no name")]
+    #[error(
+        "{source_name}:1: column {column} has no name; name every column, and end no line with a comma"
+    )]
     UnnamedColumn {
         /// The file.
         source_name: String,
@@ -45,7 +65,9 @@ pub enum LogError {
         column: usize,
     },
     /// Two columns of one name.
-    #[error("{source_name}:1: column `{name}` stands there twice")]
+    #[error(
+        "{source_name}:1: column `{name}` stands there twice; delete one of them, or give it another name"
+    )]
     DuplicateColumn {
         /// The file.
         source_name: String,
@@ -86,7 +108,7 @@ pub enum LogError {
         present: Vec<String>,
     },
     /// A row that is longer or shorter than the header.
-    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}", plural(*.found))]
+    #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}; give every row one field a column, or remove the row", plural(*.found))]
     ColumnCount {
         /// The file.
         source_name: String,
@@ -98,7 +120,9 @@ pub enum LogError {
         expected: usize,
     },
     /// A field that is no number.
-    #[error("{source_name}:{line}: `{text}` in column `{column}` is not a number")]
+    #[error(
+        "{source_name}:{line}: `{text}` in column `{column}` is not a number; repair or remove the row"
+    )]
     NotANumber {
         /// The file.
         source_name: String,
@@ -110,7 +134,9 @@ pub enum LogError {
         text: String,
     },
     /// NaN or infinity.
-    #[error("{source_name}:{line}: `{text}` in column `{column}` is not finite")]
+    #[error(
+        "{source_name}:{line}: `{text}` in column `{column}` is not finite; remove or repair the row"
+    )]
     NotFinite {
         /// The file.
         source_name: String,
@@ -122,7 +148,7 @@ pub enum LogError {
         text: String,
     },
     /// NaN or infinity in samples that came from memory.
-    #[error("{source_name}: sample {sample} is not finite")]
+    #[error("{source_name}: sample {sample} is not finite; remove or repair it")]
     NotFiniteSample {
         /// The log.
         source_name: String,
@@ -138,7 +164,10 @@ pub enum LogError {
         source_name: String,
     },
     /// Time repeats or runs back.
-    #[error("{place}: time does not rise: {time} s follows {previous} s")]
+    #[error(
+        "{place}: time does not rise: {time} s follows {previous} s; remove the row if it is there twice, or split the log \
+         here and give both parts"
+    )]
     TimeOrder {
         /// File and line, or log and sample.
         place: String,
@@ -161,6 +190,35 @@ pub enum LogError {
         previous: f64,
         /// Its length in median steps.
         steps: f64,
+    },
+    /// No arm is sampled like that.
+    #[error(
+        "{source_name}: the sample rate is {rate_hz:.4} Hz, outside {slowest} Hz .. {fastest} Hz; is time in seconds?"
+    )]
+    Rate {
+        /// The log.
+        source_name: String,
+        /// Its rate.
+        rate_hz: f64,
+        /// The lowest rate that is taken.
+        slowest: f64,
+        /// The highest rate that is taken.
+        fastest: f64,
+    },
+    /// A position or torque that no arm has.
+    #[error(
+        "{place}: `{column}` is {value:e}, beyond {most:e} in magnitude; give positions in rad or m and torques in N m or N, \
+         or repair the row"
+    )]
+    Implausible {
+        /// File and line, or log and sample.
+        place: String,
+        /// Position or torque channel, with the joint's number from 1.
+        column: String,
+        /// The value.
+        value: f64,
+        /// The largest magnitude that is taken.
+        most: f64,
     },
     /// Too short for anything.
     #[error("{source_name}: the log has {found} sample{}, at least {fewest} are needed", plural(*.found))]

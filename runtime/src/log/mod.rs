@@ -17,6 +17,12 @@ pub use error::LogError;
 
 use header::Header;
 
+/// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
+const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
+
+/// Largest position (rad, m) or torque (N m, N) of an arm: others come from other units, or from a broken record.
+const MOST: f64 = 1e6;
+
 /// Fewest samples that a log may have.
 const FEWEST_SAMPLES: usize = 16;
 
@@ -115,7 +121,8 @@ impl Log {
     ///
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
-    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time, too few samples.
+    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time, too few samples, a
+    /// sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
     ///
     /// # Examples
     /// ```
@@ -126,6 +133,12 @@ impl Log {
     pub fn read(path: impl AsRef<Path>, dof: usize) -> Result<Self, LogError> {
         let path = path.as_ref();
         let source = path.display().to_string();
+        if path.is_dir() {
+            return Err(LogError::Open {
+                source_name: source,
+                reason: "it is a folder; name the log files in it".to_owned(),
+            });
+        }
         match File::open(path) {
             Ok(file) => Self::from_reader(source, file, dof),
             Err(error) => Err(LogError::Open {
@@ -145,11 +158,11 @@ impl Log {
     /// # use robot_model::log::Log;
     /// let mut text = String::from("time,q1,tau1\n");
     /// for k in 0..20 {
-    ///     text += &format!("{},0.5,{k}\n", 0.25 * f64::from(k));
+    ///     text += &format!("{},0.5,{k}\n", 0.0625 * f64::from(k));
     /// }
     /// let log = Log::from_reader("memory", text.as_bytes(), 1)?;
     /// assert_eq!(log.tau[0][3], 3.0);
-    /// assert_eq!(log.rate_hz(), 4.0);
+    /// assert_eq!(log.rate_hz(), 16.0);
     /// # Ok::<(), robot_model::log::LogError>(())
     /// ```
     pub fn from_reader(
@@ -283,8 +296,43 @@ impl Log {
                 .collect();
             self.report.push(Note::ExtraChannels { names });
         }
+        self.check_plausible(lines)?;
         uniform::make_uniform(&mut self, lines)?;
+        let rate_hz = self.rate_hz();
+        if !RATES_HZ.contains(&rate_hz) {
+            return Err(LogError::Rate {
+                source_name: self.source,
+                rate_hz,
+                slowest: *RATES_HZ.start(),
+                fastest: *RATES_HZ.end(),
+            });
+        }
         Ok(self)
+    }
+
+    /// Refuses positions and torques that no arm has.
+    fn check_plausible(&self, lines: Option<&[u64]>) -> Result<(), LogError> {
+        for (family, channels) in [("q", &self.q), ("tau", &self.tau)] {
+            for (joint, values) in channels.iter().enumerate() {
+                if let Some(sample) = values.iter().position(|value| value.abs() > MOST) {
+                    return Err(LogError::Implausible {
+                        place: self.place(sample, lines),
+                        column: format!("{family}{}", joint + 1),
+                        value: values[sample],
+                        most: MOST,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A sample as messages name it: by its line in the file where it came from one.
+    fn place(&self, sample: usize, lines: Option<&[u64]>) -> String {
+        match lines {
+            Some(lines) => format!("{}:{}", self.source, lines[sample]),
+            None => format!("{}: sample {sample}", self.source),
+        }
     }
 }
 

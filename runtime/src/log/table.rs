@@ -51,10 +51,19 @@ fn read_text(source: &str, text: impl Read) -> Result<Table, LogError> {
             source_name: source.to_owned(),
         });
     }
-    let names: Vec<String> = record
+    let names = record
         .iter()
-        .map(|field| text_of(field).trim_start_matches('\u{feff}').to_owned())
-        .collect();
+        .map(|field| {
+            Ok(text_of(source, line, field)?
+                .trim_start_matches('\u{feff}')
+                .to_owned())
+        })
+        .collect::<Result<Vec<_>, LogError>>()?;
+    if names.len() == 1 && names[0].contains([';', '\t', '|', ' ']) {
+        return Err(LogError::Separator {
+            source_name: source.to_owned(),
+        });
+    }
     if names.iter().all(|name| name.parse::<f64>().is_ok()) {
         return Err(LogError::NoHeader {
             source_name: source.to_owned(),
@@ -101,7 +110,7 @@ fn next(
 }
 
 fn number(source: &str, line: u64, column: &str, field: &[u8]) -> Result<f64, LogError> {
-    let text = text_of(field);
+    let text = text_of(source, line, field)?.to_owned();
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(_) => Err(LogError::NotFinite {
@@ -119,8 +128,11 @@ fn number(source: &str, line: u64, column: &str, field: &[u8]) -> Result<f64, Lo
     }
 }
 
-fn text_of(field: &[u8]) -> String {
-    String::from_utf8_lossy(field).into_owned()
+fn text_of<'a>(source: &str, line: u64, field: &'a [u8]) -> Result<&'a str, LogError> {
+    std::str::from_utf8(field).map_err(|_| LogError::NotText {
+        source_name: source.to_owned(),
+        line,
+    })
 }
 
 fn unreadable(source: &str, line: u64, error: &dyn std::error::Error) -> LogError {

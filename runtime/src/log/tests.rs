@@ -41,7 +41,7 @@ fn refusal(text: &str, dof: usize) -> String {
 #[test]
 fn columns_may_stand_in_any_order() {
     let rows: Vec<String> = (0..20)
-        .map(|k| format!("{}, {k} ,7,{},{}", -k, 0.5 * f64::from(k), 10 * k))
+        .map(|k| format!("{}, {k} ,7,{},{}", -k, 0.0625 * f64::from(k), 10 * k))
         .collect();
     let log = read(&text("tau1,q1,temperature,time,dq1", &rows), 1).expect("a sound log");
     assert_eq!(log.q[0][3], 3.0);
@@ -54,8 +54,8 @@ fn columns_may_stand_in_any_order() {
             values: vec![7.0; 20]
         }]
     );
-    assert_eq!(log.rate_hz(), 2.0);
-    assert_eq!(log.seconds(), 9.5);
+    assert_eq!(log.rate_hz(), 16.0);
+    assert_eq!(log.seconds(), 1.1875);
     let report: Vec<String> = log.report.iter().map(ToString::to_string).collect();
     assert_eq!(report, ["extra channels: `temperature`"]);
 }
@@ -94,27 +94,27 @@ fn bad_fields_are_told_with_line_and_column() {
     };
     assert_eq!(
         with(5, "0.03,nan,1"),
-        "monday.csv:5: `nan` in column `q1` is not finite"
+        "monday.csv:5: `nan` in column `q1` is not finite; remove or repair the row"
     );
     assert_eq!(
         with(6, "0.04,1,-inf"),
-        "monday.csv:6: `-inf` in column `tau1` is not finite"
+        "monday.csv:6: `-inf` in column `tau1` is not finite; remove or repair the row"
     );
     assert_eq!(
         with(7, "0.05,1,1.2.3"),
-        "monday.csv:7: `1.2.3` in column `tau1` is not a number"
+        "monday.csv:7: `1.2.3` in column `tau1` is not a number; repair or remove the row"
     );
     assert_eq!(
         with(8, "0.06,,1"),
-        "monday.csv:8: `` in column `q1` is not a number"
+        "monday.csv:8: `` in column `q1` is not a number; repair or remove the row"
     );
     assert_eq!(
         with(9, "0.07,1"),
-        "monday.csv:9: the row has 2 fields, the header has 3"
+        "monday.csv:9: the row has 2 fields, the header has 3; give every row one field a column, or remove the row"
     );
     assert_eq!(
         with(9, "0.07,1,2,3"),
-        "monday.csv:9: the row has 4 fields, the header has 3"
+        "monday.csv:9: the row has 4 fields, the header has 3; give every row one field a column, or remove the row"
     );
 }
 
@@ -127,11 +127,11 @@ fn time_that_does_not_rise_is_told_with_its_line() {
     };
     assert_eq!(
         with(7, "0.04,1,1"),
-        "monday.csv:7: time does not rise: 0.04 s follows 0.04 s"
+        "monday.csv:7: time does not rise: 0.04 s follows 0.04 s; remove the row if it is there twice, or split the log here and give both parts"
     );
     assert_eq!(
         with(7, "0.01,1,1"),
-        "monday.csv:7: time does not rise: 0.01 s follows 0.04 s"
+        "monday.csv:7: time does not rise: 0.01 s follows 0.04 s; remove the row if it is there twice, or split the log here and give both parts"
     );
     let mut gap = rows(40);
     gap.drain(10..20);
@@ -173,11 +173,11 @@ fn headers_are_checked() {
     );
     assert_eq!(
         header("time,q1,tau1,q1", 1),
-        "monday.csv:1: column `q1` stands there twice"
+        "monday.csv:1: column `q1` stands there twice; delete one of them, or give it another name"
     );
     assert_eq!(
         header("time,q1,,tau1", 1),
-        "monday.csv:1: column 3 has no name"
+        "monday.csv:1: column 3 has no name; name every column, and end no line with a comma"
     );
     assert_eq!(
         refusal(&rows(20).join("\n"), 1),
@@ -278,4 +278,58 @@ fn samples_from_memory_are_checked_too() {
         text(&repeated, vec![vec![0.0; 20]]),
         "plant: sample 8: time does not rise: 7 s follows 7 s"
     );
+}
+
+#[test]
+fn files_that_are_no_csv_are_told() {
+    let other = text("time;q1;tau1", &["0;0;0".to_owned()]);
+    assert_eq!(
+        refusal(&other, 1),
+        "monday.csv:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"
+    );
+    let with = |bytes: &[u8]| {
+        Log::from_reader("monday.csv", bytes, 1)
+            .expect_err("must be refused")
+            .to_string()
+    };
+    assert_eq!(
+        with(b"\xff\xfet\0i\0m\0e\0"),
+        "monday.csv:1: the log is not UTF-8 text; save it as CSV in UTF-8, plain or gzip"
+    );
+    assert!(
+        with(b"time,q1,tau1\n0,\xe9,0\n").starts_with("monday.csv:2: the log is not UTF-8 text")
+    );
+    let folder = Log::read(env!("CARGO_MANIFEST_DIR"), 1).expect_err("a folder");
+    assert!(
+        folder
+            .to_string()
+            .ends_with("it is a folder; name the log files in it"),
+        "{folder}"
+    );
+}
+
+#[test]
+fn implausible_logs_are_refused() {
+    let at_step = |step: f64| {
+        let rows: Vec<String> = (0..20)
+            .map(|k| format!("{},0,0", step * f64::from(k)))
+            .collect();
+        read(&text("time,q1,tau1", &rows), 1)
+    };
+    assert_eq!(
+        at_step(5.0).expect_err("milliseconds").to_string(),
+        "monday.csv: the sample rate is 0.2000 Hz, outside 10 Hz .. 100000 Hz; is time in seconds?"
+    );
+    assert!(matches!(at_step(1e-6), Err(LogError::Rate { .. })));
+    assert!(at_step(0.1 - 1e-9).is_ok() && at_step(1.1e-5).is_ok());
+
+    let mut broken = rows(20);
+    "0.05,1,-3e7".clone_into(&mut broken[5]);
+    assert_eq!(
+        refusal(&text("time,q1,tau1", &broken), 1),
+        "monday.csv:7: `tau1` is -3e7, beyond 1e6 in magnitude; give positions in rad or m and torques in N m or N, or \
+         repair the row"
+    );
+    "0.05,1000001,0".clone_into(&mut broken[5]);
+    assert!(refusal(&text("time,q1,tau1", &broken), 1).contains("`q1` is 1.000001e6"));
 }

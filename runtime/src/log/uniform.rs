@@ -12,10 +12,7 @@ const UNIFORM_SHARE: f64 = 0.01;
 /// Refuses time that does not rise or has gaps, and moves all channels onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), LogError> {
     let time = &log.time;
-    let place = |sample: usize| match lines {
-        Some(lines) => format!("{}:{}", log.source, lines[sample]),
-        None => format!("{}: sample {sample}", log.source),
-    };
+    let place = |sample: usize| log.place(sample, lines);
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     if let Some(k) = steps.iter().position(|&step| step <= 0.0) {
         return Err(LogError::TimeOrder {

@@ -38,6 +38,6 @@ mod structure;
 mod trial;
 mod verdict;
 
-pub use search::Trace;
+pub use search::{MOST_EFFECTS, Trace};
 pub use structure::Structure;
 pub use verdict::{Alternative, Evidence, Finding, FoundParameter, Outcome, Verdict};

@@ -15,7 +15,7 @@ use super::trial::Trial;
 use super::verdict::{Alternative, Evidence, Verdict};
 
 /// No more effects than this are looked for: a model that misses more is another model.
-const MOST_EFFECTS: usize = 6;
+pub const MOST_EFFECTS: usize = 6;
 
 /// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
 const FINALISTS: usize = 16;

@@ -1,0 +1,120 @@
+//! `robot-model trace`: what the model lacks, written into the spec.
+
+mod report;
+mod summary;
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use robot_model::columns::Arm;
+use robot_model::log::Log;
+
+use crate::Error;
+use crate::close_the_loop::{self, Loop};
+use crate::output::{self, Files};
+use crate::progress::Progress;
+use crate::spec::{load, read_log, read_text};
+
+pub(crate) use report::Report;
+pub(crate) use summary::summary;
+
+/// Trace the residual of an arm's model to an effect that the spec does not declare.
+#[derive(Debug, Args)]
+pub(crate) struct TraceArguments {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// Logs to fit: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// A log that is not fitted: errors before and after are judged on it, and nothing else is.
+    #[arg(long, value_name = "LOG")]
+    validate: Option<PathBuf>,
+    /// Write the spec with the traced effects declared; another file than the spec itself.
+    #[arg(long, value_name = "OUT.robot")]
+    amend: Option<PathBuf>,
+    /// Write the amended model's torque on the validation log, `time,tau1..taun`, in the units of that log's torque
+    /// channels: divided by each joint's `actuator_gain`.
+    #[arg(long, value_name = "OUT.csv", requires = "validate")]
+    predict: Option<PathBuf>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+impl TraceArguments {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let text = read_text(&self.spec)?;
+        let dof = load(&self.spec)?.joints.len();
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate);
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let amend = files.claim_if(self.amend.as_deref())?;
+        let predict = files.claim_if(self.predict.as_deref())?;
+        let json = files.claim_if(self.json.as_deref())?;
+
+        let progress = Progress::new();
+        let read = |path: &Path| read_log(path, dof, &progress);
+        let logs = self
+            .logs
+            .iter()
+            .map(|path| read(path))
+            .collect::<Result<Vec<_>, _>>()?;
+        let validate = self.validate.as_deref().map(read).transpose()?;
+        let name = self.spec.display().to_string();
+        let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
+        drop(progress);
+
+        // All contents are ready before the first file appears.
+        let prediction = validate
+            .as_ref()
+            .map(|log| prediction(&closed, log))
+            .transpose()?;
+        let spec = if closed.changed.is_some() {
+            "the spec with the effects declared"
+        } else {
+            "the spec as it was: nothing was added"
+        };
+        let contents = [
+            (amend, Some(closed.amended.clone()), spec),
+            (predict, prediction, "predicted torque in the log's units"),
+            (
+                json,
+                Some(output::json(&Report::new(&closed))),
+                "the result",
+            ),
+        ];
+        let mut told = summary(&closed, &text);
+        for (file, content, what) in contents {
+            if let (Some(file), Some(content)) = (file, content) {
+                let path = file.path().display().to_string();
+                file.commit(content.as_bytes())?;
+                writeln!(told, "wrote {path}: {what}").expect("a string takes all");
+            }
+        }
+        output::print(&told)
+    }
+}
+
+/// `time,tau1..taun` of the last model on a log, in the units of the log's torque channels.
+fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
+    let after = closed.after();
+    let mut torque = after.estimate.predict(&after.arm, log)?;
+    for (values, gain) in torque.iter_mut().zip(after.arm.actuator_gain()) {
+        values.iter_mut().for_each(|value| *value /= gain);
+    }
+    let mut text = String::from("time");
+    for joint in 1..=torque.len() {
+        write!(text, ",tau{joint}").expect("a string takes all");
+    }
+    for (sample, time) in log.time.iter().enumerate() {
+        // Nanoseconds and millionths of a torque unit: more is noise.
+        write!(text, "\n{time:.9}").expect("a string takes all");
+        for values in &torque {
+            write!(text, ",{:.6}", values[sample]).expect("a string takes all");
+        }
+    }
+    text.push('\n');
+    Ok(text)
+}

@@ -1,0 +1,183 @@
+//! What a trace found, as JSON.
+
+use robot_model::trace::{Alternative, Evidence, Finding};
+use serde::Serialize;
+
+use crate::close_the_loop::Loop;
+
+/// What `--json` writes; a contract. Joints count from 1.
+#[derive(Serialize)]
+pub(crate) struct Report<'a> {
+    outcome: &'static str,
+    effects: Vec<EffectReport<'a>>,
+    rmse_before: Option<&'a [f64]>,
+    rmse_after: Option<&'a [f64]>,
+    /// Errors are of raw samples, first and last second cut.
+    domain: &'static str,
+    /// `100 || error || / || tau ||` per joint on the validation log, in the identification's band.
+    relative_percent_before: Option<&'a [f64]>,
+    relative_percent_after: Option<&'a [f64]>,
+    /// The same on the identification logs.
+    relative_percent_train_before: &'a [f64],
+    relative_percent_train_after: &'a [f64],
+    alternatives: Vec<AlternativeReport<'a>>,
+    noise_floor: &'a [f64],
+    /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
+    structure_before: Vec<f64>,
+    structure_after: Vec<f64>,
+    /// Effects that passed the gates although structure remains.
+    leads: Vec<EffectReport<'a>>,
+}
+
+#[derive(Serialize)]
+pub(super) struct EffectReport<'a> {
+    kind: &'a str,
+    #[serde(flatten)]
+    joints: Joints,
+    pub(super) parameters: Vec<ParameterReport<'a>>,
+    pub(super) evidence: EvidenceReport<'a>,
+}
+
+#[derive(Serialize)]
+struct AlternativeReport<'a> {
+    kind: &'a str,
+    #[serde(flatten)]
+    joints: Joints,
+    /// Place in `effects`, from 1.
+    instead_of: usize,
+    worse_percent: f64,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Joints {
+    One { joint: usize },
+    Several { joints: Vec<usize> },
+}
+
+#[derive(Serialize)]
+pub(super) struct ParameterReport<'a> {
+    pub(super) name: &'a str,
+    pub(super) value: f64,
+    /// None for shape parameters, which the amended spec fixes.
+    std: Option<f64>,
+}
+
+#[derive(Serialize)]
+pub(super) struct EvidenceReport<'a> {
+    pub(super) score: f64,
+    p_value: f64,
+    held_out_percent: &'a [f64],
+    raw_percent: &'a [f64],
+    pub(super) folds_improved: usize,
+    pub(super) folds: usize,
+}
+
+impl<'a> Report<'a> {
+    pub(crate) fn new(closed: &'a Loop) -> Self {
+        let verdict = &closed.verdict;
+        let rmse = |errors: &'a Option<robot_model::identify::Errors>| {
+            errors.as_ref().map(|errors| errors.rmse.as_slice())
+        };
+        let relative = |errors: &'a Option<robot_model::identify::Errors>| {
+            errors
+                .as_ref()
+                .map(|errors| errors.relative_percent.as_slice())
+        };
+        let effects = verdict.findings.iter().enumerate();
+        let leads = verdict.leads.iter().enumerate();
+        Self {
+            outcome: verdict.outcome.name(),
+            effects: effects
+                .map(|(k, finding)| effect(finding, closed, k))
+                .collect(),
+            rmse_before: rmse(&closed.before.validation),
+            rmse_after: rmse(&closed.after().validation),
+            domain: "raw",
+            relative_percent_before: relative(&closed.before.validation),
+            relative_percent_after: relative(&closed.after().validation),
+            relative_percent_train_before: &closed.before.estimate.relative_percent,
+            relative_percent_train_after: &closed.after().estimate.relative_percent,
+            alternatives: verdict.alternatives.iter().map(alternative).collect(),
+            noise_floor: &verdict.noise_floor,
+            structure_before: verdict.before.iter().map(|s| s.share).collect(),
+            structure_after: verdict.after.iter().map(|s| s.share).collect(),
+            leads: leads
+                .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
+                .collect(),
+        }
+    }
+}
+
+impl Joints {
+    fn new(joints: &[usize]) -> Self {
+        match joints {
+            [joint] => Self::One { joint: joint + 1 },
+            several => Self::Several {
+                joints: several.iter().map(|joint| joint + 1).collect(),
+            },
+        }
+    }
+}
+
+/// A finding or lead with the values that the amended model was identified with; `place` is its place among both.
+pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectReport<'a> {
+    let parameters = finding.parameters.iter().map(|parameter| {
+        let identified = identified(closed, place, &parameter.name);
+        ParameterReport {
+            name: &parameter.name,
+            value: identified.map_or(parameter.value, |(value, _)| value),
+            std: identified.map(|(_, std)| std),
+        }
+    });
+    let Evidence {
+        score,
+        p_value,
+        held_out_percent,
+        raw_percent,
+        folds: (folds_improved, folds),
+    } = &finding.evidence;
+    EffectReport {
+        kind: &finding.kind,
+        joints: Joints::new(&finding.joints),
+        parameters: parameters.collect(),
+        evidence: EvidenceReport {
+            score: *score,
+            p_value: *p_value,
+            held_out_percent,
+            raw_percent,
+            folds_improved: *folds_improved,
+            folds: *folds,
+        },
+    }
+}
+
+/// Value and standard deviation of a finding's parameter in the amended model, whose last effects are the findings; none for
+/// a lead, which is not declared.
+fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
+    let after = closed.after();
+    let model = &after.arm.compiled().model;
+    let first = model
+        .effects
+        .len()
+        .checked_sub(closed.verdict.findings.len())?;
+    if place >= closed.verdict.findings.len() {
+        return None;
+    }
+    let full = format!("{}.{name}", model.effect_name(first + place));
+    let parameter = after
+        .estimate
+        .parameters
+        .iter()
+        .find(|parameter| parameter.name == full)?;
+    Some((parameter.value, parameter.std))
+}
+
+fn alternative(alternative: &Alternative) -> AlternativeReport<'_> {
+    AlternativeReport {
+        kind: &alternative.kind,
+        joints: Joints::new(&alternative.joints),
+        instead_of: alternative.instead_of + 1,
+        worse_percent: alternative.worse_percent,
+    }
+}

@@ -1,0 +1,146 @@
+//! What a trace found, for people.
+
+use std::fmt::Write;
+
+use robot_model::columns::Arm;
+use robot_model::trace::{Finding, MOST_EFFECTS, Outcome};
+
+use super::report::effect;
+use crate::close_the_loop::Loop;
+use crate::diff::diff;
+use crate::output;
+
+/// The result for people: outcome, effects, the spec's change, errors before and after.
+pub(crate) fn summary(closed: &Loop, text: &str) -> String {
+    let verdict = &closed.verdict;
+    let mut out = match verdict.outcome {
+        Outcome::NothingMissing => {
+            "nothing missing: the declared model leaves no structure that matters\n".to_owned()
+        }
+        Outcome::Explained => "explained:\n".to_owned(),
+        Outcome::Unexplained if !verdict.leads.is_empty() => {
+            "unexplained: the residual follows the motion; the effects listed here pass the gates but do not account for its \
+             structure, so none is named\n"
+                .to_owned()
+        }
+        Outcome::Unexplained => {
+            "unexplained: the residual follows the motion, and no known effect accounts for it\n"
+                .to_owned()
+        }
+    };
+    let mut show = |finding: &Finding, place: usize| {
+        let effect = effect(finding, closed, place);
+        let parameters: Vec<String> = effect
+            .parameters
+            .iter()
+            .map(|parameter| format!("{} = {:.4}", parameter.name, parameter.value))
+            .collect();
+        let joints: Vec<&str> = finding
+            .joints
+            .iter()
+            .map(|&joint| closed.before.arm.joints()[joint].as_str())
+            .collect();
+        writeln!(
+            out,
+            "  {} on {}: {} (score {:.0}, better in {} of {} folds)",
+            finding.kind,
+            joints.join(", "),
+            parameters.join(", "),
+            effect.evidence.score,
+            effect.evidence.folds_improved,
+            effect.evidence.folds,
+        )
+        .expect("a string takes all");
+    };
+    let found = verdict.findings.iter().chain(&verdict.leads);
+    found
+        .enumerate()
+        .for_each(|(place, finding)| show(finding, place));
+
+    if verdict.leads.len() >= MOST_EFFECTS {
+        writeln!(
+            out,
+            "  the search stops at {MOST_EFFECTS} effects: declare the friction that every joint has, and trace again"
+        )
+        .expect("a string takes all");
+    }
+    for (joint, left) in verdict.after.iter().enumerate() {
+        if left.is_material() {
+            let name = &closed.before.arm.joints()[joint];
+            let share = 100.0 * left.share;
+            writeln!(
+                out,
+                "  {share:.0} % of the error's power on {name} still follows the motion"
+            )
+            .expect("a string takes all");
+        }
+    }
+    let change = diff(text, &closed.amended);
+    if !change.is_empty() {
+        write!(out, "\n{change}").expect("a string takes all");
+    }
+    out.push('\n');
+    out.push_str(&table(closed));
+    out
+}
+
+/// Errors per joint before and after the amendment: on the logs that were fitted, and on the validation log where there is
+/// one.
+fn table(closed: &Loop) -> String {
+    let (before, after) = (&closed.before, closed.after());
+    let mut columns = vec![Column {
+        title: "relative, identification",
+        unit: " %",
+        before: &before.estimate.relative_percent,
+        after: &after.estimate.relative_percent,
+    }];
+    if let (Some(old), Some(new)) = (&before.validation, &after.validation) {
+        columns.push(Column {
+            title: "RMSE, validation",
+            unit: "",
+            before: &old.rmse,
+            after: &new.rmse,
+        });
+        columns.push(Column {
+            title: "relative, validation",
+            unit: " %",
+            before: &old.relative_percent,
+            after: &new.relative_percent,
+        });
+    }
+    let mut out = format!("{}\n", output::ERRORS);
+    if columns.len() == 1 {
+        out.push_str("(give --validate for a log that is not fitted)\n");
+    }
+    let joints = before.arm.joints();
+    let names = joints.iter().map(String::len);
+    let width = names.max().unwrap_or(0).max("joint".len());
+    let mut line = |first: &str, cells: Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("   {cell:>24}")).collect();
+        writeln!(out, "{first:width$}{cells}").expect("a string takes all");
+    };
+    let each = |cell: &dyn Fn(&Column) -> String| columns.iter().map(cell).collect();
+    line("joint", each(&|column| column.title.to_owned()));
+    line("", each(&|_| format!("{:>11}  {:>11}", "before", "after")));
+    for (joint, name) in joints.iter().enumerate() {
+        line(name, each(&|column| column.row(joint)));
+    }
+    out
+}
+
+/// One kind of error, before and after.
+struct Column<'a> {
+    title: &'static str,
+    unit: &'static str,
+    before: &'a [f64],
+    after: &'a [f64],
+}
+
+impl Column<'_> {
+    fn row(&self, joint: usize) -> String {
+        let digits = if self.unit.is_empty() { 4 } else { 2 };
+        let cell = |value: f64| format!("{value:.digits$}{}", self.unit);
+        let (before, after) = (cell(self.before[joint]), cell(self.after[joint]));
+        format!("{before:>11}  {after:>11}")
+    }
+}
