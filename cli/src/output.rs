@@ -166,9 +166,8 @@ impl OutFile {
 
 /// The regular file, open to writing, that is at a path already.
 fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
-    let target = fs::canonicalize(path)
+    let about = fs::metadata(path)
         .map_err(|error| refused(path, &format!("it is a link that leads nowhere: {error}")))?;
-    let about = fs::metadata(&target).map_err(|error| refused(path, &reason(&error)))?;
     if about.is_dir() {
         return Err(refused(path, "it is a folder"));
     }
@@ -185,9 +184,9 @@ fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
     }
     OpenOptions::new()
         .write(true)
-        .open(&target)
+        .open(path)
         .map_err(|error| refused(path, &reason(&error)))?;
-    Ok(target)
+    fs::canonicalize(path).map_err(|error| refused(path, &reason(&error)))
 }
 
 fn folder_of(path: &Path) -> &Path {

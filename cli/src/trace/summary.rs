@@ -144,3 +144,58 @@ impl Column<'_> {
         format!("{before:>11}  {after:>11}")
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_model::log::Log;
+    use robot_model::trace::{MOST_EFFECTS, Outcome};
+
+    use super::summary;
+    use crate::close_the_loop::close;
+    use crate::progress::Progress;
+
+    const CART: &str = "robot Cart { gravity = [0, 0, -9.81]; convention = origin; \
+        joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; } effects { viscous_friction on rail; } }";
+
+    /// The cart with dry friction that the spec does not declare.
+    fn log() -> Log {
+        let time: Vec<f64> = (0..8000).map(|k| 0.005 * f64::from(k)).collect();
+        let tones = [(0.20, 1.3), (0.05, 4.1), (0.02, 7.9)];
+        let sum = |f: &dyn Fn(f64, f64) -> f64| tones.iter().map(|&(a, w)| f(a, w)).sum::<f64>();
+        let q = |t: f64| sum(&|a, w| a * (w * t).sin());
+        let tau = |t: f64| {
+            let dq = sum(&|a, w| a * w * (w * t).cos());
+            sum(&|a, w| -3.0 * a * w * w * (w * t).sin()) + 5.0 * dq + 2.0 * dq.signum()
+        };
+        let channel = |f: &dyn Fn(f64) -> f64| vec![time.iter().map(|&t| f(t)).collect()];
+        Log::from_samples("plant", time.clone(), channel(&q), channel(&tau)).expect("a sound log")
+    }
+
+    #[test]
+    fn leads_are_told_from_findings() {
+        let mut closed = close("cart.robot", CART, &[log()], None, &Progress::new())
+            .unwrap_or_else(|error| panic!("{error}"));
+        let finding = closed
+            .verdict
+            .findings
+            .first()
+            .expect("dry friction")
+            .clone();
+        assert!(summary(&closed, CART).starts_with("explained:\n  coulomb-friction on rail"));
+
+        closed.verdict.outcome = Outcome::Unexplained;
+        closed.verdict.findings.clear();
+        closed.verdict.leads = vec![finding.clone()];
+        CART.clone_into(&mut closed.amended);
+        closed.changed = None;
+        let told = summary(&closed, CART);
+        assert!(
+            told.contains("pass the gates but do not account for its structure, so none is named\n  coulomb-friction on rail"),
+            "{told}"
+        );
+        assert!(!told.contains("the search stops"), "{told}");
+
+        closed.verdict.leads = vec![finding; MOST_EFFECTS];
+        assert!(summary(&closed, CART).contains("the search stops at 6 effects"));
+    }
+}

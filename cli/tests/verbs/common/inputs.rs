@@ -1,10 +1,6 @@
-//! A folder of inputs, and the program run on them.
+//! Specs, a URDF, and logs whose every number can be checked by hand.
 
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::process::Command;
-
-use tempfile::TempDir;
 
 /// A mass on a rail: every number of a test can be checked by hand.
 pub const CART: &str = "\
@@ -41,92 +37,6 @@ pub const URDF: &str = r#"<robot name="arm">
     <limit lower="0" upper="1" effort="100" velocity="1"/></joint>
   <joint name="swing" type="continuous"><parent link="sledge"/><child link="pendulum"/><axis xyz="0 1 0"/></joint>
 </robot>"#;
-
-/// What a run left behind.
-pub struct Run {
-    pub code: Option<i32>,
-    pub stdout: String,
-    pub stderr: String,
-}
-
-/// A folder of its own for each test.
-pub struct Folder(TempDir);
-
-impl Folder {
-    pub fn new() -> Self {
-        Self(tempfile::tempdir().expect("a temporary folder"))
-    }
-
-    pub fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    pub fn write(&self, name: &str, text: &str) {
-        std::fs::write(self.path(name), text).expect("a file in the folder");
-    }
-
-    pub fn read(&self, name: &str) -> String {
-        std::fs::read_to_string(self.path(name)).expect("a file in the folder")
-    }
-
-    /// Names of all files, hidden ones too, in order.
-    pub fn files(&self) -> Vec<String> {
-        let entries = std::fs::read_dir(self.0.path()).expect("the folder");
-        let name = |entry: std::io::Result<std::fs::DirEntry>| {
-            entry
-                .expect("an entry")
-                .file_name()
-                .into_string()
-                .expect("a readable name")
-        };
-        let mut names: Vec<String> = entries.map(name).collect();
-        names.sort();
-        names
-    }
-
-    /// Runs the program inside the folder.
-    pub fn run(&self, arguments: &[&str]) -> Run {
-        run_in(self.0.path(), arguments)
-    }
-
-    /// Runs the program, which must succeed; what it prints.
-    pub fn succeed(&self, arguments: &[&str]) -> String {
-        let run = self.run(arguments);
-        assert_eq!(run.code, Some(0), "{arguments:?}: {}", run.stderr);
-        run.stdout
-    }
-
-    /// Runs the program, which must refuse: exit code 1, nothing printed, no file added. What it says.
-    pub fn refuse(&self, arguments: &[&str]) -> String {
-        let before = self.files();
-        let run = self.run(arguments);
-        assert_eq!(
-            run.code,
-            Some(1),
-            "{arguments:?}: {}{}",
-            run.stdout,
-            run.stderr
-        );
-        assert_eq!(run.stdout, "", "{arguments:?}");
-        assert_eq!(self.files(), before, "{arguments:?}: nothing half-written");
-        assert!(!run.stderr.contains("panicked"), "{}", run.stderr);
-        run.stderr
-    }
-}
-
-fn run_in(folder: &Path, arguments: &[&str]) -> Run {
-    let output = Command::new(env!("CARGO_BIN_EXE_robot-model"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("the program starts");
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes text");
-    Run {
-        code: output.status.code(),
-        stdout: text(output.stdout),
-        stderr: text(output.stderr),
-    }
-}
 
 /// A log of the cart at 200 Hz: mass 3 kg, viscous friction 5 N s/m, Coulomb friction `coulomb` N, a little noise.
 pub fn cart_log(seconds: u32, coulomb: f64, phase: f64) -> String {

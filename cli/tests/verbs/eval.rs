@@ -1,0 +1,167 @@
+//! `eval`, and the parameters that it shares with `emit`.
+
+use serde_json::Value;
+
+use crate::common::{CART, Folder, PENDULUM, close, json, numbers};
+
+#[test]
+fn eval_gives_the_values_of_a_pendulum() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write("states.json", r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]},{"q":[0.3,-0.8],"dq":[1,2],"ddq":[-1,3]}]}"#);
+    let out = json(&folder.succeed(&["eval", "pendulum.robot", "--states", "states.json"]));
+    assert_eq!(
+        (&out["robot"], &out["dof"]),
+        (&Value::from("Pendulum"), &Value::from(2))
+    );
+    // Stretched out: g (m1 l1/2 + m2 (l1 + l2/2)), and l2/2 m2 g.
+    let gravity = numbers(&out["states"][0]["gravity"]);
+    close(gravity[0], 9.81 * (2.0 * 0.25 + 0.7), 1e-12);
+    close(gravity[1], 9.81 * 0.2, 1e-12);
+    let standard = out["standard_parameters"].as_array().expect("names").len();
+    assert_eq!(standard, 20);
+
+    // M ddq + C dq + G = tau = Y_b beta, with beta from the combinations.
+    let state = &out["states"][1];
+    let row = |name: &str, i: usize| numbers(&state[name][i]);
+    let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    for i in 0..2 {
+        let sum = dot(&row("mass_matrix", i), &[-1.0, 3.0])
+            + dot(&row("coriolis_matrix", i), &[1.0, 2.0])
+            + numbers(&state["gravity"])[i];
+        close(sum, numbers(&state["torque"])[i], 1e-12);
+        assert_eq!(row("regressor", i).len(), standard);
+        assert_eq!(
+            row("base_regressor", i).len(),
+            out["base_parameters"].as_array().expect("a list").len()
+        );
+    }
+}
+
+#[test]
+fn eval_takes_standard_and_base_parameters() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.1],"dq":[0.5],"ddq":[2]}]}"#,
+    );
+    let eval = |text: &str| {
+        folder.write("parameters.json", text);
+        [
+            "eval",
+            "cart.robot",
+            "--states",
+            "states.json",
+            "--parameters",
+            "parameters.json",
+        ]
+    };
+    let plain = json(&folder.succeed(&eval(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#)));
+    close(numbers(&plain["states"][0]["torque"])[0], 8.5, 1e-12);
+    let identified = r#"{"method":"wls","parameters":[{"name":"cart.m","value":3,"std":0.1},{"name":"rail.viscous_friction.fv","value":5,"std":1}]}"#;
+    let identified = json(&folder.succeed(&eval(identified)));
+    assert_eq!(identified, plain);
+
+    assert_eq!(
+        folder.refuse(&["eval", "cart.robot", "--states", "states.json"]),
+        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file with `--parameters`\n"
+    );
+    assert_eq!(
+        folder.refuse(&eval(r#"{"cart.m": 3}"#)),
+        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file with `--parameters`\n"
+    );
+    assert_eq!(
+        folder.refuse(&eval(
+            r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "cart.mass": 3}"#
+        )),
+        "error: parameters.json: Cart has no parameter `cart.mass`\n"
+    );
+    assert!(
+        folder
+            .refuse(&eval(r#"{"cart.m": 3,}"#))
+            .starts_with("error: parameters.json: trailing comma at line 1")
+    );
+    assert!(
+        folder
+            .refuse(&eval(r#"{"cart.m": "heavy"}"#))
+            .starts_with("error: parameters.json: write `{")
+    );
+}
+
+#[test]
+fn base_parameters_are_accepted_as_a_whole_set() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.3,-0.8],"dq":[1,2],"ddq":[-1,3]}]}"#,
+    );
+    let nominal = json(&folder.succeed(&["eval", "pendulum.robot", "--states", "states.json"]));
+    // The spec's own values, regrouped as the output says.
+    let standard = |name: &str| match name {
+        "upper.m" => 2.0,
+        "upper.mx" => -0.5,
+        "upper.izz" => 0.05 + 2.0 * 0.0625,
+        "lower.m" => 1.0,
+        "lower.mx" => -0.2,
+        "lower.izz" => 0.02 + 0.04,
+        _ => 0.0,
+    };
+    let mut beta = serde_json::Map::new();
+    for base in nominal["base_parameters"].as_array().expect("a list") {
+        let terms = base["combination"].as_object().expect("terms");
+        let value: f64 = terms
+            .iter()
+            .map(|(name, factor)| factor.as_f64().expect("a number") * standard(name))
+            .sum();
+        beta.insert(
+            base["name"].as_str().expect("a name").to_owned(),
+            Value::from(value),
+        );
+    }
+    folder.write("beta.json", &Value::from(beta.clone()).to_string());
+    let arguments = [
+        "eval",
+        "pendulum.robot",
+        "--states",
+        "states.json",
+        "--parameters",
+        "beta.json",
+    ];
+    let regrouped = json(&folder.succeed(&arguments));
+    for (found, expected) in numbers(&regrouped["states"][0]["torque"])
+        .into_iter()
+        .zip(numbers(&nominal["states"][0]["torque"]))
+    {
+        close(found, expected, 1e-12);
+    }
+    let gone = beta
+        .keys()
+        .find(|name| !name.ends_with('r'))
+        .expect("a parameter that stands alone")
+        .clone();
+    beta.remove(&gone);
+    folder.write("beta.json", &Value::from(beta).to_string());
+    assert!(folder.refuse(&arguments).contains("only as a whole set"));
+}
+
+#[test]
+fn eval_refuses_states_of_another_arm() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    let said = |text: &str| {
+        folder.write("states.json", text);
+        folder.refuse(&["eval", "pendulum.robot", "--states", "states.json"])
+    };
+    assert_eq!(
+        said(r#"{"states":[{"q":[0,0],"dq":[0],"ddq":[0,0]}]}"#),
+        "error: states.json: state 1: `dq` has 1 values, the arm has 2 joints\n"
+    );
+    assert!(said(r#"{"states":[{"q":[0,0],"dq":[0,0]}]}"#).contains("missing field `ddq`"));
+    assert!(
+        said(r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0],"v":1}]}"#)
+            .contains("unknown field `v`")
+    );
+    assert!(said("{").contains("line 1"));
+}

@@ -1,0 +1,158 @@
+//! `identify`.
+
+use crate::common::{CART, Folder, PENDULUM, cart_log, close, json, numbers};
+
+#[test]
+fn identify_finds_a_mass_and_its_friction() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(20, 0.0, 0.0));
+    folder.write("other.csv", &cart_log(10, 0.0, 0.7));
+    let arguments = [
+        "identify",
+        "cart.robot",
+        "log.csv",
+        "--validate",
+        "other.csv",
+        "--json",
+        "out.json",
+    ];
+    let table = folder.succeed(&arguments);
+    assert!(
+        table.contains("cart.m") && table.contains("RMSE: raw samples, N m"),
+        "{table}"
+    );
+    let header: Vec<Vec<&str>> = table
+        .lines()
+        .skip_while(|line| !line.starts_with("joint "))
+        .map(|line| line.split_whitespace().collect())
+        .collect();
+    assert_eq!(header[0], ["joint", "identification", "validation"]);
+    assert_eq!(header[1], ["RMSE", "relative", "RMSE", "relative"]);
+    assert_eq!(header[2].len(), 1 + 2 * 3, "{table}");
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["method"], "wls");
+    assert_eq!(out["domain"], "raw");
+    assert_eq!(out["rank"], 2);
+    let parameter = |k: usize| {
+        (
+            out["parameters"][k]["name"].as_str(),
+            out["parameters"][k]["value"].as_f64(),
+        )
+    };
+    assert_eq!(parameter(0).0, Some("cart.m"));
+    assert_eq!(parameter(1).0, Some("rail.viscous_friction.fv"));
+    close(parameter(0).1.expect("a number"), 3.0, 0.02);
+    close(parameter(1).1.expect("a number"), 5.0, 0.02);
+    // Uniform noise 0.1 wide.
+    close(numbers(&out["rmse"])[0], 0.1 / 12.0_f64.sqrt(), 3e-3);
+    close(
+        numbers(&out["rmse_validate"])[0],
+        0.1 / 12.0_f64.sqrt(),
+        3e-3,
+    );
+    assert_eq!(
+        folder.files(),
+        ["cart.robot", "log.csv", "other.csv", "out.json"]
+    );
+
+    let ordinary = [
+        arguments.as_slice(),
+        &["--method", "ls", "--bands", "5,15,40"],
+    ]
+    .concat();
+    folder.succeed(&ordinary);
+    assert_eq!(
+        json(&folder.read("out.json"))["bands_hz"],
+        json("[5.0,15.0,40.0]")
+    );
+}
+
+#[test]
+fn identify_refuses_what_it_cannot_use() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(5, 0.0, 0.0);
+    folder.write("log.csv", &log);
+    folder.write("broken.csv", &log.replacen("0.100,", "0.100,x", 1));
+    folder.write(
+        "short.csv",
+        &log.lines().take(30).collect::<Vec<_>>().join("\n"),
+    );
+    let said =
+        |arguments: &[&str]| folder.refuse(&[&["identify", "cart.robot"], arguments].concat());
+    assert!(said(&["broken.csv", "--json", "out.json"]).contains("error: broken.csv:22: `x"));
+    assert!(
+        said(&["log.csv", "--validate", "broken.csv", "--json", "out.json"])
+            .contains("error: broken.csv:22: `x")
+    );
+    assert!(
+        said(&["short.csv", "--json", "out.json"])
+            .contains("short.csv: a log of 0.140 s is too short")
+    );
+    assert!(
+        said(&["log.csv", "--bands", "10,30,150"])
+            .contains("the cutoff must lie between 0 and 100 Hz")
+    );
+    assert_eq!(
+        said(&["log.csv", "--json", "nowhere/out.json"]),
+        "error: cannot write `nowhere/out.json`: there is no folder `nowhere`; make it first\n"
+    );
+    folder.write("pendulum.robot", PENDULUM);
+    assert!(
+        folder
+            .refuse(&["identify", "pendulum.robot", "log.csv"])
+            .contains("missing columns `q2`, `tau2`")
+    );
+}
+
+#[test]
+fn what_the_logs_do_not_separate_has_no_value() {
+    let folder = Folder::new();
+    let spec = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; stop on rail;",
+    ) + "effect stop(j) { linear c; torque(j) = c * (1 + sign(q(j) - 1)); }\n";
+    folder.write("cart.robot", &spec);
+    folder.write("log.csv", &cart_log(20, 0.0, 0.0));
+    let table = folder.succeed(&["identify", "cart.robot", "log.csv", "--json", "out.json"]);
+    assert!(
+        table.contains("not separable")
+            && table.contains("these columns cannot be told from others in the logs"),
+        "{table}"
+    );
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["unexcited"], json(r#"["rail.stop.c"]"#));
+    let parameters = out["parameters"].as_array().expect("a list");
+    assert_eq!(parameters.len(), 3);
+    for parameter in parameters {
+        let measured = parameter["name"] != "rail.stop.c";
+        assert_eq!(parameter["value"].is_f64(), measured, "{parameter}");
+        assert_eq!(parameter["std"].is_f64(), measured, "{parameter}");
+    }
+
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[2],"dq":[0],"ddq":[0]}]}"#,
+    );
+    let eval = ["eval", "cart.robot", "--states", "states.json"];
+    let emit = ["emit", "cart.robot", "--lang", "rust", "--out", "."];
+    // An older file says so by its list only.
+    let older = folder.read("out.json").replace("null", "0.0");
+    folder.write("older.json", &older);
+    folder.write(
+        "plain.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.stop.c": null}"#,
+    );
+    for file in ["out.json", "older.json", "plain.json"] {
+        for verb in [eval.as_slice(), emit.as_slice()] {
+            let said = folder.refuse(&[verb, &["--parameters", file]].concat());
+            assert!(
+                said.starts_with(&format!(
+                    "error: {file}: the logs did not separate `rail.stop.c` from"
+                )),
+                "{said}"
+            );
+        }
+    }
+}

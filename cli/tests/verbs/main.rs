@@ -1,0 +1,10 @@
+//! Every verb on inputs that are sound, and on inputs that are not.
+
+mod common;
+mod equations;
+mod eval;
+mod every;
+mod identify;
+mod import;
+mod outputs;
+mod trace;

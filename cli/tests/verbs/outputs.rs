@@ -1,0 +1,182 @@
+//! Where results may go, and readers that are gone.
+
+use crate::common::{CART, Folder, PENDULUM, URDF, cart_log, json};
+
+#[test]
+fn no_output_takes_the_place_of_an_input() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    folder.write("other.csv", &cart_log(5, 0.0, 0.7));
+    folder.write("arm.urdf", URDF);
+    folder.write("cart.rs", CART);
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "other.csv"];
+    let with = |outputs: &[&'static str]| [trace.as_slice(), outputs].concat();
+    for (arguments, input) in [
+        (
+            vec!["identify", "cart.robot", "log.csv", "--json", "cart.robot"],
+            "cart.robot",
+        ),
+        (
+            vec!["identify", "cart.robot", "log.csv", "--json", "./log.csv"],
+            "log.csv",
+        ),
+        (vec!["import", "arm.urdf", "-o", "arm.urdf"], "arm.urdf"),
+        (
+            vec!["emit", "cart.rs", "--lang", "rust", "--out", "."],
+            "cart.rs",
+        ),
+        (with(&["--amend", "cart.robot"]), "cart.robot"),
+        (with(&["--predict", "other.csv"]), "other.csv"),
+        (with(&["--json", "./../no-such-folder/../log.csv"]), ""),
+        (with(&["--json", "log.csv"]), "log.csv"),
+    ] {
+        let before = (
+            folder.read("cart.robot"),
+            folder.read("log.csv"),
+            folder.read("other.csv"),
+        );
+        let said = folder.refuse(&arguments);
+        assert!(said.starts_with("error: cannot write `"), "{said}");
+        if !input.is_empty() {
+            let wanted = format!("it is the same file as the input `{input}`; give another name");
+            assert!(said.contains(&wanted), "{arguments:?}: {said}");
+        }
+        let after = (
+            folder.read("cart.robot"),
+            folder.read("log.csv"),
+            folder.read("other.csv"),
+        );
+        assert_eq!(before, after);
+    }
+}
+
+#[test]
+fn no_output_takes_the_place_of_another() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "log.csv"];
+    for outputs in [
+        ["--amend", "out", "--predict", "out"],
+        ["--amend", "out", "--json", "./out"],
+        ["--predict", "out", "--json", "../out"],
+    ] {
+        let other = folder
+            .path("")
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned());
+        let detour = format!("../{}/out", other.expect("a name"));
+        let outputs = outputs.map(|output| {
+            if output == "../out" {
+                detour.as_str()
+            } else {
+                output
+            }
+        });
+        let said = folder.refuse(&[trace.as_slice(), &outputs].concat());
+        assert!(
+            said.contains("it is the same file as the output `out`"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn only_regular_files_are_replaced() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    std::fs::create_dir(folder.path("results")).expect("a folder");
+    let identify =
+        |json: &str| folder.refuse(&["identify", "cart.robot", "log.csv", "--json", json]);
+    assert_eq!(
+        identify("results"),
+        "error: cannot write `results`: it is a folder\n"
+    );
+    assert_eq!(
+        identify("log.csv/out.json"),
+        "error: cannot write `log.csv/out.json`: `log.csv` is not a folder\n"
+    );
+    assert!(identify("..").contains("it names no file"));
+
+    folder.write("kept.json", "old");
+    let kept = folder.path("kept.json");
+    let mut permissions = std::fs::metadata(&kept).expect("a file").permissions();
+    permissions.set_readonly(true);
+    std::fs::set_permissions(&kept, permissions).expect("its owner may");
+    assert_eq!(
+        identify("kept.json"),
+        "error: cannot write `kept.json`: it is read-only\n"
+    );
+    assert_eq!(folder.read("kept.json"), "old");
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_are_not_replaced_and_links_are_followed() {
+    use std::os::unix::fs::symlink;
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    symlink("/dev/null", folder.path("null")).expect("a link");
+    symlink("nothing", folder.path("dangling")).expect("a link");
+    symlink("log.csv", folder.path("link.csv")).expect("a link");
+    folder.write("old.json", "old");
+    symlink("old.json", folder.path("link.json")).expect("a link");
+    let identify = ["identify", "cart.robot", "log.csv", "--json"];
+    for (output, why) in [
+        ("/dev/stdout", "it is no regular file"),
+        ("null", "it is no regular file"),
+        ("dangling", "it is a link that leads nowhere"),
+        ("link.csv", "it is the same file as the input `log.csv`"),
+    ] {
+        let said = folder.refuse(&[identify.as_slice(), &[output]].concat());
+        assert!(said.contains(why), "{output}: {said}");
+    }
+    folder.succeed(&[identify.as_slice(), &["link.json"]].concat());
+    assert_eq!(json(&folder.read("old.json"))["method"], "wls");
+    assert!(folder.path("link.json").is_symlink());
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_panic() {
+    use std::process::{Command, Stdio};
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robot-model"))
+        .args(["show", "pendulum.robot"])
+        .current_dir(folder.path(""))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    assert_eq!(output.status.code(), Some(0));
+}
+
+#[test]
+fn a_closed_standard_error_is_no_panic() {
+    use std::process::{Command, Stdio};
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(10, 0.0, 0.0));
+    for (arguments, code) in [
+        (vec!["identify", "cart.robot", "log.csv"], 0),
+        (vec!["identify", "cart.robot", "none.csv"], 1),
+    ] {
+        // The reading end is gone before the program says anything.
+        let (reader, writer) = std::io::pipe().expect("a pipe");
+        drop(reader);
+        let status = Command::new(env!("CARGO_BIN_EXE_robot-model"))
+            .args(&arguments)
+            .current_dir(folder.path(""))
+            .stdout(Stdio::null())
+            .stderr(writer)
+            .status()
+            .expect("the program runs");
+        assert_eq!(status.code(), Some(code), "{arguments:?}");
+    }
+}

@@ -1,0 +1,146 @@
+//! `trace`.
+
+use serde_json::Value;
+
+use crate::common::{CART, Folder, cart_log, close, json, numbers};
+
+#[test]
+fn trace_closes_the_loop() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
+    let outputs = [
+        "--amend",
+        "amended.robot",
+        "--predict",
+        "tau.csv",
+        "--json",
+        "out.json",
+    ];
+    let told = folder.succeed(
+        &[
+            &["trace", "cart.robot", "log.csv", "--validate", "other.csv"],
+            outputs.as_slice(),
+        ]
+        .concat(),
+    );
+    assert!(
+        told.starts_with("explained:\n  coulomb-friction on rail: fc = "),
+        "{told}"
+    );
+    assert!(
+        told.contains("+         coulomb_friction on rail;"),
+        "{told}"
+    );
+    assert!(
+        told.contains("relative, identification")
+            && told.contains("RMSE, validation")
+            && told.contains("relative, validation"),
+        "{told}"
+    );
+    assert!(
+        told.ends_with(
+            "wrote amended.robot: the spec with the effects declared\nwrote tau.csv: predicted torque in the log's units\n\
+             wrote out.json: the result\n"
+        ),
+        "{told}"
+    );
+    let out = json(&folder.read("out.json"));
+    let train = |key: &str| numbers(&out[key])[0];
+    assert!(
+        train("relative_percent_train_after") < 0.3 * train("relative_percent_train_before"),
+        "{out}"
+    );
+    assert_eq!(out["outcome"], "explained");
+    assert_eq!(
+        (&out["effects"][0]["kind"], &out["effects"][0]["joint"]),
+        (&Value::from("coulomb-friction"), &Value::from(1))
+    );
+    close(
+        out["effects"][0]["parameters"][0]["value"]
+            .as_f64()
+            .expect("a number"),
+        2.0,
+        0.05,
+    );
+    assert!(numbers(&out["rmse_after"])[0] < 0.3 * numbers(&out["rmse_before"])[0]);
+
+    let amended = folder.read("amended.robot");
+    assert!(
+        amended.contains("// runs level") && amended.contains("coulomb_friction on rail;"),
+        "{amended}"
+    );
+    folder.succeed(&["check", "amended.robot"]);
+    let prediction = folder.read("tau.csv");
+    assert!(
+        prediction.starts_with("time,tau1\n0.000000000,"),
+        "{}",
+        &prediction[..40]
+    );
+    assert_eq!(prediction.lines().count(), 20 * 200 + 1);
+
+    // The amended spec lacks nothing.
+    let told = folder.succeed(&[
+        "trace",
+        "amended.robot",
+        "log.csv",
+        "--json",
+        "again.json",
+        "--amend",
+        "again.robot",
+    ]);
+    assert!(told.starts_with("nothing missing"), "{told}");
+    assert!(
+        told.contains("wrote again.robot: the spec as it was: nothing was added\n"),
+        "{told}"
+    );
+    assert_eq!(folder.read("again.robot"), amended);
+    let again = json(&folder.read("again.json"));
+    assert_eq!(
+        (&again["effects"], &again["rmse_before"]),
+        (&json("[]"), &Value::Null)
+    );
+}
+
+#[test]
+fn trace_writes_nothing_where_it_cannot_write_all() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    let said = folder.refuse(&[
+        "trace",
+        "cart.robot",
+        "log.csv",
+        "--json",
+        "out.json",
+        "--amend",
+        "nowhere/out.robot",
+    ]);
+    assert!(said.contains("cannot write `nowhere/out.robot`"), "{said}");
+}
+
+#[test]
+fn a_prediction_is_in_the_units_of_the_log() {
+    let folder = Folder::new();
+    let gain = CART.replace("link = cart;", "link = cart; actuator_gain = -4;");
+    folder.write("cart.robot", &gain);
+    folder.write("log.csv", &cart_log(10, 0.0, 0.0));
+    folder.succeed(&[
+        "trace",
+        "cart.robot",
+        "log.csv",
+        "--validate",
+        "log.csv",
+        "--predict",
+        "tau.csv",
+    ]);
+    let (log, predicted) = (folder.read("log.csv"), folder.read("tau.csv"));
+    let last = |line: &str| -> f64 {
+        let field = line.rsplit(',').next().expect("a field");
+        field.parse().expect("a number")
+    };
+    for (measured, predicted) in log.lines().zip(predicted.lines()).skip(400).take(1000) {
+        close(last(predicted), last(measured), 0.1);
+    }
+}
