@@ -68,18 +68,18 @@ fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
             (values, unexcited)
         }
     };
-    measured(path, given, &unexcited)
+    measured(path, &given, &unexcited)
 }
 
 /// All values, where every one of them was measured: a zero in place of one that was not is wrong on every other motion.
 fn measured(
     path: &Path,
-    given: BTreeMap<String, Option<f64>>,
+    given: &BTreeMap<String, Option<f64>>,
     unexcited: &[String],
 ) -> Result<BTreeMap<String, f64>, Error> {
     let mut values = BTreeMap::new();
     let mut without: Vec<&str> = unexcited.iter().map(String::as_str).collect();
-    for (name, value) in &given {
+    for (name, value) in given {
         match value {
             Some(value) => {
                 values.insert(name.clone(), *value);

@@ -102,7 +102,9 @@ fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
     let after = closed.after();
     let mut torque = after.estimate.predict(&after.arm, log)?;
     for (values, gain) in torque.iter_mut().zip(after.arm.actuator_gain()) {
-        values.iter_mut().for_each(|value| *value /= gain);
+        for value in values {
+            *value /= gain;
+        }
     }
     let mut text = String::from("time");
     for joint in 1..=torque.len() {

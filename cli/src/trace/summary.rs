@@ -116,8 +116,11 @@ fn table(closed: &Loop) -> String {
     let names = joints.iter().map(String::len);
     let width = names.max().unwrap_or(0).max("joint".len());
     let mut line = |first: &str, cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("   {cell:>24}")).collect();
-        writeln!(out, "{first:width$}{cells}").expect("a string takes all");
+        write!(out, "{first:width$}").expect("a string takes all");
+        for cell in cells {
+            write!(out, "   {cell:>24}").expect("a string takes all");
+        }
+        out.push('\n');
     };
     let each = |cell: &dyn Fn(&Column) -> String| columns.iter().map(cell).collect();
     line("joint", each(&|column| column.title.to_owned()));

@@ -7,6 +7,9 @@ use crate::columns::{Arm, Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
 
+/// Entries of a column below this, per unit of its parameter in SI, are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// The rows of one joint: `target[k] = sum over columns of values[k] * unknown + residual`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointRows {
@@ -77,6 +80,10 @@ impl Stack {
             values,
         } in columns
         {
+            // What rounding leaves of a column that is zero is no excitation.
+            if values.iter().all(|value| value.abs() < ROUNDING) {
+                continue;
+            }
             stack.joints[joint].columns.push((column, values));
         }
         for rows in &mut stack.joints {

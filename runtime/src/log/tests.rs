@@ -153,7 +153,7 @@ fn headers_are_checked() {
     );
     assert_eq!(
         header("time;q1;tau1", 1),
-        "monday.csv:1: missing columns `time`, `q1`, `tau1`; the header has `time;q1;tau1`"
+        "monday.csv:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"
     );
     assert_eq!(
         header("time,q1,q2,dq1,tau1,tau2", 2),
@@ -271,12 +271,15 @@ fn samples_from_memory_are_checked_too() {
     );
     let mut q = vec![vec![0.0; 20]];
     q[0][4] = f64::NAN;
-    assert_eq!(text(&time, q), "plant: sample 4 is not finite");
+    assert_eq!(
+        text(&time, q),
+        "plant: sample 4 is not finite; remove or repair it"
+    );
     let mut repeated = time.clone();
     repeated[8] = 7.0;
     assert_eq!(
         text(&repeated, vec![vec![0.0; 20]]),
-        "plant: sample 8: time does not rise: 7 s follows 7 s"
+        "plant: sample 8: time does not rise: 7 s follows 7 s; remove the row if it is there twice, or split the log here and give both parts"
     );
 }
 
