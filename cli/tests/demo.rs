@@ -30,7 +30,7 @@ fn a_clean_arm_is_left_alone_and_a_worn_one_is_explained() {
         "nothing missing",
         "stribeck on elbow",
         "+         stribeck(vs = ",
-        "RMSE and relative error",
+        "relative, validation",
     ] {
         assert!(told.contains(part), "`{part}` is not in:\n{told}");
     }
