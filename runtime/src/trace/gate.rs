@@ -120,7 +120,8 @@ impl<'a> Baseline<'a> {
                     || gain[c] >= 0.0
                     || projected.power_share(&gain, c) < NEGATIVE_SHARE
             });
-        let passes = merit > 0.0
+        let passes = trial.is_inside()
+            && merit > 0.0
             && p_value < SIGNIFICANCE
             && improved + 1 >= folds
             && steady

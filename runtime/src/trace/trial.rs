@@ -8,6 +8,9 @@ use crate::signal::Prepared;
 
 use super::score::{Present, Projected};
 
+/// A shape this close to an end of its range, relative to the range's length, is at the end.
+const END_SHARE: f64 = 0.002;
+
 /// A candidate with values for its shape parameters.
 #[derive(Clone)]
 pub(super) struct Trial<'a> {
@@ -55,6 +58,16 @@ impl<'a> Trial<'a> {
     /// Parameters that the effect adds to the model: what a simpler law has fewer of.
     pub(super) fn complexity(&self) -> usize {
         self.count() + self.shapes.len()
+    }
+
+    /// Whether every shape is inside its range: an optimum at the end of a range is that of another law.
+    pub(super) fn is_inside(&self) -> bool {
+        let mut ranges = self.candidate.shapes().iter().zip(&self.shapes);
+        ranges.all(|(shape, value)| {
+            let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
+            let edge = END_SHARE * (high - low);
+            (low + edge..=high - edge).contains(value)
+        })
     }
 
     pub(super) fn project(&self, present: &Present) -> Option<Projected> {
