@@ -5,19 +5,15 @@
 //! `sum_j G_j / sigma_j^2`, and the squared error of an estimate on them is a quadratic form of `G_j`.
 
 use faer::Mat;
-use faer::linalg::solvers::Solve;
 
 use crate::columns::Entry;
 use crate::identify::{JointRows, Stack};
 
 use super::folds::Fold;
-
-/// Added to the diagonal, relative to what a column has over all rows: far below what an excited column contributes, and
-/// what keeps the estimate of a column small in a fold that hardly sees it.
-const RIDGE: f64 = 1e-10;
+use super::normal::Normal;
 
 /// Products of one joint's columns, in the order unknowns then target, over one set of rows.
-type Products = Mat<f64>;
+pub(super) type Products = Mat<f64>;
 
 /// A set of rows with the products of every joint over it.
 #[derive(Debug, Clone)]
@@ -224,70 +220,6 @@ fn squared_error(g: &Products, estimate: &[f64]) -> f64 {
         sum += value(a) * row;
     }
     sum.max(0.0)
-}
-
-/// Normal equations with columns of unit norm.
-pub(super) struct Normal {
-    norms: Vec<f64>,
-    factor: faer::linalg::solvers::PartialPivLu<f64>,
-    right: Vec<f64>,
-}
-
-impl Normal {
-    /// `squares` are the weighted sums of squares of the columns over all rows.
-    fn new(products: &[Products], sigma: &[f64], squares: &[f64]) -> Self {
-        let unknowns = squares.len();
-        let mut sum = Mat::<f64>::zeros(unknowns + 1, unknowns + 1);
-        for (g, s) in products.iter().zip(sigma) {
-            sum += faer::Scale(1.0 / (s * s)) * g;
-        }
-        for (c, square) in squares.iter().enumerate() {
-            sum[(c, c)] += RIDGE * square;
-        }
-        let norms: Vec<f64> = (0..unknowns).map(|c| sum[(c, c)].sqrt()).collect();
-        let scaled = Mat::from_fn(unknowns, unknowns, |a, b| {
-            if a == b {
-                1.0
-            } else if norms[a] > 0.0 && norms[b] > 0.0 {
-                sum[(a, b)] / (norms[a] * norms[b])
-            } else {
-                0.0
-            }
-        });
-        let right = (0..unknowns).map(|c| sum[(c, unknowns)]).collect();
-        Self {
-            norms,
-            factor: scaled.partial_piv_lu(),
-            right,
-        }
-    }
-
-    /// The estimate.
-    pub(super) fn solve(&self) -> Vec<f64> {
-        self.apply(&self.right)
-    }
-
-    /// `(W' W)^-1 * right`
-    pub(super) fn apply(&self, right: &[f64]) -> Vec<f64> {
-        let n = self.norms.len();
-        let scaled = Mat::from_fn(n, 1, |c, _| {
-            if self.norms[c] > 0.0 {
-                right[c] / self.norms[c]
-            } else {
-                0.0
-            }
-        });
-        let solved = self.factor.solve(&scaled);
-        (0..n)
-            .map(|c| {
-                if self.norms[c] > 0.0 {
-                    solved[(c, 0)] / self.norms[c]
-                } else {
-                    0.0
-                }
-            })
-            .collect()
-    }
 }
 
 #[cfg(test)]

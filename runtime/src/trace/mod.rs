@@ -31,6 +31,7 @@ mod conclude;
 mod folds;
 mod gate;
 mod gram;
+mod normal;
 mod residual;
 mod score;
 mod search;

@@ -6,7 +6,8 @@ use crate::signal::resample::whole_steps;
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
-use super::gram::{Gram, Normal};
+use super::gram::Gram;
+use super::normal::Normal;
 
 /// A candidate's columns are called new only if this share of their norm is outside the model's columns.
 const LEAST_NEW: f64 = 1e-3;
