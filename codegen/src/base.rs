@@ -156,6 +156,7 @@ fn order_of_choice(parameters: &[StandardParameter]) -> Vec<usize> {
             element: Mx | My | Mz,
         } => (link, 1),
         Owner::Link { link, .. } => (link, 0),
+        Owner::Monomial(_) => (0, 0),
         Owner::Effect { .. } => (usize::MAX, 0),
     });
     order

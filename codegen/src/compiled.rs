@@ -140,12 +140,12 @@ impl Compiled {
             .collect()
     }
 
-    /// Whether base parameter `column` belongs to a link, not to an effect.
+    /// Whether base parameter `column` belongs to the rigid body, not to an effect.
     #[must_use]
     pub fn is_rigid(&self, column: usize) -> bool {
-        matches!(
+        !matches!(
             self.standard[self.base.kept[column]].owner,
-            Owner::Link { .. }
+            Owner::Effect { .. }
         )
     }
 

@@ -32,7 +32,7 @@ impl LinearForm {
 /// Differentiates the torque with respect to each standard parameter; the torque is linear in them, so that is exact.
 pub fn linearize(dag: &mut Dag, model: &Model) -> LinearForm {
     let dof = model.joints.len();
-    let inertial = 10 * dof;
+    let inertial = model.rigid_parameters();
     let count = model.standard_parameters().len();
     let rigid_torque = dynamics::rigid_torque(dag, model, &vec![Value::Symbol; count]);
     let mut regressor = vec![vec![dag.zero(); count]; dof];

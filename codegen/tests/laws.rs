@@ -290,10 +290,11 @@ mod poses {
 
     fn link_poses(model: &Compiled, q: &[f64]) -> Vec<Isometry3<f64>> {
         let mut pose = Isometry3::identity();
-        let joints = model.model.joints.iter().zip(q);
+        let links = &model.model.chain().unwrap().links;
+        let joints = model.model.joints.iter().zip(links).zip(q);
         joints
-            .map(|(joint, q)| {
-                let placement = &joint.placement;
+            .map(|((joint, link), q)| {
+                let placement = &link.placement;
                 let axis = Vector3::from(placement.axis);
                 let motion = match joint.kind {
                     JointKind::Revolute => Isometry3::from_parts(
@@ -315,7 +316,7 @@ mod poses {
     }
 
     pub fn potential_energy(model: &Compiled, q: &[f64], standard: &[f64]) -> f64 {
-        let gravity = Vector3::from(model.model.gravity);
+        let gravity = Vector3::from(model.model.chain().unwrap().gravity);
         let links = link_poses(model, q).into_iter().zip(standard.chunks(10));
         links
             .map(|(pose, p)| {

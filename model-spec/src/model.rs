@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-/// A serial chain of joints with the effects it declares.
+/// A robot: its coordinates, what moves with them, and the effects it declares.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Model {
@@ -14,16 +14,135 @@ pub struct Model {
     pub name: String,
     /// Name of the spec file without its folder, for headers and messages.
     pub source: String,
-    /// How the author writes frames. Derivations use [`Joint::placement`] only.
-    pub convention: Convention,
-    /// Acceleration of gravity in the base frame, m/s^2.
-    pub gravity: [f64; 3],
-    /// Joints from the base to the tip; joint `i` moves link `i`.
+    /// The coordinates; joints of a chain stand in order from the base to the tip.
     pub joints: Vec<Joint>,
+    /// The rigid body that they move.
+    pub body: Body,
     /// Declared effects, one entry per instance (a joint or a tuple of joints), in the order of the spec.
     pub effects: Vec<Effect>,
     /// Every effect that this spec may declare: the standard ones by name, then its own in the order of the spec.
     pub definitions: Vec<Arc<EffectDefinition>>,
+}
+
+/// How the rigid body is described.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Body {
+    /// Links joined by frames.
+    Chain(Chain),
+    /// Kinetic and potential energy.
+    Energies(Energies),
+}
+
+impl Model {
+    /// The chain, where the robot is one.
+    #[must_use]
+    pub const fn chain(&self) -> Option<&Chain> {
+        match &self.body {
+            Body::Chain(chain) => Some(chain),
+            Body::Energies(_) => None,
+        }
+    }
+
+    /// The energies, where the robot is described by them.
+    #[must_use]
+    pub const fn energies(&self) -> Option<&Energies> {
+        match &self.body {
+            Body::Chain(_) => None,
+            Body::Energies(energies) => Some(energies),
+        }
+    }
+}
+
+/// A serial chain: joint `i` moves link `i`.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Chain {
+    /// How the author writes frames. Derivations use [`Link::placement`] only.
+    pub convention: Convention,
+    /// Acceleration of gravity in the base frame, m/s^2.
+    pub gravity: [f64; 3],
+    /// Links from the base to the tip, one a joint.
+    pub links: Vec<Link>,
+}
+
+/// A robot that says its energies instead of its frames.
+///
+/// Both energies are polynomials in [`Self::parameters`]; the monomials that occur are its standard parameters, in which
+/// the torque is linear.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Energies {
+    /// Unknown constants, in the order of the spec.
+    pub parameters: Vec<Parameter>,
+    /// `let` bindings; each uses earlier ones only. Constants of the spec are numbers in all expressions.
+    pub bindings: Vec<Binding>,
+    /// Kinetic energy, J: quadratic in the rates.
+    pub kinetic: EnergyExpr,
+    /// Potential energy, J: free of rates.
+    pub potential: EnergyExpr,
+    /// Products of powers of parameters that the energies are sums of, lowest degree first.
+    pub monomials: Vec<Monomial>,
+    /// Points whose position the spec gives, in the order of the spec.
+    pub points: Vec<Point>,
+}
+
+/// An unknown constant of a robot that is described by its energies.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Parameter {
+    /// Name as written.
+    pub name: String,
+    /// The `///` comment in front of it.
+    pub doc: String,
+    /// A value from CAD, in SI units: used where a number is needed before identification.
+    pub nominal: Option<f64>,
+}
+
+/// `let name = ..;`
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Binding {
+    /// Name as written.
+    pub name: String,
+    /// What it stands for.
+    pub value: EnergyExpr,
+}
+
+/// `point name = [x, y, z];`: forward kinematics, m in the base frame.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Point {
+    /// Name as written.
+    pub name: String,
+    /// Its coordinates; free of parameters and rates.
+    pub position: [EnergyExpr; 3],
+}
+
+/// A product of powers of parameters.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[non_exhaustive]
+pub struct Monomial {
+    /// `(parameter, exponent)`, by rising parameter; no exponent is zero.
+    pub factors: Vec<(usize, i32)>,
+}
+
+/// An expression of energies.
+pub type EnergyExpr = Expr<EnergyLeaf>;
+
+/// What an energy is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EnergyLeaf {
+    /// Index into [`Model::joints`].
+    Coordinate(usize),
+    /// `dot(q)`: the rate of a coordinate, by the same index.
+    Rate(usize),
+    /// Index into [`Energies::parameters`].
+    Parameter(usize),
+    /// Index into [`Energies::bindings`].
+    Binding(usize),
+    /// `dot(x)` of a binding `x`, by the same index.
+    BindingRate(usize),
 }
 
 /// How frames are written in the spec; never defaulted.
@@ -37,7 +156,7 @@ pub enum Convention {
     Origin,
 }
 
-/// One joint and the link that it moves.
+/// One joint, or one coordinate of a robot that is described by its energies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Joint {
@@ -45,14 +164,10 @@ pub struct Joint {
     pub name: String,
     /// Revolute or prismatic.
     pub kind: JointKind,
-    /// Pose of the link frame in the parent link's frame as a function of `q`.
-    pub placement: Placement,
     /// Limits, where the spec states them.
     pub limits: Limits,
     /// Joint torque (N m, or N) per unit of the logged channel; 1 where the log holds torques.
     pub actuator_gain: f64,
-    /// The link that this joint moves.
-    pub link: Link,
     /// Line of the declaration in the spec, from 1.
     pub line: usize,
 }
@@ -109,6 +224,8 @@ pub struct Limits {
 pub struct Link {
     /// Name as written; the joint's name where the spec gives no other.
     pub name: String,
+    /// Pose of the link's frame in its parent's as a function of `q`.
+    pub placement: Placement,
     /// What the spec says of mass, first moments and inertia.
     pub inertial: Inertial,
 }
@@ -165,7 +282,7 @@ pub struct EffectTorque {
     /// Index of the formal joint.
     pub joint: usize,
     /// Linear in the definition's linear parameters.
-    pub value: Expr,
+    pub value: EffectExpr,
 }
 
 /// A parameter in which an effect's torque is linear.
@@ -196,11 +313,39 @@ pub struct ShapeParameter {
     pub step: Option<f64>,
 }
 
-/// A checked expression of an effect.
+/// A checked expression over leaves that its place allows.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Expr {
+pub enum Expr<Leaf> {
     /// A number in SI units.
     Number(f64),
+    /// A name with a meaning.
+    Leaf(Leaf),
+    /// `-x`
+    Neg(Box<Self>),
+    /// `x op y`
+    Binary(BinaryOp, Box<Self>, Box<Self>),
+    /// `f(x)`
+    Call(Function, Box<Self>),
+}
+
+impl<Leaf> Expr<Leaf> {
+    /// Whether `wanted` holds for some part of the expression.
+    pub fn contains(&self, wanted: &dyn Fn(&Self) -> bool) -> bool {
+        wanted(self)
+            || match self {
+                Self::Number(_) | Self::Leaf(_) => false,
+                Self::Neg(x) | Self::Call(_, x) => x.contains(wanted),
+                Self::Binary(_, x, y) => x.contains(wanted) || y.contains(wanted),
+            }
+    }
+}
+
+/// An expression of an effect.
+pub type EffectExpr = Expr<EffectLeaf>;
+
+/// What an effect's equation is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EffectLeaf {
     /// Index into [`EffectDefinition::linear`].
     Linear(usize),
     /// Index into [`EffectDefinition::shapes`].
@@ -209,12 +354,6 @@ pub enum Expr {
     Signal(Signal, usize),
     /// Time since the start of the log, s.
     Time,
-    /// `-x`
-    Neg(Box<Expr>),
-    /// `x op y`
-    Binary(BinaryOp, Box<Expr>, Box<Expr>),
-    /// `f(x)`
-    Call(Function, Box<Expr>),
 }
 
 /// A signal of one joint that effects may use.

@@ -1,6 +1,6 @@
 //! Names and order of the standard parameters: the only place where either is decided.
 
-use crate::model::{Inertial, Model};
+use crate::model::{Body, Chain, Energies, Inertial, Model, Monomial};
 
 /// One of a link's ten inertial parameters, about the origin of the link frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,11 +76,14 @@ pub struct StandardParameter {
 pub enum Owner {
     /// An inertial parameter of the link of joint `link`.
     Link {
-        /// Index into [`Model::joints`].
+        /// Index into [`Chain::links`].
         link: usize,
         /// Which of the ten.
         element: InertialElement,
     },
+    /// A product of powers of the unknown constants of a robot that is described by its energies: index into
+    /// [`Energies::monomials`].
+    Monomial(usize),
     /// A linear parameter of a declared effect.
     Effect {
         /// Index into [`Model::effects`].
@@ -105,20 +108,10 @@ impl Model {
     /// The standard parameters in their order: ten a link from base to tip, then the effects' in the order of the spec.
     #[must_use]
     pub fn standard_parameters(&self) -> Vec<StandardParameter> {
-        let links = self.joints.iter().enumerate().flat_map(|(link, joint)| {
-            InertialElement::ALL
-                .into_iter()
-                .enumerate()
-                .map(move |(k, element)| StandardParameter {
-                    name: format!("{}.{}", joint.link.name, element.name()),
-                    owner: Owner::Link { link, element },
-                    status: match joint.link.inertial {
-                        Inertial::Unknown => Status::Unknown,
-                        Inertial::Nominal(value) => Status::Nominal(value[k]),
-                        Inertial::Fixed(value) => Status::Fixed(value[k]),
-                    },
-                })
-        });
+        let rigid = match &self.body {
+            Body::Chain(chain) => link_parameters(chain),
+            Body::Energies(energies) => monomial_parameters(energies),
+        };
         let effects = self
             .effects
             .iter()
@@ -136,7 +129,16 @@ impl Model {
                         status: Status::Unknown,
                     })
             });
-        links.chain(effects).collect()
+        rigid.into_iter().chain(effects).collect()
+    }
+
+    /// How many standard parameters, from the first, belong to the rigid body and not to effects.
+    #[must_use]
+    pub fn rigid_parameters(&self) -> usize {
+        match &self.body {
+            Body::Chain(chain) => InertialElement::ALL.len() * chain.links.len(),
+            Body::Energies(energies) => energies.monomials.len(),
+        }
     }
 
     /// `JOINT.EFFECT`, the first joint's name where there are several; a second instance on the same joints is `JOINT.EFFECT2`.
@@ -149,6 +151,70 @@ impl Model {
             format!("{joint}.{name}")
         } else {
             format!("{joint}.{name}{}", declared.instance)
+        }
+    }
+}
+
+fn link_parameters(chain: &Chain) -> Vec<StandardParameter> {
+    let links = chain.links.iter().enumerate();
+    links
+        .flat_map(|(link, body)| {
+            InertialElement::ALL
+                .into_iter()
+                .enumerate()
+                .map(move |(k, element)| StandardParameter {
+                    name: format!("{}.{}", body.name, element.name()),
+                    owner: Owner::Link { link, element },
+                    status: match body.inertial {
+                        Inertial::Unknown => Status::Unknown,
+                        Inertial::Nominal(value) => Status::Nominal(value[k]),
+                        Inertial::Fixed(value) => Status::Fixed(value[k]),
+                    },
+                })
+        })
+        .collect()
+}
+
+fn monomial_parameters(energies: &Energies) -> Vec<StandardParameter> {
+    let monomials = energies.monomials.iter().enumerate();
+    monomials
+        .map(|(k, monomial)| StandardParameter {
+            name: energies.monomial_name(monomial),
+            owner: Owner::Monomial(k),
+            status: energies.monomial_status(monomial),
+        })
+        .collect()
+}
+
+impl Energies {
+    /// `m2*l1*c2`, `m1*c1^2`; the product of nothing is `known`: what the spec gives in numbers.
+    #[must_use]
+    pub fn monomial_name(&self, monomial: &Monomial) -> String {
+        if monomial.factors.is_empty() {
+            return "known".to_owned();
+        }
+        let factors = monomial.factors.iter().map(|&(k, exponent)| {
+            let name = &self.parameters[k].name;
+            if exponent == 1 {
+                name.clone()
+            } else {
+                format!("{name}^{exponent}")
+            }
+        });
+        factors.collect::<Vec<_>>().join("*")
+    }
+
+    fn monomial_status(&self, monomial: &Monomial) -> Status {
+        if monomial.factors.is_empty() {
+            return Status::Fixed(1.0);
+        }
+        let values = monomial.factors.iter().map(|&(k, exponent)| {
+            let value = self.parameters[k].nominal?;
+            Some(value.powi(exponent))
+        });
+        match values.product::<Option<f64>>() {
+            Some(value) => Status::Nominal(value),
+            None => Status::Unknown,
         }
     }
 }

@@ -83,11 +83,12 @@ fn dh_rows_are_the_books_matrices() {
         let [turn, slide] = model.joints.as_slice() else {
             panic!("two joints")
         };
+        let links = &model.chain().unwrap().links;
         for q in [-2.0, 0.0, 0.9] {
             let turned = row(q + 0.7, -0.2, 0.3, 40f64.to_radians());
-            assert_near(&pose(&turn.placement, turn.kind, q), &turned);
+            assert_near(&pose(&links[0].placement, turn.kind, q), &turned);
             let slid = row(25f64.to_radians(), q + 0.06, -0.1, -1.1);
-            assert_near(&pose(&slide.placement, slide.kind, q), &slid);
+            assert_near(&pose(&links[1].placement, slide.kind, q), &slid);
         }
     }
 }
@@ -98,8 +99,12 @@ fn origin_frames_move_about_their_axis() {
         "convention = origin;
          joint j: revolute { xyz = [1, 2, 3]; rpy = [0, 0, 90 deg]; axis = [0, 0, 5]; }",
     );
-    assert_eq!(model.convention, Convention::Origin);
-    let at = pose(&model.joints[0].placement, JointKind::Revolute, 0.4);
+    assert_eq!(model.chain().unwrap().convention, Convention::Origin);
+    let at = pose(
+        &model.chain().unwrap().links[0].placement,
+        JointKind::Revolute,
+        0.4,
+    );
     let wanted = standard_dh(0.4 + std::f64::consts::FRAC_PI_2, 3.0, 0.0, 0.0);
     assert_near(
         &at,
@@ -116,7 +121,9 @@ fn numbers_are_in_si_units_and_power_binds_tightest() {
         spec(&format!(
             "convention = standard_dh; joint j: revolute {{ a = {text}; alpha = 0; d = 0; }}"
         ))
-        .joints[0]
+        .chain()
+        .unwrap()
+        .links[0]
             .placement
             .after
             .translation[0]
@@ -151,9 +158,9 @@ fn inertials_are_moved_to_the_links_origin() {
         "convention = standard_dh; joint j: revolute { a = 0; alpha = 0; d = 0; link = arm; }
          link arm: fixed { mass = 2; com = [1, 2, 3]; inertia = [10, 0.1, 0.2, 20, 0.3, 30]; }",
     );
-    assert_eq!(model.joints[0].link.name, "arm");
+    assert_eq!(model.chain().unwrap().links[0].name, "arm");
     let wanted = [2.0, 2.0, 4.0, 6.0, 36.0, -3.9, -5.8, 40.0, -11.7, 40.0];
-    let Inertial::Fixed(found) = model.joints[0].link.inertial else {
+    let Inertial::Fixed(found) = model.chain().unwrap().links[0].inertial else {
         panic!("fixed")
     };
     for (found, wanted) in found.into_iter().zip(wanted) {

@@ -63,14 +63,14 @@ fn fixed_joints_are_folded_into_frames_and_links() {
     assert_eq!(model.joints.len(), 2);
     assert_eq!(model.joints[1].kind, JointKind::Prismatic);
     // Two quarter turns about z, two meters up.
-    let before = model.joints[0].placement.before;
+    let before = model.chain().unwrap().links[0].placement.before;
     assert_eq!(
         before.rotation,
         [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]]
     );
     assert_eq!(before.translation, [0.0, 0.0, 2.0]);
     // Two bodies of 2 kg, one meter apart along z: half a meter from the common center each.
-    let Inertial::Nominal(upper) = model.joints[0].link.inertial else {
+    let Inertial::Nominal(upper) = model.chain().unwrap().links[0].inertial else {
         panic!("nominal by default")
     };
     assert_eq!(upper, [4.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0, 4.0, 0.0, 2.0]);
@@ -89,10 +89,10 @@ fn inertials_may_be_exact_or_left_out() {
         .1
     };
     assert!(
-        matches!(with(Inertials::Fixed).joints[1].link.inertial, Inertial::Fixed(ten) if ten[0] == 4.0)
+        matches!(with(Inertials::Fixed).chain().unwrap().links[1].inertial, Inertial::Fixed(ten) if ten[0] == 4.0)
     );
     assert_eq!(
-        with(Inertials::None).joints[1].link.inertial,
+        with(Inertials::None).chain().unwrap().links[1].inertial,
         Inertial::Unknown
     );
 }
@@ -165,7 +165,9 @@ fn a_branching_tree_needs_its_tip() {
     );
     assert_eq!(arm.joints.len(), 2);
     // The camera stands still on the upper link.
-    assert!(matches!(arm.joints[0].link.inertial, Inertial::Nominal(ten) if ten[0] == 5.0));
+    assert!(
+        matches!(arm.chain().unwrap().links[0].inertial, Inertial::Nominal(ten) if ten[0] == 5.0)
+    );
     let (_, pan) = imported(&parts, &to("camera"));
     assert_eq!(pan.joints[1].limits.position, None);
     assert_eq!(
@@ -245,10 +247,12 @@ fn names_become_words_of_the_language() {
         joint("loop", "revolute", "1st-link", "1st link", ""),
     ];
     let (_, model) = imported(&parts, &ImportOptions::default());
+    let links = &model.chain().unwrap().links;
     let names: Vec<(&str, &str)> = model
         .joints
         .iter()
-        .map(|joint| (joint.name.as_str(), joint.link.name.as_str()))
+        .zip(links)
+        .map(|(joint, link)| (joint.name.as_str(), link.name.as_str()))
         .collect();
     assert_eq!(names, [("all_", "j1st_link"), ("loop_", "j1st_link_2")]);
 }

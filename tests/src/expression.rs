@@ -1,6 +1,6 @@
 //! The value of an effect's expression, straight from its tree: what the language says, with no compiler between.
 
-use robot_model_spec::model::{BinaryOp, Expr, Function, Signal};
+use robot_model_spec::model::{BinaryOp, EffectExpr, EffectLeaf, Expr, Function, Signal};
 
 /// What the names of an expression stand for.
 #[derive(Debug, Clone, Copy)]
@@ -19,21 +19,10 @@ pub struct Scope<'a> {
 
 /// Evaluates an expression.
 #[must_use]
-pub fn value(expr: &Expr, scope: &Scope<'_>) -> f64 {
+pub fn value(expr: &EffectExpr, scope: &Scope<'_>) -> f64 {
     match expr {
         Expr::Number(number) => *number,
-        Expr::Linear(k) => scope.linear[*k],
-        Expr::Shape(k) => scope.shapes[*k],
-        Expr::Time => scope.time,
-        Expr::Signal(signal, formal) => {
-            let values = scope.signals[match signal {
-                Signal::Position => 0,
-                Signal::Velocity => 1,
-                Signal::Acceleration => 2,
-                Signal::RigidTorque => 3,
-            }];
-            values[scope.joints[*formal]]
-        }
+        Expr::Leaf(leaf) => leaf_value(*leaf, scope),
         Expr::Neg(x) => -value(x, scope),
         Expr::Binary(op, x, y) => {
             let (x, y) = (value(x, scope), value(y, scope));
@@ -58,6 +47,23 @@ pub fn value(expr: &Expr, scope: &Scope<'_>) -> f64 {
                 Function::Sign if x < 0.0 => -1.0,
                 Function::Sign => 0.0,
             }
+        }
+    }
+}
+
+fn leaf_value(leaf: EffectLeaf, scope: &Scope<'_>) -> f64 {
+    match leaf {
+        EffectLeaf::Linear(k) => scope.linear[k],
+        EffectLeaf::Shape(k) => scope.shapes[k],
+        EffectLeaf::Time => scope.time,
+        EffectLeaf::Signal(signal, formal) => {
+            let values = scope.signals[match signal {
+                Signal::Position => 0,
+                Signal::Velocity => 1,
+                Signal::Acceleration => 2,
+                Signal::RigidTorque => 3,
+            }];
+            values[scope.joints[formal]]
         }
     }
 }

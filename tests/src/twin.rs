@@ -62,15 +62,20 @@ impl<'a> Twin<'a> {
         Self { model, shapes }
     }
 
+    fn gravity(&self) -> Vector3<f64> {
+        Vector3::from(self.model.chain().expect("the twin is of a chain").gravity)
+    }
+
     fn links(&self, state: &State) -> Vec<LinkMotion> {
         let mut links: Vec<LinkMotion> = Vec::new();
         let zero = Vector3::zeros();
+        let chain = self.model.chain().expect("the twin is of a chain");
         for (j, joint) in self.model.joints.iter().enumerate() {
             let (rotation, origin, w, dw, v, dv) = links.last().map_or(
                 (Matrix3::identity(), zero, zero, zero, zero, zero),
                 |link| (link.rotation, link.origin, link.w, link.dw, link.v, link.dv),
             );
-            let placement = &joint.placement;
+            let placement = &chain.links[j].placement;
             let before = rotation * matrix(&placement.before);
             let point = origin + rotation * Vector3::from(placement.before.translation);
             let own_axis = Vector3::from(placement.axis);
@@ -125,7 +130,7 @@ impl<'a> Twin<'a> {
     #[must_use]
     pub fn rigid_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
         let links = self.links(state);
-        let gravity = Vector3::from(self.model.gravity);
+        let gravity = self.gravity();
         let mut torque = vec![0.0; links.len()];
         for (i, link) in links.iter().enumerate() {
             let body = Body::new(&standard[10 * i..10 * i + 10], &link.rotation);
@@ -198,7 +203,7 @@ impl<'a> Twin<'a> {
     /// Potential energy of gravity, J: `V = -sum_i g . (m_i p_i + R_i c_i)`.
     #[must_use]
     pub fn potential_energy(&self, standard: &[f64], state: &State) -> f64 {
-        let gravity = Vector3::from(self.model.gravity);
+        let gravity = self.gravity();
         let links = self.links(state);
         let energy = |(i, link): (usize, &LinkMotion)| {
             let body = Body::new(&standard[10 * i..10 * i + 10], &link.rotation);

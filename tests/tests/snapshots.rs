@@ -34,12 +34,15 @@ fn forms(compiled: &Compiled, whats: &[What]) -> String {
 fn model() {
     for_each("model", |_, compiled| {
         let model = &compiled.model;
+        let Some(chain) = model.chain() else {
+            return format!("{model:#?}\n");
+        };
         let mut text = format!(
             "{} from {}, {:?}, gravity {:?}\n",
-            model.name, model.source, model.convention, model.gravity
+            model.name, model.source, chain.convention, chain.gravity
         );
-        for joint in &model.joints {
-            let placement = &joint.placement;
+        for (joint, link) in model.joints.iter().zip(&chain.links) {
+            let placement = &link.placement;
             writeln!(
                 text,
                 "\n{} (line {}), {:?}",
@@ -62,12 +65,7 @@ fn model() {
             .unwrap();
             writeln!(text, "  limits {:?}", joint.limits).unwrap();
             writeln!(text, "  gain   {:?}", joint.actuator_gain).unwrap();
-            writeln!(
-                text,
-                "  link   {}: {:?}",
-                joint.link.name, joint.link.inertial
-            )
-            .unwrap();
+            writeln!(text, "  link   {}: {:?}", link.name, link.inertial).unwrap();
         }
         text.push('\n');
         for (k, effect) in model.effects.iter().enumerate() {

@@ -3,7 +3,7 @@
 use robot_model::columns::Entry;
 use robot_model::motion::Motion;
 use robot_model_codegen::Block;
-use robot_model_spec::model::{BinaryOp, EffectDefinition, Expr, Function};
+use robot_model_spec::model::{BinaryOp, EffectDefinition, EffectExpr, EffectLeaf, Expr, Function};
 
 use super::program::run_block;
 
@@ -89,31 +89,22 @@ pub(super) fn is_rough(definition: &EffectDefinition, parameter: usize) -> bool 
 }
 
 /// Looks at the terms of a sum in which the parameter occurs.
-fn has_rough_term(sum: &Expr, parameter: usize) -> bool {
+fn has_rough_term(sum: &EffectExpr, parameter: usize) -> bool {
     match sum {
         Expr::Binary(BinaryOp::Add | BinaryOp::Sub, left, right) => {
             has_rough_term(left, parameter) || has_rough_term(right, parameter)
         }
         Expr::Neg(term) => has_rough_term(term, parameter),
         term => {
-            let of_parameter = |part: &Expr| matches!(part, Expr::Linear(k) if *k == parameter);
-            let rough = |part: &Expr| {
+            let of_parameter =
+                |part: &EffectExpr| *part == Expr::Leaf(EffectLeaf::Linear(parameter));
+            let rough = |part: &EffectExpr| {
                 matches!(
                     part,
                     Expr::Call(Function::Sign | Function::Tanh | Function::Abs, _)
                 )
             };
-            occurs(term, &of_parameter) && occurs(term, &rough)
+            term.contains(&of_parameter) && term.contains(&rough)
         }
     }
-}
-
-/// Whether some part of an expression is wanted.
-fn occurs(expression: &Expr, wanted: &dyn Fn(&Expr) -> bool) -> bool {
-    wanted(expression)
-        || match expression {
-            Expr::Neg(x) | Expr::Call(_, x) => occurs(x, wanted),
-            Expr::Binary(_, x, y) => occurs(x, wanted) || occurs(y, wanted),
-            _ => false,
-        }
 }

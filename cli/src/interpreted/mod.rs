@@ -152,7 +152,7 @@ fn unknowns(compiled: &Compiled) -> Vec<Unknown> {
             compiled.base.combinations[base].len() == 1
                 && compiled.model.effects[effect].definition.linear[parameter].nonnegative
         }
-        Owner::Link { .. } => false,
+        Owner::Link { .. } | Owner::Monomial(_) => false,
     };
     let names = compiled.base.names.iter().enumerate();
     names
@@ -176,7 +176,7 @@ fn declared_effects(compiled: &Compiled) -> EffectBlock {
             Owner::Effect { effect, parameter } => {
                 is_rough(&compiled.model.effects[effect].definition, parameter)
             }
-            Owner::Link { .. } => false,
+            Owner::Link { .. } | Owner::Monomial(_) => false,
         }
     })
 }

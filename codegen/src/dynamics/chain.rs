@@ -4,10 +4,11 @@
 //! `ddq`. Out: the torque of every joint. Source: Luh, Walker and Paul 1980; the linear form in first moments and inertia
 //! about the frame's origin as in Khalil & Dombre 2002, ch. 9.
 
-use robot_model_spec::model::{JointKind, Model};
+use robot_model_spec::model::{self, Joint, JointKind};
 
 use super::frame::{Frame, frame};
 use super::inertia::{self, LinkParameters};
+use super::rigid::Terms;
 use super::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId, Label};
 
@@ -15,18 +16,8 @@ use crate::expr::{Dag, ExprId, Label};
 pub struct Chain {
     frames: Vec<Frame>,
     links: Vec<LinkParameters>,
-}
-
-/// Velocities, accelerations and gravity that the recursion is run with.
-pub struct Excitation {
-    /// Joint velocities.
-    pub dq: Vec<ExprId>,
-    /// Joint accelerations.
-    pub ddq: Vec<ExprId>,
     /// Acceleration of gravity in the base frame.
-    pub gravity: [f64; 3],
-    /// Whether velocities, accelerations and forces are labeled with their names in the recursion.
-    pub labeled: bool,
+    gravity: [f64; 3],
 }
 
 /// Motion of a link, in link coordinates.
@@ -42,27 +33,41 @@ struct LinkMotion {
 }
 
 impl Chain {
-    /// Frames of the model with the given parameters.
-    pub fn new(dag: &mut Dag, model: &Model, links: Vec<LinkParameters>) -> Self {
-        let frames = model
-            .joints
+    /// Frames of the chain with the given parameters.
+    pub fn new(
+        dag: &mut Dag,
+        joints: &[Joint],
+        chain: &model::Chain,
+        links: Vec<LinkParameters>,
+    ) -> Self {
+        let frames = joints
             .iter()
+            .zip(&chain.links)
             .enumerate()
-            .map(|(index, joint)| frame(dag, index, joint))
+            .map(|(index, (joint, link))| frame(dag, index, joint.kind, &link.placement))
             .collect();
-        Self { frames, links }
+        Self {
+            frames,
+            links,
+            gravity: chain.gravity,
+        }
     }
 
     /// Torque of every joint, N m or N.
-    pub fn torque(&self, dag: &mut Dag, excitation: &Excitation) -> Vec<ExprId> {
-        let motions = self.forward(dag, excitation);
-        self.backward(dag, &motions, excitation.labeled)
+    pub fn torque(&self, dag: &mut Dag, terms: Terms, labeled: bool) -> Vec<ExprId> {
+        let motions = self.forward(dag, terms, labeled);
+        self.backward(dag, &motions, labeled)
     }
 
     /// Base to tip: velocities and accelerations. Gravity is an upward acceleration of the base.
-    fn forward(&self, dag: &mut Dag, excitation: &Excitation) -> Vec<LinkMotion> {
+    fn forward(&self, dag: &mut Dag, terms: Terms, labeled: bool) -> Vec<LinkMotion> {
         let still = vector::zero(dag);
-        let up = vector::constant(dag, excitation.gravity.map(|g| -g));
+        let up = if terms.gravity() {
+            vector::constant(dag, self.gravity.map(|g| -g))
+        } else {
+            still
+        };
+        let (dq, ddq) = terms.rates(dag, self.frames.len());
         let mut motions: Vec<LinkMotion> = Vec::with_capacity(self.frames.len());
         for (index, frame) in self.frames.iter().enumerate() {
             let (w, dw, joint_acceleration) = match motions.last() {
@@ -73,15 +78,8 @@ impl Chain {
                 ),
                 None => (still, still, up),
             };
-            let motion = frame.advance(
-                dag,
-                w,
-                dw,
-                joint_acceleration,
-                excitation.dq[index],
-                excitation.ddq[index],
-            );
-            if excitation.labeled {
+            let motion = frame.advance(dag, w, dw, joint_acceleration, dq[index], ddq[index]);
+            if labeled {
                 label(dag, "w", index, motion.w);
                 label(dag, "dw", index, motion.dw);
                 label(dag, "a", index, motion.a);

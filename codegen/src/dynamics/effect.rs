@@ -1,8 +1,9 @@
 //! Effects as the language defines them, lowered to expressions for given joints.
 
-use robot_model_spec::model::{BinaryOp, EffectDefinition, Expr, Function as SpecFunction, Signal};
+use robot_model_spec::model::{EffectDefinition, EffectExpr, EffectLeaf, Signal};
 
-use crate::expr::{Dag, ExprId, Function, Symbol};
+use super::lower::lower_with;
+use crate::expr::{Dag, ExprId, Symbol};
 
 /// What the names in an effect's definition stand for.
 pub struct Scope<'a> {
@@ -71,13 +72,12 @@ pub fn entries(
     entries
 }
 
-fn lower(dag: &mut Dag, expr: &Expr, scope: &Scope<'_>) -> ExprId {
-    match expr {
-        Expr::Number(value) => dag.constant(*value),
-        Expr::Linear(k) => scope.linear[*k],
-        Expr::Shape(k) => scope.shapes[*k],
-        Expr::Signal(signal, formal) => {
-            let joint = scope.joints[*formal];
+fn lower(dag: &mut Dag, expr: &EffectExpr, scope: &Scope<'_>) -> ExprId {
+    lower_with(dag, expr, &mut |dag, leaf| match leaf {
+        EffectLeaf::Linear(k) => scope.linear[k],
+        EffectLeaf::Shape(k) => scope.shapes[k],
+        EffectLeaf::Signal(signal, formal) => {
+            let joint = scope.joints[formal];
             match signal {
                 Signal::Position => dag.symbol(Symbol::Q(joint)),
                 Signal::Velocity => dag.symbol(Symbol::Dq(joint)),
@@ -85,36 +85,6 @@ fn lower(dag: &mut Dag, expr: &Expr, scope: &Scope<'_>) -> ExprId {
                 Signal::RigidTorque => scope.rigid_torque[joint],
             }
         }
-        Expr::Time => dag.symbol(Symbol::Time),
-        Expr::Neg(x) => {
-            let x = lower(dag, x, scope);
-            dag.neg(x)
-        }
-        Expr::Binary(op, x, y) => {
-            let (x, y) = (lower(dag, x, scope), lower(dag, y, scope));
-            match op {
-                BinaryOp::Add => dag.add(x, y),
-                BinaryOp::Sub => dag.sub(x, y),
-                BinaryOp::Mul => dag.mul(x, y),
-                BinaryOp::Div => dag.div(x, y),
-                BinaryOp::Pow => dag.power(x, y),
-            }
-        }
-        Expr::Call(function, x) => {
-            let x = lower(dag, x, scope);
-            dag.call(expression_function(*function), x)
-        }
-    }
-}
-
-const fn expression_function(function: SpecFunction) -> Function {
-    match function {
-        SpecFunction::Sin => Function::Sin,
-        SpecFunction::Cos => Function::Cos,
-        SpecFunction::Exp => Function::Exp,
-        SpecFunction::Sqrt => Function::Sqrt,
-        SpecFunction::Abs => Function::Abs,
-        SpecFunction::Sign => Function::Sign,
-        SpecFunction::Tanh => Function::Tanh,
-    }
+        EffectLeaf::Time => dag.symbol(Symbol::Time),
+    })
 }

@@ -1,6 +1,6 @@
 //! The pose of a link in its parent as expressions of `q`: every convention is one [`Placement`] here.
 
-use robot_model_spec::model::{Joint, JointKind, Placement};
+use robot_model_spec::model::{JointKind, Placement};
 
 use super::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId, Function, Symbol};
@@ -20,19 +20,19 @@ pub struct Frame {
 }
 
 /// Expressions for the frame of joint `index`.
-pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
+pub fn frame(dag: &mut Dag, index: usize, kind: JointKind, placement: &Placement) -> Frame {
     let Placement {
         before,
         axis,
         offset,
         after,
         ..
-    } = &joint.placement;
+    } = placement;
     let q = dag.symbol(Symbol::Q(index));
     let axis_in_link = vector::rotate_back(&after.rotation, *axis);
     let fixed_to_origin = vector::rotate_back(&after.rotation, after.translation);
 
-    let (motion, to_origin) = match joint.kind {
+    let (motion, to_origin) = match kind {
         JointKind::Revolute => {
             let (sin, cos) = sine_and_cosine(dag, q, *offset);
             (
@@ -57,7 +57,7 @@ pub fn frame(dag: &mut Dag, index: usize, joint: &Joint) -> Frame {
     let after_rotation = after.rotation.map(|row| vector::constant(dag, row));
     let rotation = multiply(dag, &before_rotation, &motion);
     Frame {
-        kind: joint.kind,
+        kind,
         rotation: multiply(dag, &rotation, &after_rotation),
         joint_point: vector::constant(dag, before.translation),
         to_origin,

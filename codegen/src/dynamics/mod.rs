@@ -8,12 +8,14 @@ mod coriolis;
 pub mod effect;
 mod frame;
 mod inertia;
+mod lower;
+mod rigid;
 mod vector;
 
 use robot_model_spec::model::Model;
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
-use chain::{Chain, Excitation};
+use rigid::{RigidBody, Terms};
 
 /// What stands for each standard parameter in the derivation.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,30 +51,14 @@ pub struct Dynamics {
 pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
     let dof = model.joints.len();
     let parameters = parameter_expressions(dag, values);
-    let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
+    let body = RigidBody::new(dag, model, &parameters);
 
-    let zero = vec![dag.zero(); dof];
-    let dq: Vec<ExprId> = (0..dof)
-        .map(|joint| dag.symbol(Symbol::Dq(joint)))
-        .collect();
-    let ddq: Vec<ExprId> = (0..dof)
-        .map(|joint| dag.symbol(Symbol::Ddq(joint)))
-        .collect();
-    let torque = |dag: &mut Dag, dq: &[ExprId], ddq: &[ExprId], gravity, labeled| {
-        let excitation = Excitation {
-            dq: dq.to_vec(),
-            ddq: ddq.to_vec(),
-            gravity,
-            labeled,
-        };
-        chain.torque(dag, &excitation)
-    };
-    let rigid_torque = torque(dag, &dq, &ddq, model.gravity, true);
-    let bias = torque(dag, &dq, &zero, model.gravity, false);
-    let gravity = torque(dag, &zero, &zero, model.gravity, false);
-    let velocity_torque = torque(dag, &dq, &zero, [0.0; 3], false);
+    let rigid_torque = body.torque(dag, Terms::All, true);
+    let bias = body.torque(dag, Terms::Bias, false);
+    let gravity = body.torque(dag, Terms::Gravity, false);
+    let velocity_torque = body.torque(dag, Terms::Velocity, false);
 
-    let mass_matrix = chain.mass_matrix(dag);
+    let mass_matrix = body.mass_matrix(dag);
     for (row, entries) in mass_matrix.iter().enumerate() {
         for (column, &entry) in entries.iter().enumerate().skip(row) {
             dag.set_label(
@@ -105,24 +91,8 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
 
 /// `M ddq + C dq + G` alone, for uses that need nothing else.
 pub fn rigid_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprId> {
-    let dof = model.joints.len();
     let parameters = parameter_expressions(dag, values);
-    let chain = Chain::new(dag, model, link_parameters(&parameters, dof));
-    let dq = (0..dof)
-        .map(|joint| dag.symbol(Symbol::Dq(joint)))
-        .collect();
-    let ddq = (0..dof)
-        .map(|joint| dag.symbol(Symbol::Ddq(joint)))
-        .collect();
-    chain.torque(
-        dag,
-        &Excitation {
-            dq,
-            ddq,
-            gravity: model.gravity,
-            labeled: false,
-        },
-    )
+    RigidBody::new(dag, model, &parameters).torque(dag, Terms::All, false)
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
@@ -136,12 +106,6 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
         .collect()
 }
 
-fn link_parameters(parameters: &[ExprId], dof: usize) -> Vec<[ExprId; 10]> {
-    (0..dof)
-        .map(|link| std::array::from_fn(|k| parameters[10 * link + k]))
-        .collect()
-}
-
 /// Sum of the declared effects' torques.
 fn effect_torque(
     dag: &mut Dag,
@@ -150,7 +114,7 @@ fn effect_torque(
     rigid_torque: &[ExprId],
 ) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
-    let mut linear = &parameters[10 * model.joints.len()..];
+    let mut linear = &parameters[model.rigid_parameters()..];
     for (index, effect) in model.effects.iter().enumerate() {
         let (own, rest) = linear.split_at(effect.definition.linear.len());
         linear = rest;

@@ -26,18 +26,22 @@ pub(super) struct CheckedJoint {
 }
 
 impl CheckedJoint {
-    pub(super) fn into_model(self, inertials: &BTreeMap<String, Inertial>) -> Joint {
+    pub(super) fn into_model(self, inertials: &BTreeMap<String, Inertial>) -> (Joint, Link) {
         let name = self.link.to_string();
         let inertial = inertials.get(&name).copied().unwrap_or(Inertial::Unknown);
-        Joint {
+        let joint = Joint {
             name: self.name,
             kind: self.kind,
-            placement: self.placement,
             limits: self.limits,
             actuator_gain: self.actuator_gain,
-            link: Link { name, inertial },
             line: self.line,
-        }
+        };
+        let link = Link {
+            name,
+            placement: self.placement,
+            inertial,
+        };
+        (joint, link)
     }
 }
 

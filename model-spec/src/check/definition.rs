@@ -7,7 +7,9 @@ use super::resolve::{Scope, is_reserved};
 use super::{Errors, check_unique, value};
 use crate::ast::{self, Effect};
 use crate::diagnostic::Diagnostic;
-use crate::model::{EffectDefinition, EffectTorque, Expr, LinearParameter, ShapeParameter};
+use crate::model::{
+    EffectDefinition, EffectLeaf, EffectTorque, Expr, LinearParameter, ShapeParameter,
+};
 use crate::suggest;
 
 /// One definition; `None` behind an error.
@@ -214,8 +216,9 @@ fn check_torques(effect: &Effect, errors: &mut Errors) {
 
 /// What is declared is used: a column of zeros or a free parameter that changes nothing cannot be identified.
 fn check_used(effect: &Effect, torques: &[EffectTorque], errors: &mut Errors) {
-    let uses = |wanted: &dyn Fn(&Expr) -> bool| {
-        torques.iter().any(|torque| contains(&torque.value, wanted))
+    let uses = |wanted: &dyn Fn(&EffectLeaf) -> bool| {
+        let wanted = |part: &Expr<EffectLeaf>| matches!(part, Expr::Leaf(leaf) if wanted(leaf));
+        torques.iter().any(|torque| torque.value.contains(&wanted))
     };
     let mut unused = |name: &Ident, what: &str| {
         errors.push(
@@ -228,29 +231,19 @@ fn check_used(effect: &Effect, torques: &[EffectTorque], errors: &mut Errors) {
         );
     };
     for (k, linear) in effect.linear.iter().enumerate() {
-        if !uses(&|expr| *expr == Expr::Linear(k)) {
+        if !uses(&|leaf| *leaf == EffectLeaf::Linear(k)) {
             unused(&linear.name, "linear parameter");
         }
     }
     for (k, shape) in effect.shapes.iter().enumerate() {
-        if !uses(&|expr| *expr == Expr::Shape(k)) {
+        if !uses(&|leaf| *leaf == EffectLeaf::Shape(k)) {
             unused(&shape.name, "shape parameter");
         }
     }
     for (k, joint) in effect.joints.iter().enumerate() {
         let acts = torques.iter().any(|torque| torque.joint == k);
-        if !acts && !uses(&|expr| matches!(expr, Expr::Signal(_, joint) if *joint == k)) {
+        if !acts && !uses(&|leaf| matches!(leaf, EffectLeaf::Signal(_, joint) if *joint == k)) {
             unused(joint, "joint");
         }
     }
-}
-
-/// Whether `wanted` holds somewhere in the tree.
-fn contains(expr: &Expr, wanted: &dyn Fn(&Expr) -> bool) -> bool {
-    wanted(expr)
-        || match expr {
-            Expr::Neg(inner) | Expr::Call(_, inner) => contains(inner, wanted),
-            Expr::Binary(_, left, right) => contains(left, wanted) || contains(right, wanted),
-            _ => false,
-        }
 }

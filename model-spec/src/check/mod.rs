@@ -24,7 +24,7 @@ use syn::Ident;
 use crate::ast::{Ast, Robot, Value};
 use crate::diagnostic::Diagnostic;
 use crate::library::standard_effects;
-use crate::model::{Convention, EffectDefinition, Model};
+use crate::model::{Body, Chain, Convention, EffectDefinition, Model};
 use crate::suggest;
 use setting::Settings;
 use unit::Dimension;
@@ -59,10 +59,10 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
     let (Some(convention), Some(gravity), true) = (convention, gravity, errors.is_empty()) else {
         return Err(errors);
     };
-    let joints = joints
+    let (joints, links) = joints
         .into_iter()
         .map(|joint| joint.into_model(&inertials))
-        .collect();
+        .unzip();
     let source = source
         .rsplit(['/', '\\'])
         .next()
@@ -71,9 +71,12 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
     Ok(Model {
         name: robot.name.to_string(),
         source,
-        convention,
-        gravity,
         joints,
+        body: Body::Chain(Chain {
+            convention,
+            gravity,
+            links,
+        }),
         effects,
         definitions,
     })

@@ -6,7 +6,7 @@ use syn::Ident;
 use super::Errors;
 use crate::ast::{self, ExprKind};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Expr, Function, Signal};
+use crate::model::{EffectExpr, EffectLeaf, Expr, Function, Signal};
 use crate::suggest;
 
 /// Names of the functions.
@@ -70,7 +70,7 @@ pub(super) struct Scope {
 
 impl Scope {
     /// The equation over indices; `None` behind an error.
-    pub(super) fn resolve(&self, expr: &ast::Expr, errors: &mut Errors) -> Option<Expr> {
+    pub(super) fn resolve(&self, expr: &ast::Expr, errors: &mut Errors) -> Option<EffectExpr> {
         match &expr.kind {
             ExprKind::Number(value, None) => Some(Expr::Number(*value)),
             ExprKind::Number(..) => super::value::constant(expr)
@@ -87,16 +87,16 @@ impl Scope {
         }
     }
 
-    fn name(&self, name: &Ident, errors: &mut Errors) -> Option<Expr> {
+    fn name(&self, name: &Ident, errors: &mut Errors) -> Option<EffectExpr> {
         let text = name.to_string();
         if let Some(k) = self.linear.iter().position(|linear| *linear == text) {
-            return Some(Expr::Linear(k));
+            return Some(Expr::Leaf(EffectLeaf::Linear(k)));
         }
         if let Some(k) = self.shapes.iter().position(|shape| *shape == text) {
-            return Some(Expr::Shape(k));
+            return Some(Expr::Leaf(EffectLeaf::Shape(k)));
         }
         match text.as_str() {
-            "time" => return Some(Expr::Time),
+            "time" => return Some(Expr::Leaf(EffectLeaf::Time)),
             "pi" => return Some(Expr::Number(std::f64::consts::PI)),
             _ => {}
         }
@@ -130,7 +130,7 @@ impl Scope {
         arguments: &[ast::Expr],
         span: Span,
         errors: &mut Errors,
-    ) -> Option<Expr> {
+    ) -> Option<EffectExpr> {
         let text = name.to_string();
         if let Some((_, signal)) = SIGNALS.iter().find(|(signal, _)| *signal == text) {
             return self.signal(name, *signal, arguments, span, errors);
@@ -165,7 +165,7 @@ impl Scope {
         arguments: &[ast::Expr],
         span: Span,
         errors: &mut Errors,
-    ) -> Option<Expr> {
+    ) -> Option<EffectExpr> {
         let joint = match arguments {
             [
                 ast::Expr {
@@ -193,6 +193,6 @@ impl Scope {
                 )),
             );
         }
-        index.map(|index| Expr::Signal(signal, index))
+        index.map(|index| Expr::Leaf(EffectLeaf::Signal(signal, index)))
     }
 }
