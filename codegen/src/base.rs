@@ -8,20 +8,22 @@
 //! regroup into those near the base. Inside a link, inertia is looked at first, then first moments, then the mass: so
 //! coefficients are lengths and squares of lengths, never one over a length.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter, Status};
 
 use crate::expr::{Dag, Symbol};
 use crate::interpreter::{Operand, Program};
+use crate::lumps::Lump;
 use crate::random::Generator;
 use crate::regressor::LinearForm;
+use crate::selection::{Selection, norm};
 
 /// A scaled column is independent of those before it when this much of it is left after projecting them out.
 pub const INDEPENDENT_ABOVE: f64 = 1e-7;
 /// A scaled column is a combination of those before it when no more than this is left.
 pub const DEPENDENT_BELOW: f64 = 1e-10;
-/// Coefficients of a combination below this are noise.
-const COEFFICIENT_FLOOR: f64 = 1e-9;
 /// Random states are this many times as many as the parameters, over the degrees of freedom.
 const OVERSAMPLING: usize = 3;
 
@@ -32,8 +34,8 @@ pub struct BaseForm {
     pub kept: Vec<usize>,
     /// Names of the base parameters: the kept parameter's, with `r` behind it where others are regrouped into it.
     pub names: Vec<String>,
-    /// Per base parameter its combination `(standard parameter, coefficient)`: the kept one with coefficient 1, then those
-    /// regrouped into it, ascending.
+    /// Per base parameter its combination `(standard parameter, coefficient)`. Of a chain: the kept one with coefficient 1,
+    /// then those regrouped into it, ascending. Of a robot that says its energies: its lumped parameter, ascending.
     pub combinations: Vec<Vec<(usize, f64)>>,
     /// Standard parameters without influence on any torque.
     pub unidentifiable: Vec<usize>,
@@ -91,6 +93,32 @@ impl std::fmt::Display for RankStatus {
 }
 
 impl BaseForm {
+    /// Writes lumps as the combinations of standard parameters that they are; until here each is its representative.
+    pub(crate) fn spell_out(&mut self, standard: &[StandardParameter], lumps: &[Lump]) {
+        for combination in &mut self.combinations {
+            let mut spelled: BTreeMap<usize, f64> = BTreeMap::new();
+            for &(k, coefficient) in combination.iter() {
+                match lumps.iter().find(|lump| lump.representative == k) {
+                    Some(lump) => {
+                        for &(part, share) in &lump.combination {
+                            *spelled.entry(part).or_insert(0.0) += coefficient * share;
+                        }
+                    }
+                    None => *spelled.entry(k).or_insert(0.0) += coefficient,
+                }
+            }
+            *combination = spelled.into_iter().collect();
+        }
+        self.names = base_names(standard, &self.kept, &self.combinations);
+        let used: BTreeSet<usize> = self
+            .combinations
+            .iter()
+            .flatten()
+            .map(|&(k, _)| k)
+            .collect();
+        self.unidentifiable.retain(|k| !used.contains(k));
+    }
+
     /// `beta = map * standard`
     #[must_use]
     pub fn beta(&self, standard: &[f64]) -> Vec<f64> {
@@ -173,7 +201,7 @@ fn base_names(
             format!(
                 "{}{}",
                 parameters[k].name,
-                if combination.len() > 1 { "r" } else { "" }
+                if *combination == [(k, 1.0)] { "" } else { "r" }
             )
         })
         .collect()
@@ -273,148 +301,5 @@ pub fn middle(low: f64, high: f64) -> f64 {
         (low * high).sqrt()
     } else {
         f64::midpoint(low, high)
-    }
-}
-
-/// Orthogonalization column by column, keeping what is needed to express the dropped columns.
-#[derive(Default)]
-struct Selection {
-    kept: Vec<usize>,
-    /// Orthonormal basis of the kept columns.
-    basis: Vec<Vec<f64>>,
-    /// Column `j` of the triangular factor: kept column `j` in the basis.
-    triangle: Vec<Vec<f64>>,
-    /// `(standard parameter, its column in the basis)`
-    dropped: Vec<(usize, Vec<f64>)>,
-    unclear: Vec<UnclearColumn>,
-    smallest_kept: Option<f64>,
-    largest_dropped: f64,
-}
-
-impl Selection {
-    fn take(&mut self, k: usize, mut column: Vec<f64>, name: &str) {
-        let mut coordinates = vec![0.0; self.basis.len()];
-        // Twice is enough for orthogonality to rounding.
-        for _ in 0..2 {
-            for (coordinate, direction) in coordinates.iter_mut().zip(&self.basis) {
-                let projection = dot(direction, &column);
-                *coordinate += projection;
-                column
-                    .iter_mut()
-                    .zip(direction)
-                    .for_each(|(x, d)| *x -= projection * d);
-            }
-        }
-        let residual = norm(&column);
-        if !residual.is_finite() {
-            // An effect that is no number at some state, such as the root of a negative signal.
-            self.unclear.push(UnclearColumn {
-                name: name.to_owned(),
-                residual,
-            });
-            return;
-        }
-        if residual <= DEPENDENT_BELOW {
-            self.largest_dropped = self.largest_dropped.max(residual);
-            self.dropped.push((k, coordinates));
-            return;
-        }
-        if residual < INDEPENDENT_ABOVE {
-            self.unclear.push(UnclearColumn {
-                name: name.to_owned(),
-                residual,
-            });
-        }
-        self.smallest_kept = Some(
-            self.smallest_kept
-                .map_or(residual, |smallest| smallest.min(residual)),
-        );
-        for x in &mut column {
-            *x /= residual;
-        }
-        coordinates.push(residual);
-        self.kept.push(k);
-        self.basis.push(column);
-        self.triangle.push(coordinates);
-    }
-
-    fn status(&self) -> RankStatus {
-        if self.unclear.is_empty() {
-            RankStatus::Clear {
-                smallest_kept: self.smallest_kept.unwrap_or(1.0),
-                largest_dropped: self.largest_dropped,
-            }
-        } else {
-            RankStatus::Unclear(self.unclear.clone())
-        }
-    }
-
-    /// Per kept column what regroups into it, in the units of the unscaled columns.
-    fn combinations(&self, scale: &[f64]) -> Vec<Vec<(usize, f64)>> {
-        let mut combinations: Vec<Vec<(usize, f64)>> =
-            self.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
-        for (k, coordinates) in &self.dropped {
-            let mut rest = coordinates.clone();
-            for j in (0..rest.len()).rev() {
-                let weight = rest[j] / self.triangle[j][j];
-                for (i, entry) in self.triangle[j][..j].iter().enumerate() {
-                    rest[i] -= weight * entry;
-                }
-                let coefficient = snap(weight * scale[*k] / scale[self.kept[j]]);
-                if coefficient != 0.0 {
-                    combinations[j].push((*k, coefficient));
-                }
-            }
-        }
-        // In the order of the kept parameters; inside a combination the kept one leads.
-        let mut order: Vec<usize> = (0..self.kept.len()).collect();
-        order.sort_unstable_by_key(|&j| self.kept[j]);
-        order
-            .into_iter()
-            .map(|j| {
-                let mut combination = std::mem::take(&mut combinations[j]);
-                combination[1..].sort_unstable_by_key(|&(k, _)| k);
-                combination
-            })
-            .collect()
-    }
-}
-
-/// The named rounding step: a coefficient of a combination is 0 below [`COEFFICIENT_FLOOR`], else the shortest decimal
-/// within 2e-11, else twelve decimals. Geometry is written with fewer digits than that.
-fn snap(coefficient: f64) -> f64 {
-    const TOLERANCE: f64 = 2e-11;
-    if coefficient.abs() < COEFFICIENT_FLOOR {
-        return 0.0;
-    }
-    let rounded = |digits: i32| {
-        let unit = 10f64.powi(digits);
-        (coefficient * unit).round() / unit
-    };
-    (0..=9)
-        .map(rounded)
-        .find(|value| (value - coefficient).abs() <= TOLERANCE)
-        .unwrap_or_else(|| rounded(12))
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    dot(x, x).sqrt()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    #[expect(clippy::float_cmp, reason = "snapping gives exact decimals")]
-    fn snapping_gives_the_shortest_decimal() {
-        assert_eq!(snap(0.186_451_240_000_003), 0.186_451_24);
-        assert_eq!(snap(-1.000_000_000_000_4), -1.0);
-        assert_eq!(snap(3e-10), 0.0);
-        assert_eq!(snap(0.123_456_789_123_456), 0.123_456_789_123);
     }
 }

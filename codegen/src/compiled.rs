@@ -4,9 +4,10 @@ use robot_model_spec::model::{EffectDefinition, Model};
 use robot_model_spec::parameter::{Owner, StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
-use crate::dynamics::{self, Dynamics, Value, effect};
+use crate::dynamics::{self, Dynamics, Value, effect, energy};
 use crate::expr::{Dag, ExprId, Names, Symbol};
 use crate::interpreter::Program;
+use crate::lumps;
 use crate::regressor::{self, LinearForm};
 
 /// A model with everything that is derived from it.
@@ -20,6 +21,9 @@ pub struct Compiled {
     pub dag: Dag,
     /// `tau = Y * standard`
     pub linear: LinearForm,
+    /// `tau = Y' * standard'` in the parameters that base parameters are chosen from: lumps of standard parameters at the
+    /// place of their representatives where the robot says its energies, else the standard parameters themselves.
+    pub candidates: LinearForm,
     /// Base parameters, and how they are made of standard ones.
     pub base: BaseForm,
     /// Equations of motion in the kept parameters, whose symbols stand for base parameters. What the spec fixes is numbers.
@@ -32,14 +36,28 @@ pub struct Compiled {
 pub fn compile_model(model: &Model) -> Compiled {
     let mut dag = Dag::new();
     let standard = model.standard_parameters();
-    let linear = regressor::linearize(&mut dag, model);
-    let base = base::reduce(&dag, model, &linear);
-    let dynamics = dynamics::derive(&mut dag, model, &base_values(&standard, &base));
+    let dof = model.joints.len();
+    let energies = model.energies();
+    let written = energies.map(|energies| energy::written(&mut dag, energies, dof));
+    let lumps = energies.and_then(|energies| lumps::collect(&mut dag, energies, dof));
+    let linear = regressor::linearize(&mut dag, model, written.as_ref());
+    let form = lumps.as_ref().map(|lumps| &lumps.form);
+    let candidates = match form {
+        Some(form) => regressor::linearize(&mut dag, model, Some(form)),
+        None => linear.clone(),
+    };
+    let mut base = base::reduce(&dag, model, &candidates);
+    if let Some(lumps) = &lumps {
+        base.spell_out(&standard, &lumps.lumps);
+    }
+    let values = base_values(&standard, &base);
+    let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
     Compiled {
         model: model.clone(),
         standard,
         dag,
         linear,
+        candidates,
         base,
         dynamics,
     }
@@ -164,7 +182,7 @@ impl Compiled {
         let entries = (0..self.base.kept.len())
             .filter(|&column| wanted(column))
             .flat_map(|column| {
-                let entries = self.linear.column(&self.dag, self.base.kept[column]);
+                let entries = self.candidates.column(&self.dag, self.base.kept[column]);
                 entries.map(move |(joint, entry)| (joint, column, entry))
             })
             .collect();
@@ -224,7 +242,11 @@ impl Compiled {
             .iter()
             .map(|parameter| Value::Number(fixed_value(parameter)))
             .collect();
-        let torque = dynamics::rigid_torque(&mut dag, &self.model, &values);
+        let form = self
+            .model
+            .energies()
+            .map(|energies| energy::written(&mut dag, energies, self.dof()));
+        let torque = dynamics::rigid_torque(&mut dag, &self.model, form.as_ref(), &values);
         Program::new(&dag, &torque)
     }
 

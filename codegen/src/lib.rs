@@ -10,8 +10,10 @@ pub mod dynamics;
 pub mod emit;
 pub mod expr;
 pub mod interpreter;
+pub mod lumps;
 mod random;
 pub mod regressor;
+mod selection;
 pub mod show;
 
 mod build_script;

@@ -4,6 +4,7 @@
 
 use robot_model_spec::model::Model;
 
+use crate::dynamics::energy::EnergyForm;
 use crate::dynamics::{self, Value, effect};
 use crate::expr::{Dag, ExprId, Symbol};
 
@@ -29,12 +30,14 @@ impl LinearForm {
     }
 }
 
+/// `form` are the energies of a robot that says them; columns without a term in it are zero.
+///
 /// Differentiates the torque with respect to each standard parameter; the torque is linear in them, so that is exact.
-pub fn linearize(dag: &mut Dag, model: &Model) -> LinearForm {
+pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> LinearForm {
     let dof = model.joints.len();
     let inertial = model.rigid_parameters();
     let count = model.standard_parameters().len();
-    let rigid_torque = dynamics::rigid_torque(dag, model, &vec![Value::Symbol; count]);
+    let rigid_torque = dynamics::rigid_torque(dag, model, form, &vec![Value::Symbol; count]);
     let mut regressor = vec![vec![dag.zero(); count]; dof];
     for parameter in 0..inertial {
         let column = dag.derivatives(&rigid_torque, Symbol::Parameter(parameter));

@@ -28,10 +28,78 @@ pub struct Robot {
     pub joints: Vec<Joint>,
     /// Inertials of links.
     pub links: Vec<Link>,
+    /// What a robot that says its energies is made of; its energies are settings.
+    pub energies: Energies,
     /// `effects { .. }`; at most one is allowed.
     pub effects: Vec<Effects>,
     /// The closing brace.
     pub close: Span,
+}
+
+/// What the energies of a robot are made of, each kind in the order of the text.
+#[derive(Debug, Clone, Default)]
+pub struct Energies {
+    /// `coordinates th, x: m;`
+    pub coordinates: Vec<Coordinate>,
+    /// `parameters m1: kg, l1 = 0.615 m;`
+    pub parameters: Vec<Parameter>,
+    /// `constants g = 9.81 m/s^2;`
+    pub constants: Vec<Constant>,
+    /// `let x = ..;`
+    pub bindings: Vec<Binding>,
+    /// `point tip = [x, y, z];`
+    pub points: Vec<Binding<Vec<Expr>>>,
+    /// `limits th { .. }`
+    pub limits: Vec<Limits>,
+}
+
+/// `x: m`; without a unit an angle.
+#[derive(Debug, Clone)]
+pub struct Coordinate {
+    /// Its name.
+    pub name: Ident,
+    /// Its unit.
+    pub unit: Option<Expr>,
+}
+
+/// `m1: kg` or `m1 = 5.9 kg`
+#[derive(Debug, Clone)]
+pub struct Parameter {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name.
+    pub name: Ident,
+    /// Its unit.
+    pub unit: Option<Expr>,
+    /// A value from CAD.
+    pub nominal: Option<Expr>,
+}
+
+/// `g = 9.81 m/s^2`
+#[derive(Debug, Clone)]
+pub struct Constant {
+    /// Its name.
+    pub name: Ident,
+    /// Its value.
+    pub value: Expr,
+}
+
+/// `name = ..`
+#[derive(Debug, Clone)]
+pub struct Binding<T = Expr> {
+    /// Its name.
+    pub name: Ident,
+    /// What it stands for.
+    pub value: T,
+}
+
+/// `limits th { position = ..; velocity = ..; torque = ..; actuator_gain = ..; }`
+#[derive(Debug, Clone)]
+pub struct Limits {
+    /// The coordinate.
+    pub name: Ident,
+    /// What is known of it.
+    pub settings: Vec<Setting>,
 }
 
 /// `key = value`
@@ -207,4 +275,21 @@ impl Value {
 /// From the start of one span to the end of another; the first where the compiler cannot join them.
 pub(crate) fn join(first: Span, last: Span) -> Span {
     first.join(last).unwrap_or(first)
+}
+
+impl Expr {
+    /// The part of the expression that a path of operands leads to, the whole where the path is empty.
+    #[must_use]
+    pub(crate) fn at(&self, path: &[usize]) -> &Self {
+        let [first, rest @ ..] = path else {
+            return self;
+        };
+        let operand = match (&self.kind, first) {
+            (ExprKind::Neg(x) | ExprKind::Binary(_, x, _), 0) => Some(&**x),
+            (ExprKind::Binary(_, _, y), 1) => Some(&**y),
+            (ExprKind::Call(_, arguments), k) => arguments.get(*k),
+            _ => None,
+        };
+        operand.map_or(self, |operand| operand.at(rest))
+    }
 }

@@ -12,6 +12,7 @@ pub mod library;
 pub mod model;
 pub mod parameter;
 mod parse;
+pub mod polynomial;
 mod suggest;
 mod transform;
 pub mod urdf;

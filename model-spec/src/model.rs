@@ -384,6 +384,24 @@ pub enum BinaryOp {
     Pow,
 }
 
+impl Function {
+    /// Its value.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
+            Self::Exp => x.exp(),
+            Self::Sqrt => x.sqrt(),
+            Self::Abs => x.abs(),
+            // `f64::signum` is 1 at 0.
+            Self::Sign if x == 0.0 => 0.0,
+            Self::Sign => x.signum(),
+            Self::Tanh => x.tanh(),
+        }
+    }
+}
+
 /// Functions of one argument.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Function {

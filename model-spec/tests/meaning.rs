@@ -247,6 +247,7 @@ fn a_derive_builds_the_same_tree_from_tokens() {
             settings: ["a = 0.615", "alpha = 0", "d = 0"].map(setting).to_vec(),
         }],
         links: vec![],
+        energies: ast::Energies::default(),
         effects: vec![ast::Effects {
             keyword: word("effects").span(),
             declared: vec![

@@ -45,6 +45,9 @@ robots! {
     emps "emps" Emps;
     every_effect "every_effect" EveryEffect;
     panda "panda" Panda;
+    phantom "phantom" Phantom;
+    pneumatic_arm "pneumatic_arm" PneumaticArm;
+    puma_shoulder "puma_shoulder" PumaShoulder;
     puma560 "puma560" Puma560;
     skew "skew" Skew;
     slider "slider" Slider;

@@ -6,8 +6,11 @@
 mod chain;
 mod coriolis;
 pub mod effect;
+pub mod energy;
+pub mod fourier;
 mod frame;
 mod inertia;
+mod lagrange;
 mod lower;
 mod rigid;
 mod vector;
@@ -15,6 +18,7 @@ mod vector;
 use robot_model_spec::model::Model;
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
+use energy::EnergyForm;
 use rigid::{RigidBody, Terms};
 
 /// What stands for each standard parameter in the derivation.
@@ -47,11 +51,17 @@ pub struct Dynamics {
     pub bias: Vec<ExprId>,
 }
 
-/// Derives the equations of motion. `values` has one entry per standard parameter of the model.
-pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
+/// Derives the equations of motion. `values` has one entry per standard parameter of the model; `form` are the energies of
+/// a robot that says them.
+pub fn derive(
+    dag: &mut Dag,
+    model: &Model,
+    form: Option<&EnergyForm>,
+    values: &[Value],
+) -> Dynamics {
     let dof = model.joints.len();
     let parameters = parameter_expressions(dag, values);
-    let body = RigidBody::new(dag, model, &parameters);
+    let body = RigidBody::new(dag, model, form, &parameters);
 
     let rigid_torque = body.torque(dag, Terms::All, true);
     let bias = body.torque(dag, Terms::Bias, false);
@@ -90,9 +100,14 @@ pub fn derive(dag: &mut Dag, model: &Model, values: &[Value]) -> Dynamics {
 }
 
 /// `M ddq + C dq + G` alone, for uses that need nothing else.
-pub fn rigid_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprId> {
+pub fn rigid_torque(
+    dag: &mut Dag,
+    model: &Model,
+    form: Option<&EnergyForm>,
+    values: &[Value],
+) -> Vec<ExprId> {
     let parameters = parameter_expressions(dag, values);
-    RigidBody::new(dag, model, &parameters).torque(dag, Terms::All, false)
+    RigidBody::new(dag, model, form, &parameters).torque(dag, Terms::All, false)
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {

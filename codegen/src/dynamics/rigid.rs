@@ -3,12 +3,16 @@
 use robot_model_spec::model::{Body, Model};
 
 use super::chain::Chain;
+use super::energy::EnergyForm;
+use super::lagrange::Lagrangian;
 use crate::expr::{Dag, ExprId, Symbol};
 
 /// The rigid body with an expression for each of its standard parameters.
 pub enum RigidBody {
     /// Recursion over links.
     Chain(Chain),
+    /// Euler-Lagrange from the energies.
+    Lagrangian(Lagrangian),
 }
 
 /// Which terms of `M ddq + C dq + G` are wanted. The others are left out, not multiplied by zero.
@@ -52,9 +56,17 @@ impl Terms {
 
 impl RigidBody {
     /// The body of a model; `parameters` has one expression per standard parameter, those of effects among them.
-    pub fn new(dag: &mut Dag, model: &Model, parameters: &[ExprId]) -> Self {
-        match &model.body {
-            Body::Chain(chain) => {
+    pub fn new(
+        dag: &mut Dag,
+        model: &Model,
+        form: Option<&EnergyForm>,
+        parameters: &[ExprId],
+    ) -> Self {
+        match (&model.body, form) {
+            (_, Some(form)) => {
+                Self::Lagrangian(Lagrangian::new(dag, form, model.joints.len(), parameters))
+            }
+            (Body::Chain(chain), None) => {
                 let links = parameters
                     .chunks_exact(10)
                     .take(chain.links.len())
@@ -62,7 +74,7 @@ impl RigidBody {
                     .collect();
                 Self::Chain(Chain::new(dag, &model.joints, chain, links))
             }
-            _ => unreachable!("checks make chains only"),
+            _ => unreachable!("robots that say their energies come with their form"),
         }
     }
 
@@ -70,6 +82,7 @@ impl RigidBody {
     pub fn torque(&self, dag: &mut Dag, terms: Terms, labeled: bool) -> Vec<ExprId> {
         match self {
             Self::Chain(chain) => chain.torque(dag, terms, labeled),
+            Self::Lagrangian(lagrangian) => lagrangian.torque(dag, terms),
         }
     }
 
@@ -77,6 +90,7 @@ impl RigidBody {
     pub fn mass_matrix(&self, dag: &mut Dag) -> Vec<Vec<ExprId>> {
         match self {
             Self::Chain(chain) => chain.mass_matrix(dag),
+            Self::Lagrangian(lagrangian) => lagrangian.mass_matrix.clone(),
         }
     }
 }

@@ -147,7 +147,7 @@ pub(super) fn coordinate_dimension(kind: JointKind) -> Dimension {
     }
 }
 
-fn check_limits(settings: &Settings, kind: JointKind, errors: &mut Errors) -> Limits {
+pub(super) fn check_limits(settings: &Settings, kind: JointKind, errors: &mut Errors) -> Limits {
     let (speed, torque) = match kind {
         JointKind::Revolute => (Dimension::ANGULAR_SPEED, Dimension::TORQUE),
         JointKind::Prismatic => (Dimension::SPEED, Dimension::FORCE),
@@ -174,7 +174,7 @@ fn positive(value: &Value, dimension: Dimension) -> Result<f64, Diagnostic> {
     )
 }
 
-fn check_gain(settings: &Settings, errors: &mut Errors) -> f64 {
+pub(super) fn check_gain(settings: &Settings, errors: &mut Errors) -> f64 {
     let gain = |v: &Value| {
         let gain = value::any_scalar(v)?;
         if gain != 0.0 {

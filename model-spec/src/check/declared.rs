@@ -12,9 +12,10 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{Effect, EffectDefinition};
 use crate::suggest;
 
-/// Every instance, in the order of the spec.
+/// Every instance, in the order of the spec; `joints` are the names of the joints or coordinates.
 pub(super) fn check_effects(
     robot: &Robot,
+    joints: &[&Ident],
     definitions: &[Arc<EffectDefinition>],
     errors: &mut Errors,
 ) -> Vec<Effect> {
@@ -35,7 +36,7 @@ pub(super) fn check_effects(
             continue;
         };
         let shapes = check_shapes(declared, definition, errors);
-        for (joints, span) in check_targets(robot, declared, definition, errors) {
+        for (joints, span) in check_targets(joints, declared, definition, errors) {
             let effect = Effect {
                 definition: Arc::clone(definition),
                 instance: 1 + instances
@@ -141,14 +142,14 @@ fn check_shapes(
 
 /// Joint indices of every instance, with the place that names them.
 fn check_targets(
-    robot: &Robot,
+    joints: &[&Ident],
     declared: &DeclaredEffect,
     definition: &EffectDefinition,
     errors: &mut Errors,
 ) -> Vec<(Vec<usize>, Span)> {
     let wanted = definition.joints.len();
     match &declared.targets {
-        Targets::All(_) if wanted == 1 => (0..robot.joints.len())
+        Targets::All(_) if wanted == 1 => (0..joints.len())
             .map(|k| (vec![k], declared.name.span()))
             .collect(),
         Targets::All(span) => {
@@ -162,13 +163,13 @@ fn check_targets(
         }
         Targets::Each(targets) => targets
             .iter()
-            .filter_map(|target| check_target(robot, declared, wanted, target, errors))
+            .filter_map(|target| check_target(joints, declared, wanted, target, errors))
             .collect(),
     }
 }
 
 fn check_target(
-    robot: &Robot,
+    all: &[&Ident],
     declared: &DeclaredEffect,
     wanted: usize,
     target: &Target,
@@ -177,7 +178,7 @@ fn check_target(
     let joints: Vec<Option<usize>> = target
         .joints
         .iter()
-        .map(|joint| check_joint(robot, joint, errors))
+        .map(|joint| check_joint(all, joint, errors))
         .collect();
     let joints: Vec<usize> = joints.into_iter().collect::<Option<_>>()?;
     if joints.len() != wanted {
@@ -207,7 +208,7 @@ fn check_target(
     Some((joints, target.span))
 }
 
-fn check_joint(robot: &Robot, name: &Ident, errors: &mut Errors) -> Option<usize> {
+fn check_joint(joints: &[&Ident], name: &Ident, errors: &mut Errors) -> Option<usize> {
     if name == "all" {
         errors.push(
             Diagnostic::new(name.span(), "`all` stands alone", "beside other joints")
@@ -215,13 +216,9 @@ fn check_joint(robot: &Robot, name: &Ident, errors: &mut Errors) -> Option<usize
         );
         return None;
     }
-    let found = robot.joints.iter().position(|joint| joint.name == *name);
+    let found = joints.iter().position(|joint| *joint == name);
     if found.is_none() {
-        let names: Vec<String> = robot
-            .joints
-            .iter()
-            .map(|joint| joint.name.to_string())
-            .collect();
+        let names: Vec<String> = joints.iter().map(ToString::to_string).collect();
         errors.push(
             Diagnostic::new(
                 name.span(),

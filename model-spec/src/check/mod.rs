@@ -5,6 +5,7 @@
 mod chain;
 mod declared;
 mod definition;
+mod energies;
 mod frame;
 mod linear;
 mod link;
@@ -24,7 +25,7 @@ use syn::Ident;
 use crate::ast::{Ast, Robot, Value};
 use crate::diagnostic::Diagnostic;
 use crate::library::standard_effects;
-use crate::model::{Body, Chain, Convention, EffectDefinition, Model};
+use crate::model::{Body, Chain, Convention, Effect, EffectDefinition, Joint, Model};
 use crate::suggest;
 use setting::Settings;
 use unit::Dimension;
@@ -44,25 +45,22 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
     };
     check_robot_name(&robot.name, &mut errors);
 
-    let settings = Settings::new(
-        &robot.settings,
-        "the robot",
-        &["gravity", "convention"],
-        &mut errors,
-    );
-    let convention = check_convention(robot, &settings, &mut errors);
-    let gravity = check_gravity(robot, &settings, &mut errors);
-    let joints = chain::check_joints(robot, convention, &mut errors);
-    let inertials = link::check_links(robot, &joints, &mut errors);
-    let effects = declared::check_effects(robot, &definitions, &mut errors);
-
-    let (Some(convention), Some(gravity), true) = (convention, gravity, errors.is_empty()) else {
+    let body = if energies::says_energies(robot) {
+        check_energies(robot, &definitions, &mut errors)
+    } else {
+        check_chain(robot, &definitions, &mut errors)
+    };
+    let (
+        Some(Described {
+            joints,
+            body,
+            effects,
+        }),
+        true,
+    ) = (body, errors.is_empty())
+    else {
         return Err(errors);
     };
-    let (joints, links) = joints
-        .into_iter()
-        .map(|joint| joint.into_model(&inertials))
-        .unzip();
     let source = source
         .rsplit(['/', '\\'])
         .next()
@@ -72,13 +70,72 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
         name: robot.name.to_string(),
         source,
         joints,
+        body,
+        effects,
+        definitions,
+    })
+}
+
+/// What a robot's block says.
+struct Described {
+    joints: Vec<Joint>,
+    body: Body,
+    effects: Vec<Effect>,
+}
+
+fn check_chain(
+    robot: &Robot,
+    definitions: &[Arc<EffectDefinition>],
+    errors: &mut Errors,
+) -> Option<Described> {
+    let settings = Settings::new(
+        &robot.settings,
+        "the robot",
+        &["gravity", "convention"],
+        errors,
+    );
+    let convention = check_convention(robot, &settings, errors);
+    let gravity = check_gravity(robot, &settings, errors);
+    let joints = chain::check_joints(robot, convention, errors);
+    let inertials = link::check_links(robot, &joints, errors);
+    let names: Vec<&Ident> = robot.joints.iter().map(|joint| &joint.name).collect();
+    let effects = declared::check_effects(robot, &names, definitions, errors);
+
+    let (joints, links) = joints
+        .into_iter()
+        .map(|joint| joint.into_model(&inertials))
+        .unzip();
+    Some(Described {
+        joints,
         body: Body::Chain(Chain {
-            convention,
-            gravity,
+            convention: convention?,
+            gravity: gravity?,
             links,
         }),
         effects,
-        definitions,
+    })
+}
+
+fn check_energies(
+    robot: &Robot,
+    definitions: &[Arc<EffectDefinition>],
+    errors: &mut Errors,
+) -> Option<Described> {
+    let settings = Settings::new(
+        &robot.settings,
+        "the robot",
+        // Those of a chain are reported as a whole.
+        &[&energies::SETTINGS[..], &["gravity", "convention"]].concat(),
+        errors,
+    );
+    let described = energies::check_energies(robot, &settings, errors);
+    let names: Vec<&Ident> = robot.energies.coordinates.iter().map(|c| &c.name).collect();
+    let effects = declared::check_effects(robot, &names, definitions, errors);
+    let (joints, energies) = described?;
+    Some(Described {
+        joints,
+        body: Body::Energies(energies),
+        effects,
     })
 }
 

@@ -221,15 +221,7 @@ fn call(name: &Ident, arguments: &[Expr], span: Span) -> Checked<Quantity> {
         return Err(super::resolve::one_argument(name, arguments.len(), span));
     };
     let x = evaluate(argument)?;
-    let value = match function {
-        Function::Sin => x.value.sin(),
-        Function::Cos => x.value.cos(),
-        Function::Exp => x.value.exp(),
-        Function::Sqrt => x.value.sqrt(),
-        Function::Abs => x.value.abs(),
-        Function::Sign => sign(x.value),
-        Function::Tanh => x.value.tanh(),
-    };
+    let value = function.apply(x.value);
     let keeps = function == Function::Abs;
     let takes_angle =
         matches!(function, Function::Sin | Function::Cos) && x.dimension == Some(Dimension::ANGLE);
@@ -249,16 +241,6 @@ fn call(name: &Ident, arguments: &[Expr], span: Span) -> Checked<Quantity> {
             "has a unit",
         )
         .help("divide by the unit first")),
-    }
-}
-
-fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        0.0
     }
 }
 

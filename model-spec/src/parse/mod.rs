@@ -5,6 +5,7 @@
 
 mod brackets;
 mod effect;
+mod energies;
 mod expr;
 mod robot;
 

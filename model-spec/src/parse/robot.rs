@@ -1,11 +1,12 @@
-//! `robot Name { settings, joints, links, effects }`.
+//! `robot Name { settings, joints, links, effects }`; what energies are made of is in [`super::energies`].
 
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
-use super::{Sink, block, doc_comment, semicolon, statements, with_sink, word};
+use super::{Sink, block, doc_comment, energies, semicolon, statements, with_sink, word};
 use crate::ast::{
-    DeclaredEffect, Effects, Expr, Joint, Link, Robot, Setting, Target, Targets, Value, join,
+    DeclaredEffect, Effects, Energies, Expr, Joint, Limits, Link, Robot, Setting, Target, Targets,
+    Value, join,
 };
 
 /// Behind the word `robot`.
@@ -17,11 +18,17 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
         settings: vec![],
         joints: vec![],
         links: vec![],
+        energies: Energies::default(),
         effects: vec![],
         close,
     };
     statements(&content, errors, |input, errors| {
-        doc_comment(input)?;
+        let doc = doc_comment(input)?;
+        if input.peek(Token![let]) {
+            input.parse::<Token![let]>()?;
+            robot.energies.bindings.push(energies::binding(input)?);
+            return semicolon(input);
+        }
         if input.peek2(Token![=]) {
             robot.settings.push(statement_setting(input)?);
             return Ok(());
@@ -31,12 +38,17 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
             "joint" => robot.joints.push(joint(input, errors)?),
             "link" => robot.links.push(link(input, errors)?),
             "effects" => robot.effects.push(effects(input, &keyword, errors)?),
+            "limits" => robot.energies.limits.push(limits(input, errors)?),
+            "coordinates" | "parameters" | "constants" | "point" => {
+                energies::statement(input, &keyword.to_string(), &doc, &mut robot.energies)?;
+                semicolon(input)?;
+            }
             _ => {
                 return Err(crate::diagnostic::syn_error(
                     keyword.span(),
                     &format!("a robot has no `{keyword}`"),
                     Some(
-                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }` or `effects { .. }`",
+                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }` or `effects { .. }`; or say its energies: `coordinates ..;`, `parameters ..;`, `constants ..;`, `let ..;`, `kinetic = ..;`, `potential = ..;`",
                     ),
                 ));
             }
@@ -77,6 +89,13 @@ fn link(input: ParseStream, errors: &mut Sink) -> syn::Result<Link> {
     Ok(Link {
         name,
         status,
+        settings: settings(input, errors)?,
+    })
+}
+
+fn limits(input: ParseStream, errors: &mut Sink) -> syn::Result<Limits> {
+    Ok(Limits {
+        name: word(input, "the coordinate's name")?,
         settings: settings(input, errors)?,
     })
 }

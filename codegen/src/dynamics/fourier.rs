@@ -1,0 +1,275 @@
+//! Functions of the coordinates in a canonical form: sums of products of rates, powers and one sine or cosine.
+//!
+//! Two expressions of a robot's energy are the same function exactly when their series are the same, so coefficients of
+//! equal functions can be collected. A function without a series (a root, a quotient of coordinates) has none here.
+
+use std::collections::BTreeMap;
+
+use robot_model_spec::model::Function as SpecFunction;
+use robot_model_spec::polynomial::{Ring, whole};
+
+/// One function of a series. Ordered by rates, then powers, then frequency, cosine before sine.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Harmonic {
+    /// Exponent of each rate.
+    pub rates: Vec<i32>,
+    /// Exponent of each coordinate.
+    pub powers: Vec<i32>,
+    /// Sum of the magnitudes of `multiples`.
+    frequency: i32,
+    /// Argument of the sine or cosine: the sum of `multiple * coordinate`; the first that is not zero is positive.
+    pub multiples: Vec<i32>,
+    /// A sine, else a cosine.
+    pub sine: bool,
+}
+
+/// A sum of harmonics with coefficients; none of them is zero.
+pub type Series = BTreeMap<Harmonic, f64>;
+
+/// More harmonics than this are no closed form that anyone would read.
+const MOST_HARMONICS: usize = 4000;
+
+/// A sine of more than this multiple of a coordinate is not expanded.
+const LARGEST_MULTIPLE: i32 = 64;
+
+/// A sum that is this much smaller than its terms is zero with rounding.
+const CANCELED: f64 = 1e-13;
+
+/// Series as coefficients of parameters.
+pub struct SeriesRing {
+    /// Degrees of freedom.
+    pub dof: usize,
+}
+
+impl SeriesRing {
+    fn harmonic(&self) -> Harmonic {
+        Harmonic {
+            rates: vec![0; self.dof],
+            powers: vec![0; self.dof],
+            frequency: 0,
+            multiples: vec![0; self.dof],
+            sine: false,
+        }
+    }
+
+    fn constant(&self, value: f64) -> Series {
+        let mut series = Series::new();
+        accumulate(&mut series, self.harmonic(), value);
+        series
+    }
+
+    /// `(multiples, offset)` of an argument that is a sum of whole multiples of coordinates.
+    fn argument(&self, x: &Series) -> Option<(Vec<i32>, f64)> {
+        let mut multiples = vec![0; self.dof];
+        let mut offset = 0.0;
+        for (harmonic, &coefficient) in x {
+            if harmonic.rates.iter().any(|k| *k != 0) || harmonic.frequency != 0 {
+                return None;
+            }
+            match harmonic.powers.iter().sum::<i32>() {
+                0 => offset = coefficient,
+                1 => {
+                    let coordinate = harmonic.powers.iter().position(|k| *k == 1)?;
+                    multiples[coordinate] = whole(coefficient, LARGEST_MULTIPLE)?;
+                }
+                _ => return None,
+            }
+        }
+        Some((multiples, offset))
+    }
+}
+
+impl Ring for SeriesRing {
+    type Element = Series;
+
+    fn number(&mut self, value: f64) -> Series {
+        self.constant(value)
+    }
+
+    fn as_number(&self, x: &Series) -> Option<f64> {
+        match x.len() {
+            0 => Some(0.0),
+            1 => x.get(&self.harmonic()).copied(),
+            _ => None,
+        }
+    }
+
+    fn coordinate(&mut self, joint: usize) -> Series {
+        let mut harmonic = self.harmonic();
+        harmonic.powers[joint] = 1;
+        Series::from([(harmonic, 1.0)])
+    }
+
+    fn rate(&mut self, joint: usize) -> Series {
+        let mut harmonic = self.harmonic();
+        harmonic.rates[joint] = 1;
+        Series::from([(harmonic, 1.0)])
+    }
+
+    fn add(&mut self, x: &Series, y: &Series) -> Series {
+        let mut sum = x.clone();
+        for (harmonic, &coefficient) in y {
+            accumulate(&mut sum, harmonic.clone(), coefficient);
+        }
+        sum
+    }
+
+    fn mul(&mut self, x: &Series, y: &Series) -> Series {
+        let mut product = Series::new();
+        for (left, a) in x {
+            for (right, b) in y {
+                for (harmonic, factor) in left.times(right) {
+                    accumulate(&mut product, harmonic, factor * a * b);
+                }
+            }
+        }
+        product
+    }
+
+    fn power(&mut self, x: &Series, y: &Series) -> Option<Series> {
+        let exponent = self.as_number(y)?;
+        if let Some(base) = self.as_number(x) {
+            let value = base.powf(exponent);
+            return value.is_finite().then(|| self.constant(value));
+        }
+        let exponent = whole(exponent, 16).filter(|k| *k >= 0)?;
+        let mut power = self.constant(1.0);
+        for _ in 0..exponent {
+            power = self.mul(&power, x);
+            if power.len() > MOST_HARMONICS {
+                return None;
+            }
+        }
+        Some(power)
+    }
+
+    fn call(&mut self, function: SpecFunction, x: &Series) -> Option<Series> {
+        if let Some(number) = self.as_number(x) {
+            let value = function.apply(number);
+            return value.is_finite().then(|| self.constant(value));
+        }
+        let (multiples, offset) = self.argument(x)?;
+        let (sin, cos) = offset.sin_cos();
+        // sin(x + c) = sin x cos c + cos x sin c, cos(x + c) = cos x cos c - sin x sin c
+        let (of_sine, of_cosine) = match function {
+            SpecFunction::Sin => (cos, sin),
+            SpecFunction::Cos => (-sin, cos),
+            _ => return None,
+        };
+        let mut series = Series::new();
+        for (sine, coefficient) in [(true, of_sine), (false, of_cosine)] {
+            let (harmonic, sign) = self.harmonic().turning(multiples.clone(), sine);
+            accumulate(&mut series, harmonic, sign * snap_to_zero(coefficient));
+        }
+        Some(series)
+    }
+
+    fn derivative(&mut self, x: &Series) -> Option<Series> {
+        let mut derivative = Series::new();
+        for joint in 0..self.dof {
+            for (harmonic, &coefficient) in x {
+                for (mut slope, factor) in harmonic.slopes(joint) {
+                    slope.rates[joint] += 1;
+                    accumulate(&mut derivative, slope, factor * coefficient);
+                }
+            }
+        }
+        Some(derivative)
+    }
+
+    fn is_zero(&self, x: &Series) -> bool {
+        x.is_empty()
+    }
+}
+
+/// Quarter turns are exact.
+fn snap_to_zero(x: f64) -> f64 {
+    if x.abs() < 1e-15 { 0.0 } else { x }
+}
+
+fn accumulate(series: &mut Series, harmonic: Harmonic, coefficient: f64) {
+    let before = series.get(&harmonic).copied().unwrap_or(0.0);
+    let after = before + coefficient;
+    // The sine of nothing is nothing.
+    let nothing = harmonic.sine && harmonic.frequency == 0;
+    if nothing || after.abs() <= CANCELED * before.abs().max(coefficient.abs()) {
+        series.remove(&harmonic);
+    } else {
+        series.insert(harmonic, after);
+    }
+}
+
+/// Makes the first multiple that is not zero positive; whether that changed the sign of the argument.
+pub fn turned_positive(multiples: &mut [i32]) -> bool {
+    let negative = multiples.iter().find(|k| **k != 0).is_some_and(|k| *k < 0);
+    if negative {
+        for k in multiples {
+            *k = -*k;
+        }
+    }
+    negative
+}
+
+impl Harmonic {
+    /// The same rates and powers with `sin` or `cos` of an argument, and the sign that brings it to its canonical form.
+    fn turning(mut self, mut multiples: Vec<i32>, sine: bool) -> (Self, f64) {
+        let negative = turned_positive(&mut multiples);
+        self.frequency = multiples.iter().map(|k| k.abs()).sum();
+        self.multiples = multiples;
+        self.sine = sine;
+        (self, if negative && sine { -1.0 } else { 1.0 })
+    }
+
+    /// The product as a sum of harmonics: `cos a cos b = (cos(a - b) + cos(a + b)) / 2` and its like.
+    fn times(&self, other: &Self) -> Vec<(Self, f64)> {
+        let add = |x: &[i32], y: &[i32], sign: i32| -> Vec<i32> {
+            x.iter().zip(y).map(|(x, y)| x + sign * y).collect()
+        };
+        let plain = Self {
+            rates: add(&self.rates, &other.rates, 1),
+            powers: add(&self.powers, &other.powers, 1),
+            ..self.clone()
+        };
+        let sum = add(&self.multiples, &other.multiples, 1);
+        let difference = add(&self.multiples, &other.multiples, -1);
+        let (sine, of_difference, of_sum) = match (self.sine, other.sine) {
+            (false, false) => (false, 0.5, 0.5),
+            (true, true) => (false, 0.5, -0.5),
+            (true, false) => (true, 0.5, 0.5),
+            // cos a sin b = (sin(a + b) - sin(a - b)) / 2
+            (false, true) => (true, -0.5, 0.5),
+        };
+        [(difference, of_difference), (sum, of_sum)]
+            .into_iter()
+            .map(|(multiples, factor)| {
+                let (harmonic, sign) = plain.clone().turning(multiples, sine);
+                (harmonic, sign * factor)
+            })
+            .collect()
+    }
+
+    /// The derivative with respect to one coordinate.
+    fn slopes(&self, joint: usize) -> Vec<(Self, f64)> {
+        let mut slopes = Vec::new();
+        if self.powers[joint] != 0 {
+            let mut slope = self.clone();
+            slope.powers[joint] -= 1;
+            slopes.push((slope, f64::from(self.powers[joint])));
+        }
+        if self.multiples[joint] != 0 {
+            let slope = Self {
+                sine: !self.sine,
+                ..self.clone()
+            };
+            let sign = if self.sine { 1.0 } else { -1.0 };
+            slopes.push((slope, sign * f64::from(self.multiples[joint])));
+        }
+        slopes
+    }
+
+    /// Whether the function depends on no coordinate.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        self.frequency == 0 && self.powers.iter().all(|k| *k == 0)
+    }
+}

@@ -1,0 +1,145 @@
+//! Energies are sums of products of parameters: which products there are.
+
+use super::{Checked, Fault, Statement};
+use crate::model::{EnergyExpr, Function, Monomial};
+use crate::polynomial::{self, MOST_MONOMIALS, NotPolynomial, Polynomial, Reason, Ring};
+
+/// What the check needs to know of a coefficient.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coefficient {
+    /// Its value, where it is a number.
+    number: Option<f64>,
+    /// Whether it changes when the robot moves.
+    varies: bool,
+}
+
+/// The ring of what may change and what does not. A sum of two coefficients counts as one that is not zero.
+struct Structure;
+
+impl Ring for Structure {
+    type Element = Coefficient;
+
+    fn number(&mut self, value: f64) -> Coefficient {
+        Coefficient {
+            number: Some(value),
+            varies: false,
+        }
+    }
+
+    fn as_number(&self, x: &Coefficient) -> Option<f64> {
+        x.number
+    }
+
+    fn coordinate(&mut self, _: usize) -> Coefficient {
+        VARYING
+    }
+
+    fn rate(&mut self, _: usize) -> Coefficient {
+        VARYING
+    }
+
+    fn add(&mut self, x: &Coefficient, y: &Coefficient) -> Coefficient {
+        both(x, y, |x, y| x + y)
+    }
+
+    fn mul(&mut self, x: &Coefficient, y: &Coefficient) -> Coefficient {
+        both(x, y, |x, y| x * y)
+    }
+
+    fn power(&mut self, x: &Coefficient, y: &Coefficient) -> Option<Coefficient> {
+        Some(both(x, y, f64::powf))
+    }
+
+    fn call(&mut self, function: Function, x: &Coefficient) -> Option<Coefficient> {
+        Some(Coefficient {
+            number: x.number.map(|x| function.apply(x)),
+            varies: x.varies,
+        })
+    }
+
+    fn derivative(&mut self, x: &Coefficient) -> Option<Coefficient> {
+        Some(if x.varies { VARYING } else { self.number(0.0) })
+    }
+
+    fn is_zero(&self, x: &Coefficient) -> bool {
+        x.number == Some(0.0)
+    }
+}
+
+const VARYING: Coefficient = Coefficient {
+    number: None,
+    varies: true,
+};
+
+fn both(x: &Coefficient, y: &Coefficient, combine: impl Fn(f64, f64) -> f64) -> Coefficient {
+    Coefficient {
+        number: x.number.zip(y.number).map(|(x, y)| combine(x, y)),
+        varies: x.varies || y.varies,
+    }
+}
+
+/// Expands one statement; later ones may use it.
+pub(super) fn expand(
+    statement: Statement,
+    value: &EnergyExpr,
+    bindings: &[Polynomial<Coefficient>],
+) -> Checked<Polynomial<Coefficient>> {
+    polynomial::expand(&mut Structure, value, bindings)
+        .map_err(|error| Box::new(fault(statement, error)))
+}
+
+/// The products in both energies, lowest degree first, then in the order of the parameters. A constant part of the
+/// potential energy has no torque.
+pub(super) fn monomials(
+    kinetic: &Polynomial<Coefficient>,
+    potential: &Polynomial<Coefficient>,
+) -> Vec<Monomial> {
+    let felt = potential.iter().filter(|(_, value)| value.varies);
+    let mut monomials: Vec<Monomial> = kinetic.iter().chain(felt).map(|(m, _)| m.clone()).collect();
+    monomials.sort_by(|x, y| (x.degree(), x).cmp(&(y.degree(), y)));
+    monomials.dedup();
+    monomials
+}
+
+fn fault(statement: Statement, error: NotPolynomial) -> Fault {
+    let (message, label, help) = match error.reason {
+        Reason::InsideFunction => (
+            "an unknown parameter stands inside a function",
+            "the energy is not linear in products of parameters here",
+            "make it a constant, or write the energy as a sum of products of parameters",
+        ),
+        Reason::Denominator => (
+            "a sum of unknown parameters stands in a denominator",
+            "the energy is not linear in products of parameters here",
+            "make them constants, or give the quotient a parameter of its own",
+        ),
+        Reason::Power => (
+            "an unknown parameter has an exponent that is not a small whole number",
+            "the energy is not linear in products of parameters here",
+            "write a whole exponent between -16 and 16, or give the power a parameter of its own",
+        ),
+        Reason::TooMany => (
+            "the energy has too many products of parameters",
+            "expands beyond the limit",
+            "give sums of parameters a parameter of their own",
+        ),
+        Reason::OutsideRing => (
+            "the energy cannot be expanded",
+            "here",
+            "simplify the expression",
+        ),
+    };
+    let label = if error.reason == Reason::TooMany {
+        format!("more than {MOST_MONOMIALS}")
+    } else {
+        label.to_owned()
+    };
+    Fault {
+        statement,
+        path: error.path,
+        message: message.to_owned(),
+        label,
+        other: None,
+        help: help.to_owned(),
+    }
+}
