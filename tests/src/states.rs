@@ -4,6 +4,7 @@ use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use robot_model_spec::Model;
+use robot_model_spec::model::{Energies, Monomial};
 use robot_model_spec::parameter::{Owner, Status};
 
 /// Where an arm is and how it moves.
@@ -41,11 +42,15 @@ pub fn state(random: &mut ChaCha8Rng, dof: usize) -> State {
     }
 }
 
-/// Standard parameters of an arm that could be built: every link is eight point masses, so its ten numbers are those of a body.
+/// Standard parameters of an arm that could be built: every link is eight point masses, so its ten numbers are those of a
+/// body. Unknown constants of energies are positive.
 ///
 /// Effects' parameters are positive. What the spec fixes keeps its value.
 pub fn physical(random: &mut ChaCha8Rng, model: &Model) -> Vec<f64> {
-    let mut standard: Vec<f64> = (0..model.joints.len()).flat_map(|_| body(random)).collect();
+    let mut standard = match model.energies() {
+        Some(energies) => products(random, energies),
+        None => (0..model.joints.len()).flat_map(|_| body(random)).collect(),
+    };
     for parameter in model.standard_parameters().iter().skip(standard.len()) {
         assert!(matches!(parameter.owner, Owner::Effect { .. }));
         standard.push(random.random_range(0.1..1.0));
@@ -71,6 +76,22 @@ fn keep_fixed(model: &Model, standard: &mut [f64]) {
             *value = fixed;
         }
     }
+}
+
+/// Products of positive parameters: inertias, masses and lengths.
+fn products(random: &mut ChaCha8Rng, energies: &Energies) -> Vec<f64> {
+    let values: Vec<f64> = energies
+        .parameters
+        .iter()
+        .map(|_| random.random_range(0.1..1.0))
+        .collect();
+    let product = |monomial: &Monomial| -> f64 {
+        let factors = monomial.factors.iter();
+        factors
+            .map(|&(k, exponent)| f64::powi(values[k], exponent))
+            .product()
+    };
+    energies.monomials.iter().map(product).collect()
 }
 
 fn body(random: &mut ChaCha8Rng) -> [f64; 10] {

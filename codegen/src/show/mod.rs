@@ -13,6 +13,7 @@ use polynomial::SignedTerm;
 use crate::compiled::Compiled;
 use crate::emit::rust::{self, body, names::Namer};
 use crate::expr::{ExprId, Names, Style};
+use crate::regressor::LinearForm;
 
 /// Lines longer than this are broken between terms.
 const WIDTH: usize = 110;
@@ -87,8 +88,8 @@ pub fn form(compiled: &Compiled, what: What, style: Style) -> String {
             .map(|(k, &value)| Entry::new(format!("{stem}[{}]", k + 1), value))
             .collect()
     };
-    let column = |stem: &str, k: usize, name: &str| -> Vec<Entry> {
-        let rows = compiled.linear.regressor.iter().enumerate();
+    let column = |form: &LinearForm, stem: &str, k: usize, name: &str| -> Vec<Entry> {
+        let rows = form.regressor.iter().enumerate();
         rows.map(|(joint, row)| Entry::new(format!("{stem}[{},{name}]", joint + 1), row[k]))
             .collect()
     };
@@ -119,11 +120,12 @@ pub fn form(compiled: &Compiled, what: What, style: Style) -> String {
             .standard
             .iter()
             .enumerate()
-            .flat_map(|(k, parameter)| column("Y", k, &parameter.name))
+            .flat_map(|(k, parameter)| column(&compiled.linear, "Y", k, &parameter.name))
             .collect(),
         What::BaseRegressor => {
             let kept = compiled.base.kept.iter().zip(&compiled.base.names);
-            kept.flat_map(|(&k, name)| column("Y_b", k, name)).collect()
+            kept.flat_map(|(&k, name)| column(&compiled.candidates, "Y_b", k, name))
+                .collect()
         }
         What::BaseParameters => return base_parameters(compiled, style),
         What::Cost => return cost(compiled, style),

@@ -194,22 +194,17 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         }),
         context.function(&Task {
             name: "inverse_dynamics",
-            doc: "Joint torque `tau = M * ddq + C * dq + G + effects` by recursive Newton-Euler, N m (N for prismatic \
-                  joints).",
+            doc: "Joint torque `tau = M * ddq + C * dq + G + effects`, N m (N for prismatic joints).",
             arguments: "q dq ddq time beta",
             outputs: dynamics.inverse_dynamics.clone(),
             returns: Returns::Vector,
         }),
     ];
     let regressor = compiled.linear.regressor.concat();
-    let row = |columns: &[usize]| {
-        compiled
-            .linear
-            .regressor
-            .iter()
-            .flat_map(|row| columns.iter().map(|&k| row[k]))
-            .collect::<Vec<_>>()
-    };
+    let rows = compiled.candidates.regressor.iter();
+    let base_regressor = rows
+        .flat_map(|row| compiled.base.kept.iter().map(|&k| row[k]))
+        .collect();
     functions.push(context.function(&Task {
         name: "regressor",
         doc: "Regressor `Y(q, dq, ddq)`: `tau = Y * standard`.",
@@ -221,7 +216,7 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         name: "base_regressor",
         doc: "Base regressor `Y_b(q, dq, ddq)`: `tau = Y_b * beta`, besides what the spec fixes.",
         arguments: "q dq ddq rigid_torque time",
-        outputs: row(&compiled.base.kept),
+        outputs: base_regressor,
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));
     functions.push(base_parameters(compiled));

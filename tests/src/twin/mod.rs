@@ -4,9 +4,14 @@
 //! force and moment gives the joint torques (Kane's form). The compiler works in link frames and sums forces backward from
 //! the tip. Both take the ten parameters about the link frame's origin.
 
+mod energies;
+mod jet;
+
 use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
 use robot_model_spec::Model;
 use robot_model_spec::model::{JointKind, Transform};
+
+use energies::EnergyTwin;
 
 use crate::expression::{self, Scope};
 use crate::states::State;
@@ -129,6 +134,9 @@ impl<'a> Twin<'a> {
     /// `M ddq + C dq + G` by virtual work.
     #[must_use]
     pub fn rigid_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
+        if let Some(energies) = self.model.energies() {
+            return EnergyTwin::new(energies).torque(standard, state);
+        }
         let links = self.links(state);
         let gravity = self.gravity();
         let mut torque = vec![0.0; links.len()];
@@ -151,7 +159,7 @@ impl<'a> Twin<'a> {
     pub fn effect_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
         let rigid = self.rigid_torque(standard, state);
         let mut torque = vec![0.0; rigid.len()];
-        let (mut linear, mut shape) = (10 * rigid.len(), 0);
+        let (mut linear, mut shape) = (self.model.rigid_parameters(), 0);
         for effect in &self.model.effects {
             let definition = &effect.definition;
             let scope = Scope {
@@ -181,6 +189,9 @@ impl<'a> Twin<'a> {
     /// `M`, the Hessian of the kinetic energy in `dq`: `sum_i J_i^T I_i J_i`.
     #[must_use]
     pub fn mass_matrix(&self, standard: &[f64], state: &State) -> DMatrix<f64> {
+        if let Some(energies) = self.model.energies() {
+            return EnergyTwin::new(energies).mass_matrix(standard, state);
+        }
         let links = self.links(state);
         let mut mass_matrix = DMatrix::zeros(links.len(), links.len());
         for (i, link) in links.iter().enumerate() {
@@ -203,6 +214,9 @@ impl<'a> Twin<'a> {
     /// Potential energy of gravity, J: `V = -sum_i g . (m_i p_i + R_i c_i)`.
     #[must_use]
     pub fn potential_energy(&self, standard: &[f64], state: &State) -> f64 {
+        if let Some(energies) = self.model.energies() {
+            return EnergyTwin::new(energies).potential_energy(standard, state);
+        }
         let gravity = self.gravity();
         let links = self.links(state);
         let energy = |(i, link): (usize, &LinkMotion)| {

@@ -1,0 +1,308 @@
+//! The arms of five papers: their printed equations, where these are right, come out of the compiler.
+
+use nalgebra::DMatrix;
+use robot_model_spec::parameter::Owner;
+use robot_model_tests::evaluate::{Interpreter, relative_difference};
+use robot_model_tests::specs;
+use robot_model_tests::states::{self, State};
+
+/// Some hundred roundings in forms that are written differently.
+const ROUNDING: f64 = 1e-13;
+
+fn interpreter(name: &str) -> Interpreter {
+    Interpreter::new(specs::named(&format!("pass/{name}")).compiled())
+}
+
+/// Values of the standard parameters of energies from those of the robot's own parameters; effects' are zero.
+fn standard(interpreter: &Interpreter, value: impl Fn(&str) -> f64) -> Vec<f64> {
+    let compiled = &interpreter.compiled;
+    let energies = compiled.model.energies().expect("it says its energies");
+    let values: Vec<f64> = energies.parameters.iter().map(|p| value(&p.name)).collect();
+    let of = |owner: Owner| match owner {
+        Owner::Monomial(k) => energies.monomials[k]
+            .factors
+            .iter()
+            .map(|&(k, exponent)| f64::powi(values[k], exponent))
+            .product(),
+        _ => 0.0,
+    };
+    compiled.standard.iter().map(|p| of(p.owner)).collect()
+}
+
+fn column(values: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_column_slice(values.len(), 1, values)
+}
+
+fn assert_close(what: &str, found: &DMatrix<f64>, wanted: &DMatrix<f64>) {
+    let difference = relative_difference(found, wanted);
+    assert!(
+        difference < ROUNDING,
+        "{what}: {difference:.1e}\n{found}{wanted}"
+    );
+}
+
+/// Some values for the pneumatic arm.
+fn pneumatic(name: &str) -> f64 {
+    match name {
+        "m1" => 6.813,
+        "m2" => 3.361,
+        "l1" => 0.552,
+        "c1" => 0.346,
+        "c2" => 0.212,
+        "I1" => 0.264,
+        "I2" => 0.012,
+        other => panic!("{other}"),
+    }
+}
+
+/// Equations (3) and (4) of the paper on the pneumatic arm, as printed.
+fn printed_pneumatic(state: &State) -> DMatrix<f64> {
+    let [m1, m2, l1, c1, c2, i1, i2] = ["m1", "m2", "l1", "c1", "c2", "I1", "I2"].map(pneumatic);
+    let g = 9.81;
+    let (q1, q2) = (state.q[0], state.q[1]);
+    let (v1, v2) = (state.dq[0], state.dq[1]);
+    let (a1, a2) = (state.ddq[0], state.ddq[1]);
+    let tau1 =
+        (m1 * c1 * c1 + m2 * c2 * c2 + m2 * l1 * l1 + 2.0 * m2 * c2 * l1 * q2.cos() + i1 + i2) * a1
+            + (m2 * c2 * c2 + m2 * c2 * l1 * q2.cos() + i2) * a2
+            - 2.0 * m2 * c2 * l1 * q2.sin() * v1 * v2
+            - m2 * c2 * l1 * q2.sin() * v2 * v2
+            + m2 * g * c2 * (q1 + q2).sin()
+            + (m1 * c1 + m2 * l1) * g * q1.sin();
+    let tau2 = (m2 * c2 * c2 + m2 * c2 * l1 * q2.cos() + i2) * a1
+        + (m2 * c2 * c2 + i2) * a2
+        + m2 * c2 * l1 * q2.sin() * v1 * v1
+        + m2 * g * c2 * (q1 + q2).sin();
+    column(&[tau1, tau2])
+}
+
+#[test]
+fn pneumatic_arm_has_the_equations_of_the_paper() {
+    let arm = interpreter("pneumatic_arm");
+    let standard = standard(&arm, pneumatic);
+    let mut random = states::generator(1);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 2);
+        let found = arm.rigid_torque(&standard, &state);
+        assert_close("(3), (4)", &found, &printed_pneumatic(&state));
+    }
+    let base: Vec<&str> = arm.compiled.base.names.iter().map(String::as_str).collect();
+    assert_eq!(base[..5], ["I1r", "I2r", "m1*c1r", "m2*c2", "m2*l1*c2"]);
+}
+
+/// The same arm as a chain: links along x from joints about z, the first one hanging where `q = 0`.
+#[test]
+fn chain_and_energies_of_one_arm_give_the_same_equations() {
+    let chain = "robot Pneumatic {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint q1: revolute { a = 0.552; alpha = 0; d = 0; offset = -90 deg; }
+        joint q2: revolute { a = 0; alpha = 0; d = 0; }
+    }";
+    let chain = robot_model_spec::load("pneumatic.robot", chain).unwrap();
+    let chain = Interpreter::new(robot_model_codegen::compile_model(&chain));
+    let [m1, m2, l1, c1, c2, i1, i2] = ["m1", "m2", "l1", "c1", "c2", "I1", "I2"].map(pneumatic);
+    // The frame of the first link is at its end: its center of mass lies c1 - l1 from there.
+    let x1 = c1 - l1;
+    let of_chain: Vec<f64> = chain
+        .compiled
+        .standard
+        .iter()
+        .map(|parameter| match parameter.name.as_str() {
+            "q1.m" => m1,
+            "q1.mx" => m1 * x1,
+            "q1.izz" => i1 + m1 * x1 * x1,
+            "q2.m" => m2,
+            "q2.mx" => m2 * c2,
+            "q2.izz" => i2 + m2 * c2 * c2,
+            _ => 0.0,
+        })
+        .collect();
+    let energies = interpreter("pneumatic_arm");
+    let of_energies = standard(&energies, pneumatic);
+    let mut random = states::generator(2);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 2);
+        let (left, right) = (
+            chain.forms(&of_chain, &state),
+            energies.forms(&of_energies, &state),
+        );
+        assert_close("M", &left.mass_matrix, &right.mass_matrix);
+        assert_close("C", &left.coriolis_matrix, &right.coriolis_matrix);
+        assert_close("G", &left.gravity, &right.gravity);
+    }
+}
+
+/// Lengths and gravity of the PHANTOM's spec.
+const L: [f64; 7] = [f64::NAN, 0.215, 0.170, 0.0325, f64::NAN, -0.0368, 0.0527];
+const G: f64 = 9.81;
+
+/// Equation (5): the eight lumped parameters.
+fn printed_lumps(p: impl Fn(&str) -> f64) -> [f64; 8] {
+    let (l1, l2, l3) = (L[1], L[2], L[3]);
+    [
+        (4.0 * p("Ia_yy")
+            + 4.0 * p("Ia_zz")
+            + 8.0 * p("Ibase_yy")
+            + 4.0 * p("Ibe_yy")
+            + 4.0 * p("Ibe_zz")
+            + 4.0 * p("Ic_yy")
+            + 4.0 * p("Ic_zz")
+            + 4.0 * p("Idf_yy")
+            + 4.0 * p("Idf_zz")
+            + l1 * l1 * p("m_c")
+            + l2 * l2 * p("m_a")
+            + 4.0 * l3 * l3 * p("m_c")
+            + 4.0 * l1 * l1 * p("m_a"))
+            / 8.0,
+        (4.0 * p("Ibe_yy") - 4.0 * p("Ibe_zz") + 4.0 * p("Ic_yy") - 4.0 * p("Ic_zz")
+            + 4.0 * l1 * l1 * p("m_a")
+            + l1 * l1 * p("m_c"))
+            / 8.0,
+        (4.0 * p("Ia_yy") - 4.0 * p("Ia_zz") + 4.0 * p("Idf_yy")
+            - 4.0 * p("Idf_zz")
+            - l2 * l2 * p("m_a")
+            - 4.0 * l3 * l3 * p("m_c"))
+            / 8.0,
+        l1 * (l2 * p("m_a") + l3 * p("m_c")),
+        (4.0 * p("Ibe_xx") + 4.0 * p("Ic_xx") + 4.0 * l1 * l1 * p("m_a") + l1 * l1 * p("m_c"))
+            / 4.0,
+        (4.0 * p("Ia_xx") + 4.0 * p("Idf_xx") + l2 * l2 * p("m_a") + 4.0 * l3 * l3 * p("m_c"))
+            / 4.0,
+        G / 2.0 * (2.0 * l1 * p("m_a") + 2.0 * L[5] * p("m_be") + l1 * p("m_c")),
+        G / 2.0 * (l2 * p("m_a") + 2.0 * l3 * p("m_c") - 2.0 * L[6] * p("m_df")),
+    ]
+}
+
+/// Which of our base parameters is which of the paper's.
+const LUMPS: [&str; 8] = [
+    "Ibase_yyr",
+    "Ibe_yyr",
+    "Ia_yyr",
+    "m_ar",
+    "Ibe_xxr",
+    "Ia_xxr",
+    "m_ber",
+    "m_cr",
+];
+
+/// Equation (4) in a state; `sign` is that of the centrifugal term in the row of the fourth parameter on the third joint,
+/// printed as +1.
+fn printed_regressor(state: &State, sign: f64) -> DMatrix<f64> {
+    let [_, t2, t3] = state.q[..] else { panic!() };
+    let [v1, v2, v3] = state.dq[..] else { panic!() };
+    let [a1, a2, a3] = state.ddq[..] else {
+        panic!()
+    };
+    let (s2, c2, s3, c3) = (t2.sin(), t2.cos(), t3.sin(), t3.cos());
+    let (s23, c23) = ((t2 - t3).sin(), (t2 - t3).cos());
+    let (s22, c22) = ((2.0 * t2).sin(), (2.0 * t2).cos());
+    let (s33, c33) = ((2.0 * t3).sin(), (2.0 * t3).cos());
+    let rows = [
+        [a1, 0.0, 0.0],
+        [
+            a1 * c22 - 2.0 * v1 * v2 * s2 * c2 - v1 * v2 * s22,
+            v1 * v1 * s22,
+            0.0,
+        ],
+        [
+            a1 * c33 - 2.0 * v1 * v3 * s3 * c3 - v1 * v3 * s33,
+            0.0,
+            v1 * v1 * s33,
+        ],
+        [
+            a1 * c2 * s3 - v1 * v2 * s2 * s3 + v1 * v3 * c2 * c3,
+            -0.5 * a3 * s23 + 0.5 * v1 * v1 * s2 * s3 + 0.5 * v3 * v3 * c23,
+            -0.5 * a2 * s23 - 0.5 * v1 * v1 * c2 * c3 + sign * 0.5 * v2 * v2 * c23,
+        ],
+        [0.0, a2, 0.0],
+        [0.0, 0.0, a3],
+        [0.0, c2, 0.0],
+        [0.0, 0.0, s3],
+    ];
+    DMatrix::from_fn(3, 8, |joint, k| rows[k][joint])
+}
+
+#[test]
+fn phantom_lumps_fall_out_by_themselves() {
+    let phantom = interpreter("phantom");
+    let base = &phantom.compiled.base;
+    let rigid: Vec<usize> = (0..base.kept.len())
+        .filter(|&k| phantom.compiled.is_rigid(k))
+        .collect();
+    assert_eq!(rigid.len(), 8);
+    let names = &phantom.compiled.model.energies().unwrap().parameters;
+    // Linear in the parameters: one unit of each in turn.
+    for one in names {
+        let unit = |name: &str| f64::from(u8::from(name == one.name));
+        let beta = base.beta(&standard(&phantom, unit));
+        for (lump, printed) in LUMPS.into_iter().zip(printed_lumps(unit)) {
+            let place = base.names.iter().position(|name| name == lump).unwrap();
+            let difference = (beta[place] - printed).abs();
+            assert!(
+                difference < 1e-15,
+                "{lump} of {}: {} {printed}",
+                one.name,
+                beta[place]
+            );
+        }
+    }
+}
+
+/// The row of the fourth parameter on the third joint is printed with `+1/2 dth2^2 c23`; Lagrange gives `-1/2`, and only that
+/// makes `dM/dt - 2 C` skew.
+#[test]
+fn phantom_regressor_is_that_of_the_paper_with_one_sign_corrected() {
+    let phantom = interpreter("phantom");
+    let mut random = states::generator(3);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 3);
+        let standard = states::physical(&mut random, &phantom.compiled.model);
+        let base_regressor = phantom.forms(&standard, &state).base_regressor;
+        let names = &phantom.compiled.base.names;
+        let found = DMatrix::from_fn(3, 8, |joint, k| {
+            let place = names.iter().position(|name| name == LUMPS[k]).unwrap();
+            base_regressor[(joint, place)]
+        });
+        assert_close("Y", &found, &printed_regressor(&state, -1.0));
+        let off = printed_regressor(&state, 1.0) - &found;
+        let wanted = state.dq[1] * state.dq[1] * (state.q[1] - state.q[2]).cos();
+        assert!((off[(2, 3)] - wanted).abs() < 1e-12, "{off} {wanted}");
+    }
+}
+
+/// `J ddth - m g r sin(th) + f(dth) = u` and its three laws of friction.
+#[test]
+fn puma_shoulder_has_two_rigid_parameters_and_the_frictions_of_the_paper() {
+    let shoulder = interpreter("puma_shoulder");
+    let names: Vec<&str> = shoulder
+        .compiled
+        .base
+        .names
+        .iter()
+        .map(String::as_str)
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "J",
+            "mr",
+            "th.viscous_friction.fv",
+            "th.asymmetric_viscous.delta",
+            "th.quadratic_viscous.c"
+        ]
+    );
+    let (j, mr, fv, delta, c) = (2.0, 3.0, 0.7, 0.2, 0.1);
+    let state = State {
+        q: vec![0.4],
+        dq: vec![-1.3],
+        ddq: vec![2.1],
+        time: 0.0,
+    };
+    let x = state.dq[0];
+    let tau = j * 2.1 - mr * 9.81 * 0.4_f64.sin() + fv * x + delta * x.abs() + c * x * x.abs();
+    let found = shoulder
+        .forms(&[j, mr, fv, delta, c], &state)
+        .inverse_dynamics;
+    assert_close("(2.3), (6.1) to (6.3)", &found, &column(&[tau]));
+}
