@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_model::columns::Arm;
-use robot_model::identify::{Errors, Estimate, Identify, Method};
+use robot_model::identify::{Errors, Estimate, Form, Identify, IdentifyError, Method};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 use serde::Serialize;
 
 use crate::Error;
-use crate::interpreted::InterpretedArm;
+use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::spec::{compile, read_log};
@@ -30,6 +30,12 @@ pub(crate) struct IdentifyArguments {
     /// How joints are weighed against each other.
     #[arg(long, value_enum, default_value_t)]
     method: MethodArgument,
+    /// Which equations: `tau = Y_b(q, dq, ddq) beta`, or `L{tau} = Y_L(q, dq) beta` without accelerations.
+    #[arg(long, value_enum, default_value_t)]
+    form: FormArgument,
+    /// Corner of the filter `L(s) = w / (s + w)` of the filtered form, rad/s; without it the end of the shared band.
+    #[arg(long, value_name = "W", value_parser = parse_corner)]
+    corner: Option<f64>,
     /// Cutoffs of the zero-phase filters, Hz: shared by torque and columns, of rigid-body kinematics, of effects'
     /// kinematics; without it they are chosen from the logs.
     #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
@@ -57,6 +63,22 @@ impl From<MethodArgument> for Method {
     }
 }
 
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum FormArgument {
+    /// With accelerations; errors are of the raw torque.
+    #[default]
+    Acceleration,
+    /// Without accelerations; errors are of the filtered torque.
+    Filtered,
+}
+
+fn parse_corner(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(corner) if corner > 0.0 && corner.is_finite() => Ok(corner),
+        _ => Err("write a positive number in rad/s, such as `60`".to_owned()),
+    }
+}
+
 fn parse_bands(text: &str) -> Result<Bands, String> {
     let numbers: Result<Vec<f64>, _> = text
         .split(',')
@@ -76,8 +98,11 @@ fn parse_bands(text: &str) -> Result<Bands, String> {
 #[derive(Serialize)]
 struct Report<'a> {
     method: &'static str,
+    form: &'static str,
+    /// Of the filtered form only, rad/s.
+    corner: Option<f64>,
     parameters: Vec<Parameter<'a>>,
-    /// Errors `rmse*` are of raw samples, first and last second cut.
+    /// Errors `rmse*`, first and last second cut: `raw` samples, or `filtered` torque `L{tau}`.
     domain: &'static str,
     rmse: &'a [f64],
     rmse_validate: Option<&'a [f64]>,
@@ -100,7 +125,24 @@ struct Parameter<'a> {
 
 impl IdentifyArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let arm = InterpretedArm::new(compile(&self.spec)?);
+        if self.corner.is_some() && self.form == FormArgument::Acceleration {
+            let reason = "`--corner` is of the filtered form; add `--form filtered`";
+            return Err(Error::Argument(reason.to_owned()));
+        }
+        let compiled = compile(&self.spec)?;
+        match self.form {
+            FormArgument::Acceleration => self.fit(&ByAcceleration(InterpretedArm::new(compiled))),
+            FormArgument::Filtered => {
+                let arm = InterpretedMomentum::new(compiled)
+                    .map_err(|refusal| Error::Argument(refusal.to_string()))?;
+                let corner = self.corner;
+                self.fit(&Filtered { arm, corner })
+            }
+        }
+    }
+
+    fn fit(&self, form: &dyn Fit) -> Result<(), Error> {
+        let dof = form.dof();
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
@@ -109,12 +151,12 @@ impl IdentifyArguments {
         let logs = self
             .logs
             .iter()
-            .map(|path| read_log(path, arm.dof(), &progress))
+            .map(|path| read_log(path, dof, &progress))
             .collect::<Result<Vec<_>, _>>()?;
         let validate = self
             .validate
             .as_deref()
-            .map(|path| read_log(path, arm.dof(), &progress))
+            .map(|path| read_log(path, dof, &progress))
             .transpose()?;
 
         progress.step("identifying");
@@ -122,11 +164,11 @@ impl IdentifyArguments {
             method: self.method.into(),
             bands: self.bands,
         };
-        let estimate = identify.fit(&arm, &logs)?;
-        let train = errors_of_all(&estimate, &arm, &logs)?;
+        let estimate = form.fit(&identify, &logs)?;
+        let train = errors_of_all(&estimate, form, &logs)?;
         let validation = validate
             .as_ref()
-            .map(|log| estimate.errors(&arm, log))
+            .map(|log| form.errors(&estimate, log))
             .transpose()?;
         drop(progress);
 
@@ -140,13 +182,55 @@ impl IdentifyArguments {
     }
 }
 
+/// A way to identify and to judge what was identified.
+trait Fit {
+    fn dof(&self) -> usize;
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError>;
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError>;
+}
+
+struct ByAcceleration(InterpretedArm);
+
+impl Fit for ByAcceleration {
+    fn dof(&self) -> usize {
+        self.0.dof()
+    }
+
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
+        identify.fit(&self.0, logs)
+    }
+
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
+        estimate.errors(&self.0, log)
+    }
+}
+
+struct Filtered {
+    arm: InterpretedMomentum,
+    corner: Option<f64>,
+}
+
+impl Fit for Filtered {
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
+        identify.fit_filtered(&self.arm, logs, self.corner)
+    }
+
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
+        estimate.filtered_errors(&self.arm, log)
+    }
+}
+
 /// Errors over several logs: root mean squares over all their samples.
-fn errors_of_all(estimate: &Estimate, arm: &InterpretedArm, logs: &[Log]) -> Result<Errors, Error> {
-    let mut sum = vec![0.0; arm.dof()];
+fn errors_of_all(estimate: &Estimate, form: &dyn Fit, logs: &[Log]) -> Result<Errors, Error> {
+    let mut sum = vec![0.0; form.dof()];
     let mut samples = 0.0;
     for log in logs {
         let count = log.time.len() as f64;
-        for (sum, rmse) in sum.iter_mut().zip(estimate.errors(arm, log)?.rmse) {
+        for (sum, rmse) in sum.iter_mut().zip(form.errors(estimate, log)?.rmse) {
             *sum += count * rmse * rmse;
         }
         samples += count;
@@ -176,10 +260,16 @@ fn report<'a>(
         value: Some(*value),
         std: None,
     });
+    let (domain, corner) = match estimate.form {
+        Form::Acceleration => ("raw", None),
+        Form::Filtered { corner } => ("filtered", Some(corner)),
+    };
     Report {
         method: estimate.method.name(),
+        form: estimate.form.name(),
+        corner,
         parameters: linear.chain(shapes).collect(),
-        domain: "raw",
+        domain,
         rmse: &train.rmse,
         rmse_validate: validation.map(|errors| errors.rmse.as_slice()),
         relative_percent: &train.relative_percent,
@@ -214,7 +304,11 @@ fn table(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> St
     } else {
         &["identification"]
     };
-    let mut text = format!("{}\n{:width$}", output::ERRORS, "joint");
+    let domain = match estimate.form {
+        Form::Acceleration => output::ERRORS.to_owned(),
+        Form::Filtered { corner } => output::filtered_errors(corner),
+    };
+    let mut text = format!("{domain}\n{:width$}", "joint");
     for name in logs {
         write!(text, "  {name:>22}").expect("a string takes all");
     }

@@ -11,6 +11,14 @@ use crate::Error;
 /// What the errors in a table are.
 pub(crate) const ERRORS: &str = "RMSE: raw samples, N m (prismatic joints: N), first and last second cut; relative: in the filtered band";
 
+/// The same of the filtered form.
+pub(crate) fn filtered_errors(corner: f64) -> String {
+    format!(
+        "RMSE: torque through L(s) = w/(s + w) with w = {corner:.1} rad/s, N m (prismatic joints: N), first and last second cut; \
+         relative: in the filtered band"
+    )
+}
+
 /// Prints a result. A reader that has gone away has read what it wanted.
 pub(crate) fn print(text: &str) -> Result<(), Error> {
     let mut stdout = io::stdout().lock();

@@ -4,8 +4,10 @@ use robot_model_spec::model::{EffectDefinition, Model};
 use robot_model_spec::parameter::{Owner, StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
-use crate::dynamics::{self, Dynamics, Value, effect, energy};
+use crate::dynamics::energy::EnergyForm;
+use crate::dynamics::{self, Dynamics, Kinematics, Partials, Value, effect, energy};
 use crate::expr::{Dag, ExprId, Names, Symbol};
+use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
 use crate::lumps;
 use crate::regressor::{self, LinearForm};
@@ -28,6 +30,14 @@ pub struct Compiled {
     pub base: BaseForm,
     /// Equations of motion in the kept parameters, whose symbols stand for base parameters. What the spec fixes is numbers.
     pub dynamics: Dynamics,
+    /// Slopes of the inverse dynamics, in the same parameters.
+    pub partials: Partials,
+    /// `tau = d/dt (Y_p * standard) - Y_h * standard`
+    pub momentum: MomentumForm,
+    /// The same in the parameters of [`Self::candidates`]: the columns of the kept ones are those of the base parameters.
+    pub base_momentum: MomentumForm,
+    /// Where the links are; `None` for a robot without links.
+    pub kinematics: Option<Kinematics>,
 }
 
 /// Derives everything. A checked model has no errors left; how clear the base parameters are is
@@ -52,6 +62,18 @@ pub fn compile_model(model: &Model) -> Compiled {
     }
     let values = base_values(&standard, &base);
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
+    let partials = Partials::new(&mut dag, &dynamics);
+    let symbols = vec![Value::Symbol; standard.len()];
+    let mut momentum_of = |form: Option<&EnergyForm>, linear: &LinearForm| {
+        let energies = dynamics::energies(&mut dag, model, form, &symbols);
+        filtered::derive(&mut dag, model, energies, linear)
+    };
+    let momentum = momentum_of(written.as_ref(), &linear);
+    let base_momentum = match form {
+        Some(form) => momentum_of(Some(form), &candidates),
+        None => momentum.clone(),
+    };
+    let kinematics = dynamics::kinematics(&mut dag, model);
     Compiled {
         model: model.clone(),
         standard,
@@ -60,6 +82,10 @@ pub fn compile_model(model: &Model) -> Compiled {
         candidates,
         base,
         dynamics,
+        partials,
+        momentum,
+        base_momentum,
+        kinematics,
     }
 }
 
@@ -92,7 +118,7 @@ pub struct Block {
 }
 
 impl Block {
-    fn new(dag: &Dag, entries: Vec<(usize, usize, ExprId)>) -> Self {
+    pub(crate) fn new(dag: &Dag, entries: Vec<(usize, usize, ExprId)>) -> Self {
         let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.2).collect();
         let entries = entries
             .into_iter()

@@ -9,6 +9,7 @@ pub mod derive_input;
 pub mod dynamics;
 pub mod emit;
 pub mod expr;
+pub mod filtered;
 pub mod interpreter;
 pub mod lumps;
 mod random;
@@ -18,6 +19,7 @@ pub mod show;
 
 mod build_script;
 mod compiled;
+mod forms;
 
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, EffectColumns, compile_model, effect_columns};

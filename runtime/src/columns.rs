@@ -98,6 +98,24 @@ pub trait Arm: Columns {
     fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>>;
 }
 
+/// An arm whose torque is known without accelerations, as `tau = d/dt (momentum columns) - (drift columns)`.
+///
+/// Both sets of columns belong to [`Columns::unknowns`] of the arm. They read [`Motion`] without `ddq`, which may have no
+/// channels.
+pub trait MomentumArm: Arm {
+    /// Columns of the generalized momentum, `Y_p`; entries that are zero by structure are left out.
+    fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
+
+    /// Columns of what changes the momentum beside the torque, `Y_h`: for a rigid body `C^T dq - G`.
+    fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
+
+    /// Momentum of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
+    fn known_momentum(&self, motion: &Motion) -> Vec<Vec<f64>>;
+
+    /// Drift of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
+    fn known_drift(&self, motion: &Motion) -> Vec<Vec<f64>>;
+}
+
 /// An effect that the spec does not declare, tried on given joints.
 pub trait Candidate: Columns {
     /// Kebab-case name of the effect.

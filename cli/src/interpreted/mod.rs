@@ -6,10 +6,12 @@
 
 mod band;
 mod candidate;
+mod momentum;
 mod program;
 mod shape;
 
 pub use candidate::InterpretedCandidate;
+pub use momentum::{InterpretedMomentum, NoMomentumForm};
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
 use robot_model::motion::Motion;
@@ -79,7 +81,7 @@ impl InterpretedArm {
                 .map(|joint| joint.actuator_gain)
                 .collect(),
             rigid: compiled.rigid_columns(),
-            effects: declared_effects(&compiled),
+            effects: effect_block(&compiled, compiled.effect_columns()),
             rigid_torque: compiled.rigid_torque(),
             known_torque: compiled.known_torque(),
             compiled,
@@ -90,6 +92,15 @@ impl InterpretedArm {
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
         &self.compiled
+    }
+
+    /// Values of all shape parameters: the spec's, and those given for the free ones.
+    fn all_shapes(&self, free: &[f64]) -> Vec<f64> {
+        let mut values = self.given.clone();
+        for (&k, &value) in self.free.iter().zip(free) {
+            values[k] = value;
+        }
+        values
     }
 }
 
@@ -107,10 +118,7 @@ impl Columns for InterpretedArm {
     }
 
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let mut values = self.given.clone();
-        for (&k, &value) in self.free.iter().zip(shapes) {
-            values[k] = value;
-        }
+        let values = self.all_shapes(shapes);
         let mut entries = run_block(&self.rigid, motion, &motion.smooth, &values);
         entries.extend(self.effects.run(motion, &values));
         entries
@@ -170,8 +178,9 @@ fn reads_rigid_torque(program: &Program) -> bool {
         .any(|symbol| matches!(symbol, Symbol::RigidTorque(_)))
 }
 
-fn declared_effects(compiled: &Compiled) -> EffectBlock {
-    EffectBlock::new(compiled.effect_columns(), |column| {
+/// Columns of the declared effects, each with the band that it reads.
+fn effect_block(compiled: &Compiled, block: Block) -> EffectBlock {
+    EffectBlock::new(block, |column| {
         match compiled.standard[compiled.base.kept[column]].owner {
             Owner::Effect { effect, parameter } => {
                 is_rough(&compiled.model.effects[effect].definition, parameter)

@@ -14,10 +14,10 @@ use crate::expr::{Dag, ExprId, Label};
 
 /// The frames of a chain with its parameters.
 pub struct Chain {
-    frames: Vec<Frame>,
-    links: Vec<LinkParameters>,
+    pub(super) frames: Vec<Frame>,
+    pub(super) links: Vec<LinkParameters>,
     /// Acceleration of gravity in the base frame.
-    gravity: [f64; 3],
+    pub(super) gravity: [f64; 3],
 }
 
 /// Motion of a link, in link coordinates.

@@ -17,6 +17,8 @@ pub struct Frame {
     pub to_origin: Vector,
     /// The joint's axis in link coordinates.
     pub axis: Vector,
+    /// The joint's axis in parent coordinates.
+    pub axis_in_parent: Vector,
 }
 
 /// Expressions for the frame of joint `index`.
@@ -62,6 +64,7 @@ pub fn frame(dag: &mut Dag, index: usize, kind: JointKind, placement: &Placement
         joint_point: vector::constant(dag, before.translation),
         to_origin,
         axis: vector::constant(dag, axis_in_link),
+        axis_in_parent: vector::constant(dag, vector::rotate(&before.rotation, *axis)),
     }
 }
 
@@ -109,7 +112,7 @@ fn rotation_about(dag: &mut Dag, a: [f64; 3], sin: ExprId, cos: ExprId) -> Matri
 }
 
 /// `A B`
-fn multiply(dag: &mut Dag, a: &Matrix, b: &Matrix) -> Matrix {
+pub fn multiply(dag: &mut Dag, a: &Matrix, b: &Matrix) -> Matrix {
     let columns: Matrix = std::array::from_fn(|j| std::array::from_fn(|i| b[i][j]));
     std::array::from_fn(|i| std::array::from_fn(|j| vector::dot(dag, a[i], columns[j])))
 }

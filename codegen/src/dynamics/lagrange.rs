@@ -3,12 +3,15 @@
 //! In: an [`EnergyForm`] and an expression for each standard parameter. Out: the torque of every coordinate. Source: any
 //! textbook, such as Spong, Hutchinson and Vidyasagar 2006, ch. 7.
 
+use super::energies::Energies;
 use super::energy::EnergyForm;
 use super::rigid::Terms;
 use crate::expr::{Dag, ExprId, Symbol};
 
 /// The equations of motion of a robot that says its energies.
 pub struct Lagrangian {
+    /// `T` and `V`, as the spec says them.
+    pub energies: Energies,
     /// `M(q)`, `[row][column]`: second derivatives of `T` with respect to the rates.
     pub mass_matrix: Vec<Vec<ExprId>>,
     /// `C dq`
@@ -33,6 +36,7 @@ impl Lagrangian {
             }
         }
         Self {
+            energies: Energies { kinetic, potential },
             velocity_torque: velocity_torque(dag, &mass_matrix),
             gravity: (0..dof)
                 .map(|i| dag.derivative(potential, Symbol::Q(i)))

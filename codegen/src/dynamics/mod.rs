@@ -6,19 +6,26 @@
 mod chain;
 mod coriolis;
 pub mod effect;
+mod energies;
 pub mod energy;
 pub mod fourier;
 mod frame;
 mod inertia;
+mod kinematics;
 mod lagrange;
 mod lower;
+mod partial;
 mod rigid;
 mod vector;
 
 use robot_model_spec::model::Model;
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
+use chain::Chain;
+pub use energies::Energies;
 use energy::EnergyForm;
+pub use kinematics::{Kinematics, Pose};
+pub use partial::Partials;
 use rigid::{RigidBody, Terms};
 
 /// What stands for each standard parameter in the derivation.
@@ -49,6 +56,8 @@ pub struct Dynamics {
     pub gravity: Vec<ExprId>,
     /// `C dq + G`
     pub bias: Vec<ExprId>,
+    /// `T` and `V` of the rigid body.
+    pub energies: Energies,
 }
 
 /// Derives the equations of motion. `values` has one entry per standard parameter of the model; `form` are the energies of
@@ -96,6 +105,7 @@ pub fn derive(
         coriolis_matrix,
         gravity,
         bias,
+        energies: body.energies(dag),
     }
 }
 
@@ -108,6 +118,24 @@ pub fn rigid_torque(
 ) -> Vec<ExprId> {
     let parameters = parameter_expressions(dag, values);
     RigidBody::new(dag, model, form, &parameters).torque(dag, Terms::All, false)
+}
+
+/// Energies of the rigid body alone, for uses that need nothing else.
+pub fn energies(
+    dag: &mut Dag,
+    model: &Model,
+    form: Option<&EnergyForm>,
+    values: &[Value],
+) -> Energies {
+    let parameters = parameter_expressions(dag, values);
+    RigidBody::new(dag, model, form, &parameters).energies(dag)
+}
+
+/// Where the links are; `None` for a robot without links.
+pub fn kinematics(dag: &mut Dag, model: &Model) -> Option<Kinematics> {
+    let chain = model.chain()?;
+    let massless = vec![[dag.zero(); 10]; chain.links.len()];
+    Some(Chain::new(dag, &model.joints, chain, massless).kinematics(dag))
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {

@@ -3,6 +3,7 @@
 use robot_model_spec::model::{Body, Model};
 
 use super::chain::Chain;
+use super::energies::Energies;
 use super::energy::EnergyForm;
 use super::lagrange::Lagrangian;
 use crate::expr::{Dag, ExprId, Symbol};
@@ -91,6 +92,14 @@ impl RigidBody {
         match self {
             Self::Chain(chain) => chain.mass_matrix(dag),
             Self::Lagrangian(lagrangian) => lagrangian.mass_matrix.clone(),
+        }
+    }
+
+    /// `T` and `V`.
+    pub fn energies(&self, dag: &mut Dag) -> Energies {
+        match self {
+            Self::Chain(chain) => chain.energies(dag),
+            Self::Lagrangian(lagrangian) => lagrangian.energies,
         }
     }
 }

@@ -54,6 +54,11 @@ pub fn apply_transposed(dag: &mut Dag, a: &Matrix, v: Vector) -> Vector {
     apply(dag, &columns, v)
 }
 
+/// `R v` of numbers.
+pub fn rotate(r: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    r.map(|row| row.iter().zip(v).map(|(r, v)| r * v).sum())
+}
+
 /// `R^T v` of numbers.
 pub fn rotate_back(r: &[[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     std::array::from_fn(|j| (0..3).map(|i| r[i][j] * v[i]).sum())

@@ -11,6 +11,7 @@ mod diff;
 mod display;
 mod eval;
 pub mod rules;
+mod substitute;
 
 use std::collections::HashMap;
 

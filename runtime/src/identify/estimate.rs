@@ -5,7 +5,7 @@ use std::fmt;
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::resample::whole_steps;
-use crate::signal::{Bands, prepare};
+use crate::signal::{Bands, Prepared, prepare};
 
 use super::least_squares::Solution;
 use super::stack::{Stack, torque_of};
@@ -13,6 +13,29 @@ use super::{IdentifyError, Method};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
 const ERROR_BORDER_S: f64 = 1.0;
+
+/// Which equations the parameters were identified with; both have the same parameters.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Form {
+    /// `tau = Y_b(q, dq, ddq) * beta`
+    Acceleration,
+    /// `L{tau} = Y_L(q, dq) * beta`, without accelerations.
+    Filtered {
+        /// `w` of `L(s) = w / (s + w)`, rad/s.
+        corner: f64,
+    },
+}
+
+impl Form {
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Acceleration => "acceleration",
+            Self::Filtered { .. } => "filtered",
+        }
+    }
+}
 
 /// One identified parameter.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,6 +63,8 @@ pub struct Errors {
 pub struct Estimate {
     /// How joints were weighed.
     pub method: Method,
+    /// Which equations were used.
+    pub form: Form,
     /// Bands of the filters.
     pub bands: Bands,
     /// The identified parameters, in the arm's order.
@@ -64,6 +89,7 @@ impl Estimate {
     pub(super) fn new(
         arm: &dyn Arm,
         method: Method,
+        form: Form,
         bands: Bands,
         solution: &Solution,
         shapes: Vec<f64>,
@@ -88,6 +114,7 @@ impl Estimate {
             .collect();
         Self {
             method,
+            form,
             bands,
             parameters,
             shapes: arm
@@ -162,9 +189,21 @@ impl Estimate {
     pub fn errors(&self, arm: &dyn Arm, log: &Log) -> Result<Errors, IdentifyError> {
         super::check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare(log, &self.bands)?;
-        let torque = self.torque(arm, &prepared);
-        let border = whole_steps(ERROR_BORDER_S * log.rate_hz());
-        let inner = border.min(log.time.len() / 4)..log.time.len() - border.min(log.time.len() / 4);
+        Ok(self.errors_of(arm, &prepared, &log.tau, prepared.stride))
+    }
+
+    /// `measured` has `stride` samples for one of the prepared motion.
+    pub(super) fn errors_of(
+        &self,
+        arm: &dyn Arm,
+        prepared: &Prepared,
+        measured: &[Vec<f64>],
+        stride: usize,
+    ) -> Errors {
+        let torque = self.torque(arm, prepared);
+        let count = measured.first().map_or(0, Vec::len);
+        let border = whole_steps(ERROR_BORDER_S * prepared.rate_hz) * stride;
+        let inner = border.min(count / 4)..count - border.min(count / 4);
         let mut errors = Errors {
             rmse: Vec::new(),
             relative_percent: Vec::new(),
@@ -172,10 +211,10 @@ impl Estimate {
         let (mut filtered, mut tau) = (Vec::new(), Vec::new());
         for (joint, values) in torque.iter().enumerate() {
             let gain = arm.actuator_gain()[joint];
-            let predicted = spread(values, prepared.stride, log.time.len());
+            let predicted = spread(values, stride, count);
             let square: f64 = inner
                 .clone()
-                .map(|k| (gain * log.tau[joint][k] - predicted[k]).powi(2))
+                .map(|k| (gain * measured[joint][k] - predicted[k]).powi(2))
                 .sum();
             errors.rmse.push((square / inner.len() as f64).sqrt());
             let rest: Vec<f64> = prepared.tau[joint]
@@ -190,11 +229,11 @@ impl Estimate {
                 .relative_percent
                 .push(percent(norm(&filtered), norm(&tau)));
         }
-        Ok(errors)
+        errors
     }
 
     /// Predicted torque on a prepared motion's grid.
-    fn torque(&self, arm: &dyn Arm, prepared: &crate::signal::Prepared) -> Vec<Vec<f64>> {
+    fn torque(&self, arm: &dyn Arm, prepared: &Prepared) -> Vec<Vec<f64>> {
         let values = self.values();
         let shapes: Vec<f64> = self.shapes.iter().map(|(_, value)| *value).collect();
         let mut motion = prepared.motion.clone();

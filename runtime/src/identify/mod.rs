@@ -19,12 +19,13 @@
 mod band;
 mod error;
 mod estimate;
+mod filtered;
 mod least_squares;
 mod shapes;
 mod stack;
 
 pub use error::IdentifyError;
-pub use estimate::{Errors, Estimate, Identified};
+pub use estimate::{Errors, Estimate, Form, Identified};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 pub(crate) use shapes::{golden, neighbors};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
@@ -86,6 +87,7 @@ impl Identify {
         Ok(Estimate::new(
             arm,
             self.method,
+            Form::Acceleration,
             bands,
             &solution,
             shapes,

@@ -6,6 +6,7 @@
 mod derivative;
 mod error;
 mod filter;
+mod first_order;
 mod prepare;
 pub mod resample;
 mod shared;
@@ -14,6 +15,8 @@ mod spectrum;
 pub use derivative::derivative;
 pub use error::SignalError;
 pub use filter::LowPass;
-pub use prepare::{Bands, Prepared, prepare};
+pub use first_order::FirstOrder;
+pub use prepare::{Bands, Prepared, prepare, prepare_velocities};
 pub use shared::SharedFilter;
+pub(crate) use shared::border;
 pub use spectrum::band_density;

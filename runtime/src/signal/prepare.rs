@@ -100,6 +100,18 @@ pub struct Prepared {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn prepare(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
+    prepare_rates(log, bands, true)
+}
+
+/// As [`prepare`], but no acceleration is computed: `ddq` has no channels. For the filtered form.
+///
+/// # Errors
+/// Those of [`prepare`].
+pub fn prepare_velocities(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
+    prepare_rates(log, bands, false)
+}
+
+fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepared, SignalError> {
     let Bands {
         smooth_hz,
         wide_hz,
@@ -154,11 +166,12 @@ pub fn prepare(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
     };
     let q: Vec<Vec<f64>> = log.q.iter().map(limit).collect();
     let step = 1.0 / logged_hz;
+    let rates = |filter: &LowPass| kinematics(&q, filter, step, stride, accelerations);
     Ok(Prepared {
         motion: Motion {
             time: resample::grid(0.0, 1.0 / rate_hz, samples),
-            smooth: kinematics(&q, &smooth, step, stride),
-            wide: kinematics(&q, &wide, step, stride),
+            smooth: rates(&smooth),
+            wide: rates(&wide),
             rigid_torque: Vec::new(),
         },
         tau: log
@@ -173,17 +186,25 @@ pub fn prepare(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
 }
 
 /// Filtered positions and their derivatives at the full rate, of which every `stride`-th sample is kept.
-fn kinematics(positions: &[Vec<f64>], filter: &LowPass, step: f64, stride: usize) -> Kinematics {
+fn kinematics(
+    positions: &[Vec<f64>],
+    filter: &LowPass,
+    step: f64,
+    stride: usize,
+    accelerations: bool,
+) -> Kinematics {
     let mut kinematics = Kinematics::default();
     let (mut dq, mut ddq) = (Vec::new(), Vec::new());
     for position in positions {
         let q = filtered(filter, position);
         derivative(&q, step, &mut dq);
         rest(&mut dq);
-        derivative(&dq, step, &mut ddq);
         kinematics.q.push(resample::every(&q, stride));
         kinematics.dq.push(resample::every(&dq, stride));
-        kinematics.ddq.push(resample::every(&ddq, stride));
+        if accelerations {
+            derivative(&dq, step, &mut ddq);
+            kinematics.ddq.push(resample::every(&ddq, stride));
+        }
     }
     kinematics
 }

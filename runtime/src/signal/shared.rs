@@ -13,6 +13,11 @@ const OVERSAMPLING: f64 = 4.0;
 /// filter's own transient but that of the motion's filters and derivatives.
 const BORDER_PERIODS: f64 = 1.0;
 
+/// Samples cut from either end of columns at `rate_hz`.
+pub(crate) fn border(bands: &Bands, rate_hz: f64) -> usize {
+    whole_steps((BORDER_PERIODS * rate_hz / bands.shared_hz).round())
+}
+
 /// A zero-phase low-pass with decimation, for columns on a motion's grid: torque and every regressor column go through the
 /// same one, after their nonlinear terms are formed.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,7 +49,7 @@ impl SharedFilter {
         let low_pass = LowPass::butterworth(ORDER, bands.shared_hz, rate_hz)?;
         Ok(Self {
             low_pass,
-            border: whole_steps((BORDER_PERIODS * rate_hz / bands.shared_hz).round()),
+            border: border(bands, rate_hz),
             stride: whole_steps(rate_hz / (OVERSAMPLING * bands.shared_hz) + 1e-3).max(1),
         })
     }

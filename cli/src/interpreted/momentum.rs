@@ -1,0 +1,152 @@
+//! The interpreter behind the momentum form: identification without accelerations.
+
+use std::fmt;
+
+use robot_model::columns::{Arm, Columns, Entry, MomentumArm, Shape, Unknown};
+use robot_model::motion::Motion;
+use robot_model_codegen::filtered::Reason;
+use robot_model_codegen::interpreter::Program;
+use robot_model_codegen::{Block, Compiled};
+
+use super::band::EffectBlock;
+use super::program::{bind, run, run_block};
+use super::{InterpretedArm, effect_block};
+
+/// An arm whose columns need no accelerations.
+#[derive(Debug, Clone)]
+pub struct InterpretedMomentum {
+    arm: InterpretedArm,
+    momentum: Block,
+    rigid_drift: Block,
+    effect_drift: EffectBlock,
+    known_momentum: Program,
+    known_drift: Program,
+}
+
+/// Why an arm has no momentum form: an unknown whose column no filter frees of the acceleration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NoMomentumForm {
+    /// Where the effect is declared: file and line.
+    place: String,
+    parameter: String,
+    reason: Reason,
+}
+
+impl fmt::Display for NoMomentumForm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: `{}` has no filtered form: {}; identify with `--form acceleration`, or take the effect out",
+            self.place, self.parameter, self.reason
+        )
+    }
+}
+
+impl std::error::Error for NoMomentumForm {}
+
+impl InterpretedMomentum {
+    /// The momentum form of a compiled spec.
+    ///
+    /// # Errors
+    /// [`NoMomentumForm`] names the first unknown whose column reads accelerations in a way that does not go by parts.
+    pub fn new(compiled: Compiled) -> Result<Self, NoMomentumForm> {
+        if let Some(refusal) = refusal(&compiled) {
+            return Err(refusal);
+        }
+        Ok(Self {
+            momentum: compiled.base_momentum(),
+            rigid_drift: compiled.rigid_drift(),
+            effect_drift: effect_block(&compiled, compiled.effect_drift()),
+            known_momentum: compiled.known_momentum(),
+            known_drift: compiled.known_drift(),
+            arm: InterpretedArm::new(compiled),
+        })
+    }
+
+    fn known(program: &Program, motion: &Motion) -> Vec<Vec<f64>> {
+        run(program, motion, &|symbol| {
+            bind(motion, &motion.smooth, &[], symbol)
+        })
+    }
+}
+
+fn refusal(compiled: &Compiled) -> Option<NoMomentumForm> {
+    let mut refused = compiled.base_momentum.refused.iter();
+    // What regroups into other columns needs no column of its own.
+    let refusal = refused.find(|refusal| compiled.base.kept.contains(&refusal.parameter))?;
+    let parameter = &compiled.standard[refusal.parameter];
+    let model = &compiled.model;
+    let place = match parameter.owner {
+        robot_model_spec::parameter::Owner::Effect { effect, .. } => {
+            format!("{}:{}", model.source, model.effects[effect].line)
+        }
+        _ => model.source.clone(),
+    };
+    Some(NoMomentumForm {
+        place,
+        parameter: parameter.name.clone(),
+        reason: refusal.reason,
+    })
+}
+
+impl Columns for InterpretedMomentum {
+    fn unknowns(&self) -> &[Unknown] {
+        self.arm.unknowns()
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        self.arm.shapes()
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        self.arm.uses_rigid_torque()
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        self.arm.entries(motion, shapes)
+    }
+}
+
+impl Arm for InterpretedMomentum {
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+
+    fn joints(&self) -> &[String] {
+        self.arm.joints()
+    }
+
+    fn actuator_gain(&self) -> &[f64] {
+        self.arm.actuator_gain()
+    }
+
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        self.arm.known_torque(motion)
+    }
+
+    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.rigid_torque(motion, estimate)
+    }
+}
+
+impl MomentumArm for InterpretedMomentum {
+    fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let shapes = self.arm.all_shapes(shapes);
+        run_block(&self.momentum, motion, &motion.smooth, &shapes)
+    }
+
+    fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let shapes = self.arm.all_shapes(shapes);
+        let mut entries = run_block(&self.rigid_drift, motion, &motion.smooth, &shapes);
+        entries.extend(self.effect_drift.run(motion, &shapes));
+        entries
+    }
+
+    fn known_momentum(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        Self::known(&self.known_momentum, motion)
+    }
+
+    fn known_drift(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        Self::known(&self.known_drift, motion)
+    }
+}

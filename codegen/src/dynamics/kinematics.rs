@@ -1,0 +1,89 @@
+//! Where the links of a chain are, and how their tip moves.
+
+use robot_model_spec::model::JointKind;
+
+use super::chain::Chain;
+use super::frame::multiply;
+use super::vector::{self, Matrix, Vector};
+use crate::expr::{Dag, ExprId};
+
+/// Poses and velocities of a chain as expressions of `q`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Kinematics {
+    /// Pose of each link's frame in the base frame; the last one is the tip's.
+    pub poses: Vec<Pose>,
+    /// `[row][joint]` of the geometric Jacobian at the origin of the last link's frame, in base coordinates: three rows of
+    /// its velocity, then three of the angular velocity.
+    pub jacobian: [Vec<ExprId>; 6],
+}
+
+/// A frame in the base frame: `x -> rotation * x + translation`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pose {
+    /// `[row][column]`
+    pub rotation: Matrix,
+    /// Of the origin, m.
+    pub translation: Vector,
+}
+
+impl Pose {
+    /// `[[rotation, translation], [0, 1]]`, row by row.
+    #[must_use]
+    pub fn homogeneous(&self, dag: &mut Dag) -> Vec<ExprId> {
+        let (zero, one) = (dag.zero(), dag.constant(1.0));
+        let rows = self.rotation.iter().zip(self.translation);
+        let mut entries: Vec<ExprId> = rows
+            .flat_map(|(row, translation)| row.iter().copied().chain([translation]))
+            .collect();
+        entries.extend([zero, zero, zero, one]);
+        entries
+    }
+}
+
+impl Chain {
+    /// Poses by products of frames; column `j` of the Jacobian is `[z x (p - o), z]` of a revolute joint and `[z, 0]` of a
+    /// prismatic one, with `z` its axis, `o` a point on it and `p` the tip. Source: Siciliano et al. 2009, ch. 3.
+    pub fn kinematics(&self, dag: &mut Dag) -> Kinematics {
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mut pose = Pose {
+            rotation: identity.map(|row| vector::constant(dag, row)),
+            translation: vector::zero(dag),
+        };
+        let mut poses = Vec::with_capacity(self.frames.len());
+        let mut joints = Vec::with_capacity(self.frames.len());
+        for frame in &self.frames {
+            let to_joint = vector::apply(dag, &pose.rotation, frame.joint_point);
+            let axis = vector::apply(dag, &pose.rotation, frame.axis_in_parent);
+            let rotation = multiply(dag, &pose.rotation, &frame.rotation);
+            let from_joint = vector::apply(dag, &rotation, frame.to_origin);
+            joints.push((frame.kind, axis, to_joint, from_joint));
+            let joint_point = vector::add(dag, pose.translation, to_joint);
+            pose = Pose {
+                rotation,
+                translation: vector::add(dag, joint_point, from_joint),
+            };
+            poses.push(pose);
+        }
+        // From the tip inward, so that levers are sums and not differences of positions.
+        let zero = dag.zero();
+        let mut lever = [zero; 3];
+        let mut columns = Vec::with_capacity(joints.len());
+        for (kind, axis, to_joint, from_joint) in joints.into_iter().rev() {
+            lever = vector::add(dag, from_joint, lever);
+            columns.push(match kind {
+                JointKind::Revolute => (vector::cross(dag, axis, lever), axis),
+                JointKind::Prismatic => (axis, [zero; 3]),
+            });
+            lever = vector::add(dag, to_joint, lever);
+        }
+        columns.reverse();
+        let jacobian = std::array::from_fn(|row| {
+            let entry = |(velocity, angular): &(Vector, Vector)| match row {
+                0..3 => velocity[row],
+                _ => angular[row - 3],
+            };
+            columns.iter().map(entry).collect()
+        });
+        Kinematics { poses, jacobian }
+    }
+}

@@ -1,0 +1,163 @@
+//! The momentum form, from which the filtered regressor is made: no acceleration anywhere.
+//!
+//! In: a [`Model`] with its energies and its [`LinearForm`]. Out: [`MomentumForm`]. Invariant gained: no entry contains an
+//! acceleration, and `tau = d/dt (Y_p * standard) - Y_h * standard` along every motion.
+//!
+//! Of the rigid body, `p = dT/d dq` is the momentum and `h = d(T - V)/dq`, which is `C^T dq - G`. A column of an effect that
+//! is `A(q, t) ddq + r` goes by parts, `A ddq = d/dt (A dq) - dA/dt dq`: `A dq` is momentum, `dA/dt dq - r` drift.
+//!
+//! Passed through `L(s) = w / (s + w)`, with `s L = w (1 - L)`: `L{tau} = Y_L * standard` where
+//! `Y_L = w (Y_p - L{Y_p}) - L{Y_h}` (Hsu, Bodson, Sastry and Paden 1987). The columns are filtered after their
+//! nonlinear terms are formed, so that holds for effects that jump as well.
+
+use std::fmt;
+
+use robot_model_spec::model::Model;
+
+use crate::dynamics::Energies;
+use crate::expr::{Dag, ExprId, Symbol};
+use crate::regressor::LinearForm;
+
+/// `tau = d/dt (Y_p * standard) - Y_h * standard`, with the load of load-dependent effects as [`Symbol::RigidTorque`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct MomentumForm {
+    /// `Y_p[joint][parameter]`, the momentum regressor; reads `q, dq`.
+    pub momentum: Vec<Vec<ExprId>>,
+    /// `Y_h[joint][parameter]`, the regressor of what changes the momentum beside the torque; reads `q, dq` and what effects
+    /// read beside accelerations.
+    pub drift: Vec<Vec<ExprId>>,
+    /// Columns that have no momentum form; both regressors are zero there.
+    pub refused: Vec<Refusal>,
+}
+
+/// A parameter whose column reads accelerations in a way that no filter takes away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Refusal {
+    /// Index of the standard parameter.
+    pub parameter: usize,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// Why a column has no momentum form.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// It is not a sum of accelerations with coefficients.
+    NotAffine,
+    /// An acceleration's coefficient depends on more than positions and time.
+    Coefficient,
+    /// It reads the torque of the rigid body, in which accelerations are.
+    Load,
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::NotAffine => "its torque is not linear in the acceleration",
+            Self::Coefficient => {
+                "its torque has an acceleration with a factor that depends on more than positions"
+            }
+            Self::Load => {
+                "its torque depends on the load, `rigid_torque`, which contains the acceleration"
+            }
+        })
+    }
+}
+
+/// Derives both regressors. `energies` have a symbol for every standard parameter of the rigid body.
+pub fn derive(
+    dag: &mut Dag,
+    model: &Model,
+    energies: Energies,
+    linear: &LinearForm,
+) -> MomentumForm {
+    let dof = model.joints.len();
+    let rigid = model.rigid_parameters();
+    let count = linear.regressor.first().map_or(0, Vec::len);
+    let mut form = MomentumForm {
+        momentum: vec![vec![dag.zero(); count]; dof],
+        drift: vec![vec![dag.zero(); count]; dof],
+        refused: Vec::new(),
+    };
+    let mut kinetic = Vec::with_capacity(rigid);
+    let mut lagrangian = Vec::with_capacity(rigid);
+    for parameter in 0..rigid {
+        let of = [energies.kinetic, energies.potential];
+        let of = dag.derivatives(&of, Symbol::Parameter(parameter));
+        kinetic.push(of[0]);
+        lagrangian.push(dag.sub(of[0], of[1]));
+    }
+    for joint in 0..dof {
+        let momentum = dag.derivatives(&kinetic, Symbol::Dq(joint));
+        let drift = dag.derivatives(&lagrangian, Symbol::Q(joint));
+        form.momentum[joint][..rigid].copy_from_slice(&momentum);
+        form.drift[joint][..rigid].copy_from_slice(&drift);
+    }
+    for parameter in rigid..count {
+        let entries: Vec<(usize, ExprId)> = linear.column(dag, parameter).collect();
+        let split: Result<Vec<Split>, Reason> = entries
+            .iter()
+            .map(|&(_, entry)| by_parts(dag, entry, dof))
+            .collect();
+        match split {
+            Err(reason) => form.refused.push(Refusal { parameter, reason }),
+            Ok(parts) => {
+                for ((joint, _), part) in entries.into_iter().zip(parts) {
+                    form.momentum[joint][parameter] = part.momentum;
+                    form.drift[joint][parameter] = part.drift;
+                }
+            }
+        }
+    }
+    form
+}
+
+/// `column = d momentum/dt - drift`
+struct Split {
+    momentum: ExprId,
+    drift: ExprId,
+}
+
+fn by_parts(dag: &mut Dag, column: ExprId, dof: usize) -> Result<Split, Reason> {
+    let (mut momentum, mut drift) = (dag.zero(), dag.zero());
+    for symbol in dag.symbols(&[column]) {
+        let joint = match symbol {
+            Symbol::Ddq(joint) => joint,
+            Symbol::RigidTorque(_) => return Err(Reason::Load),
+            _ => continue,
+        };
+        let coefficient = dag.derivative(column, symbol);
+        for inside in dag.symbols(&[coefficient]) {
+            match inside {
+                Symbol::Q(_) | Symbol::Time | Symbol::Shape(_) => {}
+                Symbol::Ddq(_) => return Err(Reason::NotAffine),
+                _ => return Err(Reason::Coefficient),
+            }
+        }
+        let dq = dag.symbol(Symbol::Dq(joint));
+        let part = dag.mul(coefficient, dq);
+        momentum = dag.add(momentum, part);
+        let rate = rate(dag, coefficient, dof);
+        let part = dag.mul(rate, dq);
+        drift = dag.add(drift, part);
+    }
+    let zero = dag.zero();
+    let still = |symbol| matches!(symbol, Symbol::Ddq(_)).then_some(zero);
+    let rest = dag.substitute(&[column], &still)[0];
+    Ok(Split {
+        momentum,
+        drift: dag.sub(drift, rest),
+    })
+}
+
+/// `dA/dt` of an expression of positions and time.
+fn rate(dag: &mut Dag, x: ExprId, dof: usize) -> ExprId {
+    let mut sum = dag.derivative(x, Symbol::Time);
+    for joint in 0..dof {
+        let slope = dag.derivative(x, Symbol::Q(joint));
+        let dq = dag.symbol(Symbol::Dq(joint));
+        let part = dag.mul(slope, dq);
+        sum = dag.add(sum, part);
+    }
+    sum
+}

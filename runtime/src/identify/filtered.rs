@@ -1,0 +1,252 @@
+//! The filtered form: identification without accelerations.
+//!
+//! With `tau = d/dt (Y_p beta) - Y_h beta` and `L(s) = w / (s + w)`, both sides pass `L`: `L{tau} = Y_L beta` where
+//! `Y_L = w (Y_p - L{Y_p}) - L{Y_h}`. Here `Y_L` stands behind the trait of any arm, so that everything else, from the choice
+//! of bands to the deviations, is that of the usual form.
+//!
+//! The transient is no approximation: the difference of both sides decays as `exp(-w t)` and is zero at the start, since
+//! `L{Y_p}` starts at `Y_p` and the other filters at zero. They start where the filters of the motion have settled; before
+//! that both sides are zero.
+
+use crate::columns::{Arm, Columns, Entry, MomentumArm, Shape, Unknown};
+use crate::log::Log;
+use crate::motion::Motion;
+use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_velocities};
+
+use super::estimate::{Errors, Estimate, Form};
+use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands};
+
+/// An arm whose columns and torques have passed `L`.
+struct FilteredArm<'a> {
+    arm: &'a dyn MomentumArm,
+    bands: Bands,
+    corner: f64,
+}
+
+/// The corner where none is given, rad/s: the end of the band that torque and columns share.
+fn default_corner(bands: &Bands) -> f64 {
+    std::f64::consts::TAU * bands.shared_hz
+}
+
+impl Identify {
+    /// Identifies from one or several logs without computing an acceleration.
+    ///
+    /// `corner` is `w` of `L(s) = w / (s + w)` in rad/s: above the band of the motion, below that of its noise; without it the
+    /// end of the shared band. The parameters are those of [`Self::fit`]; errors are of the filtered torque, see
+    /// [`Estimate::filtered_errors`].
+    ///
+    /// # Errors
+    /// Those of [`Self::fit`], and [`IdentifyError::Signal`] for a corner that does not fit the logs' rate.
+    pub fn fit_filtered(
+        &self,
+        arm: &dyn MomentumArm,
+        logs: &[Log],
+        corner: Option<f64>,
+    ) -> Result<Estimate, IdentifyError> {
+        check_logs(arm, logs)?;
+        let bands = match self.bands {
+            Some(bands) => bands,
+            None => self.choose_filtered_bands(arm, logs, corner)?,
+        };
+        let filtered = FilteredArm::new(arm, bands, corner);
+        let mut prepared = filtered.prepare_all(logs)?;
+        let (solution, shapes, stack) = self.solve(&filtered, &mut prepared, None)?;
+        let form = Form::Filtered {
+            corner: filtered.corner,
+        };
+        Ok(Estimate::new(
+            arm,
+            self.method,
+            form,
+            bands,
+            &solution,
+            shapes,
+            &stack,
+        ))
+    }
+
+    /// As for the usual form: `L` weakens the model's torque and what it leaves alike, so their ratio is the same.
+    fn choose_filtered_bands(
+        &self,
+        arm: &dyn MomentumArm,
+        logs: &[Log],
+        corner: Option<f64>,
+    ) -> Result<Bands, IdentifyError> {
+        let mut bands = slowest_bands(logs);
+        bands.smooth_hz = bands.wide_hz;
+        let filtered = FilteredArm::new(arm, bands, corner);
+        let mut prepared = filtered.prepare_all(logs)?;
+        let middle = Some(shapes::middle(arm));
+        let (solution, shapes, _) = self.solve(&filtered, &mut prepared, middle)?;
+        let chosen = band::choose(&filtered, &prepared, &shapes, &solution.estimate);
+        Ok(chosen)
+    }
+}
+
+impl Estimate {
+    /// Errors on a log of the filtered torque `L{tau}`, which no acceleration is needed for: the root mean square over
+    /// samples at the rate of the motion, first and last second cut, and the relative error as for identification.
+    ///
+    /// `L` is that of the identification; an estimate of the usual form takes the end of its shared band for a corner.
+    ///
+    /// # Errors
+    /// [`IdentifyError`] where the log is of another arm or cannot be filtered.
+    pub fn filtered_errors(
+        &self,
+        arm: &dyn MomentumArm,
+        log: &Log,
+    ) -> Result<Errors, IdentifyError> {
+        check_logs(arm, std::slice::from_ref(log))?;
+        let corner = match self.form {
+            Form::Filtered { corner } => Some(corner),
+            Form::Acceleration => None,
+        };
+        let filtered = FilteredArm::new(arm, self.bands, corner);
+        let prepared = filtered.prepare(log)?;
+        Ok(self.errors_of(&filtered, &prepared, &prepared.tau, 1))
+    }
+}
+
+impl<'a> FilteredArm<'a> {
+    fn new(arm: &'a dyn MomentumArm, bands: Bands, corner: Option<f64>) -> Self {
+        Self {
+            arm,
+            bands,
+            corner: corner.unwrap_or_else(|| default_corner(&bands)),
+        }
+    }
+
+    fn prepare_all(&self, logs: &[Log]) -> Result<Vec<Prepared>, IdentifyError> {
+        logs.iter()
+            .map(|log| self.prepare(log).map_err(IdentifyError::from))
+            .collect()
+    }
+
+    /// The motion without accelerations, and `L{tau}`.
+    fn prepare(&self, log: &Log) -> Result<Prepared, SignalError> {
+        let mut prepared = prepare_velocities(log, &self.bands)?;
+        let filter = FirstOrder::new(self.corner, prepared.rate_hz)?;
+        let start = border(&self.bands, prepared.rate_hz);
+        for tau in &mut prepared.tau {
+            after(start, tau, |tau, out| filter.apply(0.0, tau, out));
+        }
+        Ok(prepared)
+    }
+
+    /// The filter on a motion's grid, and the sample at which it starts.
+    fn filter(&self, motion: &Motion) -> Option<(FirstOrder, usize)> {
+        let &[first, .., last] = motion.time.as_slice() else {
+            return None;
+        };
+        let rate_hz = (motion.time.len() - 1) as f64 / (last - first);
+        let filter = FirstOrder::new(self.corner, rate_hz).ok()?;
+        Some((filter, border(&self.bands, rate_hz)))
+    }
+
+    /// `w (momentum - L{momentum}) - L{drift}` of series that belong together.
+    fn filtered(
+        motion: &Motion,
+        filter: Option<(FirstOrder, usize)>,
+        momentum: Option<&[f64]>,
+        drift: Option<&[f64]>,
+    ) -> Vec<f64> {
+        let mut sum = vec![0.0; motion.time.len()];
+        // A motion of one sample has nothing behind the start of the filter.
+        let Some((filter, start)) = filter else {
+            return sum;
+        };
+        let mut out = Vec::new();
+        if let Some(momentum) = momentum.and_then(|all| all.get(start..)) {
+            filter.apply_to_rate(momentum, &mut out);
+            sum[start..].copy_from_slice(&out);
+        }
+        if let Some(drift) = drift.and_then(|all| all.get(start..)) {
+            filter.apply(0.0, drift, &mut out);
+            sum[start..].iter_mut().zip(&out).for_each(|(s, d)| *s -= d);
+        }
+        sum
+    }
+}
+
+/// Filters what stands from `start` on; before it there is nothing.
+fn after(start: usize, series: &mut [f64], filter: impl Fn(&[f64], &mut Vec<f64>)) {
+    let start = start.min(series.len());
+    let mut out = Vec::new();
+    filter(&series[start..], &mut out);
+    series[..start].fill(0.0);
+    series[start..].copy_from_slice(&out);
+}
+
+impl Columns for FilteredArm<'_> {
+    fn unknowns(&self) -> &[Unknown] {
+        self.arm.unknowns()
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        self.arm.shapes()
+    }
+
+    /// A load contains accelerations, so no momentum form reads it.
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let filter = self.filter(motion);
+        let key = |entry: &Entry| (entry.column, entry.joint);
+        let mut momentum = self.arm.momentum(motion, shapes);
+        let mut drift = self.arm.drift(motion, shapes);
+        momentum.sort_by_key(key);
+        drift.sort_by_key(key);
+        let (mut momentum, mut drift) = (
+            momentum.into_iter().peekable(),
+            drift.into_iter().peekable(),
+        );
+        // Two sorted lists become one; a place may be in either or in both.
+        let mut all = Vec::new();
+        while let Some(place) = [momentum.peek(), drift.peek()]
+            .into_iter()
+            .flatten()
+            .map(key)
+            .min()
+        {
+            let p = momentum.next_if(|entry| key(entry) == place);
+            let h = drift.next_if(|entry| key(entry) == place);
+            let (p, h) = (p.map(|entry| entry.values), h.map(|entry| entry.values));
+            all.push(Entry {
+                joint: place.1,
+                column: place.0,
+                values: Self::filtered(motion, filter, p.as_deref(), h.as_deref()),
+            });
+        }
+        all
+    }
+}
+
+impl Arm for FilteredArm<'_> {
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+
+    fn joints(&self) -> &[String] {
+        self.arm.joints()
+    }
+
+    fn actuator_gain(&self) -> &[f64] {
+        self.arm.actuator_gain()
+    }
+
+    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        let filter = self.filter(motion);
+        let known = self.arm.known_momentum(motion);
+        let series = known.iter().zip(self.arm.known_drift(motion));
+        series
+            .map(|(p, h)| Self::filtered(motion, filter, Some(p), Some(&h)))
+            .collect()
+    }
+
+    /// Nothing that passed `L` reads a load.
+    fn rigid_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]; self.arm.dof()]
+    }
+}
