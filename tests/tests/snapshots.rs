@@ -35,7 +35,7 @@ fn model() {
     for_each("model", |_, compiled| {
         let model = &compiled.model;
         let Some(chain) = model.chain() else {
-            return format!("{model:#?}\n");
+            return energies(compiled);
         };
         let mut text = format!(
             "{} from {}, {:?}, gravity {:?}\n",
@@ -79,6 +79,30 @@ fn model() {
         }
         text
     });
+}
+
+/// Coordinates, parameters and the products of parameters.
+fn energies(compiled: &Compiled) -> String {
+    let model = &compiled.model;
+    let energies = model.energies().expect("no chain");
+    let mut text = format!("{} from {}\n\n", model.name, model.source);
+    for joint in &model.joints {
+        writeln!(
+            text,
+            "{} (line {}), {:?}",
+            joint.name, joint.line, joint.kind
+        )
+        .unwrap();
+    }
+    text.push('\n');
+    for parameter in &energies.parameters {
+        writeln!(text, "{}: {:?}", parameter.name, parameter.nominal).unwrap();
+    }
+    text.push('\n');
+    for parameter in &compiled.standard {
+        writeln!(text, "{}: {:?}", parameter.name, parameter.status).unwrap();
+    }
+    text
 }
 
 #[test]

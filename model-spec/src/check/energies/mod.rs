@@ -539,10 +539,16 @@ impl Rules<'_> {
 }
 
 fn wrong_degree(statement: Statement, what: &str, quadratic: bool) -> Box<Fault> {
-    let message = if quadratic {
-        format!("{what} is not quadratic in the rates")
+    let (message, help) = if quadratic {
+        (
+            format!("{what} is not quadratic in the rates"),
+            "rates are written `dot(q)`; each term has a product of two",
+        )
     } else {
-        format!("{what} has rates in it")
+        (
+            format!("{what} has rates in it"),
+            "write it in coordinates alone",
+        )
     };
     Box::new(Fault {
         statement,
@@ -550,8 +556,7 @@ fn wrong_degree(statement: Statement, what: &str, quadratic: bool) -> Box<Fault>
         message,
         label: String::new(),
         other: None,
-        help: "rates are written `dot(q)`; each term of the kinetic energy has a product of two"
-            .to_owned(),
+        help: help.to_owned(),
     })
 }
 

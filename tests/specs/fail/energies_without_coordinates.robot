@@ -1,0 +1,5 @@
+robot Link {
+    parameters J: kg*m^2;
+    kinetic = 0;
+    potential = 0;
+}

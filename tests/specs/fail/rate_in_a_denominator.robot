@@ -1,0 +1,7 @@
+robot Link {
+    coordinates th;
+    parameters J: kg*m^2, mr: kg*m;
+    constants g = 9.81 m/s^2;
+    kinetic = J*dot(th)^3/dot(th);
+    potential = mr*g*cos(th);
+}

@@ -1,0 +1,8 @@
+robot Link {
+    coordinates th;
+    parameters J: kg*m^2, mr: kg*m;
+    constants g = 9.81 m/s^2;
+    let v = dot(th);
+    kinetic = J*dot(v)^2;
+    potential = mr*g*cos(th);
+}
