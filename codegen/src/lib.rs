@@ -14,6 +14,7 @@ pub mod interpreter;
 pub mod lumps;
 mod random;
 pub mod regressor;
+mod right_inverse;
 mod selection;
 pub mod show;
 

@@ -6,22 +6,22 @@
 use std::time::Instant;
 
 use robot_model::{RobotModel, State, Vector};
-use robot_model_examples::{BASE, TwoLinkArm, beta, computed_torque};
+use robot_model_examples::{TwoLinkArm, arm, computed_torque};
 
 const STEP_S: f64 = 1e-3;
 const STEPS: u32 = 2000;
 
 /// Prints the equations at one state and how the controlled arm follows its reference.
 pub fn main() {
-    let beta = beta();
+    let arm = arm();
     let state = State::new(
         Vector::from([0.3, -0.8]),
         Vector::from([1.0, 0.5]),
         Vector::from([2.0, -3.0]),
     );
-    let mass_matrix = TwoLinkArm::mass_matrix(&state, &beta);
-    let bias = TwoLinkArm::bias(&state, &beta);
-    let tau = TwoLinkArm::inverse_dynamics(&state, &beta);
+    let mass_matrix = arm.mass_matrix(&state.q);
+    let bias = arm.bias(&state.q, &state.dq);
+    let tau = arm.inverse_dynamics(&state.q, &state.dq, &state.ddq);
     let friction = tau - mass_matrix * state.ddq - bias;
     println!(
         "{} with beta = {:?}",
@@ -36,8 +36,8 @@ pub fn main() {
     let mut now = State::at_rest(reference(0.0).q + Vector::from([0.2, -0.2]));
     let start = Instant::now();
     for k in 0..STEPS {
-        let tau = computed_torque(&now, &reference(f64::from(k) * STEP_S), 100.0, &beta);
-        now = moved(&now, &tau, &beta);
+        let tau = computed_torque(&arm, &now, &reference(f64::from(k) * STEP_S), 100.0);
+        now = moved(&arm, &now, &tau);
     }
     let tick = start.elapsed() / STEPS;
     let error = (now.q - reference(f64::from(STEPS) * STEP_S).q).norm();
@@ -56,13 +56,9 @@ fn reference(time: f64) -> State<2> {
 }
 
 /// The plant: `M ddq = tau - (C dq + G + friction)`, one semi-implicit Euler step.
-fn moved(now: &State<2>, tau: &Vector<2>, beta: &Vector<BASE>) -> State<2> {
-    let still = State {
-        ddq: Vector::zeros(),
-        ..*now
-    };
-    let rest = TwoLinkArm::inverse_dynamics(&still, beta);
-    let inverse = TwoLinkArm::mass_matrix(now, beta).try_inverse();
+fn moved(arm: &TwoLinkArm, now: &State<2>, tau: &Vector<2>) -> State<2> {
+    let rest = arm.inverse_dynamics(&now.q, &now.dq, &Vector::zeros());
+    let inverse = arm.mass_matrix(&now.q).try_inverse();
     let ddq = inverse.expect("a mass matrix is positive definite") * (tau - rest);
     let dq = now.dq + STEP_S * ddq;
     State::new(now.q + STEP_S * dq, dq, ddq)

@@ -1,12 +1,9 @@
 //! What a controller's firmware would hold: the compiled arm and a control law. No `std`, no allocator.
 #![no_std]
 
-use robot_model::{RobotModel, State, Vector};
+use robot_model::{FromParameters, RobotModel, State, Vector};
 
 robot_model::include_robot!("arm");
-
-/// Number of base parameters.
-pub const BASE: usize = TwoLinkArm::BASE_PARAMETERS.len();
 
 /// Standard parameters of one such arm, by name, in SI units; those that are not listed are 0.
 pub const MEASURED: [(&str, f64); 8] = [
@@ -20,14 +17,14 @@ pub const MEASURED: [(&str, f64); 8] = [
     ("elbow.viscous_friction.fv", 0.6),
 ];
 
-/// Base parameters of the arm in [`TwoLinkArm`]'s order.
+/// That arm.
 #[must_use]
-pub fn beta() -> Vector<BASE> {
+pub fn arm() -> TwoLinkArm {
     let standard = TwoLinkArm::STANDARD_PARAMETERS.map(|name| {
         let known = MEASURED.iter().find(|(known, _)| *known == name);
         known.map_or(0.0, |(_, value)| *value)
     });
-    TwoLinkArm::base_parameters(&standard.into())
+    TwoLinkArm::from_standard(&standard.into())
 }
 
 /// Computed torque: `tau = M (ddq_r + kd (dq_r - dq) + kp (q_r - q)) + bias + friction`, N m.
@@ -35,12 +32,12 @@ pub fn beta() -> Vector<BASE> {
 /// With an exact model the error obeys `ddq + kd dq + kp q = 0`; `kd = 2 sqrt(kp)` damps it critically.
 #[must_use]
 pub fn computed_torque(
+    arm: &TwoLinkArm,
     now: &State<2>,
     reference: &State<2>,
     kp: f64,
-    beta: &Vector<BASE>,
 ) -> Vector<2> {
     let kd = 2.0 * robot_model::math::sqrt(kp);
     let ddq = reference.ddq + kd * (reference.dq - now.dq) + kp * (reference.q - now.q);
-    TwoLinkArm::inverse_dynamics(&State { ddq, ..*now }, beta)
+    arm.inverse_dynamics(&now.q, &now.dq, &ddq)
 }

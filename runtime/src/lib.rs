@@ -5,6 +5,7 @@
 pub mod columns;
 #[cfg(feature = "std")]
 pub mod identify;
+pub mod link;
 #[cfg(feature = "std")]
 pub mod log;
 pub mod math;
@@ -16,10 +17,20 @@ pub mod signal;
 #[cfg(feature = "std")]
 pub mod trace;
 
-pub use model::{Matrix, RobotModel, State, Vector};
+pub use link::{Inertial, Link};
+pub use model::{FromParameters, Matrix, RobotModel, State, Vector};
 
 #[cfg(feature = "derive")]
-pub use robot_model_derive::RobotModel;
+pub use robot_model_derive::{RobotModel, effects};
+
+/// Parameters of the standard effects: one type each, for the fields of a struct that derives [`RobotModel`].
+///
+/// Linear parameters and shape parameters are fields; [`Default`] is no force at all, with shapes in the middle of their
+/// ranges.
+#[cfg(feature = "derive")]
+pub mod effects {
+    robot_model_derive::standard_effects!();
+}
 
 /// Includes what `robot_model_codegen::compile` wrote for a spec in the build script: `include_robot!("arm")` for
 /// `arm.robot`.

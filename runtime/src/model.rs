@@ -1,4 +1,6 @@
 //! The typed face of an arm: sizes in the type, no allocation, no panics. The compiler writes its implementations.
+//!
+//! A value is a parameter set; equations that need none are associated functions.
 
 use nalgebra::{SMatrix, SVector};
 
@@ -51,70 +53,172 @@ impl<const DOF: usize> State<DOF> {
     }
 }
 
-/// The equations of motion of one arm: `tau = M(q) * ddq + C(q, dq) * dq + G(q) + effects`.
+/// One arm with its parameters: `tau = M(q) * ddq + C(q, dq) * dq + G(q) + effects`.
 ///
-/// `beta` are the base parameters in the order of [`Self::BASE_PARAMETERS`]; what the spec fixes is inside the functions.
+/// The value is the parameter set, the type has the equations: `arm.inverse_dynamics(&q, &dq, &ddq)` is a torque in N m
+/// (N for prismatic joints), `Arm::regressor(&q, &dq, &ddq)` the matrix `Y` of `tau = Y * standard`. Both routes of the
+/// compiler write implementations: `#[derive(RobotModel)]` for a struct of links, the build script for a struct of base
+/// parameters. What the spec fixes is inside the functions. Nothing allocates, nothing panics.
+///
+/// `SHAPES` counts the shape parameters of the declared effects that the spec leaves open; most arms have none.
 ///
 /// # Examples
 #[cfg_attr(feature = "derive", doc = "```")]
 #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-/// use robot_model::{RobotModel, State, Vector};
+/// use robot_model::effects::ViscousFriction;
+/// use robot_model::{Link, RobotModel, Vector};
 ///
 /// #[derive(RobotModel)]
 /// #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
 /// struct Pendulum {
 ///     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
-///     #[effects(viscous_friction)]
-///     pivot: (),
+///     pivot: Link<ViscousFriction>,
 /// }
 ///
-/// // 2 kg at the tip, 0.1 N m s/rad.
-/// let standard = Pendulum::STANDARD_PARAMETERS.map(|name| match name {
-///     "pivot.m" => 2.0,
-///     "pivot.viscous_friction.fv" => 0.1,
-///     _ => 0.0,
-/// });
-/// let beta = Pendulum::base_parameters(&standard.into());
-/// let state = State::new(Vector::from([0.0]), Vector::from([3.0]), Vector::from([1.0]));
+/// // 2 kg at the tip, where the link's frame is; 0.1 N m s/rad.
+/// let arm = Pendulum { pivot: Link::new(2.0, [0.0; 3], [0.0; 6]).with(ViscousFriction { fv: 0.1 }) };
+/// let (q, dq, ddq) = (Vector::from([0.0]), Vector::from([3.0]), Vector::from([1.0]));
 /// // m l^2 ddq + fv dq + m g l cos(q)
-/// let tau = Pendulum::inverse_dynamics(&state, &beta);
+/// let tau = arm.inverse_dynamics(&q, &dq, &ddq);
 /// assert!((tau[0] - (0.5 + 0.3 + 9.81)).abs() < 1e-12);
-/// assert!((tau - Pendulum::base_regressor(&state) * beta).norm() < 1e-12);
+/// assert!((tau - Pendulum::regressor(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
+/// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
 /// ```
-pub trait RobotModel<const DOF: usize, const STANDARD: usize, const BASE: usize> {
+pub trait RobotModel<
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize = 0,
+>
+{
     /// Name of the robot.
     const NAME: &'static str;
     /// Names of the joints, base to tip.
     const JOINTS: [&'static str; DOF];
-    /// Names of the standard parameters: ten a link about the link frame's origin, then those of the effects.
+    /// Names of the standard parameters: those of the rigid body, then those of the effects.
     const STANDARD_PARAMETERS: [&'static str; STANDARD];
     /// Names of the base parameters; a name that ends in `r` has others regrouped into it.
     const BASE_PARAMETERS: [&'static str; BASE];
+    /// Names of the shape parameters.
+    const SHAPE_PARAMETERS: [&'static str; SHAPES];
+    /// What the spec says of the standard parameters, nominal or fixed; 0 where it is silent.
+    const NOMINAL: [f64; STANDARD];
+    /// Values of the shape parameters before identification: the spec's, else the middle of the range.
+    const NOMINAL_SHAPES: [f64; SHAPES];
 
     /// `beta = map * standard`; each in SI units.
     fn base_parameters(standard: &Vector<STANDARD>) -> Vector<BASE>;
 
-    /// Mass matrix `M(q)`, DOF x DOF, kg m^2 (kg for prismatic joints); symmetric. Reads `state.q`.
-    fn mass_matrix(state: &State<DOF>, beta: &Vector<BASE>) -> Matrix<DOF, DOF>;
+    /// The arm's standard parameters, in SI units. An arm that knows its base parameters only has those that
+    /// [`FromParameters::standard_of`] makes of them: the torque is the same.
+    fn standard(&self) -> Vector<STANDARD>;
 
-    /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew. Reads `state.q` and `state.dq`.
-    fn coriolis_matrix(state: &State<DOF>, beta: &Vector<BASE>) -> Matrix<DOF, DOF>;
+    /// The arm's base parameters, in the order of [`Self::BASE_PARAMETERS`].
+    fn beta(&self) -> Vector<BASE> {
+        Self::base_parameters(&self.standard())
+    }
 
-    /// Gravity torque `G(q)`, N m or N. Reads `state.q`.
-    fn gravity(state: &State<DOF>, beta: &Vector<BASE>) -> Vector<DOF>;
+    /// The arm's shape parameters, in the order of [`Self::SHAPE_PARAMETERS`].
+    fn shapes(&self) -> Vector<SHAPES>;
 
-    /// Bias torque `C * dq + G`, N m or N. Reads `state.q` and `state.dq`.
-    fn bias(state: &State<DOF>, beta: &Vector<BASE>) -> Vector<DOF>;
+    /// Mass matrix `M(q)`, DOF x DOF, kg m^2 (kg for prismatic joints); symmetric.
+    fn mass_matrix(&self, q: &Vector<DOF>) -> Matrix<DOF, DOF>;
 
-    /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N. Does not read `state.rigid_torque`: the load of
-    /// load-dependent effects is the arm's own.
-    fn inverse_dynamics(state: &State<DOF>, beta: &Vector<BASE>) -> Vector<DOF>;
+    /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew.
+    fn coriolis_matrix(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, DOF>;
 
-    /// Regressor `Y`, DOF x STANDARD: `tau = Y * standard`.
-    fn regressor(state: &State<DOF>) -> Matrix<DOF, STANDARD>;
+    /// Gravity torque `G(q)`, N m or N.
+    fn gravity(&self, q: &Vector<DOF>) -> Vector<DOF>;
 
-    /// Base regressor `Y_b`, DOF x BASE: `tau = Y_b * beta`, besides the torque of what the spec fixes.
-    fn base_regressor(state: &State<DOF>) -> Matrix<DOF, BASE>;
+    /// Bias torque `C * dq + G`, N m or N.
+    fn bias(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> Vector<DOF>;
+
+    /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero.
+    fn inverse_dynamics(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        ddq: &Vector<DOF>,
+    ) -> Vector<DOF> {
+        self.inverse_dynamics_at(&State::new(*q, *dq, *ddq))
+    }
+
+    /// [`Self::inverse_dynamics`] for effects that depend on more than the motion. `state.rigid_torque` is not read: the
+    /// load of load-dependent effects is the arm's own.
+    fn inverse_dynamics_at(&self, state: &State<DOF>) -> Vector<DOF>;
+
+    /// Regressor `Y`, DOF x STANDARD: `tau = Y * standard`, at time zero, without load, with nominal shapes.
+    #[must_use]
+    fn regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
+        Self::regressor_at(&State::new(*q, *dq, *ddq), &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::regressor`] for effects that depend on load, time or shape parameters.
+    fn regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+
+    /// Base regressor `Y_b`, DOF x BASE: `tau = Y_b * beta`, besides the torque of what the spec fixes; as
+    /// [`Self::regressor`] at time zero, without load, with nominal shapes.
+    #[must_use]
+    fn base_regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, BASE> {
+        Self::base_regressor_at(&State::new(*q, *dq, *ddq), &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::base_regressor`] for effects that depend on load, time or shape parameters.
+    fn base_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, BASE>;
+}
+
+/// An arm that is made from a vector of parameters: from an estimate, or from CAD values.
+///
+/// Arms of links and arms of base parameters are; an arm whose value holds unknowns of which its standard parameters are
+/// products is not.
+///
+/// # Examples
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// use robot_model::{FromParameters, Link, RobotModel, Vector};
+///
+/// #[derive(RobotModel)]
+/// #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+/// struct Pendulum {
+///     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+///     pivot: Link,
+/// }
+///
+/// assert_eq!(Pendulum::BASE_PARAMETERS, ["pivot.mxr", "pivot.my", "pivot.izzr"]);
+/// let beta = Vector::from([1.0, 0.0, 0.5]);
+/// let arm = Pendulum::from_base(&beta);
+/// assert!((arm.beta() - beta).norm() < 1e-12);
+/// assert_eq!(arm.pivot.inertial.mass, 0.0); // regrouped into mx and izz
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` cannot be made from a vector of parameters",
+    note = "its standard parameters are products of its unknowns: give the fields their values, or let the spec's unknowns be those products"
+)]
+pub trait FromParameters<
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize = 0,
+>: RobotModel<DOF, STANDARD, BASE, SHAPES> + Sized
+{
+    /// An arm with these standard and shape parameters. What the spec fixes stays as it is.
+    fn from_parameters(standard: &Vector<STANDARD>, shapes: &Vector<SHAPES>) -> Self;
+
+    /// An arm with these standard parameters and nominal shapes.
+    #[must_use]
+    fn from_standard(standard: &Vector<STANDARD>) -> Self {
+        Self::from_parameters(standard, &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// An arm with these base parameters and nominal shapes. Standard parameters that are regrouped into others are 0.
+    #[must_use]
+    fn from_base(beta: &Vector<BASE>) -> Self {
+        Self::from_standard(&Self::standard_of(beta))
+    }
+
+    /// Standard parameters with the base parameters `beta`, and so with the same torque: of a chain the base parameters at
+    /// the places of the kept standard ones, what the spec fixes at its own, 0 elsewhere.
+    fn standard_of(beta: &Vector<BASE>) -> Vector<STANDARD>;
 }
 
 /// A vector's numbers as an array.

@@ -1,7 +1,7 @@
 //! Emitted code of every spec, included as users include it, with warnings denied.
 
 use nalgebra::DMatrix;
-use robot_model::{Matrix, RobotModel, State as ArmState, Vector};
+use robot_model::{FromParameters, Matrix, State as ArmState, Vector};
 
 use crate::evaluate::Forms;
 use crate::states::State;
@@ -37,7 +37,7 @@ macro_rules! robots {
         )*
 
         /// Every emitted arm.
-        pub const ROBOTS: &[Robot] = &[$(Robot::of::<$module::$robot, _, _, _>($file)),*];
+        pub const ROBOTS: &[Robot] = &[$(Robot::of::<$module::$robot, _, _, _, _>($file)),*];
     };
 }
 
@@ -58,11 +58,17 @@ robots! {
 }
 
 impl Robot {
-    const fn of<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+    const fn of<
+        R,
+        const DOF: usize,
+        const STANDARD: usize,
+        const BASE: usize,
+        const SHAPES: usize,
+    >(
         spec: &'static str,
     ) -> Self
     where
-        R: RobotModel<DOF, STANDARD, BASE>,
+        R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
     {
         Self {
             spec,
@@ -70,47 +76,53 @@ impl Robot {
             joints: &R::JOINTS,
             standard_parameters: &R::STANDARD_PARAMETERS,
             base_parameter_names: &R::BASE_PARAMETERS,
-            base_parameters: base_parameters::<R, DOF, STANDARD, BASE>,
-            forms: forms::<R, DOF, STANDARD, BASE>,
+            base_parameters: base_parameters::<R, DOF, STANDARD, BASE, SHAPES>,
+            forms: forms::<R, DOF, STANDARD, BASE, SHAPES>,
         }
     }
 }
 
-fn base_parameters<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+fn base_parameters<
+    R,
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+>(
     standard: &[f64],
 ) -> Vec<f64>
 where
-    R: RobotModel<DOF, STANDARD, BASE>,
+    R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
 {
     R::base_parameters(&Vector::from_column_slice(standard))
         .as_slice()
         .to_vec()
 }
 
-fn forms<R, const DOF: usize, const STANDARD: usize, const BASE: usize>(
+fn forms<R, const DOF: usize, const STANDARD: usize, const BASE: usize, const SHAPES: usize>(
     standard: &[f64],
     state: &State,
 ) -> Forms
 where
-    R: RobotModel<DOF, STANDARD, BASE>,
+    R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
 {
-    let beta = R::base_parameters(&Vector::from_column_slice(standard));
+    let arm = R::from_standard(&Vector::from_column_slice(standard));
     let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
     let mut state = ArmState {
         time: state.time,
         ..ArmState::new(vector(&state.q), vector(&state.dq), vector(&state.ddq))
     };
-    let mass_matrix = R::mass_matrix(&state, &beta);
-    let bias = R::bias(&state, &beta);
+    let mass_matrix = arm.mass_matrix(&state.q);
+    let bias = arm.bias(&state.q, &state.dq);
     state.rigid_torque = mass_matrix * state.ddq + bias;
     Forms {
         mass_matrix: dense(&mass_matrix),
-        coriolis_matrix: dense(&R::coriolis_matrix(&state, &beta)),
-        gravity: dense(&R::gravity(&state, &beta)),
+        coriolis_matrix: dense(&arm.coriolis_matrix(&state.q, &state.dq)),
+        gravity: dense(&arm.gravity(&state.q)),
         bias: dense(&bias),
-        inverse_dynamics: dense(&R::inverse_dynamics(&state, &beta)),
-        regressor: dense(&R::regressor(&state)),
-        base_regressor: dense(&R::base_regressor(&state)),
+        inverse_dynamics: dense(&arm.inverse_dynamics_at(&state)),
+        regressor: dense(&R::regressor_at(&state, &arm.shapes())),
+        base_regressor: dense(&R::base_regressor_at(&state, &arm.shapes())),
     }
 }
 

@@ -24,7 +24,7 @@ pub struct Task {
     pub name: &'static str,
     /// First paragraph of the doc comment.
     pub doc: &'static str,
-    /// Arguments in order, separated by spaces; `rigid_torque` and `time` are left out where they are not read.
+    /// Arguments in order, separated by spaces; `rigid_torque`, `time` and `shapes` are left out where they are not read.
     pub arguments: &'static str,
     /// Row by row.
     pub outputs: Vec<ExprId>,
@@ -59,7 +59,7 @@ impl Context<'_> {
                 .iter()
                 .any(|&symbol| argument_of(symbol, task) == argument)
         };
-        let optional = |argument: &str| matches!(argument, "rigid_torque" | "time");
+        let optional = |argument: &str| matches!(argument, "rigid_torque" | "time" | "shapes");
         let arguments: Vec<&'static str> = task
             .arguments
             .split(' ')
@@ -107,6 +107,7 @@ impl Context<'_> {
             "time" => return None,
             "beta" => self.compiled.base.kept.len(),
             "standard" => self.compiled.standard.len(),
+            "shapes" => self.compiled.free_shapes().len(),
             _ => self.compiled.dof(),
         };
         Some(Literal::usize_unsuffixed(length))
@@ -163,6 +164,6 @@ fn argument_of(symbol: Symbol, task: &Task) -> &'static str {
         Symbol::Time => "time",
         Symbol::Parameter(_) if task.arguments.contains("standard") => "standard",
         Symbol::Parameter(_) => "beta",
-        Symbol::Shape(_) => "",
+        Symbol::Shape(_) => "shapes",
     }
 }

@@ -1,29 +1,69 @@
-//! The type that stands for the robot, and its `RobotModel` implementation over the page's functions.
+//! `RobotModel` over the page's functions, for the page's own type or for a struct of the user's.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
+use robot_model_spec::parameter::Status;
 
 use super::function::Function;
+use super::render::number;
+use crate::base;
 use crate::compiled::Compiled;
+use crate::right_inverse::right_inverse;
 
-/// The type and its implementation.
+/// How a value of the robot's type holds its parameters.
+pub struct Parameters {
+    /// Body of `fn standard(&self) -> model::Vector<STANDARD>`.
+    pub standard: TokenStream,
+    /// Body of `fn beta(&self) -> model::Vector<BASE>`, where it is more than `base_parameters` of `standard`.
+    pub beta: Option<TokenStream>,
+    /// Body of `fn shapes(&self) -> model::Vector<SHAPES>`.
+    pub shapes: TokenStream,
+    /// How a value is made from parameters, where it can be.
+    pub from: Option<From>,
+}
+
+/// Making a value from parameters.
+pub enum From {
+    /// Body of `fn from_parameters(standard, shapes) -> Self`.
+    Standard(TokenStream),
+    /// Bodies of `from_parameters` and of `from_base`.
+    Base(TokenStream, TokenStream),
+}
+
+/// The page's type, which holds base parameters, and its implementation.
 pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
     let name = Ident::new(&compiled.model.name, Span::call_site());
-    let doc = format!(
-        " The equations of `{}` for code that is generic over arms.",
-        compiled.model.name
-    );
+    let doc = format!(" `{}` with values for its parameters.", compiled.model.name);
+    let base = Literal::usize_unsuffixed(compiled.base.kept.len());
+    let free_shapes = compiled.free_shapes().len();
+    let shapes = Literal::usize_unsuffixed(free_shapes);
+    let shapes_field = (free_shapes > 0).then(|| {
+        quote! {
+            /// Shape parameters, in the order of `SHAPE_PARAMETERS`.
+            pub shapes: ::robot_model::Vector<#shapes>,
+        }
+    });
     let item = quote! {
         #[doc = #doc]
         #[allow(dead_code, reason = "a program uses what it needs of its arm")]
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub struct #name;
+        #[derive(Debug, Clone, Copy, PartialEq)]
+        pub struct #name {
+            /// Base parameters, in the order of `BASE_PARAMETERS`.
+            pub beta: ::robot_model::Vector<#base>,
+            #shapes_field
+        }
     };
-    let implementation = implementation(compiled, functions, &name);
+    let implementation = implementation(
+        compiled,
+        functions,
+        &name,
+        &own_parameters(free_shapes),
+        &base::shape_values(&compiled.model),
+    );
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
         const _: () = {
-            use ::robot_model::model::{self, as_array, from_rows};
+            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
             __blank!();
             #implementation
         };
@@ -31,83 +71,332 @@ pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
     vec![item, implementation]
 }
 
-/// `impl model::RobotModel<DOF, STANDARD, BASE> for name`, with the runtime's module `model`
-/// and its conversions in scope.
-pub fn implementation(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStream {
+fn own_parameters(free_shapes: usize) -> Parameters {
+    let has_shapes = free_shapes > 0;
+    let (given, nominal) = if has_shapes {
+        (
+            quote!(, shapes: *shapes),
+            quote!(, shapes: Self::NOMINAL_SHAPES.into()),
+        )
+    } else {
+        (quote!(), quote!())
+    };
+    let shapes = if has_shapes {
+        quote!(self.shapes)
+    } else {
+        quote!([].into())
+    };
+    Parameters {
+        standard: quote!(Self::standard_of(&self.beta)),
+        beta: Some(quote!(self.beta)),
+        shapes,
+        from: Some(From::Base(
+            quote!(Self { beta: Self::base_parameters(standard) #given }),
+            quote!(Self { beta: *beta #nominal }),
+        )),
+    }
+}
+
+/// `impl model::RobotModel<..> for name`, with the runtime's module `model` and its conversions in scope.
+pub fn implementation(
+    compiled: &Compiled,
+    functions: &[Function],
+    name: &Ident,
+    parameters: &Parameters,
+    nominal_shapes: &[f64],
+) -> TokenStream {
     let dof = Literal::usize_unsuffixed(compiled.dof());
     let standard = Literal::usize_unsuffixed(compiled.standard.len());
     let base = Literal::usize_unsuffixed(compiled.base.kept.len());
+    let shapes = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let constants = constants(compiled, nominal_shapes);
+    let methods = [
+        holding(compiled, functions, parameters),
+        values(compiled, functions),
+        regressors(compiled, functions),
+    ];
+    let methods = methods.iter().flatten();
+    let from = parameters
+        .from
+        .as_ref()
+        .map(|from| from_parameters(compiled, name, from));
+    quote! {
+        impl model::RobotModel<#dof, #standard, #base, #shapes> for #name {
+            #constants
+            #(__blank!(); #methods)*
+        }
+        #from
+    }
+}
+
+fn constants(compiled: &Compiled, nominal_shapes: &[f64]) -> TokenStream {
+    let count = |n: usize| Literal::usize_unsuffixed(n);
+    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
+    let (base, shapes) = (
+        count(compiled.base.kept.len()),
+        count(compiled.free_shapes().len()),
+    );
     let robot = &compiled.model.name;
     let joints = compiled.model.joints.iter().map(|joint| &joint.name);
     let standard_names = compiled.standard.iter().map(|parameter| &parameter.name);
     let base_names = &compiled.base.names;
-    let call = |wanted: &str| {
-        let function = functions
-            .iter()
-            .find(|function| function.name == wanted)
-            .expect("the page has this function");
-        let name = Ident::new(function.name, Span::call_site());
-        let arguments = function
-            .arguments
-            .iter()
-            .map(|&argument| argument_value(argument));
-        quote!(#name(#(#arguments),*))
-    };
-    let vector = |call: TokenStream| quote!(#call.into());
-    let matrix = |call: TokenStream| quote!(from_rows(&#call));
-    let base_parameters = vector(call("base_parameters"));
-    let mut methods = vec![quote! {
-        fn base_parameters(standard: &model::Vector<#standard>) -> model::Vector<#base> {
-            #base_parameters
-        }
-    }];
-    for name in ["mass_matrix", "coriolis_matrix"] {
-        let value = matrix(call(name));
-        let name = Ident::new(name, Span::call_site());
-        methods.push(quote! {
-            fn #name(state: &model::State<#dof>, beta: &model::Vector<#base>) -> model::Matrix<#dof, #dof> {
-                #value
-            }
+    let all_shapes = compiled.shape_names();
+    let free = compiled.free_shapes();
+    let shape_names = free.iter().map(|&k| &all_shapes[k]);
+    let shape_values = free.iter().map(|&k| number(nominal_shapes[k]));
+    let nominal = compiled
+        .standard
+        .iter()
+        .map(|parameter| match parameter.status {
+            Status::Unknown => number(0.0),
+            Status::Nominal(value) | Status::Fixed(value) => number(value),
         });
-    }
-    for name in ["gravity", "bias", "inverse_dynamics"] {
-        let value = vector(call(name));
-        let name = Ident::new(name, Span::call_site());
-        methods.push(quote! {
-            fn #name(state: &model::State<#dof>, beta: &model::Vector<#base>) -> model::Vector<#dof> {
-                #value
-            }
-        });
-    }
-    for (name, columns) in [("regressor", &standard), ("base_regressor", &base)] {
-        let value = matrix(call(name));
-        let name = Ident::new(name, Span::call_site());
-        methods.push(quote! {
-            fn #name(state: &model::State<#dof>) -> model::Matrix<#dof, #columns> {
-                #value
-            }
-        });
-    }
     quote! {
-        impl model::RobotModel<#dof, #standard, #base> for #name {
-            const NAME: &'static str = #robot;
-            const JOINTS: [&'static str; #dof] = [#(#joints),*];
-            const STANDARD_PARAMETERS: [&'static str; #standard] = [#(#standard_names),*];
-            const BASE_PARAMETERS: [&'static str; #base] = [#(#base_names),*];
-            #(__blank!(); #methods)*
+        const NAME: &'static str = #robot;
+        const JOINTS: [&'static str; #dof] = [#(#joints),*];
+        const STANDARD_PARAMETERS: [&'static str; #standard] = [#(#standard_names),*];
+        const BASE_PARAMETERS: [&'static str; #base] = [#(#base_names),*];
+        const SHAPE_PARAMETERS: [&'static str; #shapes] = [#(#shape_names),*];
+        const NOMINAL: [f64; #standard] = [#(#nominal),*];
+        const NOMINAL_SHAPES: [f64; #shapes] = [#(#shape_values),*];
+    }
+}
+
+/// `base_parameters` and what the value holds.
+fn holding(
+    compiled: &Compiled,
+    functions: &[Function],
+    parameters: &Parameters,
+) -> Vec<TokenStream> {
+    let standard_count = Literal::usize_unsuffixed(compiled.standard.len());
+    let base = Literal::usize_unsuffixed(compiled.base.kept.len());
+    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let call = call(functions, "base_parameters", &Reads::default());
+    let Parameters {
+        standard,
+        beta,
+        shapes,
+        ..
+    } = parameters;
+    let mut methods = vec![
+        quote! {
+            fn base_parameters(standard: &model::Vector<#standard_count>) -> model::Vector<#base> {
+                #call.into()
+            }
+        },
+        quote! {
+            fn standard(&self) -> model::Vector<#standard_count> {
+                #standard
+            }
+        },
+        quote! {
+            fn shapes(&self) -> model::Vector<#shape_count> {
+                #shapes
+            }
+        },
+    ];
+    if let Some(beta) = beta {
+        methods.push(quote! {
+            fn beta(&self) -> model::Vector<#base> {
+                #beta
+            }
+        });
+    }
+    methods
+}
+
+/// Equations that need values for the parameters.
+fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
+    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let plain = [
+        ("mass_matrix", &["q"] as &[&str], true),
+        ("coriolis_matrix", &["q", "dq"], true),
+        ("gravity", &["q"], false),
+        ("bias", &["q", "dq"], false),
+    ];
+    let mut methods: Vec<TokenStream> = plain
+        .into_iter()
+        .map(|(wanted, motion, is_matrix)| {
+            let call = call(functions, wanted, &Reads::value(quote!()));
+            let name = Ident::new(wanted, Span::call_site());
+            let function = find(functions, wanted);
+            let motion = motion.iter().map(|argument| {
+                let ident = Ident::new(argument, Span::call_site());
+                // The free function has every argument of its motion, read or not.
+                debug_assert!(function.arguments.contains(argument));
+                quote!(#ident: &model::Vector<#dof>)
+            });
+            if is_matrix {
+                quote! {
+                    fn #name(&self, #(#motion),*) -> model::Matrix<#dof, #dof> {
+                        from_rows(&#call)
+                    }
+                }
+            } else {
+                quote! {
+                    fn #name(&self, #(#motion),*) -> model::Vector<#dof> {
+                        #call.into()
+                    }
+                }
+            }
+        })
+        .collect();
+    let call = call(functions, "inverse_dynamics", &Reads::value(quote!(state.)));
+    methods.push(quote! {
+        fn inverse_dynamics_at(&self, state: &model::State<#dof>) -> model::Vector<#dof> {
+            #call.into()
+        }
+    });
+    methods
+}
+
+/// Equations that need none.
+fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
+    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let columns = [
+        ("regressor", compiled.standard.len()),
+        ("base_regressor", compiled.base.kept.len()),
+    ];
+    columns
+        .into_iter()
+        .map(|(wanted, columns)| {
+            let call = call(functions, wanted, &Reads { state: quote!(state.), ..Reads::default() });
+            let name = Ident::new(&format!("{wanted}_at"), Span::call_site());
+            let columns = Literal::usize_unsuffixed(columns);
+            let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
+            let shapes = Ident::new(if reads_shapes { "shapes" } else { "_shapes" }, Span::call_site());
+            quote! {
+                fn #name(state: &model::State<#dof>, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
+                    from_rows(&#call)
+                }
+            }
+        })
+        .collect()
+}
+
+fn from_parameters(compiled: &Compiled, name: &Ident, from: &From) -> TokenStream {
+    let count = |n: usize| Literal::usize_unsuffixed(n);
+    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
+    let base = count(compiled.base.kept.len());
+    let free = compiled.free_shapes().len();
+    let shape_count = count(free);
+    let (from_standard, from_base) = match from {
+        From::Standard(standard) => (standard, None),
+        From::Base(standard, base) => (standard, Some(base)),
+    };
+    let shapes = Ident::new(
+        if free > 0 { "shapes" } else { "_shapes" },
+        Span::call_site(),
+    );
+    let from_base = from_base.map(|body| {
+        quote! {
+            fn from_base(beta: &model::Vector<#base>) -> Self {
+                #body
+            }
+            __blank!();
+        }
+    });
+    let combinations = right_inverse(
+        &compiled.base.combinations,
+        &compiled.base.kept,
+        compiled.standard.len(),
+    );
+    let entries = compiled
+        .standard
+        .iter()
+        .zip(&combinations)
+        .map(|(parameter, combination)| match parameter.status {
+            Status::Fixed(value) => number(value),
+            _ => in_beta(combination),
+        });
+    quote! {
+        __blank!();
+        impl model::FromParameters<#dof, #standard, #base, #shape_count> for #name {
+            fn from_parameters(standard: &model::Vector<#standard>, #shapes: &model::Vector<#shape_count>) -> Self {
+                #from_standard
+            }
+            __blank!();
+            #from_base
+            fn standard_of(beta: &model::Vector<#base>) -> model::Vector<#standard> {
+                [#(#entries),*].into()
+            }
         }
     }
 }
 
-/// An argument of a free function, from the arguments of the trait's method.
-fn argument_value(argument: &str) -> TokenStream {
-    match argument {
-        "time" => quote!(state.time),
-        "beta" => quote!(as_array(beta)),
-        "standard" => quote!(as_array(standard)),
-        _ => {
-            let name = Ident::new(argument, Span::call_site());
-            quote!(as_array(&state.#name))
+/// `beta[0] - 0.5 * beta[3]`
+fn in_beta(combination: &[(usize, f64)]) -> TokenStream {
+    let mut sum = TokenStream::new();
+    for &(j, coefficient) in combination {
+        let j = Literal::usize_unsuffixed(j);
+        let size = number(coefficient.abs());
+        let is_one = coefficient.abs().to_bits() == 1.0f64.to_bits();
+        let term = if is_one {
+            quote!(beta[#j])
+        } else {
+            quote!(#size * beta[#j])
+        };
+        sum = match (sum.is_empty(), coefficient < 0.0) {
+            (true, false) => term,
+            (true, true) => quote!(-#term),
+            (false, false) => quote!(#sum + #term),
+            (false, true) => quote!(#sum - #term),
+        };
+    }
+    if sum.is_empty() { number(0.0) } else { sum }
+}
+
+/// Where the arguments of a free function come from in a method.
+#[derive(Default)]
+struct Reads {
+    /// In front of `q`, `dq`, `ddq`: nothing, or `state.`
+    state: TokenStream,
+    /// Parameters come from `self`.
+    of_self: bool,
+}
+
+impl Reads {
+    fn value(state: TokenStream) -> Self {
+        Self {
+            state,
+            of_self: true,
         }
     }
+
+    fn argument(&self, argument: &str) -> TokenStream {
+        let state = &self.state;
+        match argument {
+            "time" => quote!(state.time),
+            "beta" => quote!(as_array(&self.beta())),
+            "shapes" if self.of_self => quote!(as_array(&self.shapes())),
+            "shapes" => quote!(as_array(shapes)),
+            "standard" => quote!(as_array(standard)),
+            _ => {
+                let name = Ident::new(argument, Span::call_site());
+                if state.is_empty() {
+                    quote!(as_array(#name))
+                } else {
+                    quote!(as_array(&#state #name))
+                }
+            }
+        }
+    }
+}
+
+fn find<'a>(functions: &'a [Function], wanted: &str) -> &'a Function {
+    functions
+        .iter()
+        .find(|function| function.name == wanted)
+        .expect("the page has this function")
+}
+
+fn call(functions: &[Function], wanted: &str, reads: &Reads) -> TokenStream {
+    let function = find(functions, wanted);
+    let name = Ident::new(function.name, Span::call_site());
+    let arguments = function
+        .arguments
+        .iter()
+        .map(|argument| reads.argument(argument));
+    quote!(#name(#(#arguments),*))
 }

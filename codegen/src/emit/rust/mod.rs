@@ -9,15 +9,16 @@ pub(crate) mod names;
 mod pretty;
 mod render;
 
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use crate::base;
 use crate::compiled::Compiled;
 use crate::expr::{Dag, Symbol};
 
 pub use body::Cost;
 use function::{Context, Returns, Task};
+pub use implementation::{From, Parameters};
+pub use render::number;
 
 /// Costs of the emitted functions, in the order of the page.
 pub type Costs = Vec<(&'static str, Cost)>;
@@ -29,25 +30,29 @@ pub fn module(compiled: &Compiled) -> String {
     let mut items = vec![quote!(
         use ::robot_model::math;
     )];
-    items.extend(shape_constants(compiled));
     items.extend(functions.iter().map(|function| function.item.clone()));
     items.extend(implementation::items(compiled, &functions));
     pretty::page(&header(compiled), &items)
 }
 
 /// The page's functions and the implementation for a type that exists already, hidden in an anonymous constant.
+/// `nominal_shapes` are values for all shape parameters before identification.
 #[must_use]
-pub fn implementation_for(compiled: &Compiled, name: &Ident) -> TokenStream {
+pub fn implementation_for(
+    compiled: &Compiled,
+    name: &Ident,
+    parameters: &Parameters,
+    nominal_shapes: &[f64],
+) -> TokenStream {
     let (functions, _) = functions(compiled);
-    let shapes = shape_constants(compiled);
     let items = functions.iter().map(|function| &function.item);
-    let implementation = implementation::implementation(compiled, &functions, name);
+    let implementation =
+        implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
     pretty::without_markers(quote! {
         #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
             use ::robot_model::math;
-            use ::robot_model::model::{self, as_array, from_rows};
-            #(#shapes)*
+            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
             #(#items)*
             #implementation
         };
@@ -105,38 +110,10 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-fn shape_name(name: &str) -> Ident {
-    Ident::new(&names::identifier(name).to_uppercase(), Span::call_site())
-}
-
-/// Shape parameters that the spec leaves open: constants in the middle of their range.
-fn shape_constants(compiled: &Compiled) -> Vec<TokenStream> {
-    let values = base::shape_values(&compiled.model);
-    let names = compiled.shape_names();
-    let shapes = compiled
-        .model
-        .effects
-        .iter()
-        .flat_map(|effect| &effect.definition.shapes);
-    let ranges: Vec<(f64, f64)> = shapes.map(|shape| (shape.low, shape.high)).collect();
-    compiled
-        .free_shapes()
-        .into_iter()
-        .map(|k| {
-            let (name, value, (low, high)) = (shape_name(&names[k]), render::number(values[k]), ranges[k]);
-            let doc = format!(
-                " Shape parameter `{}`: middle of its range {low} .. {high}, since the spec gives it no value.",
-                names[k]
-            );
-            quote!(#[doc = #doc] pub const #name: f64 = #value;)
-        })
-        .collect()
-}
-
 /// The functions of the page, in order.
 fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
     let names = compiled.names();
-    let shape_names = compiled.shape_names();
+    let free_shapes = compiled.free_shapes();
     let beta = |k: usize| {
         let index = compiled
             .base
@@ -147,8 +124,11 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         quote!(beta[#index])
     };
     let shape = |k: usize| {
-        let name = shape_name(&shape_names[k]);
-        quote!(#name)
+        let index = free_shapes
+            .binary_search(&k)
+            .expect("only open shape parameters are symbols");
+        let index = proc_macro2::Literal::usize_unsuffixed(index);
+        quote!(shapes[#index])
     };
     let binding = render::Binding {
         parameter: &beta,
@@ -195,7 +175,7 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         context.function(&Task {
             name: "inverse_dynamics",
             doc: "Joint torque `tau = M * ddq + C * dq + G + effects`, N m (N for prismatic joints).",
-            arguments: "q dq ddq time beta",
+            arguments: "q dq ddq time beta shapes",
             outputs: dynamics.inverse_dynamics.clone(),
             returns: Returns::Vector,
         }),
@@ -208,14 +188,14 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
     functions.push(context.function(&Task {
         name: "regressor",
         doc: "Regressor `Y(q, dq, ddq)`: `tau = Y * standard`.",
-        arguments: "q dq ddq rigid_torque time",
+        arguments: "q dq ddq rigid_torque time shapes",
         outputs: regressor,
         returns: Returns::Matrix(compiled.standard.len()),
     }));
     functions.push(context.function(&Task {
         name: "base_regressor",
         doc: "Base regressor `Y_b(q, dq, ddq)`: `tau = Y_b * beta`, besides what the spec fixes.",
-        arguments: "q dq ddq rigid_torque time",
+        arguments: "q dq ddq rigid_torque time shapes",
         outputs: base_regressor,
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));

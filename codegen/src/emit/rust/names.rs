@@ -9,12 +9,13 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 8] = [
+const RESERVED: [&str; 9] = [
     "q",
     "dq",
     "ddq",
     "beta",
     "standard",
+    "shapes",
     "time",
     "rigid_torque",
     "out",

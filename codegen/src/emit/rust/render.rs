@@ -198,6 +198,7 @@ impl<'a> Renderer<'a> {
 }
 
 /// A number as a literal that reads back to the same bits.
+#[must_use]
 pub fn number(value: f64) -> TokenStream {
     let literal = Literal::f64_unsuffixed(value.abs());
     if value < 0.0 {

@@ -1,0 +1,413 @@
+//! A struct as the derive sees it: what is held by which field, judged by the tokens of its type.
+
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use syn::Type;
+use syn::spanned::Spanned;
+use syn::{
+    Attribute, Data, DeriveInput, Field, Fields, GenericArgument, Meta, Path, PathArguments,
+};
+
+/// The struct.
+pub struct Robot<'a> {
+    /// Its name.
+    pub name: &'a Ident,
+    /// `#[robot(..)]`, entry by entry; without `file` and `effects`.
+    pub settings: Vec<TokenStream>,
+    /// `file = ".."`: the spec.
+    pub file: Option<FileName>,
+    /// `effects = ".."`: own effects.
+    pub effects: Option<FileName>,
+    /// Its fields.
+    pub fields: Vec<RobotField<'a>>,
+}
+
+/// A file that an attribute names, relative to the crate's folder.
+pub struct FileName {
+    /// As written.
+    pub name: String,
+    /// Where.
+    pub span: Span,
+}
+
+/// A field.
+pub struct RobotField<'a> {
+    /// Its name.
+    pub name: &'a Ident,
+    /// What its type says that it holds.
+    pub holds: Holds,
+    /// `#[joint(..)]`, entry by entry.
+    pub joint: Option<Vec<TokenStream>>,
+    /// `#[inertial(..)]`, entry by entry.
+    pub inertial: Option<Vec<TokenStream>>,
+    /// `#[on(a, b)]`: the joints of the field's effects.
+    pub on: Option<Vec<Ident>>,
+    /// Where the type stands.
+    pub span: Span,
+}
+
+/// What a field holds.
+pub enum Holds {
+    /// `Link<..>`: ten inertial parameters, and effects.
+    Link(Effects),
+    /// `(A, B)`, `A` or `()`: parameters of effects.
+    Effects(Effects),
+    /// `f64`: an unknown constant.
+    Number,
+}
+
+impl Holds {
+    /// The effects, where the type may hold some.
+    pub fn effects(&self) -> &[EffectType] {
+        match self {
+            Self::Link(effects) | Self::Effects(effects) => &effects.types,
+            Self::Number => &[],
+        }
+    }
+}
+
+/// A type that holds parameters of effects.
+#[derive(Default)]
+pub struct Effects {
+    /// One entry per effect.
+    pub types: Vec<EffectType>,
+    /// `(A, B)`, not `A`.
+    pub is_tuple: bool,
+}
+
+/// The type of one effect's parameters, such as `ViscousFriction`.
+pub struct EffectType {
+    /// The type as written.
+    pub path: Path,
+    /// The effect, such as `viscous_friction`, at the span of the type.
+    pub effect: Ident,
+    /// `#[effects(stribeck(vs = 0.1))]`: what stands in the parentheses.
+    pub shapes: Option<TokenStream>,
+}
+
+impl<'a> Robot<'a> {
+    /// Reads the struct; all of its mistakes at once.
+    pub fn new(input: &'a DeriveInput) -> syn::Result<Self> {
+        let refuse = |span, message| Err(syn::Error::new(span, message));
+        let name = &input.ident;
+        let Data::Struct(data) = &input.data else {
+            return refuse(
+                name.span(),
+                "a robot is a struct: its fields hold its unknowns",
+            );
+        };
+        if !input.generics.params.is_empty() {
+            return refuse(
+                input.generics.span(),
+                "a robot's struct has no generic parameters",
+            );
+        }
+        let fields: Vec<&Field> = match &data.fields {
+            Fields::Named(fields) => fields.named.iter().collect(),
+            Fields::Unit => Vec::new(),
+            Fields::Unnamed(_) => {
+                return refuse(
+                    name.span(),
+                    "what a robot holds has names: write a struct with named fields",
+                );
+            }
+        };
+        let mut errors = Errors::default();
+        let (mut file, mut effects, mut settings) = (None, None, Vec::new());
+        let described = errors.keep(entries(&input.attrs, "robot")).flatten();
+        for entry in described.into_iter().flatten() {
+            match file_name(&entry, "file").or_else(|| file_name(&entry, "effects")) {
+                None => settings.push(entry),
+                Some((name, "file")) => file = Some(name),
+                Some((name, _)) => effects = Some(name),
+            }
+        }
+        for name in ["joint", "inertial", "effects", "on"] {
+            for attribute in named(&input.attrs, name) {
+                errors.push(
+                    attribute.span(),
+                    format!("`#[{name}(..)]` stands at a field"),
+                );
+            }
+        }
+        let fields = fields
+            .into_iter()
+            .filter_map(|field| errors.keep(RobotField::new(field)))
+            .collect();
+        errors.finish(Self {
+            name,
+            settings,
+            file,
+            effects,
+            fields,
+        })
+    }
+}
+
+impl<'a> RobotField<'a> {
+    fn new(field: &'a Field) -> syn::Result<Self> {
+        let name = field.ident.as_ref().expect("fields are named");
+        let mut holds = holds(&field.ty)?;
+        let mut errors = Errors::default();
+        let joint = errors.keep(entries(&field.attrs, "joint")).flatten();
+        let inertial = errors.keep(entries(&field.attrs, "inertial")).flatten();
+        let shapes = errors.keep(entries(&field.attrs, "effects")).flatten();
+        let on = errors.keep(entries(&field.attrs, "on")).flatten();
+        let on = on.map(|joints| {
+            joints
+                .into_iter()
+                .filter_map(|joint| errors.keep(syn::parse2::<Ident>(joint)))
+                .collect()
+        });
+        if let (None, Some(attribute)) = (&joint, named(&field.attrs, "inertial").next()) {
+            errors.push(
+                attribute.span(),
+                format!("`{name}` has an inertial but no `#[joint(..)]` that moves it"),
+            );
+        }
+        if let (Some(_), Some(attribute)) = (&joint, named(&field.attrs, "on").next()) {
+            errors.push(
+                attribute.span(),
+                format!("the effects of joint `{name}` act on `{name}`: give `#[on(..)]` a field of its own"),
+            );
+        }
+        for attribute in named(&field.attrs, "robot") {
+            errors.push(
+                attribute.span(),
+                "`#[robot(..)]` stands at the struct".to_owned(),
+            );
+        }
+        let effects = match &mut holds {
+            Holds::Link(effects) | Holds::Effects(effects) => effects.types.as_mut_slice(),
+            Holds::Number => &mut [],
+        };
+        for entry in shapes.into_iter().flatten() {
+            errors.keep(give_shapes(effects, &entry));
+        }
+        errors.finish(Self {
+            name,
+            holds,
+            joint,
+            inertial,
+            on,
+            span: field.ty.span(),
+        })
+    }
+}
+
+/// `stribeck(vs = 0.1)`: to the first effect of this name that has none yet.
+fn give_shapes(effects: &mut [EffectType], entry: &TokenStream) -> syn::Result<()> {
+    let mut tokens = entry.clone().into_iter();
+    let (Some(TokenTree::Ident(name)), Some(TokenTree::Group(given)), None) =
+        (tokens.next(), tokens.next(), tokens.next())
+    else {
+        return Err(syn::Error::new(
+            entry.span(),
+            "effects are declared by the field's type; here stand values of their shape parameters: write \
+             `#[effects(stribeck(vs = 0.1))]`",
+        ));
+    };
+    let wanted = effects
+        .iter_mut()
+        .find(|effect| effect.effect == name && effect.shapes.is_none());
+    match wanted {
+        Some(effect) => {
+            effect.shapes = Some(given.stream());
+            Ok(())
+        }
+        None => Err(syn::Error::new(
+            name.span(),
+            format!(
+                "the field's type declares no effect `{name}`: write `{}` in it",
+                type_name(&name.to_string())
+            ),
+        )),
+    }
+}
+
+/// Files that the struct names, also where it has mistakes.
+pub fn files(input: &DeriveInput) -> impl Iterator<Item = String> {
+    let entries = entries(&input.attrs, "robot").ok().flatten();
+    entries.into_iter().flatten().filter_map(|entry| {
+        let found = file_name(&entry, "file").or_else(|| file_name(&entry, "effects"));
+        found.map(|(file, _)| file.name)
+    })
+}
+
+/// `key = "name"`
+fn file_name(entry: &TokenStream, key: &'static str) -> Option<(FileName, &'static str)> {
+    let pair: syn::MetaNameValue = syn::parse2(entry.clone()).ok()?;
+    let syn::Expr::Lit(syn::ExprLit {
+        lit: syn::Lit::Str(name),
+        ..
+    }) = &pair.value
+    else {
+        return None;
+    };
+    pair.path.is_ident(key).then(|| {
+        let file = FileName {
+            name: name.value(),
+            span: name.span(),
+        };
+        (file, key)
+    })
+}
+
+fn holds(ty: &Type) -> syn::Result<Holds> {
+    let Type::Path(path) = ty else {
+        return Ok(Holds::Effects(effects(ty)?));
+    };
+    let last = path.path.segments.last().expect("a path has segments");
+    if last.ident == "f64" {
+        return Ok(Holds::Number);
+    }
+    if last.ident != "Link" {
+        return Ok(Holds::Effects(effects(ty)?));
+    }
+    let PathArguments::AngleBracketed(arguments) = &last.arguments else {
+        return Ok(Holds::Link(Effects::default()));
+    };
+    match arguments.args.first() {
+        Some(GenericArgument::Type(ty)) if arguments.args.len() == 1 => {
+            Ok(Holds::Link(effects(ty)?))
+        }
+        _ => Err(syn::Error::new(
+            arguments.span(),
+            "a link holds effects: write `Link`, `Link<ViscousFriction>` or `Link<(ViscousFriction, CoulombFriction)>`",
+        )),
+    }
+}
+
+fn effects(ty: &Type) -> syn::Result<Effects> {
+    match ty {
+        Type::Tuple(tuple) => Ok(Effects {
+            types: tuple
+                .elems
+                .iter()
+                .map(effect_type)
+                .collect::<syn::Result<_>>()?,
+            is_tuple: true,
+        }),
+        Type::Paren(inner) => effects(&inner.elem),
+        single => Ok(Effects {
+            types: vec![effect_type(single)?],
+            is_tuple: false,
+        }),
+    }
+}
+
+fn effect_type(ty: &Type) -> syn::Result<EffectType> {
+    if let Type::Path(path) = ty
+        && path.qself.is_none()
+        && let Some(last) = path.path.segments.last()
+        && last.arguments.is_none()
+    {
+        let effect = identifier(&snake_case(&last.ident.to_string()), last.ident.span());
+        return Ok(EffectType {
+            path: path.path.clone(),
+            effect,
+            shapes: None,
+        });
+    }
+    Err(syn::Error::new(
+        ty.span(),
+        "a field holds `Link<..>`, effects such as `ViscousFriction` or `(ViscousFriction, Stribeck)`, or `f64`",
+    ))
+}
+
+/// `ViscousFriction` is `viscous_friction`.
+fn snake_case(name: &str) -> String {
+    let mut snake = String::new();
+    for (k, c) in name.chars().enumerate() {
+        if c.is_ascii_uppercase() && k > 0 {
+            snake.push('_');
+        }
+        snake.push(c.to_ascii_lowercase());
+    }
+    snake
+}
+
+/// `viscous_friction` is `ViscousFriction`.
+pub fn type_name(effect: &str) -> String {
+    let words = effect.split('_').filter(|word| !word.is_empty());
+    let camel = words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]);
+    camel.collect()
+}
+
+/// An identifier, raw where the word is one of Rust's.
+pub fn identifier(text: &str, span: Span) -> Ident {
+    if syn::parse_str::<Ident>(text).is_ok() {
+        return Ident::new(text, span);
+    }
+    match text {
+        "self" | "super" | "crate" | "Self" | "_" => Ident::new(&format!("{text}_"), span),
+        _ => Ident::new_raw(text, span),
+    }
+}
+
+fn named<'a>(attributes: &'a [Attribute], name: &str) -> impl Iterator<Item = &'a Attribute> {
+    attributes
+        .iter()
+        .filter(move |attribute| attribute.path().is_ident(name))
+}
+
+/// What stands between the commas of `#[name(..)]`; `None` where the attribute is not there.
+fn entries(attributes: &[Attribute], name: &str) -> syn::Result<Option<Vec<TokenStream>>> {
+    let mut found = named(attributes, name);
+    let Some(attribute) = found.next() else {
+        return Ok(None);
+    };
+    if let Some(second) = found.next() {
+        return Err(syn::Error::new(
+            second.span(),
+            format!("`#[{name}(..)]` is there twice: write its entries into the first"),
+        ));
+    }
+    let Meta::List(list) = &attribute.meta else {
+        return Err(syn::Error::new(
+            attribute.span(),
+            format!("write `#[{name}(..)]`"),
+        ));
+    };
+    let (mut entries, mut entry) = (Vec::new(), TokenStream::new());
+    for token in list.tokens.clone() {
+        if matches!(&token, TokenTree::Punct(punct) if punct.as_char() == ',') {
+            entries.push(std::mem::take(&mut entry));
+        } else {
+            entry.extend([token]);
+        }
+    }
+    if !entry.is_empty() {
+        entries.push(entry);
+    }
+    Ok(Some(entries))
+}
+
+/// Mistakes, collected.
+#[derive(Default)]
+pub struct Errors(Option<syn::Error>);
+
+impl Errors {
+    /// One more.
+    pub fn push(&mut self, span: Span, message: String) {
+        self.keep::<()>(Err(syn::Error::new(span, message)));
+    }
+
+    /// The value, or the mistake kept.
+    pub fn keep<T>(&mut self, result: syn::Result<T>) -> Option<T> {
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                match &mut self.0 {
+                    Some(all) => all.combine(error),
+                    None => self.0 = Some(error),
+                }
+                None
+            }
+        }
+    }
+
+    /// All of them, if there are any.
+    pub fn finish<T>(self, value: T) -> syn::Result<T> {
+        self.0.map_or(Ok(value), Err)
+    }
+}

@@ -1,0 +1,210 @@
+//! Where the robot is described: in the struct's attributes, or in a file.
+
+use proc_macro2::{TokenStream, TokenTree};
+use quote::{quote, quote_spanned};
+use robot_model_spec::library::effect_definitions;
+use robot_model_spec::{Ast, Diagnostic, Diagnostics, Model};
+use syn::Ident;
+use syn::spanned::Spanned;
+
+use super::ReadFile;
+use super::fields::{Errors, FileName, Holds, Robot, RobotField};
+
+/// The checked model.
+pub fn model(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
+    match &robot.file {
+        Some(file) => in_file(robot, file, read),
+        None => in_attributes(robot, read),
+    }
+}
+
+fn in_file(robot: &Robot, file: &FileName, read: ReadFile<'_>) -> syn::Result<Model> {
+    let mut errors = Errors::default();
+    let elsewhere = |what: &str| format!("{what} stands in `{}`", file.name);
+    for entry in &robot.settings {
+        errors.push(entry.span(), elsewhere("the robot's description"));
+    }
+    if let Some(effects) = &robot.effects {
+        errors.push(effects.span, elsewhere("the definition of effects"));
+    }
+    for field in &robot.fields {
+        for (attribute, what) in [
+            (&field.joint, "the description of joints"),
+            (&field.inertial, "what is known of links"),
+        ] {
+            if attribute.is_some() {
+                errors.push(field.name.span(), elsewhere(what));
+            }
+        }
+        for effect in field.holds.effects() {
+            if let Some(shapes) = &effect.shapes {
+                errors.push(shapes.span(), elsewhere("a value of a shape parameter"));
+            }
+        }
+    }
+    errors.finish(())?;
+    let text = read_file(file, read)?;
+    with_places(|| robot_model_spec::load(&file.name, &text))
+        .map_err(|mistakes| mistaken(file, &mistakes))
+}
+
+fn in_attributes(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
+    let mut ast = robot_model_spec::parse_tokens(spec(robot)?)?;
+    if let Some(file) = &robot.effects {
+        ast.effects = own_effects(file, read)?.effects;
+    }
+    robot_model_spec::check(&ast, &robot.name.to_string()).map_err(|mistakes| {
+        let mut errors = Errors::default();
+        for mistake in mistakes.iter().map(Diagnostic::to_syn_error) {
+            errors.keep::<()>(Err(mistake));
+        }
+        let nothing = || syn::Error::new(robot.name.span(), "the spec has mistakes");
+        errors.finish(()).err().unwrap_or_else(nothing)
+    })
+}
+
+/// Effects defined in a file; a robot beside them is not looked at.
+fn own_effects(file: &FileName, read: ReadFile<'_>) -> syn::Result<Ast> {
+    let text = read_file(file, read)?;
+    // First with places in the file, then as tokens of this compilation.
+    with_places(|| effect_definitions(&file.name, &text))
+        .map_err(|mistakes| mistaken(file, &mistakes))?;
+    let unreadable = |error: &dyn std::fmt::Display| {
+        syn::Error::new(file.span, format!("`{}`: {error}", file.name))
+    };
+    let tokens: TokenStream = text.parse().map_err(|error| unreadable(&error))?;
+    robot_model_spec::parse_tokens(tokens).map_err(|error| unreadable(&error))
+}
+
+pub(super) fn read_file(file: &FileName, read: ReadFile<'_>) -> syn::Result<String> {
+    read(&file.name).map_err(|error| {
+        syn::Error::new(
+            file.span,
+            format!(
+                "cannot read `{}`: {error}; the path is relative to the folder of Cargo.toml",
+                file.name
+            ),
+        )
+    })
+}
+
+/// Runs a parser whose spans count lines and columns of its own text; inside the compiler they would not.
+pub(super) fn with_places<T>(parse: impl FnOnce() -> T) -> T {
+    proc_macro2::fallback::force();
+    let parsed = parse();
+    proc_macro2::fallback::unforce();
+    parsed
+}
+
+/// A derive cannot point into another file: the place is in the message.
+pub(super) fn mistaken(file: &FileName, mistakes: &Diagnostics) -> syn::Error {
+    let count = match mistakes.len() {
+        1 => "a mistake".to_owned(),
+        n => format!("{n} mistakes"),
+    };
+    syn::Error::new(
+        file.span,
+        format!("`{}` has {count}\n\n{mistakes}\n", file.name),
+    )
+}
+
+/// The struct as a spec: `robot Name { .. }`.
+fn spec(robot: &Robot) -> syn::Result<TokenStream> {
+    let mut errors = Errors::default();
+    let (mut joints, mut effects) = (TokenStream::new(), TokenStream::new());
+    for field in &robot.fields {
+        if let Some(joint) = errors.keep(joint(field)) {
+            joints.extend(joint);
+        }
+        let name = field.name;
+        let targets = field
+            .on
+            .as_ref()
+            .map_or_else(|| quote!(#name), |joints| quote!((#(#joints),*)));
+        for effect in field.holds.effects() {
+            let (effect, shapes) = (&effect.effect, &effect.shapes);
+            let shapes = shapes.as_ref().map(|shapes| quote!((#shapes)));
+            effects.extend(quote!(#effect #shapes on #targets;));
+        }
+    }
+    errors.finish(())?;
+    let name = robot.name;
+    let settings = statements(&robot.settings);
+    let effects = if effects.is_empty() {
+        effects
+    } else {
+        quote!(effects { #effects })
+    };
+    Ok(quote_spanned!(name.span()=> robot #name { #settings #joints #effects }))
+}
+
+/// `joint name: kind { .. }` and its link; nothing for a field of effects.
+fn joint(field: &RobotField) -> syn::Result<TokenStream> {
+    let name = field.name;
+    let wrong = |message: String| Err(syn::Error::new(field.span, message));
+    match (&field.joint, &field.holds, &field.on) {
+        (None, Holds::Effects(_), Some(_)) => return Ok(TokenStream::new()),
+        (_, Holds::Number, _) => {
+            return wrong(format!(
+                "`{name}` is an unknown constant, and a chain has none beside its links: describe the robot by its \
+                 energies with `#[robot(file = \"..\")]`, or hold `Link<..>` or effects"
+            ));
+        }
+        (None, Holds::Link(_), Some(_)) => {
+            return wrong(format!(
+                "`{name}` has `#[on(..)]` and a link: write the type of the effect alone"
+            ));
+        }
+        (None, Holds::Link(_), None) => {
+            return wrong(format!(
+                "joint `{name}` has no frame: write `#[joint(revolute, a = .., alpha = .., d = ..)]`"
+            ));
+        }
+        (None, Holds::Effects(_), None) => {
+            return wrong(format!(
+                "`{name}` acts on no joint: write `#[joint(..)]` where it is one, or `#[on(joint, joint)]`"
+            ));
+        }
+        (Some(_), _, _) => {}
+    }
+    let mut settings = field.joint.iter().flatten();
+    let Some(kind) = settings.next() else {
+        return Err(syn::Error::new(
+            name.span(),
+            format!(
+                "joint `{name}` does not say what it is: write `#[joint(revolute, ..)]` or `#[joint(prismatic, ..)]`"
+            ),
+        ));
+    };
+    let settings: Vec<TokenStream> = settings.cloned().collect();
+    let link = settings.iter().find_map(link_name);
+    let settings = statements(&settings);
+    let mut tokens = quote!(joint #name: #kind { #settings });
+    if let Some(inertial) = &field.inertial {
+        let (status, settings) = match inertial.split_first() {
+            Some((status, rest)) if is_one_word(status) => (Some(quote!(: #status)), rest),
+            _ => (None, inertial.as_slice()),
+        };
+        let settings = statements(settings);
+        let link = link.unwrap_or_else(|| quote!(#name));
+        tokens.extend(quote!(link #link #status { #settings }));
+    }
+    Ok(tokens)
+}
+
+/// `link = column` of a joint.
+fn link_name(setting: &TokenStream) -> Option<TokenStream> {
+    let mut tokens = setting.clone().into_iter();
+    let is_link = matches!(tokens.next(), Some(TokenTree::Ident(key)) if key == "link");
+    let is_equal = matches!(tokens.next(), Some(TokenTree::Punct(punct)) if punct.as_char() == '=');
+    (is_link && is_equal).then(|| tokens.collect())
+}
+
+fn is_one_word(tokens: &TokenStream) -> bool {
+    syn::parse2::<Ident>(tokens.clone()).is_ok()
+}
+
+/// `a; b; c;`
+fn statements(entries: &[TokenStream]) -> TokenStream {
+    entries.iter().map(|entry| quote!(#entry;)).collect()
+}
