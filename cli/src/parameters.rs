@@ -1,6 +1,7 @@
 //! Parameter files and the values that a spec holds itself.
 //!
 //! A file is a JSON object of names and values, or what `identify --json` writes: `{"parameters":[{"name","value"}]}`.
+//! Names are those of standard parameters, of all base parameters, or of the unknown constants of a robot that says its energies.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -114,11 +115,9 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         .map(|parameter| parameter.name.as_str())
         .collect();
     let base_names: Vec<&str> = compiled.base.names.iter().map(String::as_str).collect();
-    let linear: Vec<&str> = given
-        .keys()
-        .map(String::as_str)
-        .filter(|name| !shape_names.iter().any(|shape| shape == name))
-        .collect();
+    let is_shape = |name: &str| shape_names.iter().any(|shape| shape == name);
+    let linear = given.keys().map(String::as_str);
+    let linear: Vec<&str> = linear.filter(|name| !is_shape(name)).collect();
     // Regrouped base parameters have names of their own; they stand for all standard parameters or for none.
     let is_base = !base_names.is_empty()
         && linear.len() == base_names.len()
@@ -128,10 +127,19 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
     } else {
         &standard_names
     };
+    let products = if is_base {
+        BTreeMap::new()
+    } else {
+        products(compiled, &given).map_err(fault)?
+    };
+    let is_factor = |name: &str| {
+        let energies = compiled.model.energies();
+        !is_base && energies.is_some_and(|e| e.parameters.iter().any(|p| p.name == name))
+    };
     let unknown: Vec<&str> = linear
         .iter()
         .copied()
-        .filter(|name| !known.contains(name))
+        .filter(|name| !known.contains(name) && !is_factor(name))
         .collect();
     if !unknown.is_empty() {
         let all_base = unknown.iter().all(|name| base_names.contains(name));
@@ -152,7 +160,7 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
     } else {
         compiled
             .base
-            .beta(&standard(compiled, &given).map_err(fault)?)
+            .beta(&standard(compiled, &products).map_err(fault)?)
     };
     let mut shapes = shape_values(&compiled.model);
     let free = compiled.free_shapes();
@@ -177,6 +185,40 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         parameters: compiled.parameter_values(&beta),
         shapes,
     })
+}
+
+/// Values of standard parameters: those given, and the products of a robot's own parameters where it says its energies.
+fn products(
+    compiled: &Compiled,
+    given: &BTreeMap<String, f64>,
+) -> Result<BTreeMap<String, f64>, String> {
+    let mut values = given.clone();
+    let Some(energies) = compiled.model.energies() else {
+        return Ok(values);
+    };
+    let factor = |k: usize| {
+        let parameter = &energies.parameters[k];
+        given.get(&parameter.name).copied().or(parameter.nominal)
+    };
+    for monomial in &energies.monomials {
+        let factors = monomial.factors.iter();
+        let product: Option<f64> = factors
+            .map(|&(k, exponent)| Some(factor(k)?.powi(exponent)))
+            .product();
+        let name = energies.monomial_name(monomial);
+        match (product, given.get(&name)) {
+            (Some(product), Some(value)) if differ(*value, product) => {
+                return Err(format!(
+                    "`{name}` is {value} here, but the values of its factors make {product}"
+                ));
+            }
+            (Some(product), _) => {
+                values.insert(name, product);
+            }
+            (None, _) => {}
+        }
+    }
+    Ok(values)
 }
 
 /// A value for every standard parameter that some torque depends on.

@@ -1,6 +1,7 @@
 //! Every verb on inputs that are sound, and on inputs that are not.
 
 mod common;
+mod energies;
 mod equations;
 mod eval;
 mod every;

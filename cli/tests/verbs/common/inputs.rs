@@ -58,14 +58,16 @@ pub fn cart_log(seconds: u32, coulomb: f64, phase: f64) -> String {
         let q = sum(&|a, _, angle| a * angle.sin());
         let dq = sum(&|a, w, angle| a * w * angle.cos());
         let ddq = sum(&|a, w, angle| -a * w * w * angle.sin());
-        // A linear congruence is random enough for a sensor.
-        noise = noise
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        let white =
-            f64::from(u32::try_from(noise >> 33).expect("31 bits")) / f64::from(1_u32 << 31) - 0.5;
-        let tau = 3.0 * ddq + 5.0 * dq + coulomb * dq.signum() + 0.1 * white;
+        let tau = 3.0 * ddq + 5.0 * dq + coulomb * dq.signum() + 0.1 * white(&mut noise);
         writeln!(text, "{t:.3},{q:.9},{tau:.6}").expect("a string takes all");
     }
     text
+}
+
+/// Between -1/2 and 1/2: a linear congruence is random enough for a sensor.
+pub fn white(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    f64::from(u32::try_from(*state >> 33).expect("31 bits")) / f64::from(1_u32 << 31) - 0.5
 }
