@@ -149,7 +149,16 @@ impl Compiled {
         for (&k, name) in self.base.kept.iter().zip(&self.base.names) {
             parameters[k].clone_from(name);
         }
+        // Joints of a chain have long names, and numbers that everybody knows.
+        let coordinates = match self.model.energies() {
+            Some(_) => {
+                let joints = self.model.joints.iter();
+                joints.map(|joint| joint.name.clone()).collect()
+            }
+            None => Vec::new(),
+        };
         Names {
+            coordinates,
             parameters,
             shapes: self.shape_names(),
         }

@@ -11,9 +11,11 @@ pub enum Style {
     Latex,
 }
 
-/// The user's names of parameters and shapes; coordinates are numbered from 1.
+/// The user's names of parameters, shapes and coordinates.
 #[derive(Debug, Clone, Default)]
 pub struct Names {
+    /// One per coordinate, or none: then they are `q1, q2, ..`.
+    pub coordinates: Vec<String>,
     /// One per standard parameter.
     pub parameters: Vec<String>,
     /// One per shape parameter.
@@ -25,9 +27,9 @@ impl Names {
     #[must_use]
     pub fn symbol(&self, symbol: Symbol, style: Style) -> String {
         let text = match symbol {
-            Symbol::Q(j) => format!("q{}", j + 1),
-            Symbol::Dq(j) => format!("dq{}", j + 1),
-            Symbol::Ddq(j) => format!("ddq{}", j + 1),
+            Symbol::Q(j) => self.coordinate(j),
+            Symbol::Dq(j) => format!("d{}", self.coordinate(j)),
+            Symbol::Ddq(j) => format!("dd{}", self.coordinate(j)),
             Symbol::RigidTorque(j) => format!("rigid_torque{}", j + 1),
             Symbol::Time => "t".to_owned(),
             Symbol::Parameter(k) => self
@@ -45,15 +47,41 @@ impl Names {
             return text;
         }
         match symbol {
-            Symbol::Q(j) => format!("q_{{{}}}", j + 1),
-            Symbol::Dq(j) => format!("\\dot q_{{{}}}", j + 1),
-            Symbol::Ddq(j) => format!("\\ddot q_{{{}}}", j + 1),
+            Symbol::Q(j) => latex_name(&self.coordinate(j), ""),
+            Symbol::Dq(j) => latex_name(&self.coordinate(j), "\\dot "),
+            Symbol::Ddq(j) => latex_name(&self.coordinate(j), "\\ddot "),
             Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
             Symbol::Time => text,
             Symbol::Parameter(_) | Symbol::Shape(_) => {
                 format!("\\mathrm{{{}}}", text.replace('_', "\\_"))
             }
         }
+    }
+}
+
+impl Names {
+    fn coordinate(&self, j: usize) -> String {
+        let name = self.coordinates.get(j).cloned();
+        name.unwrap_or_else(|| format!("q{}", j + 1))
+    }
+}
+
+/// `\dot \theta_{2}` of `theta2`: an accent over a name, what follows an underscore or ends in digits below it.
+fn latex_name(name: &str, accent: &str) -> String {
+    const GREEK: [&str; 10] = [
+        "alpha", "beta", "gamma", "delta", "theta", "phi", "psi", "varphi", "chi", "xi",
+    ];
+    let digits = name.trim_end_matches(|c: char| c.is_ascii_digit()).len();
+    let stem_end = name.find('_').unwrap_or(digits);
+    let (stem, index) = name.split_at(stem_end);
+    let stem = match stem.len() {
+        0 | 1 => stem.to_owned(),
+        _ if GREEK.contains(&stem) => format!("\\{stem}"),
+        _ => format!("\\mathit{{{stem}}}"),
+    };
+    match index.trim_start_matches('_') {
+        "" => format!("{accent}{stem}"),
+        index => format!("{accent}{stem}_{{{}}}", index.replace('_', "\\_")),
     }
 }
 

@@ -118,6 +118,11 @@ impl<'a> Namer<'a> {
                     _ => None,
                 }
             }
+            Node::Mul(p, q) => {
+                let multiple = self.dag.as_constant(p)?;
+                let whole = (2..10).find(|k| (f64::from(*k) - multiple).abs() < 1e-12)?;
+                Some(format!("{whole}_{}", self.argument(q)?))
+            }
             _ => None,
         }
     }
