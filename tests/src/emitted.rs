@@ -42,6 +42,7 @@ macro_rules! robots {
 }
 
 robots! {
+    cart_pole "cart_pole" CartPole;
     emps "emps" Emps;
     every_effect "every_effect" EveryEffect;
     panda "panda" Panda;
@@ -51,6 +52,7 @@ robots! {
     puma560 "puma560" Puma560;
     skew "skew" Skew;
     slider "slider" Slider;
+    spring_arm "spring_arm" SpringArm;
     stanford "stanford" Stanford;
     two_link "two_link" TwoLink;
     tx40 "tx40" Tx40;
