@@ -51,7 +51,11 @@ type Row = Vec<f64>;
 
 /// Collects the lumps; `None` where the energies have functions without a series.
 pub fn collect(dag: &mut Dag, energies: &Energies, dof: usize) -> Option<Lumps> {
-    let expanded = expand_energies(&mut SeriesRing { dof }, energies).ok()?;
+    let mut ring = SeriesRing::new(dof);
+    let expanded = expand_energies(&mut ring, energies).ok()?;
+    if ring.is_exhausted() {
+        return None;
+    }
     let mut functions = function::merged(rows(energies, &expanded.kinetic, Part::Kinetic));
     functions.extend(function::merged(rows(
         energies,

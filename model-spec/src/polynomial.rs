@@ -10,6 +10,9 @@ use crate::model::{BinaryOp, Energies, EnergyExpr, EnergyLeaf, Expr, Function, M
 /// More products than a robot has that a person wrote down.
 pub const MOST_MONOMIALS: usize = 2000;
 
+/// More products of terms than the expansion of one expression takes: beyond this a spec would compile for minutes.
+const MOST_TERMS: usize = 50_000;
+
 /// The largest power of a sum of parameters.
 const LARGEST_POWER: i32 = 16;
 
@@ -66,7 +69,7 @@ pub enum Reason {
     Denominator,
     /// A parameter in an exponent, or under a power that is not whole.
     Power,
-    /// More than [`MOST_MONOMIALS`] products.
+    /// More products than [`MOST_MONOMIALS`], or more work than finding them is worth.
     TooMany,
     /// The ring has no such coefficient.
     OutsideRing,
@@ -116,6 +119,7 @@ pub fn expand<R: Ring>(
         ring,
         bindings,
         path: Vec::new(),
+        terms: 0,
     };
     expansion.expand(expr)
 }
@@ -124,6 +128,8 @@ struct Expansion<'a, R: Ring> {
     ring: &'a mut R,
     bindings: &'a [Polynomial<R::Element>],
     path: Vec<usize>,
+    /// Products of two terms so far.
+    terms: usize,
 }
 
 type Expanding<R> = Result<Polynomial<<R as Ring>::Element>, NotPolynomial>;
@@ -222,7 +228,8 @@ impl<R: Ring> Expansion<'_, R> {
     }
 
     fn product(&mut self, x: &Polynomial<R::Element>, y: &Polynomial<R::Element>) -> Expanding<R> {
-        if x.len().saturating_mul(y.len()) > MOST_MONOMIALS * MOST_MONOMIALS / 16 {
+        self.terms += x.len().saturating_mul(y.len());
+        if self.terms > MOST_TERMS {
             return Err(self.refuse(Reason::TooMany));
         }
         let mut product = Polynomial::new();

@@ -26,9 +26,6 @@ pub struct Harmonic {
 /// A sum of harmonics with coefficients; none of them is zero.
 pub type Series = BTreeMap<Harmonic, f64>;
 
-/// More harmonics than this are no closed form that anyone would read.
-const MOST_HARMONICS: usize = 4000;
-
 /// A sine of more than this multiple of a coordinate is not expanded.
 const LARGEST_MULTIPLE: i32 = 64;
 
@@ -37,11 +34,29 @@ const CANCELED: f64 = 1e-13;
 
 /// Series as coefficients of parameters.
 pub struct SeriesRing {
-    /// Degrees of freedom.
-    pub dof: usize,
+    dof: usize,
+    /// Products of harmonics that may still be made.
+    left: usize,
 }
 
 impl SeriesRing {
+    /// The ring of functions of so many coordinates.
+    #[must_use]
+    pub const fn new(dof: usize) -> Self {
+        /// Beyond this, lumping would take longer than the other way to base parameters.
+        const MOST_PRODUCTS: usize = 2_000_000;
+        Self {
+            dof,
+            left: MOST_PRODUCTS,
+        }
+    }
+
+    /// Whether a product was cut short for its size: then no series is right.
+    #[must_use]
+    pub const fn is_exhausted(&self) -> bool {
+        self.left == 0
+    }
+
     fn harmonic(&self) -> Harmonic {
         Harmonic {
             rates: vec![0; self.dof],
@@ -116,6 +131,10 @@ impl Ring for SeriesRing {
 
     fn mul(&mut self, x: &Series, y: &Series) -> Series {
         let mut product = Series::new();
+        self.left = self.left.saturating_sub(x.len().saturating_mul(y.len()));
+        if self.is_exhausted() {
+            return product;
+        }
         for (left, a) in x {
             for (right, b) in y {
                 for (harmonic, factor) in left.times(right) {
@@ -136,9 +155,6 @@ impl Ring for SeriesRing {
         let mut power = self.constant(1.0);
         for _ in 0..exponent {
             power = self.mul(&power, x);
-            if power.len() > MOST_HARMONICS {
-                return None;
-            }
         }
         Some(power)
     }
@@ -271,5 +287,68 @@ impl Harmonic {
     #[must_use]
     pub fn is_still(&self) -> bool {
         self.frequency == 0 && self.powers.iter().all(|k| *k == 0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(series: &Series, q: [f64; 2], dq: [f64; 2]) -> f64 {
+        let term = |(harmonic, coefficient): (&Harmonic, &f64)| {
+            let power = |x: [f64; 2], k: &[i32]| x[0].powi(k[0]) * x[1].powi(k[1]);
+            let m = &harmonic.multiples;
+            let angle = f64::from(m[0]) * q[0] + f64::from(m[1]) * q[1];
+            let wave = if harmonic.sine {
+                angle.sin()
+            } else {
+                angle.cos()
+            };
+            coefficient * power(q, &harmonic.powers) * power(dq, &harmonic.rates) * wave
+        };
+        series.iter().map(term).sum()
+    }
+
+    #[test]
+    fn sums_products_and_rates_are_those_of_the_functions() {
+        let mut ring = SeriesRing::new(2);
+        let (x, y) = (ring.coordinate(0), ring.coordinate(1));
+        let (vx, two) = (ring.rate(0), ring.number(2.0));
+        let quarter = ring.number(std::f64::consts::FRAC_PI_4);
+        // f = sin(2 x - y) cos(y + pi/4) x + (x - cos(2 x - y))^2
+        let twice = ring.mul(&two, &x);
+        let minus = ring.number(-1.0);
+        let back = ring.mul(&minus, &y);
+        let angle = ring.add(&twice, &back);
+        let shifted = ring.add(&y, &quarter);
+        let sin = ring.call(SpecFunction::Sin, &angle).unwrap();
+        let cos = ring.call(SpecFunction::Cos, &angle).unwrap();
+        let other = ring.call(SpecFunction::Cos, &shifted).unwrap();
+        let first = ring.mul(&sin, &other);
+        let first = ring.mul(&first, &x);
+        let less = ring.mul(&minus, &cos);
+        let base = ring.add(&x, &less);
+        let square = ring.power(&base, &two).unwrap();
+        let series = ring.add(&first, &square);
+        let f = |q: [f64; 2]| {
+            let angle = 2.0 * q[0] - q[1];
+            angle.sin() * (q[1] + std::f64::consts::FRAC_PI_4).cos() * q[0]
+                + (q[0] - angle.cos()).powi(2)
+        };
+        let (q, dq) = ([0.7, -1.9], [0.4, 1.3]);
+        assert!((value(&series, q, dq) - f(q)).abs() < 1e-14);
+
+        let rate = ring.derivative(&series).unwrap();
+        let h = 1e-6;
+        let at = |t: f64| f([q[0] + t * dq[0], q[1] + t * dq[1]]);
+        let wanted = (at(h) - at(-h)) / (2.0 * h);
+        assert!((value(&rate, q, dq) - wanted).abs() < 1e-8);
+
+        // sin^2 + cos^2 = 1, with no term left.
+        let (sin2, cos2) = (ring.mul(&sin, &sin), ring.mul(&cos, &cos));
+        let one = ring.add(&sin2, &cos2);
+        assert_eq!(ring.as_number(&one), Some(1.0));
+        assert_eq!(ring.power(&vx, &minus), None);
+        assert_eq!(ring.call(SpecFunction::Sqrt, &x), None);
     }
 }

@@ -27,13 +27,13 @@ impl<'a> EnergyTwin<'a> {
     }
 
     /// `(T, V)`; `standard` has one value per product of parameters.
-    fn evaluate(&self, standard: &[f64], mut point: Point) -> (Jet, Jet) {
+    fn evaluate(self, standard: &[f64], mut point: Point) -> (Jet, Jet) {
         expand(self.energies, &mut point, standard)
     }
 
     /// `d/dt dT/d(dq_i) - dL/dq_i`
     #[must_use]
-    pub fn torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
+    pub fn torque(self, standard: &[f64], state: &State) -> Vec<f64> {
         (0..state.q.len())
             .map(|i| {
                 let mut moving = point(state);
@@ -53,7 +53,7 @@ impl<'a> EnergyTwin<'a> {
 
     /// Second derivatives of `T` in the rates.
     #[must_use]
-    pub fn mass_matrix(&self, standard: &[f64], state: &State) -> DMatrix<f64> {
+    pub fn mass_matrix(self, standard: &[f64], state: &State) -> DMatrix<f64> {
         let dof = state.q.len();
         DMatrix::from_fn(dof, dof, |i, j| {
             let mut point = point(state);
@@ -65,7 +65,7 @@ impl<'a> EnergyTwin<'a> {
 
     /// `V`, J.
     #[must_use]
-    pub fn potential_energy(&self, standard: &[f64], state: &State) -> f64 {
+    pub fn potential_energy(self, standard: &[f64], state: &State) -> f64 {
         self.evaluate(standard, point(state)).1.0[0]
     }
 }

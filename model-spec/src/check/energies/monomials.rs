@@ -2,7 +2,7 @@
 
 use super::{Checked, Fault, Statement};
 use crate::model::{EnergyExpr, Function, Monomial};
-use crate::polynomial::{self, MOST_MONOMIALS, NotPolynomial, Polynomial, Reason, Ring};
+use crate::polynomial::{self, NotPolynomial, Polynomial, Reason, Ring};
 
 /// What the check needs to know of a coefficient.
 #[derive(Debug, Clone, Copy)]
@@ -120,7 +120,7 @@ fn fault(statement: Statement, error: NotPolynomial) -> Fault {
         ),
         Reason::TooMany => (
             "the energy has too many products of parameters",
-            "expands beyond the limit",
+            "more than the compiler takes",
             "give sums of parameters a parameter of their own",
         ),
         Reason::OutsideRing => (
@@ -129,16 +129,11 @@ fn fault(statement: Statement, error: NotPolynomial) -> Fault {
             "simplify the expression",
         ),
     };
-    let label = if error.reason == Reason::TooMany {
-        format!("more than {MOST_MONOMIALS}")
-    } else {
-        label.to_owned()
-    };
     Fault {
         statement,
         path: error.path,
         message: message.to_owned(),
-        label,
+        label: label.to_owned(),
         other: None,
         help: help.to_owned(),
     }
