@@ -106,7 +106,7 @@ const NAMES: [(Dimension, &str, &str); 11] = [
 ];
 
 /// Name, factor to SI, dimension.
-pub(super) const UNITS: [(&str, f64, Dimension); 15] = [
+pub(super) const UNITS: [(&str, f64, Dimension); 17] = [
     ("rad", 1.0, Dimension::ANGLE),
     ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
     ("rev", std::f64::consts::TAU, Dimension::ANGLE),
@@ -122,6 +122,12 @@ pub(super) const UNITS: [(&str, f64, Dimension); 15] = [
     ("N", 1.0, Dimension::FORCE),
     ("kN", 1e3, Dimension::FORCE),
     ("Nm", 1.0, Dimension::TORQUE),
+    ("J", 1.0, Dimension::TORQUE),
+    (
+        "rpm",
+        std::f64::consts::TAU / 60.0,
+        Dimension::ANGULAR_SPEED,
+    ),
 ];
 
 /// The unit of that name.

@@ -131,8 +131,25 @@ fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
             "write it in {}; a bare number is in SI units",
             expected.units()
         ))),
+        None if expected == Dimension::ANGLE && quantity.value.abs() > LARGEST_BARE_ANGLE => {
+            Err(degrees_meant(expr.span, quantity.value))
+        }
         _ => Ok(quantity.value),
     }
+}
+
+/// Two turns. A larger number without a unit was meant in degrees.
+const LARGEST_BARE_ANGLE: f64 = 2.0 * std::f64::consts::TAU;
+
+fn degrees_meant(span: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        span,
+        format!("an angle of {value} rad"),
+        format!("{:.1} turns", value / std::f64::consts::TAU),
+    )
+    .help(format!(
+        "a bare number is in rad: write `{value} deg`, or `{value} rad` if it is meant"
+    ))
 }
 
 /// The value of an expression without parameters or signals.
