@@ -308,3 +308,15 @@ fn every_shared_urdf_is_imported() {
         8,
     );
 }
+
+#[test]
+fn limits_of_many_turns_stay_in_radians() {
+    let parts: Vec<String> = two_joints()
+        .into_iter()
+        .map(|part| part.replace("lower='-1'", "lower='-50'"))
+        .collect();
+    let (text, model) = imported(&parts, &ImportOptions::default());
+    assert!(text.contains("position = -50 rad .. 2;"), "{text}");
+    assert!(text.contains("position = -50 .. 2;"), "prismatic: {text}");
+    assert_eq!(model.joints[0].limits.position, Some((-50.0, 2.0)));
+}

@@ -147,12 +147,9 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     let limit = &source.limit;
     let bounded = source.joint_type != JointType::Continuous && limit.lower < limit.upper;
     if bounded && limit.lower.is_finite() && limit.upper.is_finite() {
-        let _ = write!(
-            line,
-            " position = {} .. {};",
-            number(limit.lower),
-            number(limit.upper)
-        );
+        let written = if prismatic { number } else { radians };
+        let (low, high) = (written(limit.lower), written(limit.upper));
+        let _ = write!(line, " position = {low} .. {high};");
     }
     for (key, value) in [("velocity", limit.velocity), ("torque", limit.effort)] {
         if value > 0.0 && value.is_finite() {
@@ -200,8 +197,14 @@ fn angle(x: f64) -> String {
     match quarter_turns(x) {
         Some(0.0) => "0".to_owned(),
         Some(turns) => format!("{} deg", 90.0 * turns),
-        None => number(x),
+        None => radians(x),
     }
+}
+
+/// Large angles say that they are in rad, which the language asks for.
+fn radians(x: f64) -> String {
+    let unit = if x.abs() > 12.0 { " rad" } else { "" };
+    format!("{}{unit}", number(x))
 }
 
 /// A computed number without the noise of its last digits: 13 significant ones, and zero below 1e-15.
