@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Dag, ExprId, Names, Node, Style, Symbol};
+use crate::expr::{Dag, ExprId, Function, Names, Node, Style, Symbol};
 
 /// Expressions with more terms than this are shown with intermediate names instead.
 pub const MOST_TERMS: usize = 24;
@@ -19,8 +19,8 @@ struct Factor {
     expr: ExprId,
 }
 
-/// Factors with their powers, ascending.
-type Monomial = Vec<(Factor, u32)>;
+/// Factors with their powers, ascending; what stands in a denominator has a negative one.
+type Monomial = Vec<(Factor, i32)>;
 
 /// A sum of products; shorter products first.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -36,7 +36,7 @@ impl Polynomial {
     fn add_term(&mut self, monomial: Monomial, coefficient: f64) {
         /// Sums of lengths cancel to rounding.
         const CANCELED: f64 = 1e-14;
-        let degree = monomial.iter().map(|(_, power)| power).sum();
+        let degree = monomial.iter().map(|(_, power)| power.unsigned_abs()).sum();
         let sum = self.0.entry((degree, monomial)).or_insert(0.0);
         let scale = sum.abs().max(coefficient.abs());
         *sum += coefficient;
@@ -67,6 +67,9 @@ pub fn expand(dag: &mut Dag, x: ExprId, names: &Names) -> Option<Polynomial> {
                 sum
             }
             Node::Mul(p, q) => product(&known[&p], &known[&q]),
+            Node::Call(Function::Recip, q) => {
+                Polynomial::of(vec![(factor(dag, q, names), -1)], 1.0)
+            }
             Node::Symbol(_) | Node::Power(..) | Node::Call(..) => {
                 Polynomial::of(vec![(factor(dag, part, names), 1)], 1.0)
             }
@@ -84,10 +87,11 @@ fn product(left: &Polynomial, right: &Polynomial) -> Polynomial {
     let mut product = Polynomial::default();
     for (p, c) in left.terms() {
         for (q, d) in right.terms() {
-            let mut factors: BTreeMap<Factor, u32> = p.iter().cloned().collect();
+            let mut factors: BTreeMap<Factor, i32> = p.iter().cloned().collect();
             for (factor, power) in q {
                 *factors.entry(factor.clone()).or_insert(0) += power;
             }
+            factors.retain(|_, power| *power != 0);
             product.add_term(factors.into_iter().collect(), c * d);
         }
     }
@@ -160,25 +164,29 @@ fn build(dag: &mut Dag, (monomial, coefficient): &(Monomial, f64)) -> ExprId {
         .unwrap_or(*coefficient);
     let mut product = dag.constant(1.0);
     for (factor, power) in monomial {
-        for _ in 0..*power {
-            product = dag.mul(product, factor.expr);
-        }
+        let exponent = dag.constant(f64::from(*power));
+        let power = dag.power(factor.expr, exponent);
+        product = dag.mul(product, power);
     }
     dag.scale(rounded, product)
 }
 
 /// The factors of an expression that is a single product.
 fn one_product(dag: &Dag, x: Option<ExprId>, names: &Names) -> Option<Monomial> {
-    let mut factors: BTreeMap<Factor, u32> = BTreeMap::new();
+    let mut factors: BTreeMap<Factor, i32> = BTreeMap::new();
     let mut stack: Vec<ExprId> = x.into_iter().collect();
     while let Some(x) = stack.pop() {
         match dag.node(x) {
             Node::Add(..) => return None,
             Node::Mul(p, q) => stack.extend([p, q]),
             Node::Constant(_) => {}
+            Node::Call(Function::Recip, q) => {
+                *factors.entry(factor(dag, q, names)).or_insert(0) -= 1
+            }
             _ => *factors.entry(factor(dag, x, names)).or_insert(0) += 1,
         }
     }
+    factors.retain(|_, power| *power != 0);
     Some(factors.into_iter().collect())
 }
 
@@ -191,24 +199,48 @@ pub fn terms(dag: &Dag, polynomial: &Polynomial, names: &Names, style: Style) ->
     polynomial
         .terms()
         .map(|(monomial, coefficient)| {
-            let mut factors: Vec<String> = Vec::new();
+            let (mut above, mut below): (Vec<String>, Vec<String>) = (Vec::new(), Vec::new());
             let number = crate::expr::number(coefficient.abs());
-            if number != "1" || monomial.is_empty() {
-                factors.push(number);
+            if number != "1" || monomial.iter().all(|(_, power)| *power < 0) {
+                above.push(number);
             }
             for (factor, power) in monomial {
-                let text = dag.display(factor.expr, names, style);
-                let exponent = match style {
-                    _ if *power == 1 => String::new(),
-                    Style::Text => format!("^{power}"),
-                    Style::Latex => format!("^{{{power}}}"),
-                };
-                factors.push(text + &exponent);
+                let side = if *power > 0 { &mut above } else { &mut below };
+                side.push(self::power(dag, factor, power.unsigned_abs(), names, style));
             }
-            (
-                coefficient < 0.0,
-                factors.join(if style == Style::Latex { " \\, " } else { " " }),
-            )
+            (coefficient < 0.0, quotient(&above, &below, style))
         })
         .collect()
+}
+
+fn power(dag: &Dag, factor: &Factor, power: u32, names: &Names, style: Style) -> String {
+    let text = dag.display(factor.expr, names, style);
+    let text = match dag.node(factor.expr) {
+        Node::Add(..) => format!("({text})"),
+        _ => text,
+    };
+    match style {
+        _ if power == 1 => text,
+        Style::Text => format!("{text}^{power}"),
+        Style::Latex => format!("{text}^{{{power}}}"),
+    }
+}
+
+fn quotient(above: &[String], below: &[String], style: Style) -> String {
+    match style {
+        Style::Text => {
+            let above = above.join(" ");
+            match below {
+                [] => above,
+                [one] => format!("{above} / {one}"),
+                several => format!("{above} / ({})", several.join(" ")),
+            }
+        }
+        Style::Latex if below.is_empty() => above.join(" \\, "),
+        Style::Latex => format!(
+            "\\frac{{{}}}{{{}}}",
+            above.join(" \\, "),
+            below.join(" \\, ")
+        ),
+    }
 }
