@@ -10,8 +10,15 @@ use robot_model_codegen::expr::Style;
 use robot_model_codegen::show::{What, form};
 use robot_model_tests::specs::{self, Spec};
 
-/// A planar arm, an arm with a prismatic joint and fixed inertials, the arm of the books, and two that say their energies.
-const ROBOTS: [&str; 6] = ["two_link", "slider", "puma560", "phantom", "pneumatic_arm"];
+/// A planar arm, an arm with a prismatic joint and fixed inertials, the arm of the books, and three that say their energies.
+const ROBOTS: [&str; 6] = [
+    "two_link",
+    "slider",
+    "puma560",
+    "phantom",
+    "pneumatic_arm",
+    "spring_arm",
+];
 
 fn for_each(name: &str, text: impl Fn(&Spec, &Compiled) -> String) {
     for robot in ROBOTS {

@@ -181,7 +181,7 @@ fn one_product(dag: &Dag, x: Option<ExprId>, names: &Names) -> Option<Monomial> 
             Node::Mul(p, q) => stack.extend([p, q]),
             Node::Constant(_) => {}
             Node::Call(Function::Recip, q) => {
-                *factors.entry(factor(dag, q, names)).or_insert(0) -= 1
+                *factors.entry(factor(dag, q, names)).or_insert(0) -= 1;
             }
             _ => *factors.entry(factor(dag, x, names)).or_insert(0) += 1,
         }
