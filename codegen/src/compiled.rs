@@ -5,7 +5,7 @@ use robot_model_spec::parameter::{Owner, StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
-use crate::dynamics::{self, Dynamics, Kinematics, Partials, Value, effect, energy};
+use crate::dynamics::{self, Dynamics, Kinematics, Partials, Point, Value, effect, energy};
 use crate::expr::{Dag, ExprId, Names, Symbol};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
@@ -38,6 +38,8 @@ pub struct Compiled {
     pub base_momentum: MomentumForm,
     /// Where the links are; `None` for a robot without links.
     pub kinematics: Option<Kinematics>,
+    /// Points that a robot which says its energies names.
+    pub points: Vec<Point>,
 }
 
 /// Derives everything. A checked model has no errors left; how clear the base parameters are is
@@ -74,6 +76,9 @@ pub fn compile_model(model: &Model) -> Compiled {
         None => momentum.clone(),
     };
     let kinematics = dynamics::kinematics(&mut dag, model);
+    let points = energies.map_or_else(Vec::new, |energies| {
+        dynamics::points(&mut dag, energies, dof)
+    });
     Compiled {
         model: model.clone(),
         standard,
@@ -86,6 +91,7 @@ pub fn compile_model(model: &Model) -> Compiled {
         momentum,
         base_momentum,
         kinematics,
+        points,
     }
 }
 

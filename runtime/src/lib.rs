@@ -9,15 +9,18 @@ pub mod link;
 #[cfg(feature = "std")]
 pub mod log;
 pub mod math;
+pub mod mechanics;
 pub mod model;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod signal;
+pub mod solve;
 #[cfg(feature = "std")]
 pub mod trace;
 
 pub use link::{Inertial, Link};
+pub use mechanics::{Kinematics, Mechanics, Points};
 pub use model::{FromParameters, Matrix, RobotModel, State, Vector};
 
 #[cfg(feature = "derive")]

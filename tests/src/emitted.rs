@@ -1,10 +1,14 @@
 //! Emitted code of every spec, included as users include it, with warnings denied.
 
 use nalgebra::DMatrix;
-use robot_model::{FromParameters, Matrix, State as ArmState, Vector};
+use robot_model::{FromParameters, Matrix, Mechanics, State as ArmState, Vector};
 
 use crate::evaluate::Forms;
+use crate::mechanics::{self, MechanicsForms};
 use crate::states::State;
+
+/// Accelerations of standard parameters, a state and a torque, where they are determined.
+pub type Accelerations = fn(&[f64], &State, &[f64]) -> Option<Vec<f64>>;
 
 /// One emitted arm behind a face without sizes in its type.
 #[derive(Clone, Copy)]
@@ -23,6 +27,10 @@ pub struct Robot {
     pub base_parameters: fn(&[f64]) -> Vec<f64>,
     /// All forms at a state, with base parameters from standard ones.
     pub forms: fn(&[f64], &State) -> Forms,
+    /// Energies, momentum and slopes at a state.
+    pub mechanics: fn(&[f64], &State) -> MechanicsForms,
+    /// Accelerations at a state under a torque.
+    pub accelerations: Accelerations,
 }
 
 macro_rules! robots {
@@ -70,7 +78,7 @@ impl Robot {
         spec: &'static str,
     ) -> Self
     where
-        R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
+        R: FromParameters<DOF, STANDARD, BASE, SHAPES> + Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
         Self {
             spec,
@@ -80,6 +88,8 @@ impl Robot {
             base_parameter_names: &R::BASE_PARAMETERS,
             base_parameters: base_parameters::<R, DOF, STANDARD, BASE, SHAPES>,
             forms: forms::<R, DOF, STANDARD, BASE, SHAPES>,
+            mechanics: mechanics::emitted::<R, DOF, STANDARD, BASE, SHAPES>,
+            accelerations: mechanics::accelerations::<R, DOF, STANDARD, BASE, SHAPES>,
         }
     }
 }

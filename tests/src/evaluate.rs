@@ -64,7 +64,14 @@ impl Interpreter {
     }
 
     /// Runs a program. `rigid` is the load that regressor columns are told; the equations compute it themselves.
-    fn run(&self, program: &Program, standard: &[f64], state: &State, rigid: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn run(
+        &self,
+        program: &Program,
+        standard: &[f64],
+        state: &State,
+        rigid: &[f64],
+    ) -> Vec<f64> {
         let parameters = self
             .compiled
             .parameter_values(&self.compiled.base.beta(standard));

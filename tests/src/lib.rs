@@ -4,6 +4,7 @@ pub mod cases;
 pub mod emitted;
 pub mod evaluate;
 pub mod expression;
+pub mod mechanics;
 pub mod oracle;
 pub mod shared;
 pub mod specs;

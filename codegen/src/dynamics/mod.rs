@@ -15,6 +15,7 @@ mod kinematics;
 mod lagrange;
 mod lower;
 mod partial;
+mod point;
 mod rigid;
 mod vector;
 
@@ -26,6 +27,7 @@ pub use energies::Energies;
 use energy::EnergyForm;
 pub use kinematics::{Kinematics, Pose};
 pub use partial::Partials;
+pub use point::{Point, points};
 use rigid::{RigidBody, Terms};
 
 /// What stands for each standard parameter in the derivation.

@@ -137,6 +137,10 @@ pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec
             size[x.index()] = inline + 1;
         }
     }
+    // A result on its own is written where it is returned.
+    if let [only] = outputs {
+        named[only.index()] = false;
+    }
     named
 }
 

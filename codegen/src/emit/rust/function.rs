@@ -12,11 +12,14 @@ use crate::expr::{Dag, ExprId, Names, Symbol};
 const WIDEST_ROW: usize = 8;
 
 /// What functions are made from.
+#[derive(Clone, Copy)]
 pub struct Context<'a> {
     pub compiled: &'a Compiled,
     pub names: &'a Names,
     pub binding: &'a Binding<'a>,
     pub dag: &'a Dag,
+    /// A paragraph for the doc comments; often none.
+    pub note: &'a str,
 }
 
 /// The function wanted.
@@ -36,10 +39,30 @@ pub struct Task {
 pub enum Returns {
     /// One entry a joint.
     Vector,
-    /// One row a joint, this many columns.
+    /// Rows of this many columns.
     Matrix(usize),
     /// One entry a base parameter.
     Base,
+    /// A number.
+    Scalar,
+    /// Homogeneous matrices, one a joint.
+    Poses,
+    /// Matrices of this many rows and one column a joint.
+    Stack(usize),
+    /// Outputs are the slope of the torque by the accelerations row by row, then the torque: accelerations where these
+    /// equations have a solution.
+    Accelerations(Equations),
+}
+
+/// How accelerations are solved for.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Equations {
+    /// The slope is a symmetric matrix, positive definite for physical parameters; the torque is that of `ddq = 0`.
+    Symmetric,
+    /// The slope is any matrix; the torque is that of `ddq = 0`.
+    General,
+    /// Slope and torque depend on `ddq`.
+    Nonlinear,
 }
 
 /// A function on the page.
@@ -55,9 +78,9 @@ impl Context<'_> {
     pub fn function(&self, task: &Task) -> Function {
         let body = body::body(self.dag, self.names, self.binding, &task.outputs);
         let reads = |argument: &str| {
-            body.symbols
-                .iter()
-                .any(|&symbol| argument_of(symbol, task) == argument)
+            let mut symbols = body.symbols.iter();
+            // No expression has the torque in it: it is what the equations are set to.
+            argument == "tau" || symbols.any(|&symbol| argument_of(symbol, task) == argument)
         };
         let optional = |argument: &str| matches!(argument, "rigid_torque" | "time" | "shapes");
         let arguments: Vec<&'static str> = task
@@ -80,12 +103,25 @@ impl Context<'_> {
         });
         let name = Ident::new(task.name, Span::call_site());
         let doc = format!(" {}", task.doc);
+        let note = (!self.note.is_empty()).then(|| {
+            let note = format!(" {}", self.note);
+            quote!(#[doc = #note] #[doc = ""])
+        });
         let cost = format!(" Cost: {}.", body.cost);
         let statements = &body.statements;
         let (kind, result) = self.result(task, &body.outputs);
+        let (statements, result) = match task.returns {
+            Returns::Accelerations(Equations::Nonlinear) => {
+                let length = self.length("ddq");
+                let inside = quote!(solve::newton(|ddq: &[f64; #length]| { #statements #result }));
+                (quote!(), inside)
+            }
+            _ => (quote!(#statements), result),
+        };
         let item = quote! {
             #[doc = #doc]
             #[doc = ""]
+            #note
             #[doc = #cost]
             #[must_use]
             pub fn #name(#(#parameters),*) -> #kind {
@@ -115,8 +151,35 @@ impl Context<'_> {
 
     /// The return type and the expression that makes the result.
     fn result(&self, task: &Task, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
-        let rows = Literal::usize_unsuffixed(self.compiled.dof());
+        let dof = self.compiled.dof();
+        let rows = match task.returns {
+            Returns::Matrix(columns) => outputs.len() / columns.max(1),
+            _ => dof,
+        };
+        let rows = Literal::usize_unsuffixed(rows);
         match task.returns {
+            Returns::Scalar => (quote!(f64), quote!(#(#outputs)*)),
+            Returns::Poses => stack(outputs, 4, 4),
+            Returns::Stack(rows) => stack(outputs, rows, dof),
+            Returns::Accelerations(equations) => {
+                let (slope, torque) = outputs.split_at(dof * dof);
+                let slope = slope.chunks(dof.max(1)).map(|row| quote!([#(#row),*]));
+                let rest = torque.iter().enumerate().map(|(joint, torque)| {
+                    let k = Literal::usize_unsuffixed(joint);
+                    if self.dag.is_zero(task.outputs[dof * dof + joint]) {
+                        quote!(tau[#k])
+                    } else {
+                        quote!(tau[#k] - (#torque))
+                    }
+                });
+                let (slope, rest) = (quote!([#(#slope),*]), quote!([#(#rest),*]));
+                let result = match equations {
+                    Equations::Symmetric => quote!(solve::positive_definite(&#slope, &#rest)),
+                    Equations::General => quote!(solve::general(&#slope, &#rest)),
+                    Equations::Nonlinear => quote!((#slope, #rest)),
+                };
+                (quote!(Option<[f64; #rows]>), result)
+            }
             Returns::Vector => (quote!([f64; #rows]), quote!([#(#outputs),*])),
             Returns::Base => {
                 let length = Literal::usize_unsuffixed(outputs.len());
@@ -152,6 +215,21 @@ impl Context<'_> {
             }
         }
     }
+}
+
+/// Matrices of the same size: their type, and their entries.
+fn stack(outputs: &[TokenStream], rows: usize, columns: usize) -> (TokenStream, TokenStream) {
+    let count = |n: usize| Literal::usize_unsuffixed(n);
+    let matrices = outputs.chunks((rows * columns).max(1)).map(|matrix| {
+        let rows = matrix.chunks(columns.max(1)).map(|row| quote!([#(#row),*]));
+        quote!([#(#rows),*])
+    });
+    let number = count(matrices.len());
+    let (rows, columns) = (count(rows), count(columns));
+    (
+        quote!([[[f64; #columns]; #rows]; #number]),
+        quote!([#(#matrices),*]),
+    )
 }
 
 /// The argument that a symbol is read from.

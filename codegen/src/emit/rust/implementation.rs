@@ -5,6 +5,7 @@ use quote::quote;
 use robot_model_spec::parameter::Status;
 
 use super::function::Function;
+use super::mechanics;
 use super::render::number;
 use crate::base;
 use crate::compiled::Compiled;
@@ -60,12 +61,14 @@ pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         &own_parameters(free_shapes),
         &base::shape_values(&compiled.model),
     );
+    let mechanics = mechanics::implementations(compiled, functions, &name);
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
         const _: () = {
             use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
             __blank!();
             #implementation
+            #mechanics
         };
     };
     vec![item, implementation]
@@ -261,7 +264,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
     columns
         .into_iter()
         .map(|(wanted, columns)| {
-            let call = call(functions, wanted, &Reads { state: quote!(state.), ..Reads::default() });
+            let call = call(functions, wanted, &Reads::state());
             let name = Ident::new(&format!("{wanted}_at"), Span::call_site());
             let columns = Literal::usize_unsuffixed(columns);
             let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
@@ -349,7 +352,7 @@ fn in_beta(combination: &[(usize, f64)]) -> TokenStream {
 
 /// Where the arguments of a free function come from in a method.
 #[derive(Default)]
-struct Reads {
+pub struct Reads {
     /// In front of `q`, `dq`, `ddq`: nothing, or `state.`
     state: TokenStream,
     /// Parameters come from `self`.
@@ -357,10 +360,19 @@ struct Reads {
 }
 
 impl Reads {
-    fn value(state: TokenStream) -> Self {
+    /// Parameters from the value.
+    pub fn value(state: TokenStream) -> Self {
         Self {
             state,
             of_self: true,
+        }
+    }
+
+    /// Everything from a state, shapes beside it.
+    pub fn state() -> Self {
+        Self {
+            state: quote!(state.),
+            of_self: false,
         }
     }
 
@@ -368,6 +380,7 @@ impl Reads {
         let state = &self.state;
         match argument {
             "time" => quote!(state.time),
+            "tau" => quote!(as_array(tau)),
             "beta" => quote!(as_array(&self.beta())),
             "shapes" if self.of_self => quote!(as_array(&self.shapes())),
             "shapes" => quote!(as_array(shapes)),
@@ -384,14 +397,16 @@ impl Reads {
     }
 }
 
-fn find<'a>(functions: &'a [Function], wanted: &str) -> &'a Function {
+/// The function of that name.
+pub fn find<'a>(functions: &'a [Function], wanted: &str) -> &'a Function {
     functions
         .iter()
         .find(|function| function.name == wanted)
         .expect("the page has this function")
 }
 
-fn call(functions: &[Function], wanted: &str, reads: &Reads) -> TokenStream {
+/// A call of the function of that name.
+pub fn call(functions: &[Function], wanted: &str, reads: &Reads) -> TokenStream {
     let function = find(functions, wanted);
     let name = Ident::new(function.name, Span::call_site());
     let arguments = function

@@ -5,6 +5,7 @@
 pub(crate) mod body;
 mod function;
 mod implementation;
+mod mechanics;
 pub(crate) mod names;
 mod pretty;
 mod render;
@@ -28,7 +29,7 @@ pub type Costs = Vec<(&'static str, Cost)>;
 pub fn module(compiled: &Compiled) -> String {
     let (functions, _) = functions(compiled);
     let mut items = vec![quote!(
-        use ::robot_model::math;
+        use ::robot_model::{math, solve};
     )];
     items.extend(functions.iter().map(|function| function.item.clone()));
     items.extend(implementation::items(compiled, &functions));
@@ -48,13 +49,15 @@ pub fn implementation_for(
     let items = functions.iter().map(|function| &function.item);
     let implementation =
         implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
+    let mechanics = mechanics::implementations(compiled, &functions, name);
     pretty::without_markers(quote! {
         #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
-            use ::robot_model::math;
+            use ::robot_model::{math, solve};
             use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
             #(#items)*
             #implementation
+            #mechanics
         };
     })
 }
@@ -139,6 +142,7 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         names: &names,
         binding: &binding,
         dag: &compiled.dag,
+        note: "",
     };
     let (dynamics, dof) = (&compiled.dynamics, compiled.dof());
 
@@ -200,6 +204,7 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));
     functions.push(base_parameters(compiled));
+    functions.extend(mechanics::functions(&context));
     let costs = functions
         .iter()
         .map(|function| (function.name, function.cost))
@@ -239,6 +244,7 @@ fn base_parameters(compiled: &Compiled) -> function::Function {
         names: &names,
         binding: &binding,
         dag: &dag,
+        note: "",
     };
     context.function(&Task {
         name: "base_parameters",

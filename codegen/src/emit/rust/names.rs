@@ -9,10 +9,11 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 9] = [
+const RESERVED: [&str; 10] = [
     "q",
     "dq",
     "ddq",
+    "tau",
     "beta",
     "standard",
     "shapes",

@@ -1,0 +1,48 @@
+//! Points of a robot that says its energies: positions as the spec gives them, and their slopes.
+
+use robot_model_spec::model::{Energies, EnergyExpr, EnergyLeaf};
+
+use super::lower::lower_with;
+use crate::expr::{Dag, ExprId, Symbol};
+
+/// A named point as expressions of `q`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Point {
+    /// Its name in the spec.
+    pub name: String,
+    /// Coordinates in the base frame, m.
+    pub position: [ExprId; 3],
+    /// `[row][joint]`: the slope of the position.
+    pub jacobian: [Vec<ExprId>; 3],
+}
+
+/// The points of a spec.
+pub fn points(dag: &mut Dag, energies: &Energies, dof: usize) -> Vec<Point> {
+    let points = energies.points.iter();
+    points
+        .map(|point| {
+            let position = [0, 1, 2].map(|axis| lower(dag, energies, &point.position[axis]));
+            let jacobian = position.map(|x| {
+                let joints = 0..dof;
+                joints
+                    .map(|joint| dag.derivative(x, Symbol::Q(joint)))
+                    .collect()
+            });
+            Point {
+                name: point.name.clone(),
+                position,
+                jacobian,
+            }
+        })
+        .collect()
+}
+
+fn lower(dag: &mut Dag, energies: &Energies, expr: &EnergyExpr) -> ExprId {
+    lower_with(dag, expr, &mut |dag, leaf| match leaf {
+        EnergyLeaf::Coordinate(joint) => dag.symbol(Symbol::Q(joint)),
+        EnergyLeaf::Binding(k) => lower(dag, energies, &energies.bindings[k].value),
+        EnergyLeaf::Rate(_) | EnergyLeaf::Parameter(_) | EnergyLeaf::BindingRate(_) => {
+            unreachable!("checked in model-spec: positions are free of parameters and rates")
+        }
+    })
+}

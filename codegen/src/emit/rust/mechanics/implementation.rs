@@ -1,0 +1,131 @@
+//! `Mechanics`, and `Kinematics` or `Points`, over the page's functions.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::{format_ident, quote};
+
+use super::super::function::Function;
+use super::super::implementation::{Reads, call, find};
+use crate::compiled::Compiled;
+
+/// The implementations for a type that implements `RobotModel`, with the runtime's conversions in scope.
+pub fn implementations(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStream {
+    let count = |n: usize| Literal::usize_unsuffixed(n);
+    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
+    let (base, shapes) = (
+        count(compiled.base.kept.len()),
+        count(compiled.free_shapes().len()),
+    );
+    let values = values(compiled, functions);
+    let regressors = regressors(compiled, functions);
+    let place = place(compiled, functions, name);
+    quote! {
+        __blank!();
+        impl ::robot_model::Mechanics<#dof, #standard, #base, #shapes> for #name {
+            #values
+            #(__blank!(); #regressors)*
+        }
+        #place
+    }
+}
+
+/// Equations that need values for the parameters.
+fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
+    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let plain = |wanted| call(functions, wanted, &Reads::value(quote!()));
+    let at = |wanted| call(functions, wanted, &Reads::value(quote!(state.)));
+    let (kinetic, potential) = (plain("kinetic_energy"), plain("potential_energy"));
+    let forward = at("forward_dynamics");
+    let by_position = at("inverse_dynamics_by_position");
+    let by_velocity = at("inverse_dynamics_by_velocity");
+    quote! {
+        fn kinetic_energy(&self, q: &model::Vector<#dof>, dq: &model::Vector<#dof>) -> f64 {
+            #kinetic
+        }
+        __blank!();
+        fn potential_energy(&self, q: &model::Vector<#dof>) -> f64 {
+            #potential
+        }
+        __blank!();
+        fn forward_dynamics_at(&self, state: &model::State<#dof>, tau: &model::Vector<#dof>) -> Option<model::Vector<#dof>> {
+            #forward.map(Into::into)
+        }
+        __blank!();
+        fn inverse_dynamics_by_position_at(&self, state: &model::State<#dof>) -> model::Matrix<#dof, #dof> {
+            from_rows(&#by_position)
+        }
+        __blank!();
+        fn inverse_dynamics_by_velocity_at(&self, state: &model::State<#dof>) -> model::Matrix<#dof, #dof> {
+            from_rows(&#by_velocity)
+        }
+    }
+}
+
+/// Equations that need none.
+fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
+    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let (standard, base) = (compiled.standard.len(), compiled.base.kept.len());
+    let wanted = [
+        ("momentum_regressor", standard),
+        ("drift_regressor", standard),
+        ("base_momentum_regressor", base),
+        ("base_drift_regressor", base),
+    ];
+    wanted
+        .into_iter()
+        .map(|(wanted, columns)| {
+            let call = call(functions, wanted, &Reads::state());
+            let name = format_ident!("{wanted}_at");
+            let columns = Literal::usize_unsuffixed(columns);
+            let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
+            let shapes = if reads_shapes { "shapes" } else { "_shapes" };
+            let shapes = Ident::new(shapes, Span::call_site());
+            quote! {
+                fn #name(state: &model::State<#dof>, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
+                    from_rows(&#call)
+                }
+            }
+        })
+        .collect()
+}
+
+/// Where links or points are.
+fn place(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStream {
+    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let plain = |wanted| call(functions, wanted, &Reads::value(quote!()));
+    if compiled.kinematics.is_some() {
+        let (poses, jacobian) = (plain("forward_kinematics"), plain("jacobian"));
+        return quote! {
+            __blank!();
+            impl ::robot_model::Kinematics<#dof> for #name {
+                fn forward_kinematics(q: &model::Vector<#dof>) -> [model::Matrix<4, 4>; #dof] {
+                    #poses.map(|pose| from_rows(&pose))
+                }
+                __blank!();
+                fn jacobian(q: &model::Vector<#dof>) -> model::Matrix<6, #dof> {
+                    from_rows(&#jacobian)
+                }
+            }
+        };
+    }
+    if compiled.points.is_empty() {
+        return quote!();
+    }
+    let points = Literal::usize_unsuffixed(compiled.points.len());
+    let names = compiled.points.iter().map(|point| &point.name);
+    let (positions, jacobians) = (plain("points"), plain("point_jacobians"));
+    quote! {
+        __blank!();
+        impl ::robot_model::Points<#dof, #points> for #name {
+            const POINTS: [&'static str; #points] = [#(#names),*];
+            __blank!();
+            fn points(q: &model::Vector<#dof>) -> [model::Vector<3>; #points] {
+                #positions.map(Into::into)
+            }
+            __blank!();
+            fn point_jacobians(q: &model::Vector<#dof>) -> [model::Matrix<3, #dof>; #points] {
+                #jacobians.map(|jacobian| from_rows(&jacobian))
+            }
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! What the same equations give beside torque and its regressor: energies, momentum, forward dynamics, slopes, kinematics.
+
+use crate::model::{Matrix, RobotModel, State, Vector};
+
+/// Energies, momentum, forward dynamics and slopes of an arm; the compiler writes the implementations.
+///
+/// Nothing allocates, nothing panics. Energies and momentum are those of the rigid body; where a rotor's inertia regroups into
+/// a link's, that of the rotor is among it.
+///
+/// # Examples
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// use robot_model::{Kinematics, Link, Mechanics, RobotModel, Vector};
+///
+/// #[derive(RobotModel)]
+/// #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+/// struct Pendulum {
+///     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+///     pivot: Link,
+/// }
+///
+/// // 2 kg at the tip, where the link's frame is.
+/// let arm = Pendulum { pivot: Link::new(2.0, [0.0; 3], [0.0; 6]) };
+/// let (q, dq) = (Vector::from([0.3]), Vector::from([3.0]));
+/// assert!((arm.kinetic_energy(&q, &dq) - 0.5 * 2.0 * (0.5 * 3.0_f64).powi(2)).abs() < 1e-12);
+/// // Falling freely: m l^2 ddq = -m g l cos(q)
+/// let ddq = arm.forward_dynamics(&q, &dq, &Vector::zeros()).expect("a mass at the tip");
+/// assert!((ddq[0] + 9.81 / 0.5 * 0.3_f64.cos()).abs() < 1e-12);
+/// // The tip moves at l dq, across the arm.
+/// let velocity = Pendulum::jacobian(&q) * dq;
+/// assert!((velocity[1] - 1.5 * 0.3_f64.cos()).abs() < 1e-12 && velocity[5] == 3.0);
+/// ```
+pub trait Mechanics<
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize = 0,
+>: RobotModel<DOF, STANDARD, BASE, SHAPES>
+{
+    /// Kinetic energy `1/2 dq^T M dq`, J.
+    fn kinetic_energy(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> f64;
+
+    /// Potential energy, J, up to a constant; `gravity` is its gradient.
+    fn potential_energy(&self, q: &Vector<DOF>) -> f64;
+
+    /// Accelerations that the torque `tau` (N m or N) gives at time zero: the solution of `inverse_dynamics = tau`.
+    ///
+    /// `None` where the inertia is singular, or not positive definite: no arm that could be built has such parameters. With
+    /// friction that depends on the load, `None` too where that holds the arm in a way that Newton's method does not resolve.
+    fn forward_dynamics(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        tau: &Vector<DOF>,
+    ) -> Option<Vector<DOF>> {
+        self.forward_dynamics_at(&State::new(*q, *dq, Vector::zeros()), tau)
+    }
+
+    /// [`Self::forward_dynamics`] for effects that depend on more than the motion; `state.ddq` is not read.
+    fn forward_dynamics_at(&self, state: &State<DOF>, tau: &Vector<DOF>) -> Option<Vector<DOF>>;
+
+    /// `[i][j] = d tau_i / d q_j` of the inverse dynamics at time zero, effects included. Jumps, such as that of dry friction at
+    /// rest, have no slope here.
+    fn inverse_dynamics_by_position(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        ddq: &Vector<DOF>,
+    ) -> Matrix<DOF, DOF> {
+        self.inverse_dynamics_by_position_at(&State::new(*q, *dq, *ddq))
+    }
+
+    /// [`Self::inverse_dynamics_by_position`] for effects that depend on more than the motion.
+    fn inverse_dynamics_by_position_at(&self, state: &State<DOF>) -> Matrix<DOF, DOF>;
+
+    /// `[i][j] = d tau_i / d dq_j` of the inverse dynamics at time zero, effects included.
+    fn inverse_dynamics_by_velocity(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        ddq: &Vector<DOF>,
+    ) -> Matrix<DOF, DOF> {
+        self.inverse_dynamics_by_velocity_at(&State::new(*q, *dq, *ddq))
+    }
+
+    /// [`Self::inverse_dynamics_by_velocity`] for effects that depend on more than the motion.
+    fn inverse_dynamics_by_velocity_at(&self, state: &State<DOF>) -> Matrix<DOF, DOF>;
+
+    /// Momentum regressor `Y_p`, DOF x STANDARD: `tau = d/dt (Y_p * standard) - Y_h * standard`, with nominal shapes.
+    ///
+    /// No acceleration is in it. Columns of effects that read accelerations otherwise, as friction that depends on the load
+    /// does, are zero here and in `Y_h`.
+    #[must_use]
+    fn momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
+        let state = State::new(*q, *dq, Vector::zeros());
+        Self::momentum_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::momentum_regressor`] for effects that depend on time or shape parameters; `state.ddq` is not read.
+    fn momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+
+    /// Drift regressor `Y_h`, DOF x STANDARD: what changes the momentum beside the torque. For the rigid body
+    /// `Y_h * standard = C^T dq - G`.
+    #[must_use]
+    fn drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
+        let state = State::new(*q, *dq, Vector::zeros());
+        Self::drift_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::drift_regressor`] for effects that depend on time or shape parameters; `state.ddq` is not read.
+    fn drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+
+    /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes.
+    #[must_use]
+    fn base_momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
+        let state = State::new(*q, *dq, Vector::zeros());
+        Self::base_momentum_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::base_momentum_regressor`] for effects that depend on time or shape parameters.
+    fn base_momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>)
+    -> Matrix<DOF, BASE>;
+
+    /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes.
+    #[must_use]
+    fn base_drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
+        let state = State::new(*q, *dq, Vector::zeros());
+        Self::base_drift_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+    }
+
+    /// [`Self::base_drift_regressor`] for effects that depend on time or shape parameters.
+    fn base_drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, BASE>;
+}
+
+/// Where the links of a chain are. Robots that say their energies have [`Points`] instead.
+pub trait Kinematics<const DOF: usize> {
+    /// Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.
+    fn forward_kinematics(q: &Vector<DOF>) -> [Matrix<4, 4>; DOF];
+
+    /// Geometric Jacobian, 6 x DOF: `jacobian * dq` is the velocity of the origin of the last link's frame, m/s, then the
+    /// link's angular velocity, rad/s, both in the axes of the base frame. A force and a moment at the tip, stacked alike,
+    /// load the joints with `jacobian^T * wrench`.
+    fn jacobian(q: &Vector<DOF>) -> Matrix<6, DOF>;
+}
+
+/// Where the points are that a robot which says its energies names.
+pub trait Points<const DOF: usize, const POINTS: usize> {
+    /// Their names.
+    const POINTS: [&'static str; POINTS];
+
+    /// Positions in the base frame, m.
+    fn points(q: &Vector<DOF>) -> [Vector<3>; POINTS];
+
+    /// `[k] * dq` is the velocity of point `k`, m/s; a force there loads the joints with `[k]^T * force`.
+    fn point_jacobians(q: &Vector<DOF>) -> [Matrix<3, DOF>; POINTS];
+}

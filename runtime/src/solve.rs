@@ -1,0 +1,198 @@
+//! Small systems of linear equations in fixed memory, for emitted code: no allocation, no panic, `no_std`.
+//!
+//! Matrices are `[row][column]`. What cannot be solved is `None`, a status that the caller must look at.
+
+/// What is left of a pivot, relative to the diagonal entry or column that it came from, below which it counts as zero: the
+/// rounding of a hundred operations.
+const SINGULAR: f64 = 1e-14;
+
+/// Most steps of [`newton`]: each ends in another piece of a piecewise linear torque, and joints have few.
+const STEPS: usize = 20;
+
+/// Newton's method ends where a step is this small, relative to the largest acceleration.
+const SETTLED: f64 = 1e-12;
+
+/// Solves `a x = b` for a symmetric positive definite `a`, of which the lower triangle is read, by `a = L D L^T`.
+///
+/// `None` where `a` is not positive definite to rounding, or not finite.
+///
+/// # Examples
+/// ```
+/// use robot_model::solve::positive_definite;
+/// let x = positive_definite(&[[4.0, 2.0], [2.0, 3.0]], &[10.0, 9.0]).expect("positive definite");
+/// assert!((x[0] - 1.5).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
+/// assert_eq!(positive_definite(&[[1.0, 2.0], [2.0, 1.0]], &[1.0, 1.0]), None);
+/// ```
+#[must_use]
+pub fn positive_definite<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
+    let mut lower = [[0.0; N]; N];
+    let mut diagonal = [0.0; N];
+    let mut x = *b;
+    for i in 0..N {
+        for j in 0..i {
+            // `lower[i][j] * diagonal[j]` first.
+            let mut entry = a[i][j];
+            for k in 0..j {
+                entry -= lower[i][k] * diagonal[k] * lower[j][k];
+            }
+            lower[i][j] = entry / diagonal[j];
+        }
+        let mut pivot = a[i][i];
+        for j in 0..i {
+            pivot -= lower[i][j] * lower[i][j] * diagonal[j];
+            x[i] -= lower[i][j] * x[j];
+        }
+        // A comparison with NaN is false too.
+        if !(pivot > SINGULAR * a[i][i] && pivot.is_finite()) {
+            return None;
+        }
+        diagonal[i] = pivot;
+    }
+    for i in (0..N).rev() {
+        x[i] /= diagonal[i];
+        for j in i + 1..N {
+            x[i] -= lower[j][i] * x[j];
+        }
+    }
+    Some(x)
+}
+
+/// Solves `a x = b` for any square `a` by elimination with row pivoting.
+///
+/// `None` where `a` is singular to rounding, or not finite.
+///
+/// # Examples
+/// ```
+/// use robot_model::solve::general;
+/// assert_eq!(general(&[[0.0, 2.0], [1.0, 3.0]], &[4.0, 7.0]), Some([1.0, 2.0]));
+/// assert_eq!(general(&[[1.0, 2.0], [2.0, 4.0]], &[1.0, 1.0]), None);
+/// ```
+#[must_use]
+pub fn general<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
+    let (mut a, mut x) = (*a, *b);
+    let scale = a
+        .iter()
+        .flatten()
+        .fold(0.0, |most: f64, v| most.max(v.abs()));
+    for column in 0..N {
+        let mut pivot = column;
+        for row in column + 1..N {
+            if a[row][column].abs() > a[pivot][column].abs() {
+                pivot = row;
+            }
+        }
+        a.swap(column, pivot);
+        x.swap(column, pivot);
+        let size = a[column][column].abs();
+        if !(size > SINGULAR * scale && size.is_finite()) {
+            return None;
+        }
+        for row in column + 1..N {
+            let factor = a[row][column] / a[column][column];
+            for k in column..N {
+                a[row][k] -= factor * a[column][k];
+            }
+            x[row] -= factor * x[column];
+        }
+    }
+    for row in (0..N).rev() {
+        for k in row + 1..N {
+            x[row] -= a[row][k] * x[k];
+        }
+        x[row] /= a[row][row];
+    }
+    Some(x)
+}
+
+/// Solves `f(x) = 0` from `x = 0` by Newton's method; `step` gives the slope of `f` at `x` and `-f(x)`.
+///
+/// Where `f` is linear in pieces, as torque with friction that depends on the load is in the accelerations, few steps end at
+/// the solution. `None` where a slope is singular or the steps do not settle.
+///
+/// # Examples
+/// ```
+/// use robot_model::solve::newton;
+/// // x + |x| / 2 = 3
+/// let step = |x: &[f64; 1]| ([[1.0 + 0.5 * x[0].signum()]], [3.0 - x[0] - 0.5 * x[0].abs()]);
+/// assert_eq!(newton(step), Some([2.0]));
+/// ```
+#[must_use]
+pub fn newton<const N: usize>(
+    step: impl Fn(&[f64; N]) -> ([[f64; N]; N], [f64; N]),
+) -> Option<[f64; N]> {
+    let mut x = [0.0; N];
+    for _ in 0..STEPS {
+        let (slope, rest) = step(&x);
+        let change = general(&slope, &rest)?;
+        let (mut largest, mut moved) = (0.0_f64, 0.0_f64);
+        for (x, change) in x.iter_mut().zip(change) {
+            *x += change;
+            largest = largest.max(x.abs());
+            moved = moved.max(change.abs());
+        }
+        if moved <= SETTLED * largest {
+            return Some(x);
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `a = L L^T` of numbers without meaning.
+    fn system() -> ([[f64; 4]; 4], [f64; 4]) {
+        let lower: [[f64; 4]; 4] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                if j > i {
+                    0.0
+                } else {
+                    1.0 + ((7 * i + 3 * j) as f64).sin()
+                }
+            })
+        });
+        let a = core::array::from_fn(|i| {
+            core::array::from_fn(|j| (0..4).map(|k| lower[i][k] * lower[j][k]).sum())
+        });
+        (a, [1.0, -2.0, 3.0, 0.5])
+    }
+
+    #[test]
+    fn solutions_solve() {
+        let (a, b) = system();
+        for x in [positive_definite(&a, &b), general(&a, &b)] {
+            let x = x.expect("positive definite");
+            for (row, b) in a.iter().zip(b) {
+                let found: f64 = row.iter().zip(x).map(|(a, x)| a * x).sum();
+                assert!((found - b).abs() < 1e-12, "{found} and {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_singular_or_no_number_has_no_solution() {
+        let (mut a, b) = system();
+        a[3] = a[2];
+        assert_eq!(general(&a, &b), None);
+        for i in 0..4 {
+            a[i][3] = a[i][2];
+        }
+        assert_eq!(positive_definite(&a, &b), None);
+        a[0][0] = f64::NAN;
+        assert_eq!(positive_definite(&a, &b), None);
+        assert_eq!(general(&a, &b), None);
+        assert_eq!(general(&[[0.0; 2]; 2], &[1.0; 2]), None);
+    }
+
+    #[test]
+    fn steps_that_go_around_end() {
+        // No root: x^2 + 1.
+        assert_eq!(
+            newton(|x: &[f64; 1]| ([[2.0 * x[0]]], [-1.0 - x[0] * x[0]])),
+            None
+        );
+        let round = |x: &[f64; 1]| ([[2.0 * x[0] + 0.1]], [-1.0 - x[0] * x[0]]);
+        assert_eq!(newton(round), None);
+    }
+}
