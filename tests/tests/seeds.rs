@@ -1,6 +1,9 @@
 //! The arms of five papers: their printed equations, where these are right, come out of the compiler.
 
 use nalgebra::DMatrix;
+use robot_model_codegen::Block;
+use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::interpreter::Program;
 use robot_model_spec::parameter::Owner;
 use robot_model_tests::evaluate::{Interpreter, relative_difference};
 use robot_model_tests::specs;
@@ -305,4 +308,116 @@ fn puma_shoulder_has_two_rigid_parameters_and_the_frictions_of_the_paper() {
         .forms(&[j, mr, fv, delta, c], &state)
         .inverse_dynamics;
     assert_close("(2.3), (6.1) to (6.3)", &found, &column(&[tau]));
+}
+
+/// The columns of a block at a state, in the paper's order of the lumps.
+fn lumps_of(phantom: &Interpreter, block: &Block, state: &State) -> DMatrix<f64> {
+    let values = block.program.eval(&|symbol| match symbol {
+        Symbol::Q(j) => state.q[j],
+        Symbol::Dq(j) => state.dq[j],
+        other => panic!("{other:?} in the filtered form"),
+    });
+    let names = &phantom.compiled.base.names;
+    let mut dense = DMatrix::zeros(3, 8);
+    for (&(joint, column), value) in block.entries.iter().zip(values) {
+        if let Some(k) = LUMPS.iter().position(|lump| *lump == names[column]) {
+            dense[(joint, k)] = value;
+        }
+    }
+    dense
+}
+
+/// Equation (13), `Y_L = w (Y_p - {Y_p}_L) - {Y_h}_L`, as its two parts `Y_p` and `-Y_h`; `extra` is the factor of the term
+/// `dth2^2 c23` that is printed in the row of the fourth parameter on the third joint.
+fn printed_filtered(state: &State, extra: f64) -> (DMatrix<f64>, DMatrix<f64>) {
+    let [_, t2, t3] = state.q[..] else { panic!() };
+    let [v1, v2, v3] = state.dq[..] else { panic!() };
+    let (s2, c2, s3, c3) = (t2.sin(), t2.cos(), t3.sin(), t3.cos());
+    let (s23, c23) = ((t2 - t3).sin(), (t2 - t3).cos());
+    let (s22, c22) = ((2.0 * t2).sin(), (2.0 * t2).cos());
+    let (s33, c33) = ((2.0 * t3).sin(), (2.0 * t3).cos());
+    let momentum = [
+        [v1, 0.0, 0.0],
+        [v1 * c22, 0.0, 0.0],
+        [v1 * c33, 0.0, 0.0],
+        [v1 * c2 * s3, -0.5 * v3 * s23, -0.5 * v2 * s23],
+        [0.0, v2, 0.0],
+        [0.0, 0.0, v3],
+        [0.0; 3],
+        [0.0; 3],
+    ];
+    let drift = [
+        [0.0; 3],
+        [0.0, v1 * v1 * s22, 0.0],
+        [0.0, 0.0, v1 * v1 * s33],
+        [
+            0.0,
+            0.5 * (v2 * v3 * c23 + v1 * v1 * s2 * s3),
+            extra * v2 * v2 * c23 - 0.5 * v1 * v1 * c2 * c3 - 0.5 * v2 * v3 * c23,
+        ],
+        [0.0; 3],
+        [0.0; 3],
+        [0.0, c2, 0.0],
+        [0.0, 0.0, s3],
+    ];
+    let matrix = |rows: [[f64; 3]; 8]| DMatrix::from_fn(3, 8, |joint, k| rows[k][joint]);
+    (matrix(momentum), matrix(drift))
+}
+
+/// Equation (13) inherits the misprint of (4): its `{dth2^2 c23}_L` on the third joint is not there.
+#[test]
+fn phantom_filtered_regressor_is_that_of_the_paper_without_one_term() {
+    let phantom = interpreter("phantom");
+    let (momentum, drift) = (
+        phantom.compiled.base_momentum(),
+        phantom.compiled.rigid_drift(),
+    );
+    let mut random = states::generator(4);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 3);
+        let found = lumps_of(&phantom, &momentum, &state);
+        let (wanted, other) = printed_filtered(&state, 0.0);
+        assert_close("Y_p", &found, &wanted);
+        let found = -lumps_of(&phantom, &drift, &state);
+        assert_close("-Y_h", &found, &other);
+        let off = (printed_filtered(&state, 1.0).1 - &found)[(2, 3)];
+        let wanted = state.dq[1] * state.dq[1] * (state.q[1] - state.q[2]).cos();
+        assert!((off - wanted).abs() < 1e-12, "{off} {wanted}");
+    }
+}
+
+/// Equation (21) is the Jacobian of the end point in a frame of its own: lengths and angles of its columns are ours.
+#[test]
+fn phantom_end_point_moves_as_in_the_paper() {
+    let phantom = interpreter("phantom");
+    let tip = &phantom.compiled.points[0];
+    let program = Program::new(&phantom.compiled.dag, &tip.jacobian.concat());
+    let mut random = states::generator(5);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 3);
+        let values = program.eval(&|symbol| match symbol {
+            Symbol::Q(j) => state.q[j],
+            other => panic!("{other:?}"),
+        });
+        let found = DMatrix::from_row_slice(3, 3, &values);
+        let (t2, t3) = (state.q[1], state.q[2]);
+        let (l1, l2) = (L[1], L[2]);
+        let printed = DMatrix::from_row_slice(
+            3,
+            3,
+            &[
+                l1 * t2.cos() + l2 * t3.sin(),
+                0.0,
+                0.0,
+                0.0,
+                l1 * (t2 - t3).cos(),
+                0.0,
+                0.0,
+                -l1 * (t2 - t3).sin(),
+                l2,
+            ],
+        );
+        let products = |jacobian: &DMatrix<f64>| jacobian.transpose() * jacobian;
+        assert_close("(21)", &products(&found), &products(&printed));
+    }
 }
