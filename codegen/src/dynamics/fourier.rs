@@ -44,7 +44,7 @@ impl SeriesRing {
     #[must_use]
     pub const fn new(dof: usize) -> Self {
         /// Beyond this, lumping would take longer than the other way to base parameters.
-        const MOST_PRODUCTS: usize = 2_000_000;
+        const MOST_PRODUCTS: usize = 300_000;
         Self {
             dof,
             left: MOST_PRODUCTS,
