@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_model_codegen::expr::Style;
-use robot_model_codegen::show::{What, form, whole};
+use robot_model_codegen::show::{What, document, form, whole};
 
 use crate::spec::compile_to_look_at;
 use crate::{Error, output};
@@ -14,7 +14,7 @@ use crate::{Error, output};
 pub(crate) struct Show {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Which equations; without it the whole description.
+    /// Which equations; without it a whole description, in LaTeX a document that compiles.
     #[arg(long, value_enum)]
     what: Option<WhatArgument>,
     /// Notation.
@@ -30,12 +30,28 @@ enum WhatArgument {
     Coriolis,
     /// `G(q)`
     Gravity,
+    /// `C dq + G`
+    Bias,
     /// `tau(q, dq, ddq)` with the declared effects
     InverseDynamics,
+    /// `A` and `b` of `A ddq = tau - b`
+    ForwardDynamics,
+    /// `d tau / dq` and `d tau / d dq`
+    Slopes,
     /// `Y` with `tau = Y * standard`
     Regressor,
     /// `Y_b` with `tau = Y_b * beta`
     BaseRegressor,
+    /// `Y_p` and `Y_h` of `L{tau} = Y_L * standard`, `Y_L = w (Y_p - L{Y_p}) - L{Y_h}`, `L(s) = w / (s + w)`
+    FilteredRegressor,
+    /// The same with `L{tau} = Y_L * beta`
+    BaseFilteredRegressor,
+    /// Kinetic and potential energy of the rigid body
+    Energies,
+    /// Poses `R1, p1, ..` of the links in the base frame, or positions of the points that the spec names
+    ForwardKinematics,
+    /// Velocity and angular velocity of the tip per joint velocity, or of the points
+    Jacobian,
     /// How `beta` is made of the standard parameters
     BaseParameters,
     /// Operations of the emitted functions
@@ -48,9 +64,17 @@ impl From<WhatArgument> for What {
             WhatArgument::MassMatrix => Self::MassMatrix,
             WhatArgument::Coriolis => Self::CoriolisMatrix,
             WhatArgument::Gravity => Self::Gravity,
+            WhatArgument::Bias => Self::Bias,
             WhatArgument::InverseDynamics => Self::InverseDynamics,
+            WhatArgument::ForwardDynamics => Self::ForwardDynamics,
+            WhatArgument::Slopes => Self::Slopes,
             WhatArgument::Regressor => Self::Regressor,
             WhatArgument::BaseRegressor => Self::BaseRegressor,
+            WhatArgument::FilteredRegressor => Self::FilteredRegressor,
+            WhatArgument::BaseFilteredRegressor => Self::BaseFilteredRegressor,
+            WhatArgument::Energies => Self::Energies,
+            WhatArgument::ForwardKinematics => Self::ForwardKinematics,
+            WhatArgument::Jacobian => Self::Jacobian,
             WhatArgument::BaseParameters => Self::BaseParameters,
             WhatArgument::Cost => Self::Cost,
         }
@@ -73,9 +97,10 @@ impl Show {
             Notation::Text => Style::Text,
             Notation::Latex => Style::Latex,
         };
-        output::print(&match self.what {
-            Some(what) => form(&compiled, what.into(), style),
-            None => whole(&compiled, style),
+        output::print(&match (self.what, style) {
+            (Some(what), _) => form(&compiled, what.into(), style),
+            (None, Style::Text) => whole(&compiled),
+            (None, Style::Latex) => document(&compiled),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! Equations for people, against what the book says.
 
 use robot_model_codegen::expr::Style;
-use robot_model_codegen::show::{What, form, whole};
+use robot_model_codegen::show::{What, document, form};
 use robot_model_codegen::{Compiled, compile_model};
 
 fn compiled(text: &str) -> Compiled {
@@ -47,10 +47,7 @@ fn the_textbook_arm_reads_as_in_the_textbook() {
 
 #[test]
 fn latex_has_no_bare_underscores_in_names() {
-    let text = whole(
-        &compiled(&TEXTBOOK.replace("two", "second_link")),
-        Style::Latex,
-    );
+    let text = document(&compiled(&TEXTBOOK.replace("two", "second_link")));
     assert!(
         text.contains("\\mathrm{second\\_link.mx}") && text.contains("\\ddot q_{2}"),
         "{text}"
@@ -78,4 +75,90 @@ fn large_arms_name_intermediate_results() {
         text.contains("\nt0 = ") && text.contains("M[6,6] = "),
         "{text}"
     );
+}
+
+fn spec(robot: &str) -> Compiled {
+    let path = format!(
+        "{}/../tests/specs/pass/{robot}.robot",
+        env!("CARGO_MANIFEST_DIR")
+    );
+    compiled(&std::fs::read_to_string(path).expect("the spec is in the repository"))
+}
+
+/// What `TeX` would stumble over: environments and braces that do not close, a second `&` in a line of a display, an end of
+/// line at the end of a display, and characters with a meaning of their own.
+#[test]
+fn documents_are_well_formed() {
+    for robot in ["two_link", "slider", "puma560", "every_effect", "phantom"] {
+        let text = document(&spec(robot));
+        let mut environments: Vec<&str> = Vec::new();
+        let mut lines = text.lines().peekable();
+        while let Some(line) = lines.next() {
+            let mut depth = 0;
+            let mut last = ' ';
+            for c in line.chars() {
+                match c {
+                    '{' if last != '\\' => depth += 1,
+                    '}' if last != '\\' => depth -= 1,
+                    '_' if last != '\\' => assert!(
+                        environments.contains(&"align*") || line.contains('$'),
+                        "{robot}: {line}"
+                    ),
+                    '#' | '%' | '~' => panic!("{robot}: {line}"),
+                    _ => {}
+                }
+                last = c;
+            }
+            if let Some(name) = argument(line, "\\begin{") {
+                environments.push(name);
+            } else if let Some(name) = argument(line, "\\end{") {
+                assert_eq!(environments.pop(), Some(name), "{robot}: {line}");
+            } else if environments.last() == Some(&"align*") {
+                assert_eq!(line.matches('&').count(), 1, "{robot}: {line}");
+                let ends = lines.peek().is_some_and(|next| next.starts_with("\\end"));
+                assert_eq!(line.ends_with("\\\\"), !ends, "{robot}: {line}");
+            }
+            // The group of a small display opens before it and closes behind it.
+            let group = i32::from(line.starts_with("{\\footnotesize"));
+            let closed = i32::from(line.starts_with("\\end{align*}}"));
+            assert_eq!(depth, group - closed, "{robot}: {line}");
+        }
+        assert!(environments.is_empty(), "{robot}: {environments:?}");
+    }
+}
+
+fn argument<'a>(line: &'a str, command: &str) -> Option<&'a str> {
+    line.strip_prefix(command)?.split('}').next()
+}
+
+#[test]
+fn the_filtered_regressor_of_a_textbook_arm_reads_as_momentum_and_drift() {
+    let arm = compiled(TEXTBOOK);
+    let text = form(&arm, What::BaseFilteredRegressor, Style::Text);
+    assert!(text.contains("Y_p[1,one.izzr] = dq1\n"), "{text}");
+    assert!(text.contains("Y_h[1,one.mxr]  = -9.81 cos(q1)\n"), "{text}");
+    let kinematics = form(&arm, What::ForwardKinematics, Style::Text);
+    assert!(
+        kinematics.contains("p2[1]   = 0.5 cos(q1)\n"),
+        "{kinematics}"
+    );
+    let slopes = form(&arm, What::Slopes, Style::Latex);
+    assert!(
+        slopes.contains("\\partial \\tau_{1} / \\partial \\dot q_{2} &= "),
+        "{slopes}"
+    );
+}
+
+#[test]
+fn what_has_no_filtered_form_is_told() {
+    let arm = compiled(
+        &(TEXTBOOK.replace(
+            "convention",
+            "effects { load_dependent_friction on two; } convention",
+        )),
+    );
+    let text = form(&arm, What::FilteredRegressor, Style::Text);
+    let told =
+        "no filtered form: two.load_dependent_friction.mu, as its torque depends on the load";
+    assert!(text.contains(told), "{text}");
 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::compile_text;
 use robot_model_codegen::expr::Style;
-use robot_model_codegen::show::{What, form};
+use robot_model_codegen::show::{What, document, form};
 use robot_model_tests::specs::{self, Spec};
 
 /// A planar arm, an arm with a prismatic joint and fixed inertials, the arm of the books, and three that say their energies.
@@ -128,6 +128,30 @@ fn regressor() {
     for_each("regressor", |_, compiled| {
         forms(compiled, &[What::BaseRegressor])
     });
+}
+
+#[test]
+fn mechanics() {
+    let whats = [What::Energies, What::ForwardKinematics, What::Jacobian];
+    for_each("mechanics", |_, compiled| forms(compiled, &whats));
+}
+
+#[test]
+fn filtered() {
+    for_each("filtered", |_, compiled| {
+        forms(compiled, &[What::BaseFilteredRegressor])
+    });
+}
+
+/// The whole document of the planar arm; those of others have the same chapters.
+#[test]
+fn latex() {
+    let mut settings = insta::Settings::clone_current();
+    settings.set_snapshot_path("snapshots/two_link");
+    settings.set_prepend_module_to_snapshot(false);
+    settings.set_omit_expression(true);
+    let text = document(&specs::named("pass/two_link").compiled());
+    settings.bind(|| insta::assert_snapshot!("latex", text));
 }
 
 #[test]

@@ -28,9 +28,19 @@ fn show_writes_equations() {
     let whole = folder.succeed(&["show", "pendulum.robot"]);
     assert!(whole.contains(&mass_matrix), "{whole}");
     assert!(show("coriolis", "latex").contains("\\dot q_{2}"));
+    let document = folder.succeed(&["show", "pendulum.robot", "--as", "latex"]);
+    assert!(document.starts_with("\\documentclass") && document.ends_with("\\end{document}\n"));
     let others = [
         "gravity",
+        "bias",
         "inverse-dynamics",
+        "forward-dynamics",
+        "slopes",
+        "filtered-regressor",
+        "base-filtered-regressor",
+        "energies",
+        "forward-kinematics",
+        "jacobian",
         "regressor",
         "base-regressor",
         "base-parameters",

@@ -156,3 +156,74 @@ fn what_the_logs_do_not_separate_has_no_value() {
         }
     }
 }
+
+#[test]
+fn the_filtered_form_identifies_without_accelerations() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(20, 0.0, 0.0));
+    folder.write("other.csv", &cart_log(10, 0.0, 0.7));
+    let filtered = [
+        "identify",
+        "cart.robot",
+        "log.csv",
+        "--validate",
+        "other.csv",
+        "--form",
+        "filtered",
+        "--corner",
+        "40",
+        "--json",
+        "out.json",
+    ];
+    let table = folder.succeed(&filtered);
+    assert!(
+        table.contains("RMSE: torque through L(s) = w/(s + w) with w = 40.0 rad/s"),
+        "{table}"
+    );
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["form"], "filtered");
+    assert_eq!(out["domain"], "filtered");
+    assert_eq!(out["rank"], 2);
+    close(out["corner"].as_f64().expect("a number"), 40.0, 1e-12);
+    for (k, truth) in [(0, 3.0), (1, 5.0)] {
+        let value = out["parameters"][k]["value"].as_f64();
+        close(value.expect("a number"), truth, 0.02);
+    }
+    // Noise of 0.1 N width, of which the filter leaves a part.
+    let rmse = numbers(&out["rmse_validate"])[0];
+    assert!(rmse > 0.0 && rmse < 0.1 / 12.0_f64.sqrt(), "{rmse}");
+
+    folder.succeed(&["identify", "cart.robot", "log.csv", "--json", "out.json"]);
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["form"], "acceleration");
+    assert!(out["corner"].is_null());
+}
+
+#[test]
+fn the_filtered_form_refuses_what_it_cannot_filter() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(20, 0.0, 0.0));
+    let said = |arguments: &[&str]| {
+        folder.refuse(&[&["identify", "cart.robot", "log.csv"], arguments].concat())
+    };
+    assert_eq!(
+        said(&["--corner", "40"]),
+        "error: `--corner` is of the filtered form; add `--form filtered`\n"
+    );
+    assert!(
+        said(&["--form", "filtered", "--corner", "700"])
+            .contains("the cutoff must lie between 0 and 100 Hz")
+    );
+    let loaded = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail;\n        load_dependent_friction on rail;",
+    );
+    folder.write("cart.robot", &loaded);
+    assert_eq!(
+        said(&["--form", "filtered"]),
+        "error: cart.robot:7: `rail.load_dependent_friction.mu` has no filtered form: its torque depends on the load, \
+         `rigid_torque`, which contains the acceleration; identify with `--form acceleration`, or take the effect out\n"
+    );
+}

@@ -3,22 +3,28 @@
 //! Small expressions are multiplied out into sums of products. Where that gives more than
 //! [`MOST_TERMS`](polynomial::MOST_TERMS) terms, intermediate results get names, as in the emitted code.
 
+mod document;
+mod entries;
 pub mod polynomial;
 
 use std::collections::HashMap;
 use std::fmt::Write as _;
 
+pub use document::document;
+use entries::{Entry, left};
 use polynomial::SignedTerm;
 
 use crate::compiled::Compiled;
 use crate::emit::rust::{self, body, names::Namer};
-use crate::expr::{ExprId, Names, Style};
-use crate::regressor::LinearForm;
+use crate::expr::{Dag, ExprId, Names, Style};
 
 /// Lines longer than this are broken between terms.
 const WIDTH: usize = 110;
 /// Room that a single term is broken ahead of the end of a line.
 const FOLD_AHEAD: usize = 30;
+
+/// So many zeros stand on a line of LaTeX.
+const ZEROS_A_LINE: usize = 6;
 
 /// A form of the equations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,12 +35,28 @@ pub enum What {
     CoriolisMatrix,
     /// `G(q)`
     Gravity,
+    /// `C dq + G`
+    Bias,
     /// `tau(q, dq, ddq)`
     InverseDynamics,
+    /// `A` and `b` of `A(q) ddq = tau - b(q, dq)`
+    ForwardDynamics,
+    /// `d tau / dq` and `d tau / d dq`
+    Slopes,
     /// `Y`
     Regressor,
     /// `Y_b`
     BaseRegressor,
+    /// `Y_p` and `Y_h` of `Y_L = w (Y_p - L{Y_p}) - L{Y_h}`, in standard parameters.
+    FilteredRegressor,
+    /// The same in base parameters.
+    BaseFilteredRegressor,
+    /// `T` and `V`
+    Energies,
+    /// Poses of the links, or positions of the points.
+    ForwardKinematics,
+    /// Slopes of the tip's pose, or of the points' positions.
+    Jacobian,
     /// How base parameters are made of standard ones.
     BaseParameters,
     /// Operations of the emitted functions.
@@ -43,116 +65,70 @@ pub enum What {
 
 impl What {
     /// All forms that a whole description shows, in its order.
-    pub const WHOLE: [Self; 6] = [
+    pub const WHOLE: [Self; 7] = [
         Self::MassMatrix,
         Self::CoriolisMatrix,
         Self::Gravity,
+        Self::Energies,
         Self::BaseParameters,
         Self::BaseRegressor,
         Self::Cost,
     ];
 }
 
-/// The whole description: a headline and the forms of [`What::WHOLE`].
+/// The whole description as text: a headline and the forms of [`What::WHOLE`]. In LaTeX it is a [`document`].
 #[must_use]
-pub fn whole(compiled: &Compiled, style: Style) -> String {
-    let mut text = headline(compiled, style);
-    for what in What::WHOLE {
-        text.push('\n');
-        text.push_str(&form(compiled, what, style));
-    }
-    text
-}
-
-fn headline(compiled: &Compiled, style: Style) -> String {
-    let comment = if style == Style::Latex { "% " } else { "" };
+pub fn whole(compiled: &Compiled) -> String {
     let unseen = compiled.base.unidentifiable.len();
-    format!(
-        "{comment}robot {}     {} joints; standard {} ({unseen} without influence); base {}\n",
+    let mut text = format!(
+        "robot {}     {} joints; standard {} ({unseen} without influence); base {}\n",
         compiled.model.name,
         compiled.dof(),
         compiled.standard.len(),
         compiled.base.kept.len(),
-    )
+    );
+    for what in What::WHOLE {
+        text.push('\n');
+        text.push_str(&form(compiled, what, Style::Text));
+    }
+    text
 }
 
 /// One form, a line or more an entry.
 #[must_use]
 pub fn form(compiled: &Compiled, what: What, style: Style) -> String {
-    let dof = compiled.dof();
-    let dynamics = &compiled.dynamics;
-    let vector = |stem: &str, entries: &[ExprId]| -> Vec<Entry> {
-        entries
-            .iter()
-            .enumerate()
-            .map(|(k, &value)| Entry::new(format!("{stem}[{}]", k + 1), value))
-            .collect()
-    };
-    let column = |form: &LinearForm, stem: &str, k: usize, name: &str| -> Vec<Entry> {
-        let rows = form.regressor.iter().enumerate();
-        rows.map(|(joint, row)| Entry::new(format!("{stem}[{},{name}]", joint + 1), row[k]))
-            .collect()
-    };
-    let entries: Vec<Entry> = match what {
-        What::MassMatrix => (0..dof)
-            .flat_map(|i| (i..dof).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                let mut entry = Entry::new(
-                    format!("M[{},{}]", i + 1, j + 1),
-                    dynamics.mass_matrix[i][j],
-                );
-                entry.note = (i != j).then(|| format!("(= M[{},{}])", j + 1, i + 1));
-                entry
-            })
-            .collect(),
-        What::CoriolisMatrix => (0..dof)
-            .flat_map(|i| (0..dof).map(move |j| (i, j)))
-            .map(|(i, j)| {
-                Entry::new(
-                    format!("C[{},{}]", i + 1, j + 1),
-                    dynamics.coriolis_matrix[i][j],
-                )
-            })
-            .collect(),
-        What::Gravity => vector("G", &dynamics.gravity),
-        What::InverseDynamics => vector("tau", &dynamics.inverse_dynamics),
-        What::Regressor => compiled
-            .standard
-            .iter()
-            .enumerate()
-            .flat_map(|(k, parameter)| column(&compiled.linear, "Y", k, &parameter.name))
-            .collect(),
-        What::BaseRegressor => {
-            let kept = compiled.base.kept.iter().zip(&compiled.base.names);
-            kept.flat_map(|(&k, name)| column(&compiled.candidates, "Y_b", k, name))
-                .collect()
+    match what {
+        What::BaseParameters => base_parameters(compiled, style),
+        What::Cost => cost(compiled, style),
+        What::FilteredRegressor | What::BaseFilteredRegressor => {
+            equations(compiled, what, style) + &refused(compiled, what, style)
         }
-        What::BaseParameters => return base_parameters(compiled, style),
-        What::Cost => return cost(compiled, style),
-    };
-    equations(compiled, &entries, style)
-}
-
-/// The left-hand side of an equation, what it is, and a remark.
-struct Entry {
-    name: String,
-    value: ExprId,
-    note: Option<String>,
-}
-
-impl Entry {
-    fn new(name: String, value: ExprId) -> Self {
-        Self {
-            name,
-            value,
-            note: None,
-        }
+        _ => equations(compiled, what, style),
     }
 }
 
-fn equations(compiled: &Compiled, entries: &[Entry], style: Style) -> String {
+/// Parameters without a momentum form, with the reason.
+fn refused(compiled: &Compiled, what: What, style: Style) -> String {
+    let comment = if style == Style::Latex { "% " } else { "" };
+    let mut text = String::new();
+    for refusal in &compiled.momentum.refused {
+        let kept = compiled.base.kept.contains(&refusal.parameter);
+        if kept || what == What::FilteredRegressor {
+            let name = &compiled.standard[refusal.parameter].name;
+            let _ = writeln!(
+                text,
+                "{comment}no filtered form: {name}, as {}",
+                refusal.reason
+            );
+        }
+    }
+    text
+}
+
+fn equations(compiled: &Compiled, what: What, style: Style) -> String {
     let names = compiled.names();
     let mut dag = compiled.dag.clone();
+    let entries = &entries::entries(compiled, &mut dag, what);
     let mut lines: Vec<(String, Vec<SignedTerm>, Option<&String>)> = Vec::new();
     let mut zeros = Vec::new();
     for entry in entries {
@@ -161,7 +137,7 @@ fn equations(compiled: &Compiled, entries: &[Entry], style: Style) -> String {
             continue;
         }
         let Some(polynomial) = polynomial::expand(&mut dag, entry.value, &names) else {
-            return with_intermediate_names(compiled, entries, &names, style);
+            return with_intermediate_names(&dag, entries, &names, style);
         };
         let terms = polynomial::terms(&dag, &polynomial, &names, style);
         if terms.is_empty() {
@@ -236,33 +212,16 @@ fn folded(term: &str, indent: usize) -> String {
     text
 }
 
-fn left(name: &str, style: Style) -> String {
-    match style {
-        Style::Text => name.to_owned(),
-        Style::Latex => match name.trim_end_matches(']').split_once('[') {
-            Some((stem, index)) => {
-                let stem = if stem == "tau" { "\\tau" } else { stem };
-                let stem = stem.replace("Y_b", "Y^{b}");
-                let index = match index.split_once(',') {
-                    Some((row, column)) if column.contains('.') => {
-                        format!("{row},\\mathrm{{{}}}", column.replace('_', "\\_"))
-                    }
-                    _ => index.to_owned(),
-                };
-                format!("{stem}_{{{index}}}")
-            }
-            None => name.to_owned(),
-        },
-    }
-}
-
 fn zeros_once(zeros: &[&str], style: Style) -> String {
     if zeros.is_empty() {
         return String::new();
     }
     let names: Vec<String> = zeros.iter().map(|name| left(name, style)).collect();
     match style {
-        Style::Latex => format!("{} &= 0 \\\\\n", names.join(" = ")),
+        Style::Latex => names
+            .chunks(ZEROS_A_LINE)
+            .map(|names| format!("{} &= 0 \\\\\n", names.join(" = ")))
+            .collect(),
         Style::Text => {
             let mut text = String::from("zero  ");
             let mut length = text.len();
@@ -280,13 +239,7 @@ fn zeros_once(zeros: &[&str], style: Style) -> String {
 }
 
 /// Names for shared parts first, then the entries.
-fn with_intermediate_names(
-    compiled: &Compiled,
-    entries: &[Entry],
-    names: &Names,
-    style: Style,
-) -> String {
-    let dag = &compiled.dag;
+fn with_intermediate_names(dag: &Dag, entries: &[Entry], names: &Names, style: Style) -> String {
     let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
     let order = dag.reachable(&outputs);
     let named = body::named_expressions(dag, &order, &outputs);
