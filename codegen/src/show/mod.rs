@@ -218,10 +218,13 @@ fn zeros_once(zeros: &[&str], style: Style) -> String {
     }
     let names: Vec<String> = zeros.iter().map(|name| left(name, style)).collect();
     match style {
-        Style::Latex => names
-            .chunks(ZEROS_A_LINE)
-            .map(|names| format!("{} &= 0 \\\\\n", names.join(" = ")))
-            .collect(),
+        Style::Latex => {
+            let mut text = String::new();
+            for names in names.chunks(ZEROS_A_LINE) {
+                let _ = writeln!(text, "{} &= 0 \\\\", names.join(" = "));
+            }
+            text
+        }
         Style::Text => {
             let mut text = String::from("zero  ");
             let mut length = text.len();
