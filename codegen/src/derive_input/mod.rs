@@ -60,7 +60,10 @@ pub fn derive(input: TokenStream, read: ReadFile<'_>) -> TokenStream {
         Err(error) => {
             let error = error.to_compile_error();
             let stub = stub::implementation(&input);
-            let tracked = fields::files(&input).map(|file| track(&file));
+            // rustc would say of a file that is not there what we have said already.
+            let tracked = fields::files(&input)
+                .filter(|file| read(file).is_ok())
+                .map(|file| track(&file));
             quote!(#error #stub #(#tracked)*)
         }
     }

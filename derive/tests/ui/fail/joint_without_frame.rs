@@ -1,0 +1,9 @@
+use robot_model::{Link, RobotModel};
+
+#[derive(RobotModel)]
+#[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+struct Arm {
+    pivot: Link,
+}
+
+fn main() {}
