@@ -3,7 +3,12 @@
 
 use robot_model::{FromParameters, RobotModel, State, Vector};
 
-robot_model::include_robot!("arm");
+/// The page of `arm.robot`.
+#[allow(clippy::pedantic, reason = "derived, not written")]
+pub mod page {
+    robot_model::include_robot!("arm");
+}
+pub use page::TwoLinkArm;
 
 /// Standard parameters of one such arm, by name, in SI units; those that are not listed are 0.
 pub const MEASURED: [(&str, f64); 8] = [
