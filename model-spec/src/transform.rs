@@ -132,6 +132,11 @@ pub(crate) fn upper_camel(name: &str) -> String {
     }
 }
 
+/// Whether products of a few such numbers stay finite: zero, or 1e-30 to 1e30. No quantity of a robot is outside.
+pub(crate) fn is_in_range(x: f64) -> bool {
+    x == 0.0 || (1e-30..=1e30).contains(&x.abs())
+}
+
 #[cfg(test)]
 mod tests {
     #![expect(clippy::float_cmp, reason = "these numbers are exact")]

@@ -156,14 +156,22 @@ fn degrees_meant(span: Span, value: f64) -> Diagnostic {
 pub(super) fn constant(expr: &Expr) -> Checked<Quantity> {
     let quantity = evaluate(expr)?;
     if quantity.value.is_finite() {
-        return Ok(quantity);
+        if crate::transform::is_in_range(quantity.value) {
+            return Ok(quantity);
+        }
+        return Err(Diagnostic::new(
+            expr.span,
+            "this value is too large or too small to compute with",
+            format!("comes out as {:e}", quantity.value),
+        )
+        .help("write zero, or a value between 1e-30 and 1e30 in SI units"));
     }
     Err(Diagnostic::new(
         expr.span,
         "the value is not a finite number",
         format!("comes out as {}", quantity.value),
     )
-    .help("divide by no zero, and stay below 1.8e308"))
+    .help("divide by no zero, and stay below 1e30"))
 }
 
 fn evaluate(expr: &Expr) -> Checked<Quantity> {

@@ -184,6 +184,13 @@ fn number(input: ParseStream) -> syn::Result<Expr> {
     let value: f64 = digits
         .parse()
         .map_err(|_| syn_error(span, "this is not a number", Some("write a decimal number")))?;
+    if !crate::transform::is_in_range(value) {
+        return Err(syn_error(
+            span,
+            "this number is too large or too small to compute with",
+            Some("write zero, or a number between 1e-30 and 1e30"),
+        ));
+    }
     let unit = if suffix.is_empty() {
         unit(input)?
     } else {

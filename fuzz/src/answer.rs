@@ -1,0 +1,83 @@
+//! What the compiler makes of a text.
+
+use robot_model_codegen::base::RankStatus;
+use robot_model_codegen::{compile_model, emit};
+use robot_model_spec::load;
+
+/// What came of a text. Two texts with equal answers exercise about the same code.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Answer {
+    /// Refused, with these messages; what stands between backticks and digits is left out.
+    Refused(Vec<String>),
+    /// Compiled up to base parameters that are not certain: nothing is emitted.
+    Uncertain {
+        /// Joints.
+        dof: usize,
+    },
+    /// Compiled; the size of what came out, by powers of two.
+    Emitted {
+        /// Joints.
+        dof: usize,
+        /// Standard parameters.
+        standard: u32,
+        /// Base parameters.
+        base: u32,
+        /// Bytes of the page.
+        page: u32,
+    },
+}
+
+/// From spec text to emitted code.
+#[must_use]
+pub fn answer(text: &str) -> Answer {
+    let model = match load("fuzz.robot", text) {
+        Ok(model) => model,
+        Err(mistakes) => {
+            // Rendering is part of the answer: it must not panic on any span.
+            let _ = mistakes.render(true);
+            let mut messages: Vec<String> = mistakes.messages().map(skeleton).collect();
+            messages.sort_unstable();
+            messages.dedup();
+            return Answer::Refused(messages);
+        }
+    };
+    let compiled = compile_model(&model);
+    let dof = model.joints.len();
+    if let RankStatus::Unclear(_) = compiled.base.rank {
+        let _ = compiled.base.rank.to_string();
+        return Answer::Uncertain { dof };
+    }
+    let page = emit::rust::module(&compiled);
+    Answer::Emitted {
+        dof,
+        standard: compiled.standard.len().checked_ilog2().unwrap_or_default(),
+        base: compiled.base.kept.len().checked_ilog2().unwrap_or_default(),
+        page: page.len().ilog2(),
+    }
+}
+
+/// A message without the names and numbers of one spec.
+fn skeleton(message: &str) -> String {
+    let mut kept = String::new();
+    for (k, part) in message.split('`').enumerate() {
+        if k % 2 == 0 {
+            kept.extend(part.chars().filter(|c| !c.is_ascii_digit()));
+        } else {
+            kept.push('_');
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::skeleton;
+
+    #[test]
+    fn names_and_numbers_do_not_make_a_message_new() {
+        assert_eq!(
+            skeleton("effect `x` takes 2 of `y`"),
+            "effect _ takes  of _"
+        );
+    }
+}
