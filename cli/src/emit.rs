@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use robot_model_codegen::emit::rust::Extent;
 use robot_model_codegen::{Compiled, emit};
 
 use crate::Error;
@@ -23,9 +24,30 @@ pub(crate) struct Emit {
     /// Folder to write to, made where it is missing; the file is called as the spec is.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// Which functions.
+    #[arg(long, value_enum, default_value_t)]
+    functions: Functions,
     /// Values by name, or what `identify --json` writes: they become the constant `BETA`.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum Functions {
+    /// All of them.
+    #[default]
+    All,
+    /// Torque and its regressors, without energies, momentum, forward dynamics, slopes and kinematics.
+    Torque,
+}
+
+impl From<Functions> for Extent {
+    fn from(functions: Functions) -> Self {
+        match functions {
+            Functions::All => Self::All,
+            Functions::Torque => Self::Torque,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -38,7 +60,7 @@ impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile(&self.spec)?;
         let mut code = match self.lang {
-            Language::Rust => emit::rust::module(&compiled),
+            Language::Rust => emit::rust::module_of(&compiled, self.functions.into()),
         };
         if let Some(file) = &self.parameters {
             code.push_str(&constants(&compiled, file)?);

@@ -69,6 +69,21 @@ struct StateValues {
     torque: Vec<f64>,
     regressor: Matrix,
     base_regressor: Matrix,
+    kinetic_energy: f64,
+    /// Up to a constant.
+    potential_energy: f64,
+    /// Columns without a momentum form are zero.
+    momentum_regressor: Matrix,
+    drift_regressor: Matrix,
+    /// `d tau / dq` and `d tau / d dq`.
+    torque_by_position: Matrix,
+    torque_by_velocity: Matrix,
+    /// Of a chain: homogeneous matrices, base to tip.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    forward_kinematics: Option<Vec<Matrix>>,
+    /// Of a chain.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jacobian: Option<Matrix>,
 }
 
 impl Eval {
@@ -144,6 +159,13 @@ struct Programs {
     torque: Program,
     regressor: Block,
     base_regressor: Block,
+    energies: Program,
+    momentum: Block,
+    drift: Block,
+    by_position: Program,
+    by_velocity: Program,
+    forward_kinematics: Option<Program>,
+    jacobian: Option<Program>,
 }
 
 impl Programs {
@@ -159,6 +181,13 @@ impl Programs {
             torque: compiled.inverse_dynamics(),
             regressor: compiled.regressor(),
             base_regressor: compiled.base_regressor(),
+            energies: compiled.energies(),
+            momentum: compiled.momentum_regressor(),
+            drift: compiled.drift_regressor(),
+            by_position: compiled.by_position(),
+            by_velocity: compiled.by_velocity(),
+            forward_kinematics: compiled.forward_kinematics(),
+            jacobian: compiled.jacobian(),
         }
     }
 
@@ -184,6 +213,12 @@ impl Programs {
             }
             matrix
         };
+        let energies = run(&self.energies);
+        let poses = |program: &Program| {
+            let values = run(program);
+            let pose = |pose: &[f64]| pose.chunks(4).map(<[f64]>::to_vec).collect();
+            values.chunks(16).map(pose).collect()
+        };
         StateValues {
             mass_matrix: square(&self.mass_matrix),
             coriolis_matrix: square(&self.coriolis_matrix),
@@ -191,6 +226,14 @@ impl Programs {
             torque: run(&self.torque),
             regressor: columns(&self.regressor, self.standard),
             base_regressor: columns(&self.base_regressor, self.base),
+            kinetic_energy: energies[0],
+            potential_energy: energies[1],
+            momentum_regressor: columns(&self.momentum, self.standard),
+            drift_regressor: columns(&self.drift, self.standard),
+            torque_by_position: square(&self.by_position),
+            torque_by_velocity: square(&self.by_velocity),
+            forward_kinematics: self.forward_kinematics.as_ref().map(poses),
+            jacobian: self.jacobian.as_ref().map(square),
         }
     }
 }

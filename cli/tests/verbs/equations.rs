@@ -64,6 +64,14 @@ fn emit_writes_a_file_named_as_the_spec() {
     );
     assert!(!plain.contains("BETA:"), "{plain}");
 
+    assert!(plain.contains("pub fn forward_dynamics"), "{plain}");
+    folder.succeed(&[arguments.as_slice(), &["--functions", "torque"]].concat());
+    let torque = folder.read("code/arms/cart.rs");
+    assert!(torque.contains("pub fn regressor"), "{torque}");
+    for absent in ["forward_dynamics", "Mechanics", "solve"] {
+        assert!(!torque.contains(absent), "{torque}");
+    }
+
     folder.write(
         "parameters.json",
         r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#,

@@ -5,8 +5,8 @@ use quote::quote;
 use robot_model_spec::parameter::Status;
 
 use super::function::Function;
-use super::mechanics;
 use super::render::number;
+use super::{Extent, mechanics};
 use crate::base;
 use crate::compiled::Compiled;
 use crate::right_inverse::right_inverse;
@@ -32,7 +32,7 @@ pub enum From {
 }
 
 /// The page's type, which holds base parameters, and its implementation.
-pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
+pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec<TokenStream> {
     let name = Ident::new(&compiled.model.name, Span::call_site());
     let doc = format!(" `{}` with values for its parameters.", compiled.model.name);
     let base = Literal::usize_unsuffixed(compiled.base.kept.len());
@@ -61,7 +61,10 @@ pub fn items(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         &own_parameters(free_shapes),
         &base::shape_values(&compiled.model),
     );
-    let mechanics = mechanics::implementations(compiled, functions, &name);
+    let mechanics = match extent {
+        Extent::All => mechanics::implementations(compiled, functions, &name),
+        Extent::Torque => quote!(),
+    };
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
         const _: () = {

@@ -24,15 +24,36 @@ pub use render::number;
 /// Costs of the emitted functions, in the order of the page.
 pub type Costs = Vec<(&'static str, Cost)>;
 
+/// What is on the page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Extent {
+    /// Everything.
+    #[default]
+    All,
+    /// Torque and its regressors: what `RobotModel` needs. About half of the page.
+    Torque,
+}
+
 /// The page.
 #[must_use]
 pub fn module(compiled: &Compiled) -> String {
-    let (functions, _) = functions(compiled);
-    let mut items = vec![quote!(
-        use ::robot_model::{math, solve};
-    )];
+    module_of(compiled, Extent::All)
+}
+
+/// The page, or the part of it that is wanted.
+#[must_use]
+pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
+    let (functions, _) = functions(compiled, extent);
+    let mut items = vec![match extent {
+        Extent::All => quote!(
+            use ::robot_model::{math, solve};
+        ),
+        Extent::Torque => quote!(
+            use ::robot_model::math;
+        ),
+    }];
     items.extend(functions.iter().map(|function| function.item.clone()));
-    items.extend(implementation::items(compiled, &functions));
+    items.extend(implementation::items(compiled, &functions, extent));
     pretty::page(&header(compiled), &items)
 }
 
@@ -45,7 +66,7 @@ pub fn implementation_for(
     parameters: &Parameters,
     nominal_shapes: &[f64],
 ) -> TokenStream {
-    let (functions, _) = functions(compiled);
+    let (functions, _) = functions(compiled, Extent::All);
     let items = functions.iter().map(|function| &function.item);
     let implementation =
         implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
@@ -65,7 +86,7 @@ pub fn implementation_for(
 /// What each emitted function costs.
 #[must_use]
 pub fn costs(compiled: &Compiled) -> Costs {
-    functions(compiled).1
+    functions(compiled, Extent::All).1
 }
 
 fn header(compiled: &Compiled) -> String {
@@ -114,7 +135,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 /// The functions of the page, in order.
-fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
+fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, Costs) {
     let names = compiled.names();
     let free_shapes = compiled.free_shapes();
     let beta = |k: usize| {
@@ -204,7 +225,9 @@ fn functions(compiled: &Compiled) -> (Vec<function::Function>, Costs) {
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));
     functions.push(base_parameters(compiled));
-    functions.extend(mechanics::functions(&context));
+    if extent == Extent::All {
+        functions.extend(mechanics::functions(&context));
+    }
     let costs = functions
         .iter()
         .map(|function| (function.name, function.cost))
