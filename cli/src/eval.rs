@@ -18,7 +18,8 @@ use crate::{Error, output};
 pub(crate) struct Eval {
     /// The `.robot` file.
     spec: PathBuf,
-    /// States: `{"states":[{"q":[..],"dq":[..],"ddq":[..]}]}`, in rad and m.
+    /// States: `{"states":[{"q":[..],"dq":[..],"ddq":[..]}]}`, in rad and m; where effects read them also `"time"`,
+    /// `"measured_torque":[..]`, `"inputs":{"temperature":30}` and `"states":{"elbow.lugre_presliding.z":0}`.
     #[arg(long, value_name = "FILE.json")]
     states: PathBuf,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
@@ -41,6 +42,15 @@ struct State {
     /// For effects that depend on it, s.
     #[serde(default)]
     time: f64,
+    /// For effects that read it, N m or N.
+    #[serde(default)]
+    measured_torque: Vec<f64>,
+    /// Columns of the log that effects read, by name.
+    #[serde(default)]
+    inputs: BTreeMap<String, f64>,
+    /// Internal states of effects, `JOINT.EFFECT.STATE`; 0 where none is given.
+    #[serde(default)]
+    states: BTreeMap<String, f64>,
 }
 
 #[derive(Serialize)]
@@ -89,7 +99,7 @@ struct StateValues {
 impl Eval {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile(&self.spec)?;
-        let states = self.read_states(compiled.dof())?;
+        let states = self.read_states(&compiled)?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let programs = Programs::new(&compiled);
         let evaluation = Evaluation {
@@ -109,8 +119,14 @@ impl Eval {
         output::print(&output::json(&evaluation))
     }
 
-    fn read_states(&self, dof: usize) -> Result<Vec<State>, Error> {
-        let path = &self.states;
+    fn read_states(&self, compiled: &Compiled) -> Result<Vec<State>, Error> {
+        let (path, dof) = (&self.states, compiled.dof());
+        let columns = compiled.regressor();
+        let reads_torque = columns
+            .program
+            .symbols()
+            .iter()
+            .any(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)));
         let States { states } =
             serde_json::from_str(&read_text(path)?).map_err(|error| Error::json(path, &error))?;
         for (k, state) in states.iter().enumerate() {
@@ -124,9 +140,42 @@ impl Eval {
                     return Err(Error::json(path, &reason));
                 }
             }
+            let fault = if reads_torque && state.measured_torque.len() != dof {
+                Some(format!(
+                    "`measured_torque` has {} values, a declared effect reads that of {dof} joints",
+                    state.measured_torque.len()
+                ))
+            } else {
+                not_as_declared("inputs", &state.inputs, &compiled.model.inputs(), true).or_else(
+                    || not_as_declared("states", &state.states, &compiled.model.states(), false),
+                )
+            };
+            if let Some(fault) = fault {
+                return Err(Error::json(path, &format!("state {}: {fault}", k + 1)));
+            }
         }
         Ok(states)
     }
+}
+
+/// What names and those that the declared effects have do not have in common.
+fn not_as_declared(
+    what: &str,
+    given: &BTreeMap<String, f64>,
+    declared: &[String],
+    required: bool,
+) -> Option<String> {
+    let list = || match declared {
+        [] => "no effect of the spec has any".to_owned(),
+        names => format!("the spec's effects have `{}`", names.join("`, `")),
+    };
+    if let Some(unknown) = given.keys().find(|name| !declared.contains(name)) {
+        return Some(format!("`{what}` has `{unknown}`, {}", list()));
+    }
+    let missing = declared.iter().find(|name| !given.contains_key(*name));
+    missing
+        .filter(|_| required)
+        .map(|name| format!("`{what}` has no `{name}`, which a declared effect reads"))
 }
 
 fn base_parameters(compiled: &Compiled) -> Vec<BaseParameter<'_>> {
@@ -152,6 +201,8 @@ struct Programs {
     dof: usize,
     standard: usize,
     base: usize,
+    inputs: Vec<String>,
+    states: Vec<String>,
     mass_matrix: Program,
     coriolis_matrix: Program,
     gravity: Program,
@@ -174,6 +225,8 @@ impl Programs {
             dof: compiled.dof(),
             standard: compiled.standard.len(),
             base: compiled.base.kept.len(),
+            inputs: compiled.model.inputs(),
+            states: compiled.model.states(),
             mass_matrix: compiled.mass_matrix(),
             coriolis_matrix: compiled.coriolis_matrix(),
             gravity: compiled.gravity(),
@@ -200,6 +253,9 @@ impl Programs {
             Symbol::Parameter(k) => values.parameters[k],
             Symbol::Shape(k) => values.shapes[k],
             Symbol::RigidTorque(joint) => rigid_torque[joint],
+            Symbol::MeasuredTorque(joint) => state.measured_torque[joint],
+            Symbol::Input(k) => state.inputs[&self.inputs[k]],
+            Symbol::State(k) => state.states.get(&self.states[k]).copied().unwrap_or(0.0),
         };
         // The load comes first: effects may depend on it.
         let load = self.rigid_torque.eval(&|symbol| bind(&[], symbol));

@@ -60,6 +60,7 @@ fn motion() -> Motion {
         smooth: band(1.0),
         wide: band(2.0),
         rigid_torque: vec![vec![3.0; 2]; 2],
+        ..Motion::default()
     }
 }
 
@@ -171,7 +172,7 @@ fn columns_times_values_are_the_torque_of_the_rigid_body() {
             }
         }
     }
-    let torque = arm.rigid_torque(&motion(), &estimate);
+    let torque = arm.rigid_torque(&motion(), &[], &estimate);
     for (found, expected) in sum.iter().flatten().zip(torque.iter().flatten()) {
         assert!(
             (found - expected).abs() < 1e-12,
@@ -179,7 +180,7 @@ fn columns_times_values_are_the_torque_of_the_rigid_body() {
         );
     }
     assert!(
-        arm.known_torque(&motion())
+        arm.known_torque(&motion(), &[])
             .iter()
             .flatten()
             .all(|value| value.abs() < 1e-15)

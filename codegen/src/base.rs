@@ -238,6 +238,9 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
     let ddq: Vec<Vec<f64>> = (0..dof).map(|_| draw(4.0)).collect();
     let rigid_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
     let time: Vec<f64> = draw(20.0).into_iter().map(f64::abs).collect();
+    let measured_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
+    let inputs: Vec<Vec<f64>> = model.inputs().iter().map(|_| draw(30.0)).collect();
+    let states: Vec<Vec<f64>> = model.states().iter().map(|_| draw(1.0)).collect();
     // Some states have a joint at rest: laws that jump there are told from those that do not.
     for (joint, velocities) in dq.iter_mut().enumerate() {
         velocities
@@ -252,6 +255,9 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
         Symbol::Ddq(joint) => Operand::Column(&ddq[joint]),
         Symbol::RigidTorque(joint) => Operand::Column(&rigid_torque[joint]),
         Symbol::Time => Operand::Column(&time),
+        Symbol::MeasuredTorque(joint) => Operand::Column(&measured_torque[joint]),
+        Symbol::Input(k) => Operand::Column(&inputs[k]),
+        Symbol::State(k) => Operand::Column(&states[k]),
         Symbol::Shape(k) => Operand::Constant(shapes[k]),
         Symbol::Parameter(_) => unreachable!("checked in regressor::linearize"),
     };

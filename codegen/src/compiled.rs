@@ -1,16 +1,17 @@
 //! The pipeline on a page, and the programs that run its forms.
 
-use robot_model_spec::model::{EffectDefinition, Model};
+use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{Owner, StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
-use crate::dynamics::{self, Dynamics, Kinematics, Partials, Point, Value, effect, energy};
+use crate::dynamics::{self, Dynamics, Kinematics, Partials, Point, Value, energy};
 use crate::expr::{Dag, ExprId, Names, Symbol};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
 use crate::lumps;
 use crate::regressor::{self, LinearForm};
+use crate::states::States;
 
 /// A model with everything that is derived from it.
 #[derive(Debug, Clone)]
@@ -167,6 +168,8 @@ impl Compiled {
             coordinates,
             parameters,
             shapes: self.shape_names(),
+            inputs: self.model.inputs(),
+            states: self.model.states(),
         }
     }
 
@@ -242,6 +245,27 @@ impl Compiled {
         self.base_block(|column| !self.is_rigid(column))
     }
 
+    /// Whether a declared effect reads more than the arm's motion, its load and time: the log's torque, another channel of
+    /// the log, or its own memory.
+    #[must_use]
+    pub fn reads_more_than_motion(&self) -> bool {
+        let entries = self.linear.regressor.concat();
+        self.dag.symbols(&entries).iter().any(|symbol| {
+            matches!(
+                symbol,
+                Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_)
+            )
+        })
+    }
+
+    /// The states of the declared effects, one part per effect that has some.
+    #[must_use]
+    pub fn states(&self) -> States {
+        let mut dag = self.dag.clone();
+        let counts = self.model.effects.iter().map(|e| e.definition.states.len());
+        States::new(&mut dag, &self.dynamics.state_rates, counts)
+    }
+
     /// The whole base regressor `Y_b`.
     #[must_use]
     pub fn base_regressor(&self) -> Block {
@@ -307,59 +331,5 @@ impl Compiled {
     #[must_use]
     pub fn gravity(&self) -> Program {
         Program::new(&self.dag, &self.dynamics.gravity)
-    }
-}
-
-/// The columns of an effect that is not declared, tried on given joints.
-#[derive(Debug, Clone)]
-pub struct EffectColumns {
-    /// Its columns: one per linear parameter of the definition. Shapes are [`Symbol::Shape`] by their index in the
-    /// definition.
-    pub block: Block,
-    /// Whether the program reads [`Symbol::RigidTorque`].
-    pub uses_rigid_torque: bool,
-}
-
-/// Columns of `definition` on `joints` of an arm with `dof` joints.
-#[must_use]
-pub fn effect_columns(
-    definition: &EffectDefinition,
-    joints: &[usize],
-    dof: usize,
-) -> EffectColumns {
-    let mut dag = Dag::new();
-    let parameters: Vec<Symbol> = (0..definition.linear.len())
-        .map(Symbol::Parameter)
-        .collect();
-    let linear: Vec<ExprId> = parameters
-        .iter()
-        .map(|&symbol| dag.symbol(symbol))
-        .collect();
-    let shapes: Vec<ExprId> = (0..definition.shapes.len())
-        .map(|k| dag.symbol(Symbol::Shape(k)))
-        .collect();
-    let rigid_torque = effect::outside_rigid_torque(&mut dag, dof);
-    let scope = effect::Scope {
-        linear: &linear,
-        shapes: &shapes,
-        joints,
-        rigid_torque: &rigid_torque,
-    };
-    let entries = effect::entries(&mut dag, definition, &scope, &parameters);
-    let block = Block::new(
-        &dag,
-        entries
-            .into_iter()
-            .map(|entry| (entry.joint, entry.parameter, entry.value))
-            .collect(),
-    );
-    let uses_rigid_torque = block
-        .program
-        .symbols()
-        .iter()
-        .any(|symbol| matches!(symbol, Symbol::RigidTorque(_)));
-    EffectColumns {
-        block,
-        uses_rigid_torque,
     }
 }

@@ -17,10 +17,13 @@ pub mod regressor;
 mod right_inverse;
 mod selection;
 pub mod show;
+pub mod states;
 
+mod alone;
 mod build_script;
 mod compiled;
 mod forms;
 
+pub use alone::{EffectColumns, effect_columns};
 pub use build_script::{CompileError, compile, compile_text};
-pub use compiled::{Block, Compiled, EffectColumns, compile_model, effect_columns};
+pub use compiled::{Block, Compiled, compile_model};

@@ -52,10 +52,10 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
             .map(Symbol::Parameter)
             .collect();
         let linear: Vec<ExprId> = symbols.iter().map(|&symbol| dag.symbol(symbol)).collect();
-        let shapes = dynamics::shape_expressions(dag, model, index);
+        let names = effect::Symbols::declared(dag, model, index);
         let scope = effect::Scope {
             linear: &linear,
-            shapes: &shapes,
+            symbols: &names,
             joints: &declared.joints,
             rigid_torque: &outside,
         };

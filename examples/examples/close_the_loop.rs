@@ -157,7 +157,7 @@ fn measure(spec: &str, day: u64) -> Result<Log, Box<dyn Error>> {
         time,
         smooth: exact.clone(),
         wide: exact,
-        rigid_torque: Vec::new(),
+        ..Motion::default()
     };
     let mut tau = torque_of(&machine, &motion, &[], &beta, machine.dof());
     let mut random = ChaCha8Rng::seed_from_u64(day);

@@ -197,8 +197,16 @@ pub struct Effect {
     pub linear: Vec<Linear>,
     /// `shape ..;`
     pub shapes: Vec<Shape>,
+    /// `input ..;`
+    pub inputs: Vec<Input>,
+    /// `state ..;`
+    pub states: Vec<State>,
+    /// `let name = ..;`
+    pub lets: Vec<Let>,
+    /// `dot(z) = ..;`
+    pub rates: Vec<Equation>,
     /// `torque(j) = ..;`
-    pub torques: Vec<Torque>,
+    pub torques: Vec<Equation>,
 }
 
 /// `linear fs >= 0`
@@ -227,12 +235,41 @@ pub struct Shape {
     pub step: Option<Expr>,
 }
 
-/// `torque(j) = ..`
+/// `input temperature`, `input current(j)`
 #[derive(Debug, Clone)]
-pub struct Torque {
-    /// The formal joint.
-    pub joint: Ident,
-    /// The equation.
+pub struct Input {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name, and that of the log's column.
+    pub name: Ident,
+    /// The formal joint whose column it is.
+    pub joint: Option<Ident>,
+}
+
+/// `state z`
+#[derive(Debug, Clone)]
+pub struct State {
+    /// Lines of the `///` comment.
+    pub doc: String,
+    /// Its name.
+    pub name: Ident,
+}
+
+/// `let name = ..`
+#[derive(Debug, Clone)]
+pub struct Let {
+    /// Its name.
+    pub name: Ident,
+    /// What it stands for.
+    pub value: Expr,
+}
+
+/// `torque(j) = ..`, `dot(z) = ..`
+#[derive(Debug, Clone)]
+pub struct Equation {
+    /// The formal joint, or the state.
+    pub of: Ident,
+    /// The right-hand side.
     pub value: Expr,
 }
 
@@ -258,6 +295,19 @@ pub enum ExprKind {
     Neg(Box<Expr>),
     /// `x op y`
     Binary(BinaryOp, Box<Expr>, Box<Expr>),
+    /// `if c { x } else { y }`
+    Choice(Box<Condition>, Box<Expr>, Box<Expr>),
+}
+
+/// `greater > smaller`, or `greater >= smaller`; `x < y` is `y > x`.
+#[derive(Debug, Clone)]
+pub struct Condition {
+    /// `>=` or `<=`.
+    pub or_equal: bool,
+    /// What has to be larger.
+    pub greater: Expr,
+    /// Than this.
+    pub smaller: Expr,
 }
 
 impl Value {

@@ -4,7 +4,16 @@
 //! SI, every joint has one frame convention (folded into [`Placement`]), effects refer to joints by index. Nothing
 //! downstream validates again. A `Model` cannot be built by hand: only `check` makes one.
 
+mod effect;
+mod expr;
+
 use std::sync::Arc;
+
+pub use effect::{
+    Effect, EffectBinding, EffectDefinition, EffectExpr, EffectInput, EffectLeaf, EffectState,
+    EffectTorque, LinearParameter, ShapeParameter, Signal,
+};
+pub use expr::{BinaryOp, Choice, Expr, Function};
 
 /// A robot: its coordinates, what moves with them, and the effects it declares.
 #[derive(Debug, Clone, PartialEq)]
@@ -240,183 +249,4 @@ pub enum Inertial {
     Nominal([f64; 10]),
     /// Exact: kept, never identified.
     Fixed([f64; 10]),
-}
-
-/// One declared effect on one joint, or on one tuple of joints.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct Effect {
-    /// Its definition in the language.
-    pub definition: Arc<EffectDefinition>,
-    /// Joint indices, one per formal joint of the definition.
-    pub joints: Vec<usize>,
-    /// Values of the shape parameters as written at the declaration; `None` where they are left to identification.
-    pub shapes: Vec<Option<f64>>,
-    /// 1 for the first instance of a definition that starts at this first joint, 2 for the second, and so on: `JOINT.EFFECT2`.
-    pub instance: usize,
-    /// Line of the declaration in the spec, from 1.
-    pub line: usize,
-}
-
-/// An effect as the language defines it: torque added to the right-hand side of `tau = M ddq + C dq + G + effect`.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct EffectDefinition {
-    /// Snake case, as in specs; JSON shows it in kebab case.
-    pub name: String,
-    /// The `///` comment in front of the definition.
-    pub doc: String,
-    /// Formal joints, one or more: `effect gear_coupling(j, k)`.
-    pub joints: Vec<String>,
-    /// Parameters that least squares solves for; the torque is linear in them.
-    pub linear: Vec<LinearParameter>,
-    /// Nonlinear parameters.
-    pub shapes: Vec<ShapeParameter>,
-    /// One equation per formal joint that the effect acts on.
-    pub torques: Vec<EffectTorque>,
-}
-
-/// `torque(j) = ...` of an effect definition.
-#[derive(Debug, Clone, PartialEq)]
-pub struct EffectTorque {
-    /// Index of the formal joint.
-    pub joint: usize,
-    /// Linear in the definition's linear parameters.
-    pub value: EffectExpr,
-}
-
-/// A parameter in which an effect's torque is linear.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct LinearParameter {
-    /// Name as written.
-    pub name: String,
-    /// The `///` comment in front of it.
-    pub doc: String,
-    /// Declared `>= 0`: a negative estimate is not physical.
-    pub nonnegative: bool,
-}
-
-/// A parameter in which an effect's torque is not linear, with the range in which it is looked for.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub struct ShapeParameter {
-    /// Name as written.
-    pub name: String,
-    /// The `///` comment in front of it.
-    pub doc: String,
-    /// Lowest value.
-    pub low: f64,
-    /// Highest value.
-    pub high: f64,
-    /// Spacing of the first search; `None`: logarithmic, twelve points.
-    pub step: Option<f64>,
-}
-
-/// A checked expression over leaves that its place allows.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Expr<Leaf> {
-    /// A number in SI units.
-    Number(f64),
-    /// A name with a meaning.
-    Leaf(Leaf),
-    /// `-x`
-    Neg(Box<Self>),
-    /// `x op y`
-    Binary(BinaryOp, Box<Self>, Box<Self>),
-    /// `f(x)`
-    Call(Function, Box<Self>),
-}
-
-impl<Leaf> Expr<Leaf> {
-    /// Whether `wanted` holds for some part of the expression.
-    pub fn contains(&self, wanted: &dyn Fn(&Self) -> bool) -> bool {
-        wanted(self)
-            || match self {
-                Self::Number(_) | Self::Leaf(_) => false,
-                Self::Neg(x) | Self::Call(_, x) => x.contains(wanted),
-                Self::Binary(_, x, y) => x.contains(wanted) || y.contains(wanted),
-            }
-    }
-}
-
-/// An expression of an effect.
-pub type EffectExpr = Expr<EffectLeaf>;
-
-/// What an effect's equation is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EffectLeaf {
-    /// Index into [`EffectDefinition::linear`].
-    Linear(usize),
-    /// Index into [`EffectDefinition::shapes`].
-    Shape(usize),
-    /// A signal of a formal joint (index into [`EffectDefinition::joints`]).
-    Signal(Signal, usize),
-    /// Time since the start of the log, s.
-    Time,
-}
-
-/// A signal of one joint that effects may use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Signal {
-    /// Position `q`, rad or m.
-    Position,
-    /// Velocity `dq`.
-    Velocity,
-    /// Acceleration `ddq`.
-    Acceleration,
-    /// Torque of the rigid body alone, `M ddq + C dq + G`: what the transmission carries. Written `rigid_torque(j)`.
-    RigidTorque,
-}
-
-/// Arithmetic of the language, by rising precedence; `^` binds tightest and to the right.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BinaryOp {
-    /// `+`
-    Add,
-    /// `-`
-    Sub,
-    /// `*`
-    Mul,
-    /// `/`
-    Div,
-    /// `^`
-    Pow,
-}
-
-impl Function {
-    /// Its value.
-    #[must_use]
-    pub fn apply(self, x: f64) -> f64 {
-        match self {
-            Self::Sin => x.sin(),
-            Self::Cos => x.cos(),
-            Self::Exp => x.exp(),
-            Self::Sqrt => x.sqrt(),
-            Self::Abs => x.abs(),
-            // `f64::signum` is 1 at 0.
-            Self::Sign if x == 0.0 => 0.0,
-            Self::Sign => x.signum(),
-            Self::Tanh => x.tanh(),
-        }
-    }
-}
-
-/// Functions of one argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Function {
-    /// `sin`
-    Sin,
-    /// `cos`
-    Cos,
-    /// `exp`
-    Exp,
-    /// `sqrt`
-    Sqrt,
-    /// `abs`
-    Abs,
-    /// `sign`: -1, 0 or 1
-    Sign,
-    /// `tanh`
-    Tanh,
 }

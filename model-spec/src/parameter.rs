@@ -141,6 +141,34 @@ impl Model {
         }
     }
 
+    /// Columns of the log that the declared effects read beside positions and torques: each once, in the order of the spec.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<String> {
+        let mut columns = Vec::new();
+        for effect in &self.effects {
+            for input in &effect.definition.inputs {
+                let column = input.column(&effect.joints);
+                if !columns.contains(&column) {
+                    columns.push(column);
+                }
+            }
+        }
+        columns
+    }
+
+    /// Names of the internal states of the declared effects, `JOINT.EFFECT.STATE`, in the order of the spec.
+    #[must_use]
+    pub fn states(&self) -> Vec<String> {
+        let effects = self.effects.iter().enumerate();
+        effects
+            .flat_map(|(index, effect)| {
+                let prefix = self.effect_name(index);
+                let states = effect.definition.states.iter();
+                states.map(move |state| format!("{prefix}.{}", state.name))
+            })
+            .collect()
+    }
+
     /// `JOINT.EFFECT`, the first joint's name where there are several; a second instance on the same joints is `JOINT.EFFECT2`.
     #[must_use]
     pub fn effect_name(&self, effect: usize) -> String {

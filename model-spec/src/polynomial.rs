@@ -152,6 +152,9 @@ impl<R: Ring> Expansion<'_, R> {
                 let (x, y) = (self.operand(0, x)?, self.operand(1, y)?);
                 self.binary(*op, x, &y)
             }
+            Expr::Min(..) | Expr::Max(..) | Expr::Choice(_) => {
+                unreachable!("checked in energies::resolve: energies are smooth")
+            }
             Expr::Call(function, x) => {
                 let x = self.operand(0, x)?;
                 let x = self.coefficient(x, Reason::InsideFunction)?;

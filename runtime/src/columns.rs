@@ -75,6 +75,11 @@ pub trait Columns: Sync {
     /// Whether [`Self::entries`] reads [`Motion::rigid_torque`].
     fn uses_rigid_torque(&self) -> bool;
 
+    /// Channels of the log, beside positions and torques, that [`Self::entries`] reads; often none.
+    fn inputs(&self) -> &[String] {
+        &[]
+    }
+
     /// The columns over a motion; entries that are zero by structure are left out. `shapes` has one value per
     /// [`Self::shapes`].
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
@@ -91,11 +96,13 @@ pub trait Arm: Columns {
     /// Joint torque per unit of the logged channel, one a joint.
     fn actuator_gain(&self) -> &[f64];
 
-    /// Torque of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>>;
+    /// Torque of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none. `shapes` as in
+    /// [`Columns::entries`].
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 
     /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.
-    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>>;
+    /// `shapes` as in [`Columns::entries`].
+    fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>>;
 }
 
 /// An arm whose torque is known without accelerations, as `tau = d/dt (momentum columns) - (drift columns)`.

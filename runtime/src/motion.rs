@@ -1,5 +1,7 @@
 //! A measured motion, ready for the model: uniform time, filtered position and its derivatives.
 
+use crate::log::Channel;
+
 /// Position, velocity and acceleration of every joint: `q[joint][sample]`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Kinematics {
@@ -27,6 +29,10 @@ pub struct Motion {
     pub wide: Kinematics,
     /// Torque of the rigid body alone at the present estimate, `[joint][sample]`; empty until an estimate exists.
     pub rigid_torque: Vec<Vec<f64>>,
+    /// Torque as logged, `[joint][sample]`, for effects that read it; not smoothed except before decimation.
+    pub tau: Vec<Vec<f64>>,
+    /// Further channels of the log.
+    pub extra: Vec<Channel>,
 }
 
 impl Motion {
@@ -52,12 +58,29 @@ impl Motion {
                 ddq: shifted(&self.wide.ddq),
             },
             rigid_torque: shifted(&self.rigid_torque),
+            tau: shifted(&self.tau),
+            extra: self
+                .extra
+                .iter()
+                .map(|channel| Channel {
+                    name: channel.name.clone(),
+                    values: between(&channel.values, part),
+                })
+                .collect(),
         }
+    }
+
+    /// A further channel of the log, where it has one of that name.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&[f64]> {
+        let found = self.extra.iter().find(|channel| channel.name == name);
+        found.map(|channel| channel.values.as_slice())
     }
 }
 
-/// `values` a part of a sample later; the last (or first) sample is held.
-fn between(values: &[f64], part: f64) -> Vec<f64> {
+/// `values` a part of a sample later (`-1 ..= 1`), linearly between samples; the last (or first) sample is held.
+#[must_use]
+pub fn between(values: &[f64], part: f64) -> Vec<f64> {
     let last = values.len().saturating_sub(1);
     (0..values.len())
         .map(|k| {

@@ -67,6 +67,13 @@ robots! {
     ur10 "ur10" Ur10;
 }
 
+/// Emitted from `memory.robot`: functions alone, since its effects read more than a motion.
+#[deny(warnings)]
+#[allow(clippy::pedantic, reason = "derived, not written")]
+pub mod memory {
+    robot_model::include_robot!("memory");
+}
+
 impl Robot {
     const fn of<
         R,

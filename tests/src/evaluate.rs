@@ -40,6 +40,7 @@ pub struct Interpreter {
     rigid_torque: Program,
     inverse_dynamics: Program,
     known_torque: Program,
+    state_rates: Program,
     regressor: Block,
     base_regressor: Block,
 }
@@ -57,6 +58,7 @@ impl Interpreter {
             rigid_torque: compiled.rigid_torque(),
             inverse_dynamics: compiled.inverse_dynamics(),
             known_torque: compiled.known_torque(),
+            state_rates: Program::new(&compiled.dag, &compiled.dynamics.state_rates),
             regressor: compiled.regressor(),
             base_regressor: compiled.base_regressor(),
             compiled,
@@ -80,6 +82,9 @@ impl Interpreter {
             Symbol::Dq(j) => state.dq[j],
             Symbol::Ddq(j) => state.ddq[j],
             Symbol::RigidTorque(j) => rigid[j],
+            Symbol::MeasuredTorque(j) => state.measured_torque[j],
+            Symbol::Input(k) => state.inputs[k],
+            Symbol::State(k) => state.states[k],
             Symbol::Time => state.time,
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(k) => self.shapes[k],
@@ -101,6 +106,13 @@ impl Interpreter {
     #[must_use]
     pub fn known_torque(&self, standard: &[f64], state: &State) -> DMatrix<f64> {
         self.column(&self.known_torque, standard, state)
+    }
+
+    /// Rates of the effects' internal states, with the load that they are told.
+    #[must_use]
+    pub fn state_rates(&self, standard: &[f64], state: &State, rigid: &[f64]) -> DMatrix<f64> {
+        let values = self.run(&self.state_rates, standard, state, rigid);
+        DMatrix::from_column_slice(values.len(), 1, &values)
     }
 
     /// All forms at a state, with base parameters from `standard`.

@@ -1,6 +1,8 @@
 //! The value of an effect's expression, straight from its tree: what the language says, with no compiler between.
 
-use robot_model_spec::model::{BinaryOp, EffectExpr, EffectLeaf, Expr, Function, Signal};
+use robot_model_spec::model::{
+    BinaryOp, EffectBinding, EffectExpr, EffectLeaf, Expr, Function, Signal,
+};
 
 /// What the names of an expression stand for.
 #[derive(Debug, Clone, Copy)]
@@ -11,8 +13,14 @@ pub struct Scope<'a> {
     pub shapes: &'a [f64],
     /// Joint of each formal joint.
     pub joints: &'a [usize],
-    /// Position, velocity, acceleration and rigid-body torque of every joint.
-    pub signals: [&'a [f64]; 4],
+    /// Position, velocity, acceleration, rigid-body torque and measured torque of every joint.
+    pub signals: [&'a [f64]; 5],
+    /// Values of the definition's inputs.
+    pub inputs: &'a [f64],
+    /// Values of its states.
+    pub states: &'a [f64],
+    /// Its bindings, which are looked through.
+    pub bindings: &'a [EffectBinding],
     /// Seconds since the start of the log.
     pub time: f64,
 }
@@ -34,6 +42,12 @@ pub fn value(expr: &EffectExpr, scope: &Scope<'_>) -> f64 {
                 BinaryOp::Pow => x.powf(y),
             }
         }
+        Expr::Min(x, y) => value(x, scope).min(value(y, scope)),
+        Expr::Max(x, y) => value(x, scope).max(value(y, scope)),
+        Expr::Choice(choice) if value(&choice.greater, scope) > value(&choice.smaller, scope) => {
+            value(&choice.then, scope)
+        }
+        Expr::Choice(choice) => value(&choice.otherwise, scope),
         Expr::Call(function, x) => {
             let x = value(x, scope);
             match function {
@@ -56,12 +70,16 @@ fn leaf_value(leaf: EffectLeaf, scope: &Scope<'_>) -> f64 {
         EffectLeaf::Linear(k) => scope.linear[k],
         EffectLeaf::Shape(k) => scope.shapes[k],
         EffectLeaf::Time => scope.time,
+        EffectLeaf::Input(k) => scope.inputs[k],
+        EffectLeaf::State(k) => scope.states[k],
+        EffectLeaf::Binding(k) => value(&scope.bindings[k].value, scope),
         EffectLeaf::Signal(signal, formal) => {
             let values = scope.signals[match signal {
                 Signal::Position => 0,
                 Signal::Velocity => 1,
                 Signal::Acceleration => 2,
                 Signal::RigidTorque => 3,
+                Signal::MeasuredTorque => 4,
             }];
             values[scope.joints[formal]]
         }

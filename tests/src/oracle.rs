@@ -124,7 +124,7 @@ impl Oracle {
                     q: state.q.clone(),
                     dq: state.dq.clone(),
                     ddq: state.ddq.clone(),
-                    time: 0.0,
+                    ..State::default()
                 },
             }
         })

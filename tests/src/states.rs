@@ -8,7 +8,7 @@ use robot_model_spec::model::{Energies, Monomial};
 use robot_model_spec::parameter::{Owner, Status};
 
 /// Where an arm is and how it moves.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct State {
     /// Positions.
     pub q: Vec<f64>,
@@ -18,7 +18,16 @@ pub struct State {
     pub ddq: Vec<f64>,
     /// Seconds since the start of the log.
     pub time: f64,
+    /// Torques as a log has them.
+    pub measured_torque: Vec<f64>,
+    /// Further channels of a log, more than any spec here reads.
+    pub inputs: Vec<f64>,
+    /// Internal states of effects, more than any spec here has.
+    pub states: Vec<f64>,
 }
+
+/// Channels and internal states of a [`State`].
+const SPARE: usize = 16;
 
 /// The generator of a test: the same numbers on every machine and in every run.
 #[must_use]
@@ -39,6 +48,11 @@ pub fn state(random: &mut ChaCha8Rng, dof: usize) -> State {
         dq,
         ddq,
         time: random.random_range(0.0..10.0),
+        measured_torque: (0..dof).map(|_| random.random_range(-9.0..9.0)).collect(),
+        inputs: (0..SPARE)
+            .map(|_| random.random_range(10.0..40.0))
+            .collect(),
+        states: (0..SPARE).map(|_| random.random_range(-0.9..0.9)).collect(),
     }
 }
 

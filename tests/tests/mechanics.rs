@@ -187,7 +187,7 @@ fn parameters_of_no_arm_have_no_accelerations() {
             q: vec![0.3; 6],
             dq: vec![0.1; 6],
             ddq: vec![0.0; 6],
-            time: 0.0,
+            ..State::default()
         };
         for standard in [vec![0.0; count], vec![-1.0; count], vec![f64::NAN; count]] {
             assert_eq!((robot.accelerations)(&standard, &state, &[1.0; 6]), None);

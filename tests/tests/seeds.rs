@@ -300,7 +300,7 @@ fn puma_shoulder_has_two_rigid_parameters_and_the_frictions_of_the_paper() {
         q: vec![0.4],
         dq: vec![-1.3],
         ddq: vec![2.1],
-        time: 0.0,
+        ..State::default()
     };
     let x = state.dq[0];
     let tau = j * 2.1 - mr * 9.81 * 0.4_f64.sin() + fv * x + delta * x.abs() + c * x * x.abs();

@@ -71,6 +71,9 @@ impl Plant {
             Symbol::Parameter(k) => Operand::Constant(self.parameters[k]),
             Symbol::Shape(k) => Operand::Constant(self.shapes[k]),
             Symbol::RigidTorque(_) => unreachable!("inverse dynamics knows its own load"),
+            Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) => {
+                unreachable!("no effect of the plant reads a log or has a memory")
+            }
         };
         self.inverse_dynamics
             .eval_batch(time.len(), &bind, &mut torque);

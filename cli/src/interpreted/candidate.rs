@@ -3,13 +3,15 @@
 use std::collections::BTreeSet;
 
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::log::Channel;
 use robot_model::motion::{Kinematics, Motion};
 use robot_model_codegen::effect_columns;
 use robot_model_spec::model::{EffectDefinition, Model};
 
 use super::InterpretedArm;
-use super::band::{EffectBlock, is_rough};
-use super::shape::grid;
+use super::band::EffectBlock;
+use super::rough::is_rough;
+use super::shape::grids;
 
 impl InterpretedArm {
     /// Every effect that the spec may declare and does not, on every joint or group of joints. A declared effect comes again
@@ -18,7 +20,8 @@ impl InterpretedArm {
     pub fn candidates(&self) -> Vec<InterpretedCandidate> {
         let model = &self.compiled.model;
         let mut candidates = Vec::new();
-        for definition in &model.definitions {
+        let definitions = model.definitions.iter();
+        for definition in definitions.filter(|definition| may_be_tried(definition)) {
             let mut seen: Vec<(BTreeSet<usize>, Vec<Entry>)> = Vec::new();
             for joints in tuples(model.joints.len(), definition.joints.len()) {
                 let group: BTreeSet<usize> = joints.iter().copied().collect();
@@ -49,6 +52,15 @@ impl InterpretedArm {
     }
 }
 
+/// A law with more linear parameters than this is a model of its own, not what another model lacks.
+const MOST_UNKNOWNS: usize = 3;
+
+/// Whether a residual may be traced to an effect: not where the effect is made of the torque whose residual it is, which
+/// explains itself, and not to a sum of effects that are tried one by one.
+fn may_be_tried(definition: &EffectDefinition) -> bool {
+    definition.linear.len() <= MOST_UNKNOWNS && !definition.reads_measured_torque()
+}
+
 /// An effect of the spec's library on joints where the spec does not declare it.
 #[derive(Debug, Clone)]
 pub struct InterpretedCandidate {
@@ -57,7 +69,6 @@ pub struct InterpretedCandidate {
     unknowns: Vec<Unknown>,
     shapes: Vec<Shape>,
     columns: EffectBlock,
-    uses_rigid_torque: bool,
 }
 
 impl InterpretedCandidate {
@@ -69,9 +80,10 @@ impl InterpretedCandidate {
             name: format!("{prefix}.{}", linear.name),
             nonnegative: linear.nonnegative,
         });
-        let shapes = definition.shapes.iter().map(|shape| Shape {
+        let shapes = definition.shapes.iter().zip(grids(definition));
+        let shapes = shapes.map(|(shape, grid)| Shape {
             name: format!("{prefix}.{}", shape.name),
-            grid: grid(shape),
+            grid,
         });
         let columns = effect_columns(definition, joints, model.joints.len());
         Self {
@@ -79,8 +91,21 @@ impl InterpretedCandidate {
             joints: joints.to_vec(),
             unknowns: unknowns.collect(),
             shapes: shapes.collect(),
-            columns: EffectBlock::new(columns.block, |parameter| is_rough(definition, parameter)),
-            uses_rigid_torque: columns.uses_rigid_torque,
+            columns: EffectBlock::new(
+                columns.block,
+                columns.states,
+                definition
+                    .inputs
+                    .iter()
+                    .map(|input| input.column(joints))
+                    .collect(),
+                model
+                    .joints
+                    .iter()
+                    .map(|joint| joint.actuator_gain)
+                    .collect(),
+                |parameter| is_rough(definition, parameter),
+            ),
         }
     }
 
@@ -107,10 +132,21 @@ impl InterpretedCandidate {
             ddq: signal(2),
         };
         let motion = Motion {
-            time: vec![1.0; STATES],
+            time: (0..STATES).map(|state| state as f64).collect(),
             smooth: kinematics.clone(),
             wide: kinematics,
             rigid_torque: signal(3),
+            tau: signal(4),
+            // Channels of joints are as different as the joints.
+            extra: self
+                .inputs()
+                .iter()
+                .zip(signal(5).into_iter().cycle())
+                .map(|(name, values)| Channel {
+                    name: name.clone(),
+                    values,
+                })
+                .collect(),
         };
         let shapes: Vec<f64> = self
             .shapes
@@ -133,7 +169,11 @@ impl Columns for InterpretedCandidate {
     }
 
     fn uses_rigid_torque(&self) -> bool {
-        self.uses_rigid_torque
+        self.columns.uses_rigid_torque()
+    }
+
+    fn inputs(&self) -> &[String] {
+        self.columns.inputs()
     }
 
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {

@@ -8,7 +8,9 @@ mod band;
 mod candidate;
 mod momentum;
 mod program;
+mod rough;
 mod shape;
+mod signals;
 
 pub use candidate::InterpretedCandidate;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
@@ -18,12 +20,13 @@ use robot_model::motion::Motion;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::{Block, Compiled};
-use robot_model_spec::model::ShapeParameter;
 use robot_model_spec::parameter::Owner;
 
-use band::{EffectBlock, is_rough};
-use program::{bind, run, run_block};
-use shape::grid;
+use band::EffectBlock;
+use program::{run, run_block};
+use rough::is_rough;
+use shape::grids;
+use signals::{Own, Signals};
 
 /// A compiled spec as an [`Arm`]: unknowns are its base parameters, those of declared effects among them.
 #[derive(Debug, Clone)]
@@ -48,10 +51,10 @@ impl InterpretedArm {
     pub fn new(compiled: Compiled) -> Self {
         let model = &compiled.model;
         let names = compiled.shape_names();
-        let parameters: Vec<&ShapeParameter> = model
+        let grids: Vec<Vec<f64>> = model
             .effects
             .iter()
-            .flat_map(|effect| &effect.definition.shapes)
+            .flat_map(|effect| grids(&effect.definition))
             .collect();
         let free = compiled.free_shapes();
         let given = model
@@ -65,7 +68,7 @@ impl InterpretedArm {
                 .iter()
                 .map(|&k| Shape {
                     name: names[k].clone(),
-                    grid: grid(parameters[k]),
+                    grid: grids[k].clone(),
                 })
                 .collect(),
             given: given.collect(),
@@ -114,13 +117,22 @@ impl Columns for InterpretedArm {
     }
 
     fn uses_rigid_torque(&self) -> bool {
-        reads_rigid_torque(&self.effects.block.program)
+        self.effects.uses_rigid_torque()
+    }
+
+    fn inputs(&self) -> &[String] {
+        self.effects.inputs()
     }
 
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let values = self.all_shapes(shapes);
-        let mut entries = run_block(&self.rigid, motion, &motion.smooth, &values);
-        entries.extend(self.effects.run(motion, &values));
+        let shapes = self.all_shapes(shapes);
+        let signals = Signals {
+            motion,
+            shapes: &shapes,
+            own: &Own::default(),
+        };
+        let mut entries = run_block(&self.rigid, &signals, &motion.smooth);
+        entries.extend(self.effects.run(motion, &shapes));
         entries
     }
 }
@@ -138,17 +150,27 @@ impl Arm for InterpretedArm {
         &self.actuator_gain
     }
 
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        let signals = Signals {
+            motion,
+            shapes: &self.all_shapes(shapes),
+            own: &Own::default(),
+        };
         run(&self.known_torque, motion, &|symbol| {
-            bind(motion, &motion.smooth, &[], symbol)
+            signals.bind(&motion.smooth, symbol)
         })
     }
 
-    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+    fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
         let parameters = self.compiled.parameter_values(estimate);
+        let signals = Signals {
+            motion,
+            shapes: &self.all_shapes(shapes),
+            own: &Own::default(),
+        };
         run(&self.rigid_torque, motion, &|symbol| match symbol {
             Symbol::Parameter(k) => Operand::Constant(parameters[k]),
-            other => bind(motion, &motion.smooth, &[], other),
+            other => signals.bind(&motion.smooth, other),
         })
     }
 }
@@ -171,21 +193,24 @@ fn unknowns(compiled: &Compiled) -> Vec<Unknown> {
         .collect()
 }
 
-fn reads_rigid_torque(program: &Program) -> bool {
-    program
-        .symbols()
-        .iter()
-        .any(|symbol| matches!(symbol, Symbol::RigidTorque(_)))
-}
-
 /// Columns of the declared effects, each with the band that it reads.
 fn effect_block(compiled: &Compiled, block: Block) -> EffectBlock {
-    EffectBlock::new(block, |column| {
-        match compiled.standard[compiled.base.kept[column]].owner {
+    let gain = compiled
+        .model
+        .joints
+        .iter()
+        .map(|joint| joint.actuator_gain);
+    let (states, inputs) = (compiled.states(), compiled.model.inputs());
+    EffectBlock::new(
+        block,
+        states,
+        inputs,
+        gain.collect(),
+        |column| match compiled.standard[compiled.base.kept[column]].owner {
             Owner::Effect { effect, parameter } => {
                 is_rough(&compiled.model.effects[effect].definition, parameter)
             }
             Owner::Link { .. } | Owner::Monomial(_) => false,
-        }
-    })
+        },
+    )
 }

@@ -9,7 +9,8 @@ use robot_model_codegen::interpreter::Program;
 use robot_model_codegen::{Block, Compiled};
 
 use super::band::EffectBlock;
-use super::program::{bind, run, run_block};
+use super::program::{run, run_block};
+use super::signals::{Own, Signals};
 use super::{InterpretedArm, effect_block};
 
 /// An arm whose columns need no accelerations.
@@ -64,9 +65,24 @@ impl InterpretedMomentum {
     }
 
     fn known(program: &Program, motion: &Motion) -> Vec<Vec<f64>> {
+        let signals = Signals {
+            motion,
+            shapes: &[],
+            own: &Own::default(),
+        };
         run(program, motion, &|symbol| {
-            bind(motion, &motion.smooth, &[], symbol)
+            signals.bind(&motion.smooth, symbol)
         })
+    }
+
+    /// Columns of the rigid body.
+    fn rigid(&self, block: &Block, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let signals = Signals {
+            motion,
+            shapes: &self.arm.all_shapes(shapes),
+            own: &Own::default(),
+        };
+        run_block(block, &signals, &motion.smooth)
     }
 }
 
@@ -102,6 +118,10 @@ impl Columns for InterpretedMomentum {
         self.arm.uses_rigid_torque()
     }
 
+    fn inputs(&self) -> &[String] {
+        self.arm.inputs()
+    }
+
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
         self.arm.entries(motion, shapes)
     }
@@ -120,24 +140,23 @@ impl Arm for InterpretedMomentum {
         self.arm.actuator_gain()
     }
 
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
-        self.arm.known_torque(motion)
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.known_torque(motion, shapes)
     }
 
-    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
-        self.arm.rigid_torque(motion, estimate)
+    fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.rigid_torque(motion, shapes, estimate)
     }
 }
 
 impl MomentumArm for InterpretedMomentum {
     fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let shapes = self.arm.all_shapes(shapes);
-        run_block(&self.momentum, motion, &motion.smooth, &shapes)
+        self.rigid(&self.momentum, motion, shapes)
     }
 
     fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let mut entries = self.rigid(&self.rigid_drift, motion, shapes);
         let shapes = self.arm.all_shapes(shapes);
-        let mut entries = run_block(&self.rigid_drift, motion, &motion.smooth, &shapes);
         entries.extend(self.effect_drift.run(motion, &shapes));
         entries
     }

@@ -6,14 +6,15 @@ use robot_model_codegen::Block;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
 
+use super::signals::Signals;
+
 pub(super) fn run_block(
     block: &Block,
-    motion: &Motion,
+    signals: &Signals<'_>,
     kinematics: &Kinematics,
-    shapes: &[f64],
 ) -> Vec<Entry> {
-    let values = run(&block.program, motion, &|symbol| {
-        bind(motion, kinematics, shapes, symbol)
+    let values = run(&block.program, signals.motion, &|symbol| {
+        signals.bind(kinematics, symbol)
     });
     block
         .entries
@@ -35,25 +36,4 @@ pub(super) fn run<'a>(
     let mut out = vec![Vec::new(); program.outputs()];
     program.eval_batch(motion.time.len(), bind, &mut out);
     out
-}
-
-pub(super) fn bind<'a>(
-    motion: &'a Motion,
-    kinematics: &'a Kinematics,
-    shapes: &[f64],
-    symbol: Symbol,
-) -> Operand<'a> {
-    match symbol {
-        Symbol::Q(joint) => Operand::Column(&kinematics.q[joint]),
-        Symbol::Dq(joint) => Operand::Column(&kinematics.dq[joint]),
-        Symbol::Ddq(joint) => Operand::Column(&kinematics.ddq[joint]),
-        Symbol::Time => Operand::Column(&motion.time),
-        Symbol::Shape(k) => Operand::Constant(shapes[k]),
-        // No load is known before the first estimate.
-        Symbol::RigidTorque(joint) => motion
-            .rigid_torque
-            .get(joint)
-            .map_or(Operand::Constant(0.0), |torque| Operand::Column(torque)),
-        Symbol::Parameter(_) => unreachable!("columns are free of parameters"),
-    }
 }

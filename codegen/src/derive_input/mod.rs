@@ -85,6 +85,12 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
             format!("base parameters are not certain: {}", compiled.base.rank),
         ));
     }
+    if compiled.reads_more_than_motion() {
+        return Err(syn::Error::new(
+            robot.name.span(),
+            "an effect has a memory or reads the log, and a `RobotModel` knows motions only; write the arm as a `.robot` file and compile it in a build script",
+        ));
+    }
     let parameters = value::parameters(&robot, &compiled, &places);
     let implementation =
         emit::rust::implementation_for(&compiled, robot.name, &parameters, &nominal);

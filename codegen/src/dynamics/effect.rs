@@ -1,6 +1,6 @@
 //! Effects as the language defines them, lowered to expressions for given joints.
 
-use robot_model_spec::model::{EffectDefinition, EffectExpr, EffectLeaf, Signal};
+use robot_model_spec::model::{EffectDefinition, EffectExpr, EffectLeaf, Model, Signal};
 
 use super::lower::lower_with;
 use crate::expr::{Dag, ExprId, Symbol};
@@ -9,12 +9,65 @@ use crate::expr::{Dag, ExprId, Symbol};
 pub struct Scope<'a> {
     /// Linear parameters.
     pub linear: &'a [ExprId],
-    /// Shape parameters.
-    pub shapes: &'a [ExprId],
+    /// Shape parameters, inputs and states.
+    pub symbols: &'a Symbols,
     /// Joint indices, one per formal joint.
     pub joints: &'a [usize],
     /// Torque of the rigid body, one per joint of the arm: symbols where it comes from outside, expressions where not.
     pub rigid_torque: &'a [ExprId],
+}
+
+/// What the names stand for that have one meaning in all forms.
+pub struct Symbols {
+    /// Shape parameters: numbers where the spec gives them.
+    pub shapes: Vec<ExprId>,
+    /// Columns of the log.
+    pub inputs: Vec<ExprId>,
+    /// Internal states, by [`Symbol::State`].
+    pub states: Vec<Symbol>,
+}
+
+impl Symbols {
+    /// Those of a declared effect, by its index in the model.
+    pub fn declared(dag: &mut Dag, model: &Model, effect: usize) -> Self {
+        let before = &model.effects[..effect];
+        let declared = &model.effects[effect];
+        let first_shape: usize = before.iter().map(|effect| effect.shapes.len()).sum();
+        let first_state: usize = before.iter().map(|e| e.definition.states.len()).sum();
+        let columns = model.inputs();
+        let shapes = (first_shape..)
+            .zip(&declared.shapes)
+            .map(|(k, value)| match value {
+                Some(value) => dag.constant(*value),
+                None => dag.symbol(Symbol::Shape(k)),
+            })
+            .collect();
+        let inputs = declared.definition.inputs.iter().map(|input| {
+            let column = input.column(&declared.joints);
+            let k = columns.iter().position(|other| *other == column);
+            dag.symbol(Symbol::Input(k.expect("the model lists all inputs")))
+        });
+        Self {
+            shapes,
+            inputs: inputs.collect(),
+            states: (first_state..)
+                .take(declared.definition.states.len())
+                .map(Symbol::State)
+                .collect(),
+        }
+    }
+
+    /// Those of an effect that stands alone: everything by its index in the definition.
+    pub fn alone(dag: &mut Dag, definition: &EffectDefinition) -> Self {
+        let shapes = (0..definition.shapes.len()).map(|k| dag.symbol(Symbol::Shape(k)));
+        let shapes = shapes.collect();
+        let inputs = (0..definition.inputs.len()).map(|k| dag.symbol(Symbol::Input(k)));
+        Self {
+            shapes,
+            inputs: inputs.collect(),
+            states: (0..definition.states.len()).map(Symbol::State).collect(),
+        }
+    }
 }
 
 /// `RigidTorque(0), RigidTorque(1), ..`
@@ -30,11 +83,31 @@ pub fn torques(
     definition: &EffectDefinition,
     scope: &Scope<'_>,
 ) -> Vec<(usize, ExprId)> {
+    let bindings = bindings(dag, definition, scope);
     definition
         .torques
         .iter()
-        .map(|torque| (scope.joints[torque.joint], lower(dag, &torque.value, scope)))
+        .map(|torque| {
+            let value = lower(dag, &torque.value, scope, &bindings);
+            (scope.joints[torque.joint], value)
+        })
         .collect()
+}
+
+/// Rates of the effect's states, in their order.
+pub fn rates(dag: &mut Dag, definition: &EffectDefinition, scope: &Scope<'_>) -> Vec<ExprId> {
+    let bindings = bindings(dag, definition, scope);
+    let states = definition.states.iter();
+    states.map(|state| bindings[state.rate]).collect()
+}
+
+/// Each binding uses those before it.
+fn bindings(dag: &mut Dag, definition: &EffectDefinition, scope: &Scope<'_>) -> Vec<ExprId> {
+    let mut known = Vec::new();
+    for binding in &definition.bindings {
+        known.push(lower(dag, &binding.value, scope, &known));
+    }
+    known
 }
 
 /// One column entry of an effect: what a linear parameter is multiplied with on one joint.
@@ -72,10 +145,10 @@ pub fn entries(
     entries
 }
 
-fn lower(dag: &mut Dag, expr: &EffectExpr, scope: &Scope<'_>) -> ExprId {
+fn lower(dag: &mut Dag, expr: &EffectExpr, scope: &Scope<'_>, bindings: &[ExprId]) -> ExprId {
     lower_with(dag, expr, &mut |dag, leaf| match leaf {
         EffectLeaf::Linear(k) => scope.linear[k],
-        EffectLeaf::Shape(k) => scope.shapes[k],
+        EffectLeaf::Shape(k) => scope.symbols.shapes[k],
         EffectLeaf::Signal(signal, formal) => {
             let joint = scope.joints[formal];
             match signal {
@@ -83,8 +156,12 @@ fn lower(dag: &mut Dag, expr: &EffectExpr, scope: &Scope<'_>) -> ExprId {
                 Signal::Velocity => dag.symbol(Symbol::Dq(joint)),
                 Signal::Acceleration => dag.symbol(Symbol::Ddq(joint)),
                 Signal::RigidTorque => scope.rigid_torque[joint],
+                Signal::MeasuredTorque => dag.symbol(Symbol::MeasuredTorque(joint)),
             }
         }
         EffectLeaf::Time => dag.symbol(Symbol::Time),
+        EffectLeaf::Input(k) => scope.symbols.inputs[k],
+        EffectLeaf::State(k) => dag.symbol(scope.symbols.states[k]),
+        EffectLeaf::Binding(k) => bindings[k],
     })
 }

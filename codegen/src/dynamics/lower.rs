@@ -31,6 +31,22 @@ pub fn lower_with<Leaf: Copy>(
             let x = lower_with(dag, x, leaf);
             dag.call(expression_function(*function), x)
         }
+        Expr::Min(x, y) => {
+            let (x, y) = (lower_with(dag, x, leaf), lower_with(dag, y, leaf));
+            dag.min(x, y)
+        }
+        Expr::Max(x, y) => {
+            let (x, y) = (lower_with(dag, x, leaf), lower_with(dag, y, leaf));
+            dag.max(x, y)
+        }
+        Expr::Choice(choice) => {
+            let greater = lower_with(dag, &choice.greater, leaf);
+            let smaller = lower_with(dag, &choice.smaller, leaf);
+            let then = lower_with(dag, &choice.then, leaf);
+            let otherwise = lower_with(dag, &choice.otherwise, leaf);
+            let difference = dag.sub(greater, smaller);
+            dag.select(difference, then, otherwise)
+        }
     }
 }
 

@@ -60,6 +60,8 @@ pub struct Dynamics {
     pub bias: Vec<ExprId>,
     /// `T` and `V` of the rigid body.
     pub energies: Energies,
+    /// Rates of the declared effects' states, load-dependent ones at [`Symbol::RigidTorque`].
+    pub state_rates: Vec<ExprId>,
 }
 
 /// Derives the equations of motion. `values` has one entry per standard parameter of the model; `form` are the energies of
@@ -98,7 +100,9 @@ pub fn derive(
     let inverse_dynamics = (0..dof)
         .map(|joint| dag.add(rigid_torque[joint], effect_torque[joint]))
         .collect();
+    let state_rates = state_rates(dag, model);
     Dynamics {
+        state_rates,
         dof,
         rigid_torque,
         effect_torque,
@@ -163,10 +167,10 @@ fn effect_torque(
     for (index, effect) in model.effects.iter().enumerate() {
         let (own, rest) = linear.split_at(effect.definition.linear.len());
         linear = rest;
-        let shapes = shape_expressions(dag, model, index);
+        let symbols = effect::Symbols::declared(dag, model, index);
         let scope = effect::Scope {
             linear: own,
-            shapes: &shapes,
+            symbols: &symbols,
             joints: &effect.joints,
             rigid_torque,
         };
@@ -177,18 +181,22 @@ fn effect_torque(
     sum
 }
 
-/// A declared effect's shape parameters: numbers where the spec gives them, else symbols.
-pub fn shape_expressions(dag: &mut Dag, model: &Model, effect: usize) -> Vec<ExprId> {
-    let first: usize = model.effects[..effect]
-        .iter()
-        .map(|effect| effect.shapes.len())
-        .sum();
-    let shapes = &model.effects[effect].shapes;
-    (first..)
-        .zip(shapes)
-        .map(|(k, value)| match value {
-            Some(value) => dag.constant(*value),
-            None => dag.symbol(Symbol::Shape(k)),
-        })
-        .collect()
+/// Rates of the declared effects' states, in the order of [`Symbol::State`]; the load of those that depend on it is
+/// [`Symbol::RigidTorque`].
+fn state_rates(dag: &mut Dag, model: &Model) -> Vec<ExprId> {
+    let rigid_torque = effect::outside_rigid_torque(dag, model.joints.len());
+    let mut rates = Vec::new();
+    for (index, effect) in model.effects.iter().enumerate() {
+        let symbols = effect::Symbols::declared(dag, model, index);
+        // Rates are free of linear parameters, but they stand beside bindings that are not.
+        let linear = vec![dag.zero(); effect.definition.linear.len()];
+        let scope = effect::Scope {
+            linear: &linear,
+            symbols: &symbols,
+            joints: &effect.joints,
+            rigid_torque: &rigid_torque,
+        };
+        rates.extend(effect::rates(dag, &effect.definition, &scope));
+    }
+    rates
 }

@@ -5,7 +5,8 @@ use super::{Dag, ExprId, Function, Node, Symbol};
 impl Dag {
     /// `d roots / d symbol`, one a root. Shared parts are differentiated once.
     ///
-    /// `abs` has the derivative `sign`, `sign` has the derivative 0: right everywhere but at the kink.
+    /// `abs` has the derivative `sign`, `sign` has the derivative 0, a choice that of what is chosen: right everywhere but at
+    /// the kink.
     pub fn derivatives(&mut self, roots: &[ExprId], symbol: Symbol) -> Vec<ExprId> {
         let reachable = self.reachable(roots);
         let mut derivative = vec![self.zero(); self.nodes.len()];
@@ -44,6 +45,7 @@ impl Dag {
                 let sum = self.add(from_base, from_exponent);
                 self.mul(x, sum)
             }
+            Node::Select(condition, p, q) => self.select(condition, of[p.index()], of[q.index()]),
             Node::Call(_, inside) if self.is_zero(of[inside.index()]) => self.zero(),
             Node::Call(function, inside) => {
                 let outer = self.derivative_of_call(function, inside, x);
@@ -105,6 +107,8 @@ mod tests {
         let mut cases: Vec<ExprId> = functions.iter().map(|&f| dag.call(f, product)).collect();
         cases.push(dag.power(sum, y));
         cases.push(dag.power(product, x));
+        cases.push(dag.min(product, sum));
+        cases.push(dag.max(product, sum));
         for case in cases {
             let derivative = dag.derivative(case, Symbol::Q(0));
             let at = |dag: &Dag, expr, x| {

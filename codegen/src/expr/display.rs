@@ -20,28 +20,31 @@ pub struct Names {
     pub parameters: Vec<String>,
     /// One per shape parameter.
     pub shapes: Vec<String>,
+    /// One per further channel of the log.
+    pub inputs: Vec<String>,
+    /// One per internal state.
+    pub states: Vec<String>,
 }
 
 impl Names {
     /// A symbol's name.
     #[must_use]
     pub fn symbol(&self, symbol: Symbol, style: Style) -> String {
+        let named = |names: &[String], stem: &str, k: usize| {
+            let name = names.get(k).cloned();
+            name.unwrap_or_else(|| format!("{stem}{}", k + 1))
+        };
         let text = match symbol {
             Symbol::Q(j) => self.coordinate(j),
             Symbol::Dq(j) => format!("d{}", self.coordinate(j)),
             Symbol::Ddq(j) => format!("dd{}", self.coordinate(j)),
             Symbol::RigidTorque(j) => format!("rigid_torque{}", j + 1),
+            Symbol::MeasuredTorque(j) => format!("measured_torque{}", j + 1),
             Symbol::Time => "t".to_owned(),
-            Symbol::Parameter(k) => self
-                .parameters
-                .get(k)
-                .cloned()
-                .unwrap_or_else(|| format!("parameter{}", k + 1)),
-            Symbol::Shape(k) => self
-                .shapes
-                .get(k)
-                .cloned()
-                .unwrap_or_else(|| format!("shape{}", k + 1)),
+            Symbol::Parameter(k) => named(&self.parameters, "parameter", k),
+            Symbol::Shape(k) => named(&self.shapes, "shape", k),
+            Symbol::Input(k) => named(&self.inputs, "input", k),
+            Symbol::State(k) => named(&self.states, "state", k),
         };
         if style == Style::Text {
             return text;
@@ -51,8 +54,9 @@ impl Names {
             Symbol::Dq(j) => latex_name(&self.coordinate(j), "\\dot "),
             Symbol::Ddq(j) => latex_name(&self.coordinate(j), "\\ddot "),
             Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
+            Symbol::MeasuredTorque(j) => format!("\\tau^{{\\mathrm{{measured}}}}_{{{}}}", j + 1),
             Symbol::Time => text,
-            Symbol::Parameter(_) | Symbol::Shape(_) => {
+            Symbol::Parameter(_) | Symbol::Shape(_) | Symbol::Input(_) | Symbol::State(_) => {
                 format!("\\mathrm{{{}}}", text.replace('_', "\\_"))
             }
         }
@@ -196,7 +200,26 @@ impl Writer<'_> {
                 Binding::Product,
             ),
             Node::Call(function, p) => call(function, &self.write(p, Binding::Sum), self.style),
+            Node::Select(condition, p, q) => {
+                let condition = self.condition(condition);
+                let (p, q) = (self.write(p, Binding::Sum), self.write(q, Binding::Sum));
+                choice(&condition, &p, &q, self.style)
+            }
         }
+    }
+
+    /// `x > y` where the difference of the two decides, else `x > 0`.
+    fn condition(&self, x: ExprId) -> String {
+        if let Node::Add(p, q) = self.dag.node(x) {
+            for (here, other) in [(p, q), (q, p)] {
+                let (c, rest) = self.dag.coefficient(here);
+                if let (true, Some(rest)) = (c.to_bits() == (-1.0f64).to_bits(), rest) {
+                    let larger = self.write(other, Binding::Sum);
+                    return format!("{larger} > {}", self.write(rest, Binding::Sum));
+                }
+            }
+        }
+        format!("{} > 0", self.write(x, Binding::Sum))
     }
 
     fn product(&self, p: ExprId, q: ExprId, around: Binding) -> String {
@@ -249,6 +272,16 @@ pub(crate) fn call(function: Function, argument: &str, style: Style) -> String {
         (Style::Latex, Function::Sqrt) => format!("\\sqrt{{{argument}}}"),
         (Style::Latex, Function::Sign) => format!("\\operatorname{{sign}}({argument})"),
         (Style::Latex, _) => format!("\\{}({argument})", function.name()),
+    }
+}
+
+/// A choice in the given notation.
+pub(crate) fn choice(condition: &str, x: &str, y: &str, style: Style) -> String {
+    match style {
+        Style::Text => format!("(if {condition} {{ {x} }} else {{ {y} }})"),
+        Style::Latex => format!(
+            "\\begin{{cases}} {x} & {condition} \\\\ {y} & \\text{{otherwise}} \\end{{cases}}"
+        ),
     }
 }
 

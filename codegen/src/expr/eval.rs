@@ -21,6 +21,8 @@ impl Dag {
                 Node::Mul(p, q) => value[p.index()] * value[q.index()],
                 Node::Power(p, q) => f64::powf(value[p.index()], value[q.index()]),
                 Node::Call(function, p) => function.apply(value[p.index()]),
+                Node::Select(condition, p, _) if value[condition.index()] > 0.0 => value[p.index()],
+                Node::Select(_, _, q) => value[q.index()],
             };
         }
         roots.iter().map(|root| value[root.index()]).collect()

@@ -10,6 +10,7 @@
 mod diff;
 mod display;
 mod eval;
+mod node;
 pub mod rules;
 mod substitute;
 
@@ -17,6 +18,7 @@ use std::collections::HashMap;
 
 pub(crate) use display::number;
 pub use display::{Names, Style};
+pub use node::{Function, Node, Real, Symbol};
 
 /// An expression of one [`Dag`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -27,130 +29,6 @@ impl ExprId {
     #[must_use]
     pub const fn index(self) -> usize {
         self.0 as usize
-    }
-}
-
-/// A quantity that gets its value when an expression is evaluated. Joints count from 0.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Symbol {
-    /// Position of a joint, rad or m.
-    Q(usize),
-    /// Velocity of a joint.
-    Dq(usize),
-    /// Acceleration of a joint.
-    Ddq(usize),
-    /// Torque of the rigid body alone on a joint, where it comes from outside, N m or N.
-    RigidTorque(usize),
-    /// Time since the start of the log, s.
-    Time,
-    /// A standard parameter, by its index.
-    Parameter(usize),
-    /// A shape parameter, by its index over all shape parameters of the declared effects.
-    Shape(usize),
-}
-
-/// Functions of one argument.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Function {
-    /// `sin`
-    Sin,
-    /// `cos`
-    Cos,
-    /// `exp`
-    Exp,
-    /// Natural logarithm; arises from derivatives of powers.
-    Ln,
-    /// `sqrt`
-    Sqrt,
-    /// `abs`
-    Abs,
-    /// `sign`: -1, 0 or 1
-    Sign,
-    /// `tanh`
-    Tanh,
-    /// `1 / x`
-    Recip,
-}
-
-impl Function {
-    /// Its value.
-    #[must_use]
-    pub fn apply(self, x: f64) -> f64 {
-        match self {
-            Self::Sin => x.sin(),
-            Self::Cos => x.cos(),
-            Self::Exp => x.exp(),
-            Self::Ln => x.ln(),
-            Self::Sqrt => x.sqrt(),
-            Self::Abs => x.abs(),
-            // `f64::signum` is 1 at 0.
-            Self::Sign if x == 0.0 => 0.0,
-            Self::Sign => x.signum(),
-            Self::Tanh => x.tanh(),
-            Self::Recip => x.recip(),
-        }
-    }
-
-    /// Name in text and in `robot_model::math`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Exp => "exp",
-            Self::Ln => "ln",
-            Self::Sqrt => "sqrt",
-            Self::Abs => "abs",
-            Self::Sign => "sign",
-            Self::Tanh => "tanh",
-            Self::Recip => "recip",
-        }
-    }
-}
-
-/// A finite number that can be compared and hashed: one zero, no NaN.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Real(u64);
-
-impl Real {
-    fn new(value: f64) -> Self {
-        // `-0.0 + 0.0` is `0.0`: the two zeros become one.
-        Self((value + 0.0).to_bits())
-    }
-
-    /// The number.
-    #[must_use]
-    pub const fn get(self) -> f64 {
-        f64::from_bits(self.0)
-    }
-}
-
-/// One node of the dag.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Node {
-    /// A number.
-    Constant(Real),
-    /// A quantity bound at evaluation.
-    Symbol(Symbol),
-    /// `x + y`
-    Add(ExprId, ExprId),
-    /// `x * y`; a numeric factor comes first.
-    Mul(ExprId, ExprId),
-    /// `x ^ y` where `y` is not an integer constant.
-    Power(ExprId, ExprId),
-    /// `f(x)`
-    Call(Function, ExprId),
-}
-
-impl Node {
-    /// The operands, none to two.
-    pub fn operands(self) -> impl Iterator<Item = ExprId> {
-        let (x, y) = match self {
-            Self::Constant(_) | Self::Symbol(_) => (None, None),
-            Self::Add(x, y) | Self::Mul(x, y) | Self::Power(x, y) => (Some(x), Some(y)),
-            Self::Call(_, x) => (Some(x), None),
-        };
-        x.into_iter().chain(y)
     }
 }
 
@@ -268,6 +146,26 @@ impl Dag {
             .iter()
             .find_map(|rule| (rule.apply)(self, x, y))
             .unwrap_or_else(|| self.intern(Node::Mul(x, y)))
+    }
+
+    /// `x` where `condition > 0`, else `y`.
+    pub fn select(&mut self, condition: ExprId, x: ExprId, y: ExprId) -> ExprId {
+        rules::SELECT
+            .iter()
+            .find_map(|rule| (rule.apply)(self, condition, x, y))
+            .unwrap_or_else(|| self.intern(Node::Select(condition, x, y)))
+    }
+
+    /// The smaller of two.
+    pub fn min(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let x_is_larger = self.sub(x, y);
+        self.select(x_is_larger, y, x)
+    }
+
+    /// The larger of two.
+    pub fn max(&mut self, x: ExprId, y: ExprId) -> ExprId {
+        let x_is_larger = self.sub(x, y);
+        self.select(x_is_larger, x, y)
     }
 
     /// `f(x)`

@@ -20,6 +20,7 @@ impl Dag {
                 Node::Mul(p, q) => self.mul(of(p), of(q)),
                 Node::Power(p, q) => self.power(of(p), of(q)),
                 Node::Call(function, p) => self.call(function, of(p)),
+                Node::Select(condition, p, q) => self.select(of(condition), of(p), of(q)),
             };
             new[x.index()] = Some(replaced);
         }

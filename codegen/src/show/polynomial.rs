@@ -70,7 +70,7 @@ pub fn expand(dag: &mut Dag, x: ExprId, names: &Names) -> Option<Polynomial> {
             Node::Call(Function::Recip, q) => {
                 Polynomial::of(vec![(factor(dag, q, names), -1)], 1.0)
             }
-            Node::Symbol(_) | Node::Power(..) | Node::Call(..) => {
+            Node::Symbol(_) | Node::Power(..) | Node::Call(..) | Node::Select(..) => {
                 Polynomial::of(vec![(factor(dag, part, names), 1)], 1.0)
             }
         };
@@ -106,7 +106,10 @@ fn factor(dag: &Dag, x: ExprId, names: &Names) -> Factor {
         Node::Symbol(Symbol::Q(j)) => (4, j),
         Node::Symbol(Symbol::Ddq(j)) => (5, j),
         Node::Symbol(Symbol::Dq(j)) => (6, j),
-        Node::Symbol(Symbol::Time) => (7, 0),
+        Node::Symbol(Symbol::State(k)) => (7, k),
+        Node::Symbol(Symbol::Input(k)) => (8, k),
+        Node::Symbol(Symbol::MeasuredTorque(j)) => (9, j),
+        Node::Symbol(Symbol::Time) => (10, 0),
         _ => (2, 0),
     };
     let text = if kind == 2 {

@@ -35,7 +35,11 @@ pub(super) fn check_effects(
         let Some(definition) = check_known(declared, definitions, errors) else {
             continue;
         };
+        let before = errors.len();
         let shapes = check_shapes(declared, definition, errors);
+        if errors.len() == before {
+            check_given(declared, definition, &shapes, errors);
+        }
         for (joints, span) in check_targets(joints, declared, definition, errors) {
             let effect = Effect {
                 definition: Arc::clone(definition),
@@ -138,6 +142,34 @@ fn check_shapes(
         .into_iter()
         .map(|value| value?.map_err(|error| errors.push(error)).ok())
         .collect()
+}
+
+/// A torque that is made of the measured one explains it whole at some shapes: a search would end there.
+fn check_given(
+    declared: &DeclaredEffect,
+    definition: &EffectDefinition,
+    shapes: &[Option<f64>],
+    errors: &mut Errors,
+) {
+    let mut open = definition.shapes.iter().zip(shapes);
+    let Some((shape, _)) = open.find(|(_, value)| value.is_none()) else {
+        return;
+    };
+    if !definition.reads_measured_torque() {
+        return;
+    }
+    let name = &declared.name;
+    errors.push(
+        Diagnostic::new(
+            name.span(),
+            format!("`{}` of effect `{name}` has no value", shape.name),
+            "reads the measured torque",
+        )
+        .help(format!(
+            "write a known value, `{name}({} = ..)`: if it were free, the measured torque would explain itself",
+            shape.name
+        )),
+    );
 }
 
 /// Joint indices of every instance, with the place that names them.

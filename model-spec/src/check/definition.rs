@@ -2,13 +2,16 @@
 
 use syn::Ident;
 
-use super::linear::check_linear;
+use super::binding::{self, Part};
+use super::linear::Degrees;
 use super::resolve::{Scope, is_reserved};
+use super::used::check_used;
 use super::{Errors, check_unique, value};
 use crate::ast::{self, Effect};
 use crate::diagnostic::Diagnostic;
 use crate::model::{
-    EffectDefinition, EffectLeaf, EffectTorque, Expr, LinearParameter, ShapeParameter,
+    EffectBinding, EffectDefinition, EffectInput, EffectState, EffectTorque, LinearParameter,
+    ShapeParameter,
 };
 use crate::suggest;
 
@@ -27,37 +30,38 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
             .help(format!("write `effect {}(j) {{ .. }}`", effect.name)),
         );
     }
+    let parts = binding::in_order(effect, errors);
     let scope = Scope {
         joints: effect.joints.iter().map(Ident::to_string).collect(),
-        linear: effect
-            .linear
-            .iter()
-            .map(|linear| linear.name.to_string())
-            .collect(),
-        shapes: effect
-            .shapes
-            .iter()
-            .map(|shape| shape.name.to_string())
-            .collect(),
+        linear: names(effect.linear.iter().map(|linear| &linear.name)),
+        shapes: names(effect.shapes.iter().map(|shape| &shape.name)),
+        inputs: check_inputs(effect, errors),
+        states: names(effect.states.iter().map(|state| &state.name)),
+        bindings: parts.iter().map(Part::name).collect(),
     };
     let shapes: Vec<ShapeParameter> = effect
         .shapes
         .iter()
         .filter_map(|shape| check_shape(shape, errors))
         .collect();
+    let mut degrees = Degrees::new(&effect.linear);
+    let bindings: Vec<EffectBinding> = parts
+        .iter()
+        .filter_map(|part| check_binding(part, &scope, &mut degrees, errors))
+        .collect();
+    let states = check_states(effect, &parts, errors);
     let torques: Vec<EffectTorque> = effect
         .torques
         .iter()
-        .filter_map(|torque| check_torque(torque, &scope, errors))
+        .filter_map(|torque| check_torque(torque, &effect.joints, &scope, &degrees, errors))
         .collect();
     check_torques(effect, errors);
-    if errors.len() == before {
-        check_used(effect, &torques, errors);
+    if errors.len() > before {
+        return None;
     }
-    (errors.len() == before).then(|| EffectDefinition {
+    let definition = EffectDefinition {
         name: effect.name.to_string(),
         doc: effect.doc.clone(),
-        joints: scope.joints,
         linear: effect
             .linear
             .iter()
@@ -68,19 +72,47 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
             })
             .collect(),
         shapes,
+        inputs: effect
+            .inputs
+            .iter()
+            .zip(scope.inputs)
+            .map(|(input, (name, joint))| EffectInput {
+                name,
+                doc: input.doc.clone(),
+                joint,
+            })
+            .collect(),
+        bindings,
+        states,
         torques,
-    })
+        joints: scope.joints,
+    };
+    check_used(effect, &parts, &definition, errors);
+    (errors.len() == before).then_some(definition)
 }
 
-/// Joints, linear and shape parameters share one scope.
+fn names<'a>(idents: impl Iterator<Item = &'a Ident>) -> Vec<String> {
+    idents.map(Ident::to_string).collect()
+}
+
+/// Joints, parameters, inputs, states and bindings share one scope.
 fn check_names(effect: &Effect, errors: &mut Errors) {
     let names = || {
         let linear = effect.linear.iter().map(|linear| &linear.name);
+        let inputs = effect.inputs.iter().enumerate();
+        // `input current(j); input current(k);` is one name for two columns.
+        let inputs = inputs.filter(|(k, input)| {
+            let same = |other: &&ast::Input| other.name == input.name;
+            input.joint.is_none() || !effect.inputs[..*k].iter().any(|other| same(&other))
+        });
         effect
             .joints
             .iter()
             .chain(linear)
             .chain(effect.shapes.iter().map(|shape| &shape.name))
+            .chain(inputs.map(|(_, input)| &input.name))
+            .chain(effect.states.iter().map(|state| &state.name))
+            .chain(effect.lets.iter().map(|binding| &binding.name))
     };
     check_unique(names(), "name", errors);
     for name in names().filter(|name| is_reserved(&name.to_string())) {
@@ -163,28 +195,104 @@ fn check_shape(shape: &ast::Shape, errors: &mut Errors) -> Option<ShapeParameter
     })
 }
 
-fn check_torque(torque: &ast::Torque, scope: &Scope, errors: &mut Errors) -> Option<EffectTorque> {
-    let name = torque.joint.to_string();
-    let joint = scope.joints.iter().position(|joint| *joint == name);
-    if joint.is_none() {
+/// `(name, formal joint)` of every input.
+fn check_inputs(effect: &Effect, errors: &mut Errors) -> Vec<(String, Option<usize>)> {
+    let mut inputs: Vec<(String, Option<usize>)> = Vec::new();
+    for input in &effect.inputs {
+        let joint = match &input.joint {
+            None => None,
+            // In place of an unknown joint the first, so that the input stays one of a joint.
+            Some(joint) => find_joint(&effect.joints, joint, errors)
+                .or_else(|| (!effect.joints.is_empty()).then_some(0)),
+        };
+        let found = (input.name.to_string(), joint);
+        if inputs.contains(&found) && joint.is_some() {
+            errors.push(
+                Diagnostic::new(
+                    input.name.span(),
+                    format!("input `{}` is there twice", input.name),
+                    "second",
+                )
+                .help("delete it"),
+            );
+        }
+        inputs.push(found);
+    }
+    inputs
+}
+
+/// Index of a formal joint.
+fn find_joint(joints: &[Ident], name: &Ident, errors: &mut Errors) -> Option<usize> {
+    let found = joints.iter().position(|joint| joint == name);
+    if found.is_none() {
+        let known = names(joints.iter());
         errors.push(
             Diagnostic::new(
-                torque.joint.span(),
+                name.span(),
                 format!("the effect has no joint `{name}`"),
                 "unknown joint",
             )
             .help(suggest::help(
-                &name,
-                scope.joints.iter().map(String::as_str),
+                &name.to_string(),
+                known.iter().map(String::as_str),
             )),
         );
     }
+    found
+}
+
+fn check_binding(
+    part: &Part<'_>,
+    scope: &Scope,
+    degrees: &mut Degrees,
+    errors: &mut Errors,
+) -> Option<EffectBinding> {
+    match part {
+        Part::Let(binding) => degrees.check_let(binding, errors),
+        Part::Rate(rate) => degrees.check_rate(rate, errors),
+    }
+    Some(EffectBinding {
+        name: part.name(),
+        value: scope.resolve(part.value(), errors)?,
+    })
+}
+
+/// Every state with its rate.
+fn check_states(effect: &Effect, parts: &[Part<'_>], errors: &mut Errors) -> Vec<EffectState> {
+    let mut states = Vec::new();
+    for state in &effect.states {
+        let rate = parts
+            .iter()
+            .position(|part| matches!(part, Part::Rate(rate) if rate.of == state.name));
+        match rate {
+            Some(rate) => states.push(EffectState {
+                name: state.name.to_string(),
+                doc: state.doc.clone(),
+                rate,
+            }),
+            None => errors.push(
+                Diagnostic::new(
+                    state.name.span(),
+                    format!("state `{}` has no rate", state.name),
+                    "how does it change?",
+                )
+                .help(format!("write `dot({}) = ..;`", state.name)),
+            ),
+        }
+    }
+    states
+}
+
+fn check_torque(
+    torque: &ast::Equation,
+    joints: &[Ident],
+    scope: &Scope,
+    degrees: &Degrees,
+    errors: &mut Errors,
+) -> Option<EffectTorque> {
+    let joint = find_joint(joints, &torque.of, errors);
     let value = scope.resolve(&torque.value, errors)?;
-    check_linear(
-        &torque.value,
-        &|name| scope.linear.iter().any(|linear| linear == name),
-        errors,
-    );
+    degrees.check_torque(&torque.value, errors);
     Some(EffectTorque {
         joint: joint?,
         value,
@@ -194,7 +302,7 @@ fn check_torque(torque: &ast::Torque, scope: &Scope, errors: &mut Errors) -> Opt
 /// At least one equation, and one per joint at most.
 fn check_torques(effect: &Effect, errors: &mut Errors) {
     check_unique(
-        effect.torques.iter().map(|torque| &torque.joint),
+        effect.torques.iter().map(|torque| &torque.of),
         "torque of joint",
         errors,
     );
@@ -211,39 +319,5 @@ fn check_torques(effect: &Effect, errors: &mut Errors) {
             )
             .help(format!("write `torque({joint}) = ..;`")),
         );
-    }
-}
-
-/// What is declared is used: a column of zeros or a free parameter that changes nothing cannot be identified.
-fn check_used(effect: &Effect, torques: &[EffectTorque], errors: &mut Errors) {
-    let uses = |wanted: &dyn Fn(&EffectLeaf) -> bool| {
-        let wanted = |part: &Expr<EffectLeaf>| matches!(part, Expr::Leaf(leaf) if wanted(leaf));
-        torques.iter().any(|torque| torque.value.contains(&wanted))
-    };
-    let mut unused = |name: &Ident, what: &str| {
-        errors.push(
-            Diagnostic::new(
-                name.span(),
-                format!("{what} `{name}` is not used"),
-                "in no equation",
-            )
-            .help("use it in a torque, or delete it"),
-        );
-    };
-    for (k, linear) in effect.linear.iter().enumerate() {
-        if !uses(&|leaf| *leaf == EffectLeaf::Linear(k)) {
-            unused(&linear.name, "linear parameter");
-        }
-    }
-    for (k, shape) in effect.shapes.iter().enumerate() {
-        if !uses(&|leaf| *leaf == EffectLeaf::Shape(k)) {
-            unused(&shape.name, "shape parameter");
-        }
-    }
-    for (k, joint) in effect.joints.iter().enumerate() {
-        let acts = torques.iter().any(|torque| torque.joint == k);
-        if !acts && !uses(&|leaf| matches!(leaf, EffectLeaf::Signal(_, joint) if *joint == k)) {
-            unused(joint, "joint");
-        }
     }
 }

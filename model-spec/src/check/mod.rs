@@ -2,6 +2,7 @@
 //!
 //! In: a tree that follows the grammar. Out: a model downstream need not validate again (see [`crate::model`]).
 
+mod binding;
 mod chain;
 mod declared;
 mod definition;
@@ -12,6 +13,7 @@ mod link;
 mod resolve;
 mod setting;
 mod unit;
+mod used;
 mod value;
 
 pub(crate) use definition::check_definition;

@@ -4,9 +4,10 @@ use proc_macro2::Span;
 use syn::Ident;
 
 use super::Errors;
+use super::binding::rate_name;
 use crate::ast::{self, ExprKind};
 use crate::diagnostic::Diagnostic;
-use crate::model::{EffectExpr, EffectLeaf, Expr, Function, Signal};
+use crate::model::{Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
 use crate::suggest;
 
 /// Names of the functions.
@@ -21,18 +22,34 @@ const FUNCTIONS: [(&str, Function); 7] = [
 ];
 
 /// Names of the signals.
-const SIGNALS: [(&str, Signal); 4] = [
+const SIGNALS: [(&str, Signal); 5] = [
     ("q", Signal::Position),
     ("dq", Signal::Velocity),
     ("ddq", Signal::Acceleration),
     ("rigid_torque", Signal::RigidTorque),
+    ("measured_torque", Signal::MeasuredTorque),
 ];
 
 /// Words that parameters and formal joints may not take.
 pub(super) fn is_reserved(name: &str) -> bool {
     matches!(
         name,
-        "pi" | "time" | "torque" | "linear" | "shape" | "step" | "in" | "on"
+        "pi" | "time"
+            | "torque"
+            | "tau"
+            | "linear"
+            | "shape"
+            | "input"
+            | "state"
+            | "let"
+            | "dot"
+            | "if"
+            | "else"
+            | "min"
+            | "max"
+            | "step"
+            | "in"
+            | "on"
     ) || SIGNALS.iter().any(|(signal, _)| *signal == name)
         || FUNCTIONS.iter().any(|(function, _)| *function == name)
 }
@@ -61,11 +78,26 @@ pub(super) fn one_argument(name: &Ident, count: usize, span: Span) -> Diagnostic
     .help(format!("write `{name}(x)`"))
 }
 
+/// `min` or `max` with other than two arguments.
+fn two_arguments(name: &Ident, count: usize, span: Span) -> Diagnostic {
+    Diagnostic::new(
+        span,
+        format!("`{name}` takes two arguments, found {count}"),
+        "",
+    )
+    .help(format!("write `{name}(x, y)`"))
+}
+
 /// The names that an effect's equations may use.
 pub(super) struct Scope {
     pub(super) joints: Vec<String>,
     pub(super) linear: Vec<String>,
     pub(super) shapes: Vec<String>,
+    /// With the formal joint whose column it is.
+    pub(super) inputs: Vec<(String, Option<usize>)>,
+    pub(super) states: Vec<String>,
+    /// `let` bindings, and rates as `dot(z)`.
+    pub(super) bindings: Vec<String>,
 }
 
 impl Scope {
@@ -84,7 +116,40 @@ impl Scope {
                 let (left, right) = (self.resolve(left, errors), self.resolve(right, errors));
                 Some(Expr::Binary(*op, Box::new(left?), Box::new(right?)))
             }
+            ExprKind::Choice(condition, then, otherwise) => {
+                self.choice(condition, then, otherwise, errors)
+            }
         }
+    }
+
+    /// `x >= y` is no `y > x`: the values change places.
+    fn choice(
+        &self,
+        condition: &ast::Condition,
+        then: &ast::Expr,
+        otherwise: &ast::Expr,
+        errors: &mut Errors,
+    ) -> Option<EffectExpr> {
+        let greater = self.resolve(&condition.greater, errors);
+        let smaller = self.resolve(&condition.smaller, errors);
+        let then = self.resolve(then, errors);
+        let otherwise = self.resolve(otherwise, errors);
+        let choice = Choice {
+            greater: greater?,
+            smaller: smaller?,
+            then: then?,
+            otherwise: otherwise?,
+        };
+        Some(Expr::Choice(Box::new(if condition.or_equal {
+            Choice {
+                greater: choice.smaller,
+                smaller: choice.greater,
+                then: choice.otherwise,
+                otherwise: choice.then,
+            }
+        } else {
+            choice
+        })))
     }
 
     fn name(&self, name: &Ident, errors: &mut Errors) -> Option<EffectExpr> {
@@ -94,6 +159,18 @@ impl Scope {
         }
         if let Some(k) = self.shapes.iter().position(|shape| *shape == text) {
             return Some(Expr::Leaf(EffectLeaf::Shape(k)));
+        }
+        if let Some(k) = self.states.iter().position(|state| *state == text) {
+            return Some(Expr::Leaf(EffectLeaf::State(k)));
+        }
+        if let Some(k) = self.bindings.iter().position(|binding| *binding == text) {
+            return Some(Expr::Leaf(EffectLeaf::Binding(k)));
+        }
+        if let Some(k) = self.inputs.iter().position(|(input, _)| *input == text) {
+            if self.inputs[k].1.is_some() {
+                return self.joint_is_missing(name, errors);
+            }
+            return Some(Expr::Leaf(EffectLeaf::Input(k)));
         }
         match text.as_str() {
             "time" => return Some(Expr::Leaf(EffectLeaf::Time)),
@@ -113,11 +190,12 @@ impl Scope {
                 "`{text}` is a joint; write a signal of it, such as `dq({text})`"
             ))
         } else {
-            let known = self.linear.iter().chain(&self.shapes).map(String::as_str);
+            let known = self.linear.iter().chain(&self.shapes).chain(&self.states);
+            let known = known.chain(&self.bindings).map(String::as_str);
             match suggest::nearest(&text, known) {
                 Some(near) => error.help(format!("write `{near}`")),
                 None => error.help(format!(
-                    "declare `linear {text};` or `shape {text} in low .. high;`"
+                    "declare `linear {text};`, `shape {text} in low .. high;`, `input {text};`, `state {text};` or `let {text} = ..;`"
                 )),
             }
         });
@@ -135,8 +213,19 @@ impl Scope {
         if let Some((_, signal)) = SIGNALS.iter().find(|(signal, _)| *signal == text) {
             return self.signal(name, *signal, arguments, span, errors);
         }
+        if self.inputs.iter().any(|(input, _)| *input == text) {
+            return self.input(name, arguments, span, errors);
+        }
+        match text.as_str() {
+            "dot" => return self.rate(arguments, span, errors),
+            "min" | "max" => return self.extreme(name, arguments, span, errors),
+            _ => {}
+        }
         let Ok(function) = function(name) else {
-            let functions = FUNCTIONS.iter().map(|(name, _)| *name);
+            let functions = FUNCTIONS
+                .iter()
+                .map(|(name, _)| *name)
+                .chain(["min", "max"]);
             let known = functions.chain(SIGNALS.iter().map(|(name, _)| *name));
             errors.push(
                 Diagnostic::new(
@@ -158,6 +247,105 @@ impl Scope {
         ))
     }
 
+    /// `min(x, y)`, `max(x, y)`
+    fn extreme(
+        &self,
+        name: &Ident,
+        arguments: &[ast::Expr],
+        span: Span,
+        errors: &mut Errors,
+    ) -> Option<EffectExpr> {
+        let [x, y] = arguments else {
+            errors.push(two_arguments(name, arguments.len(), span));
+            return None;
+        };
+        let (x, y) = (self.resolve(x, errors), self.resolve(y, errors));
+        let (x, y) = (Box::new(x?), Box::new(y?));
+        Some(if name == "min" {
+            Expr::Min(x, y)
+        } else {
+            Expr::Max(x, y)
+        })
+    }
+
+    /// `dot(z)`
+    fn rate(&self, arguments: &[ast::Expr], span: Span, errors: &mut Errors) -> Option<EffectExpr> {
+        let state = argument_name(arguments);
+        let rate = state.as_ref().and_then(|state| {
+            let known = self.states.contains(&state.to_string());
+            let name = rate_name(state);
+            let found = self.bindings.iter().position(|binding| *binding == name);
+            // A state without a rate is reported at the state.
+            found.or(known.then_some(0))
+        });
+        if rate.is_none() {
+            errors.push(
+                Diagnostic::new(span, "`dot` is the rate of a state", "of which state?").help(
+                    match self.states.as_slice() {
+                        [] => "declare `state z;` and write `dot(z)`; of a joint write `dq(j)`"
+                            .to_owned(),
+                        states => format!("write {}", one_of("dot", states)),
+                    },
+                ),
+            );
+        }
+        rate.map(|rate| Expr::Leaf(EffectLeaf::Binding(rate)))
+    }
+
+    /// `current(j)`
+    fn input(
+        &self,
+        name: &Ident,
+        arguments: &[ast::Expr],
+        span: Span,
+        errors: &mut Errors,
+    ) -> Option<EffectExpr> {
+        let joint = argument_name(arguments).map(Ident::to_string);
+        let joint = joint.and_then(|joint| self.joints.iter().position(|formal| *formal == joint));
+        let same_name = |(input, _): &&(String, Option<usize>)| name == input;
+        if self
+            .inputs
+            .iter()
+            .filter(same_name)
+            .all(|(_, joint)| joint.is_none())
+        {
+            errors.push(
+                Diagnostic::new(
+                    span,
+                    format!("input `{name}` is one column for all joints"),
+                    "declared without a joint",
+                )
+                .help(format!("write `{name}`, or declare `input {name}(j);`")),
+            );
+            return None;
+        }
+        let found = self
+            .inputs
+            .iter()
+            .position(|(input, of)| name == input && of.is_some() && *of == joint);
+        if found.is_none() {
+            return self.joint_is_missing(name, errors);
+        }
+        found.map(|k| Expr::Leaf(EffectLeaf::Input(k)))
+    }
+
+    /// An input that is declared for certain joints, read without one of these.
+    fn joint_is_missing(&self, name: &Ident, errors: &mut Errors) -> Option<EffectExpr> {
+        let declared = self.inputs.iter().filter(|(input, _)| name == input);
+        let joints: Vec<String> = declared
+            .filter_map(|(_, joint)| joint.map(|joint| self.joints[joint].clone()))
+            .collect();
+        errors.push(
+            Diagnostic::new(
+                name.span(),
+                format!("input `{name}` is a column of one joint"),
+                "of which joint?",
+            )
+            .help(format!("write {}", one_of(&name.to_string(), &joints))),
+        );
+        None
+    }
+
     fn signal(
         &self,
         name: &Ident,
@@ -166,15 +354,7 @@ impl Scope {
         span: Span,
         errors: &mut Errors,
     ) -> Option<EffectExpr> {
-        let joint = match arguments {
-            [
-                ast::Expr {
-                    kind: ExprKind::Name(joint),
-                    ..
-                },
-            ] => Some(joint.to_string()),
-            _ => None,
-        };
+        let joint = argument_name(arguments).map(Ident::to_string);
         let index = joint.and_then(|joint| self.joints.iter().position(|formal| *formal == joint));
         if index.is_none() {
             errors.push(
@@ -183,16 +363,30 @@ impl Scope {
                     format!("`{name}` is a signal of one of the effect's joints"),
                     "of which joint?",
                 )
-                .help(format!(
-                    "write {}",
-                    self.joints
-                        .iter()
-                        .map(|j| format!("`{name}({j})`"))
-                        .collect::<Vec<_>>()
-                        .join(" or ")
-                )),
+                .help(format!("write {}", one_of(&name.to_string(), &self.joints))),
             );
         }
         index.map(|index| Expr::Leaf(EffectLeaf::Signal(signal, index)))
     }
+}
+
+/// The name that is the only argument.
+fn argument_name(arguments: &[ast::Expr]) -> Option<&Ident> {
+    match arguments {
+        [
+            ast::Expr {
+                kind: ExprKind::Name(name),
+                ..
+            },
+        ] => Some(name),
+        _ => None,
+    }
+}
+
+/// "`dq(j)` or `dq(k)`"
+fn one_of(function: &str, arguments: &[String]) -> String {
+    let calls = arguments
+        .iter()
+        .map(|argument| format!("`{function}({argument})`"));
+    calls.collect::<Vec<_>>().join(" or ")
 }

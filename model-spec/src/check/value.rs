@@ -194,6 +194,12 @@ fn evaluate(expr: &Expr) -> Checked<Quantity> {
             ..q
         }),
         ExprKind::Binary(op, left, right) => binary(*op, evaluate(left)?, evaluate(right)?, expr),
+        ExprKind::Choice(..) => Err(Diagnostic::new(
+            expr.span,
+            "a choice has no place in a number",
+            "belongs into an effect's equations",
+        )
+        .help("write the value that holds")),
     }
 }
 

@@ -1,11 +1,11 @@
-//! `effect name(j, k) { linear ..; shape ..; torque(j) = ..; }`.
+//! `effect name(j, k) { linear ..; shape ..; input ..; state ..; let ..; dot(z) = ..; torque(j) = ..; }`.
 
 use proc_macro2::TokenTree;
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
 use super::{Sink, block, doc_comment, found, semicolon, statements, with_sink, word};
-use crate::ast::{Effect, Expr, Linear, Shape, Torque};
+use crate::ast::{Effect, Equation, Expr, Input, Let, Linear, Shape, State};
 use crate::diagnostic::syn_error;
 
 /// Behind the word `effect`.
@@ -32,6 +32,10 @@ pub(super) fn effect(input: ParseStream, doc: String, errors: &mut Sink) -> syn:
         joints,
         linear: vec![],
         shapes: vec![],
+        inputs: vec![],
+        states: vec![],
+        lets: vec![],
+        rates: vec![],
         torques: vec![],
     };
     statements(&content, errors, |input, _| statement(input, &mut effect));
@@ -44,12 +48,23 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
     match keyword.to_string().as_str() {
         "linear" => linear(input, &doc, &mut effect.linear)?,
         "shape" => effect.shapes.push(shape(input, doc)?),
-        "torque" => effect.torques.push(torque(input)?),
+        "input" => effect.inputs.push(read_input(input, doc)?),
+        "state" => states(input, &doc, &mut effect.states)?,
+        "let" => effect.lets.push(binding(input)?),
+        "dot" => effect
+            .rates
+            .push(equation(input, "one of the effect's states")?),
+        "torque" => effect
+            .torques
+            .push(equation(input, "one of the effect's joints")?),
         _ => {
             return Err(syn_error(
                 keyword.span(),
                 &format!("an effect has no `{keyword}`"),
-                Some("write `linear name;`, `shape name in low .. high;` or `torque(j) = ..;`"),
+                Some(
+                    "write `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
+                     `dot(z) = ..;` or `torque(j) = ..;`",
+                ),
             ));
         }
     }
@@ -113,14 +128,51 @@ fn shape(input: ParseStream, doc: String) -> syn::Result<Shape> {
     })
 }
 
+/// `temperature`, `current(j)`
+fn read_input(input: ParseStream, doc: String) -> syn::Result<Input> {
+    let name = word(input, "the name of a column of the log")?;
+    let joint = if input.peek(syn::token::Paren) {
+        let content;
+        syn::parenthesized!(content in input);
+        Some(word(&content, "one of the effect's joints")?)
+    } else {
+        None
+    };
+    Ok(Input { doc, name, joint })
+}
+
+/// `z, w`
+fn states(input: ParseStream, doc: &str, states: &mut Vec<State>) -> syn::Result<()> {
+    loop {
+        states.push(State {
+            doc: doc.to_owned(),
+            name: word(input, "the name of a state")?,
+        });
+        if !input.peek(Token![,]) {
+            return Ok(());
+        }
+        input.parse::<Token![,]>()?;
+    }
+}
+
+/// `name = ..`
+fn binding(input: ParseStream) -> syn::Result<Let> {
+    let name = word(input, "a name")?;
+    input.parse::<Token![=]>()?;
+    Ok(Let {
+        name,
+        value: input.parse()?,
+    })
+}
+
 /// `(j) = ..`
-fn torque(input: ParseStream) -> syn::Result<Torque> {
+fn equation(input: ParseStream, of: &str) -> syn::Result<Equation> {
     let content;
     syn::parenthesized!(content in input);
-    let joint = word(&content, "one of the effect's joints")?;
+    let of = word(&content, of)?;
     input.parse::<Token![=]>()?;
-    Ok(Torque {
-        joint,
+    Ok(Equation {
+        of,
         value: input.parse()?,
     })
 }

@@ -1,14 +1,15 @@
 //! Expressions: our own precedence over tokens, because in Rust `^` is exclusive-or and binds looser than `+`.
 //!
-//! From loose to tight: `+ -`, `* /`, unary `-`, `^` (to the right). A number may carry a unit: `90 deg`.
+//! From loose to tight: `+ -`, `* /`, unary `-`, `^` (to the right). A number may carry a unit: `90 deg`. A choice,
+//! `if a < b { x } else { y }`, is a value like a number.
 
 use proc_macro2::Span;
 use syn::ext::IdentExt as _;
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Lit, Token};
 
-use super::{found, word};
-use crate::ast::{BinaryOp, Expr, ExprKind, join};
+use super::{block, found, word};
+use crate::ast::{BinaryOp, Condition, Expr, ExprKind, join};
 use crate::diagnostic::syn_error;
 
 /// More operators than an equation of physics has; keeps trees shallow enough for recursion.
@@ -97,6 +98,9 @@ impl Climber {
         if input.peek(Lit) && !input.peek(syn::LitBool) {
             return number(input);
         }
+        if input.peek(Token![if]) {
+            return self.choice(input);
+        }
         let name = word(input, "a value such as `0.3`, `90 deg` or `pi/2`")?;
         if !input.peek(syn::token::Paren) {
             return Ok(Expr {
@@ -121,6 +125,76 @@ impl Climber {
             span: join(name.span(), paren.span.close()),
             kind: ExprKind::Call(name, arguments),
         })
+    }
+
+    /// `if a < b { x } else if c >= d { y } else { z }`
+    fn choice(&mut self, input: ParseStream) -> syn::Result<Expr> {
+        self.count(input)?;
+        let keyword: Token![if] = input.parse()?;
+        let condition = self.condition(input)?;
+        let (then, _) = self.branch(input)?;
+        if !input.peek(Token![else]) {
+            return Err(syn_error(
+                input.span(),
+                &format!("an `if` without `else` has no value{}", found(input)),
+                Some("write `if a < b { x } else { y }`"),
+            ));
+        }
+        input.parse::<Token![else]>()?;
+        let (otherwise, end) = if input.peek(Token![if]) {
+            let choice = self.choice(input)?;
+            let end = choice.span;
+            (choice, end)
+        } else {
+            self.branch(input)?
+        };
+        Ok(Expr {
+            span: join(keyword.span, end),
+            kind: ExprKind::Choice(Box::new(condition), Box::new(then), Box::new(otherwise)),
+        })
+    }
+
+    /// `a < b`
+    fn condition(&mut self, input: ParseStream) -> syn::Result<Condition> {
+        let left = self.sum(input)?;
+        let (or_equal, left_is_greater) = if input.peek(Token![>=]) {
+            input.parse::<Token![>=]>()?;
+            (true, true)
+        } else if input.peek(Token![<=]) {
+            input.parse::<Token![<=]>()?;
+            (true, false)
+        } else if input.peek(Token![>]) {
+            input.parse::<Token![>]>()?;
+            (false, true)
+        } else if input.peek(Token![<]) {
+            input.parse::<Token![<]>()?;
+            (false, false)
+        } else {
+            return Err(syn_error(
+                input.span(),
+                &format!("expected `<`, `<=`, `>` or `>=`{}", found(input)),
+                Some("compare two values: `if dq(j) > 0 { .. } else { .. }`"),
+            ));
+        };
+        let right = self.sum(input)?;
+        let (greater, smaller) = if left_is_greater {
+            (left, right)
+        } else {
+            (right, left)
+        };
+        Ok(Condition {
+            or_equal,
+            greater,
+            smaller,
+        })
+    }
+
+    /// `{ x }`
+    fn branch(&mut self, input: ParseStream) -> syn::Result<(Expr, Span)> {
+        let (content, close) = block(input, "`{` and a value")?;
+        let value = self.sum(&content)?;
+        expect_end(&content)?;
+        Ok((value, close))
     }
 
     fn count(&mut self, input: ParseStream) -> syn::Result<()> {

@@ -130,7 +130,16 @@ fn skip_statement(input: ParseStream) {
     while let Ok(token) = input.parse::<TokenTree>() {
         match token {
             TokenTree::Punct(punct) if punct.as_char() == ';' => return,
-            TokenTree::Group(group) if group.delimiter() == proc_macro2::Delimiter::Brace => return,
+            // Behind the braces of a choice its statement goes on.
+            TokenTree::Group(group)
+                if group.delimiter() == proc_macro2::Delimiter::Brace
+                    && !input.peek(Token![else]) =>
+            {
+                if input.peek(Token![;]) {
+                    continue;
+                }
+                return;
+            }
             _ => {}
         }
     }

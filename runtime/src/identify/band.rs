@@ -41,7 +41,7 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
     let mut left = modeled.clone();
     for log in logs {
         let torque = torque_of(arm, &log.motion, shapes, estimate, arm.dof());
-        let known = arm.known_torque(&log.motion);
+        let known = arm.known_torque(&log.motion, shapes);
         for joint in 0..arm.dof() {
             let total: Vec<f64> = torque[joint]
                 .iter()

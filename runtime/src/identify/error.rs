@@ -18,6 +18,16 @@ pub enum IdentifyError {
         /// Joints of the arm.
         arm: usize,
     },
+    /// A log lacks a channel that a declared effect reads.
+    #[error(
+        "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; log it, or take the effect out of the spec"
+    )]
+    NoChannel {
+        /// Name of the log.
+        source_name: String,
+        /// Name of the column.
+        channel: String,
+    },
     /// Fewer samples than unknowns.
     #[error(
         "{samples} samples of {dof} joints are left after filtering, for {unknowns} unknowns; give a longer log"

@@ -238,10 +238,10 @@ impl Estimate {
         let shapes: Vec<f64> = self.shapes.iter().map(|(_, value)| *value).collect();
         let mut motion = prepared.motion.clone();
         if arm.uses_rigid_torque() {
-            motion.rigid_torque = arm.rigid_torque(&motion, &values);
+            motion.rigid_torque = arm.rigid_torque(&motion, &shapes, &values);
         }
         let mut torque = torque_of(arm, &motion, &shapes, &values, arm.dof());
-        for (sum, known) in torque.iter_mut().zip(arm.known_torque(&motion)) {
+        for (sum, known) in torque.iter_mut().zip(arm.known_torque(&motion, &shapes)) {
             for (s, k) in sum.iter_mut().zip(known) {
                 *s += k;
             }

@@ -191,6 +191,10 @@ impl Columns for FilteredArm<'_> {
         false
     }
 
+    fn inputs(&self) -> &[String] {
+        self.arm.inputs()
+    }
+
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
         let filter = self.filter(motion);
         let key = |entry: &Entry| (entry.column, entry.joint);
@@ -236,7 +240,7 @@ impl Arm for FilteredArm<'_> {
         self.arm.actuator_gain()
     }
 
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+    fn known_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
         let filter = self.filter(motion);
         let known = self.arm.known_momentum(motion);
         let series = known.iter().zip(self.arm.known_drift(motion));
@@ -246,7 +250,7 @@ impl Arm for FilteredArm<'_> {
     }
 
     /// Nothing that passed `L` reads a load.
-    fn rigid_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+    fn rigid_torque(&self, motion: &Motion, _: &[f64], _: &[f64]) -> Vec<Vec<f64>> {
         vec![vec![0.0; motion.time.len()]; self.arm.dof()]
     }
 }

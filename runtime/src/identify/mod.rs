@@ -116,7 +116,7 @@ impl Identify {
             // Effects of the load need a load: that of a first estimate, shapes in the middle of their ranges.
             let shapes = shapes.clone().unwrap_or_else(|| shapes::middle(arm));
             let first = self.solve_stack(&Stack::new(arm, logs, &shapes))?;
-            update_load(arm, logs, &first.estimate);
+            update_load(arm, logs, &shapes, &first.estimate);
         }
         let free = shapes.is_none() && !arm.shapes().is_empty();
         let cost = |logs: &[Prepared], shapes: &[f64]| self.cost(arm, logs, shapes);
@@ -132,7 +132,7 @@ impl Identify {
             let stack = Stack::new(arm, logs, &shapes);
             let solution = self.solve_stack(&stack)?;
             if loaded {
-                update_load(arm, logs, &solution.estimate);
+                update_load(arm, logs, &shapes, &solution.estimate);
             }
             last = Some((solution, shapes.clone(), stack));
         }
@@ -188,9 +188,9 @@ pub(crate) fn slowest_bands(logs: &[Log]) -> Bands {
 }
 
 /// The torque of the rigid body at an estimate, for the effects that depend on it.
-fn update_load(arm: &dyn Arm, logs: &mut [Prepared], estimate: &[f64]) {
+fn update_load(arm: &dyn Arm, logs: &mut [Prepared], shapes: &[f64], estimate: &[f64]) {
     for log in logs {
-        log.motion.rigid_torque = arm.rigid_torque(&log.motion, estimate);
+        log.motion.rigid_torque = arm.rigid_torque(&log.motion, shapes, estimate);
     }
 }
 
@@ -204,12 +204,29 @@ pub(crate) fn check_logs(arm: &dyn Arm, logs: &[Log]) -> Result<(), IdentifyErro
     if logs.is_empty() {
         return Err(IdentifyError::NoLog);
     }
-    match logs.iter().find(|log| log.dof() != arm.dof()) {
-        Some(log) => Err(IdentifyError::Joints {
-            source_name: log.source.clone(),
-            log: log.dof(),
-            arm: arm.dof(),
-        }),
-        None => Ok(()),
+    for log in logs {
+        if log.dof() != arm.dof() {
+            return Err(IdentifyError::Joints {
+                source_name: log.source.clone(),
+                log: log.dof(),
+                arm: arm.dof(),
+            });
+        }
+        if let Some(channel) = missing_input(arm.inputs(), log) {
+            return Err(IdentifyError::NoChannel {
+                source_name: log.source.clone(),
+                channel: channel.to_owned(),
+            });
+        }
     }
+    Ok(())
+}
+
+/// The first channel that columns read and a log does not have.
+pub(crate) fn missing_input<'a>(inputs: &'a [String], log: &Log) -> Option<&'a str> {
+    let is_there = |name: &String| log.extra.iter().any(|channel| channel.name == *name);
+    inputs
+        .iter()
+        .find(|name| !is_there(name))
+        .map(String::as_str)
 }

@@ -58,7 +58,7 @@ impl Stack {
             let count = log.motion.time.len();
             let time = log.shared.kept(count).map(|k| log.motion.time[k]).collect();
             stack.segments.push(Segment { start, time });
-            let known = arm.known_torque(&log.motion);
+            let known = arm.known_torque(&log.motion, shapes);
             for (joint, rows) in stack.joints.iter_mut().enumerate() {
                 let gain = arm.actuator_gain()[joint];
                 let tau: Vec<f64> = log.tau[joint].iter().map(|tau| gain * tau).collect();

@@ -1,7 +1,7 @@
 //! A log to the motion that models read.
 
 use super::{LowPass, SharedFilter, SignalError, derivative, resample};
-use crate::log::Log;
+use crate::log::{Channel, Log};
 use crate::motion::{Kinematics, Motion};
 
 /// Order per direction of all motion filters.
@@ -65,7 +65,8 @@ impl Bands {
 pub struct Prepared {
     /// Positions and derivatives in both bands, on a uniform grid.
     pub motion: Motion,
-    /// Torque as logged on the grid of `motion`, `[joint][sample]`; not smoothed except before decimation.
+    /// What the model is fitted to, `[joint][sample]`: the torque as logged on the grid of `motion`, not smoothed except
+    /// before decimation.
     pub tau: Vec<Vec<f64>>,
     /// Sample rate of `motion`, Hz.
     pub rate_hz: f64,
@@ -80,7 +81,7 @@ pub struct Prepared {
 /// Positions pass a zero-phase Butterworth low-pass of order 4 at [`Bands::smooth_hz`] and another at [`Bands::wide_hz`];
 /// velocity and acceleration are central differences of each. Logs at more than 500 Hz come down to 500 Hz or a little
 /// more: one zero-phase low-pass at 0.4 of the new rate goes over torque and positions alike, derivatives are taken at the
-/// full rate, and every `stride`-th sample is kept.
+/// full rate, and every `stride`-th sample is kept. Further channels go the way of the torque.
 ///
 /// # Errors
 /// [`SignalError::Bands`] and [`SignalError::Cutoff`] for bands that are not ordered or do not fit the log's rate,
@@ -164,7 +165,9 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
         None => channel.clone(),
         Some(filter) => filtered(filter, channel),
     };
+    let on_grid = |channel: &Vec<f64>| resample::every(&limit(channel), stride);
     let q: Vec<Vec<f64>> = log.q.iter().map(limit).collect();
+    let tau: Vec<Vec<f64>> = log.tau.iter().map(on_grid).collect();
     let step = 1.0 / logged_hz;
     let rates = |filter: &LowPass| kinematics(&q, filter, step, stride, accelerations);
     Ok(Prepared {
@@ -173,12 +176,17 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
             smooth: rates(&smooth),
             wide: rates(&wide),
             rigid_torque: Vec::new(),
+            tau: tau.clone(),
+            extra: log
+                .extra
+                .iter()
+                .map(|channel| Channel {
+                    name: channel.name.clone(),
+                    values: on_grid(&channel.values),
+                })
+                .collect(),
         },
-        tau: log
-            .tau
-            .iter()
-            .map(|channel| resample::every(&limit(channel), stride))
-            .collect(),
+        tau,
         rate_hz,
         stride,
         shared,

@@ -32,7 +32,7 @@ impl Search<'_> {
             }
             first += effect.trial.count();
         }
-        let known = self.arm.known_torque(&log.motion);
+        let known = self.arm.known_torque(&log.motion, &self.shapes);
         let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
         (0..self.arm.dof())
             .map(|j| {

@@ -1,8 +1,11 @@
 //! Forward search: the best effect that passes, then the next, until none does.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use crate::columns::{Arm, Candidate};
 use crate::identify::{
-    Identify, IdentifyError, Method, Solution, Stack, check_logs, prepare_all, slowest_bands,
+    Identify, IdentifyError, Method, Solution, Stack, check_logs, missing_input, prepare_all,
+    slowest_bands,
 };
 use crate::log::Log;
 use crate::signal::Prepared;
@@ -41,7 +44,8 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> Trace<'a> {
-    /// A trace with these candidates; those that the spec declares are left out by the caller.
+    /// A trace with these candidates; those that the spec declares are left out by the caller, those that read a channel
+    /// that some log does not have by [`Self::run`].
     #[must_use]
     pub fn new(candidates: Vec<&'a dyn Candidate>) -> Self {
         Self { candidates }
@@ -94,12 +98,22 @@ impl<'a> Trace<'a> {
         let (before, _) = search.structure(&state);
 
         progress("forming candidate columns");
-        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&self.candidates, |_| true);
+        // What a log does not hold cannot be judged.
+        let candidates: Vec<&'a dyn Candidate> = self
+            .candidates
+            .iter()
+            .copied()
+            .filter(|candidate| {
+                logs.iter()
+                    .all(|log| missing_input(candidate.inputs(), log).is_none())
+            })
+            .collect();
+        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&candidates, |_| true);
         while state.accepted.len() < MOST_EFFECTS {
             progress(&format!(
                 "round {}: {} candidates",
                 state.accepted.len() + 1,
-                self.candidates.len()
+                candidates.len()
             ));
             let Some(found) = search.round(&state, &grids) else {
                 break;
@@ -111,7 +125,7 @@ impl<'a> Trace<'a> {
             ));
             state.accepted.push(found);
             state = search.refit(state)?;
-            let fresh = search.grids(&self.candidates, |candidate| candidate.uses_rigid_torque());
+            let fresh = search.grids(&candidates, |candidate| candidate.uses_rigid_torque());
             for (grid, fresh) in grids.iter_mut().zip(fresh) {
                 if !fresh.is_empty() {
                     *grid = fresh;
@@ -139,31 +153,50 @@ pub(super) struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Trials of the candidates that are wanted; an empty list for the others.
+    /// Trials of the candidates that are wanted, formed on all cores; an empty list for the others.
     fn grids<'a>(
         &self,
         candidates: &[&'a dyn Candidate],
         wanted: impl Fn(&dyn Candidate) -> bool,
     ) -> Vec<Vec<Trial<'a>>> {
-        candidates
-            .iter()
-            .map(|candidate| {
-                if wanted(*candidate) {
-                    Trial::grid(*candidate, &self.prepared)
-                } else {
-                    Vec::new()
+        let wanted: Vec<usize> = (0..candidates.len())
+            .filter(|&number| wanted(candidates[number]))
+            .collect();
+        let workers = std::thread::available_parallelism().map_or(1, usize::from);
+        let next = AtomicUsize::new(0);
+        let prepared = &self.prepared;
+        let work = || {
+            let mut done = Vec::new();
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                match candidates.get(number) {
+                    None => return done,
+                    Some(candidate) if wanted.contains(&number) => {
+                        done.push((number, Trial::grid(*candidate, prepared)));
+                    }
+                    Some(_) => {}
                 }
-            })
-            .collect()
+            }
+        };
+        let mut grids: Vec<Vec<Trial>> = candidates.iter().map(|_| Vec::new()).collect();
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+            for thread in threads {
+                for (number, grid) in thread.join().expect("a candidate's columns never panic") {
+                    grids[number] = grid;
+                }
+            }
+        });
+        grids
     }
 
     /// Effects that depend on the load see the torque of the rigid body at the present estimate.
     fn update_rigid_torque(&mut self, state: &State) {
         let own = self.arm.unknowns().len();
         for log in &mut self.prepared {
-            log.motion.rigid_torque = self
-                .arm
-                .rigid_torque(&log.motion, &state.solution.estimate[..own]);
+            log.motion.rigid_torque =
+                self.arm
+                    .rigid_torque(&log.motion, &self.shapes, &state.solution.estimate[..own]);
         }
     }
 

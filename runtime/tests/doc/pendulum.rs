@@ -100,10 +100,10 @@ impl Arm for Pendulum {
     fn actuator_gain(&self) -> &[f64] {
         &[1.0]
     }
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+    fn known_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
         vec![vec![0.0; motion.time.len()]]
     }
-    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+    fn rigid_torque(&self, motion: &Motion, _: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
         let signals = motion.smooth.ddq[0].iter().zip(&motion.smooth.q[0]);
         vec![
             signals

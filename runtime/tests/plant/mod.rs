@@ -88,11 +88,11 @@ impl Arm for Pendulums {
         &[1.0, 1.0]
     }
 
-    fn known_torque(&self, motion: &Motion) -> Vec<Vec<f64>> {
+    fn known_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
         vec![vec![0.0; motion.time.len()]; 2]
     }
 
-    fn rigid_torque(&self, motion: &Motion, estimate: &[f64]) -> Vec<Vec<f64>> {
+    fn rigid_torque(&self, motion: &Motion, _: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
         let Kinematics { q, ddq, .. } = &motion.smooth;
         (0..2)
             .map(|j| {

@@ -1,4 +1,5 @@
-// A planar arm on a turntable that declares every standard effect once: what an effect means is tested on it.
+// A planar arm on a turntable that declares every standard effect once, but for those with a memory and those that read a
+// log (memory.robot): what an effect means is tested on it.
 robot EveryEffect {
     gravity = [0, 0, -9.81];
     convention = modified_dh;
@@ -22,5 +23,11 @@ robot EveryEffect {
         // No rotor's inertia of the shoulder: it would regroup into the link's, and count as load.
         load_dependent_friction on shoulder;
         torque_ripple(k = 12) on turntable;
+        position_dependent_friction(k = 3) on elbow;
+        parameter_drift(settle = 5) on elbow;
+        transmission_efficiency on elbow;
+        torque_gain on turntable;
+        gravity_compensation_spring(ratio = 3, q0 = 0.4) on shoulder;
+        rokae(eps = 0.05) on turntable;
     }
 }

@@ -159,14 +159,30 @@ impl<'a> Twin<'a> {
     pub fn effect_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
         let rigid = self.rigid_torque(standard, state);
         let mut torque = vec![0.0; rigid.len()];
-        let (mut linear, mut shape) = (self.model.rigid_parameters(), 0);
+        let (mut linear, mut shape, mut first_state) = (self.model.rigid_parameters(), 0, 0);
+        let columns = self.model.inputs();
         for effect in &self.model.effects {
             let definition = &effect.definition;
+            let inputs = definition.inputs.iter().map(|input| {
+                let column = input.column(&effect.joints);
+                let place = columns.iter().position(|other| *other == column);
+                state.inputs[place.expect("the model lists all inputs")]
+            });
+            let inputs: Vec<f64> = inputs.collect();
             let scope = Scope {
                 linear: &standard[linear..linear + definition.linear.len()],
                 shapes: &self.shapes[shape..shape + definition.shapes.len()],
                 joints: &effect.joints,
-                signals: [&state.q, &state.dq, &state.ddq, &rigid],
+                signals: [
+                    &state.q,
+                    &state.dq,
+                    &state.ddq,
+                    &rigid,
+                    &state.measured_torque,
+                ],
+                inputs: &inputs,
+                states: &state.states[first_state..],
+                bindings: &definition.bindings,
                 time: state.time,
             };
             for equation in &definition.torques {
@@ -174,6 +190,7 @@ impl<'a> Twin<'a> {
             }
             linear += definition.linear.len();
             shape += definition.shapes.len();
+            first_state += definition.states.len();
         }
         torque
     }

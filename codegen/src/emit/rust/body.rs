@@ -21,7 +21,7 @@ pub struct Cost {
     pub div: usize,
     /// Sines and cosines.
     pub trig: usize,
-    /// Other function calls.
+    /// Other function calls, and choices.
     pub call: usize,
 }
 
@@ -127,6 +127,7 @@ pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec
         let (atom, call) = match dag.node(x) {
             Node::Constant(_) | Node::Symbol(_) => (true, false),
             Node::Call(function, _) => (false, function != Function::Recip),
+            Node::Select(..) => (false, true),
             _ => (false, false),
         };
         if atom || is_negation(dag, x) {

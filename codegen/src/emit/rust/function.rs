@@ -11,6 +11,16 @@ use crate::expr::{Dag, ExprId, Names, Symbol};
 /// A matrix with more columns is written entry by entry.
 const WIDEST_ROW: usize = 8;
 
+/// Arguments that a function has only where it reads them.
+const OPTIONAL: [&str; 6] = [
+    "rigid_torque",
+    "measured_torque",
+    "time",
+    "inputs",
+    "states",
+    "shapes",
+];
+
 /// What functions are made from.
 #[derive(Clone, Copy)]
 pub struct Context<'a> {
@@ -27,7 +37,7 @@ pub struct Task {
     pub name: &'static str,
     /// First paragraph of the doc comment.
     pub doc: &'static str,
-    /// Arguments in order, separated by spaces; `rigid_torque`, `time` and `shapes` are left out where they are not read.
+    /// Arguments in order, separated by spaces; those of [`OPTIONAL`] are left out where they are not read.
     pub arguments: &'static str,
     /// Row by row.
     pub outputs: Vec<ExprId>,
@@ -41,8 +51,8 @@ pub enum Returns {
     Vector,
     /// Rows of this many columns.
     Matrix(usize),
-    /// One entry a base parameter.
-    Base,
+    /// As many entries as there are outputs.
+    List,
     /// A number.
     Scalar,
     /// Homogeneous matrices, one a joint.
@@ -82,7 +92,7 @@ impl Context<'_> {
             // No expression has the torque in it: it is what the equations are set to.
             argument == "tau" || symbols.any(|&symbol| argument_of(symbol, task) == argument)
         };
-        let optional = |argument: &str| matches!(argument, "rigid_torque" | "time" | "shapes");
+        let optional = |argument: &str| OPTIONAL.contains(&argument);
         let arguments: Vec<&'static str> = task
             .arguments
             .split(' ')
@@ -144,6 +154,8 @@ impl Context<'_> {
             "beta" => self.compiled.base.kept.len(),
             "standard" => self.compiled.standard.len(),
             "shapes" => self.compiled.free_shapes().len(),
+            "inputs" => self.compiled.model.inputs().len(),
+            "states" => self.compiled.model.states().len(),
             _ => self.compiled.dof(),
         };
         Some(Literal::usize_unsuffixed(length))
@@ -181,7 +193,7 @@ impl Context<'_> {
                 (quote!(Option<[f64; #rows]>), result)
             }
             Returns::Vector => (quote!([f64; #rows]), quote!([#(#outputs),*])),
-            Returns::Base => {
+            Returns::List => {
                 let length = Literal::usize_unsuffixed(outputs.len());
                 (quote!([f64; #length]), quote!([#(#outputs),*]))
             }
@@ -239,6 +251,9 @@ fn argument_of(symbol: Symbol, task: &Task) -> &'static str {
         Symbol::Dq(_) => "dq",
         Symbol::Ddq(_) => "ddq",
         Symbol::RigidTorque(_) => "rigid_torque",
+        Symbol::MeasuredTorque(_) => "measured_torque",
+        Symbol::Input(_) => "inputs",
+        Symbol::State(_) => "states",
         Symbol::Time => "time",
         Symbol::Parameter(_) if task.arguments.contains("standard") => "standard",
         Symbol::Parameter(_) => "beta",

@@ -53,7 +53,10 @@ pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
         ),
     }];
     items.extend(functions.iter().map(|function| function.item.clone()));
-    items.extend(implementation::items(compiled, &functions, extent));
+    // The trait's methods know motions only.
+    if !compiled.reads_more_than_motion() {
+        items.extend(implementation::items(compiled, &functions, extent));
+    }
     pretty::page(&header(compiled), &items)
 }
 
@@ -106,6 +109,23 @@ fn header(compiled: &Compiled) -> String {
         header.push_str("// ");
         header.push_str(&line);
         header.push('\n');
+    }
+    for (what, names) in [
+        ("inputs", compiled.model.inputs()),
+        ("states", compiled.model.states()),
+    ] {
+        for line in wrapped(&format!("{what} = [{}]", names.join(", ")), 112) {
+            if !names.is_empty() {
+                header.push_str("// ");
+                header.push_str(&line);
+                header.push('\n');
+            }
+        }
+    }
+    if compiled.reads_more_than_motion() {
+        header.push_str(
+            "// An effect has a memory or reads the log: these functions are all there is, without `RobotModel`.\n",
+        );
     }
     header.push_str(
         "// Clippy's pedantic lints speak of hand-written code: include the page in a module with\n\
@@ -200,7 +220,7 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, C
         context.function(&Task {
             name: "inverse_dynamics",
             doc: "Joint torque `tau = M * ddq + C * dq + G + effects`, N m (N for prismatic joints).",
-            arguments: "q dq ddq time beta shapes",
+            arguments: "q dq ddq measured_torque time inputs states beta shapes",
             outputs: dynamics.inverse_dynamics.clone(),
             returns: Returns::Vector,
         }),
@@ -213,14 +233,14 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, C
     functions.push(context.function(&Task {
         name: "regressor",
         doc: "Regressor `Y(q, dq, ddq)`: `tau = Y * standard`.",
-        arguments: "q dq ddq rigid_torque time shapes",
+        arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
         outputs: regressor,
         returns: Returns::Matrix(compiled.standard.len()),
     }));
     functions.push(context.function(&Task {
         name: "base_regressor",
         doc: "Base regressor `Y_b(q, dq, ddq)`: `tau = Y_b * beta`, besides what the spec fixes.",
-        arguments: "q dq ddq rigid_torque time shapes",
+        arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
         outputs: base_regressor,
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));
@@ -228,11 +248,25 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, C
     if extent == Extent::All {
         functions.extend(mechanics::functions(&context));
     }
+    functions.extend(state_rates(&context));
     let costs = functions
         .iter()
         .map(|function| (function.name, function.cost))
         .collect();
     (functions, costs)
+}
+
+/// How the effects' states change, where there are some.
+fn state_rates(context: &Context<'_>) -> Option<function::Function> {
+    let rates = &context.compiled.dynamics.state_rates;
+    let task = Task {
+        name: "state_rates",
+        doc: "Rates of the effects' internal states, which are 0 at the start. They are stiff: step them exponentially.",
+        arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
+        outputs: rates.clone(),
+        returns: Returns::List,
+    };
+    (!rates.is_empty()).then(|| context.function(&task))
 }
 
 /// `beta = map * standard`, as a function of its own.
@@ -274,6 +308,6 @@ fn base_parameters(compiled: &Compiled) -> function::Function {
         doc: "Base parameters `beta` of the standard parameters: sums of them with lengths as coefficients.",
         arguments: "standard",
         outputs,
-        returns: Returns::Base,
+        returns: Returns::List,
     })
 }

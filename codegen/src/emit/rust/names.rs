@@ -9,7 +9,7 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 10] = [
+const RESERVED: [&str; 13] = [
     "q",
     "dq",
     "ddq",
@@ -19,6 +19,9 @@ const RESERVED: [&str; 10] = [
     "shapes",
     "time",
     "rigid_torque",
+    "measured_torque",
+    "inputs",
+    "states",
     "out",
 ];
 

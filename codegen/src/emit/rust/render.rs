@@ -30,6 +30,9 @@ impl Binding<'_> {
             Symbol::Dq(j) => indexed("dq", j),
             Symbol::Ddq(j) => indexed("ddq", j),
             Symbol::RigidTorque(j) => indexed("rigid_torque", j),
+            Symbol::MeasuredTorque(j) => indexed("measured_torque", j),
+            Symbol::Input(k) => indexed("inputs", k),
+            Symbol::State(k) => indexed("states", k),
             Symbol::Time => quote!(time),
             Symbol::Parameter(k) => (self.parameter)(k),
             Symbol::Shape(k) => (self.shape)(k),
@@ -119,6 +122,7 @@ impl<'a> Renderer<'a> {
                 let (p, q) = (self.value(p), self.value(q));
                 (quote!(math::pow(#p, #q)), Strength::Atom)
             }
+            Node::Select(condition, p, q) => self.write_choice(condition, p, q),
             Node::Call(Function::Recip, p) => {
                 self.cost.div += 1;
                 let p = self.at_least(p, Strength::Atom);
@@ -135,6 +139,17 @@ impl<'a> Renderer<'a> {
                 (quote!(math::#name(#p)), Strength::Atom)
             }
         }
+    }
+
+    /// `if condition > 0.0 { x } else { y }`; always the whole right-hand side of a temporary.
+    fn write_choice(&mut self, condition: ExprId, x: ExprId, y: ExprId) -> (TokenStream, Strength) {
+        self.cost.call += 1;
+        let condition = self.value(condition);
+        let (x, y) = (self.value(x), self.value(y));
+        (
+            quote!(if #condition > 0.0 { #x } else { #y }),
+            Strength::Sum,
+        )
     }
 
     /// Whether the written form starts with a minus that a subtraction can take.

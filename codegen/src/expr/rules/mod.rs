@@ -26,6 +26,14 @@ pub struct CallRule {
     pub apply: fn(&mut Dag, Function, ExprId) -> Option<ExprId>,
 }
 
+/// An identity of a choice.
+pub struct SelectRule {
+    /// The identity.
+    pub name: &'static str,
+    /// The simpler expression of condition and values, where the rule applies.
+    pub apply: fn(&mut Dag, ExprId, ExprId, ExprId) -> Option<ExprId>,
+}
+
 /// Identities of `x + y`.
 pub const SUM: &[Rule] = &[
     Rule {
@@ -131,6 +139,26 @@ pub const CALL: &[CallRule] = &[
     CallRule {
         name: "abs(abs(x)) = abs(x)",
         apply: modulus_twice,
+    },
+];
+
+/// Identities of `if c { x } else { y }`, where `c` holds when it is positive.
+pub const SELECT: &[SelectRule] = &[
+    SelectRule {
+        name: "if 2 { x } else { y } = x",
+        apply: known_choice,
+    },
+    SelectRule {
+        name: "if c { x } else { x } = x",
+        apply: equal_choices,
+    },
+    SelectRule {
+        name: "if 2 c { x } else { y } = if c { x } else { y }",
+        apply: scaled_condition,
+    },
+    SelectRule {
+        name: "if c { k x } else { k y } = k if c { x } else { y }",
+        apply: common_factor_of_choices,
     },
 ];
 
@@ -247,6 +275,37 @@ fn modulus_times_sign(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
         }
         _ => None,
     }
+}
+
+fn known_choice(dag: &mut Dag, condition: ExprId, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let condition = dag.as_constant(condition)?;
+    Some(if condition > 0.0 { x } else { y })
+}
+
+fn equal_choices(_: &mut Dag, _: ExprId, x: ExprId, y: ExprId) -> Option<ExprId> {
+    (x == y).then_some(x)
+}
+
+fn scaled_condition(dag: &mut Dag, condition: ExprId, x: ExprId, y: ExprId) -> Option<ExprId> {
+    let (factor, rest) = dag.coefficient(condition);
+    let rest = rest?;
+    (factor > 0.0 && !equal(factor, 1.0)).then(|| dag.select(rest, x, y))
+}
+
+/// One factor outside, so that `min` and `max` of multiples are multiples.
+fn common_factor_of_choices(
+    dag: &mut Dag,
+    condition: ExprId,
+    x: ExprId,
+    y: ExprId,
+) -> Option<ExprId> {
+    let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
+    let (p, q) = (p?, q?);
+    if !equal(c, d) || equal(c, 1.0) {
+        return None;
+    }
+    let choice = dag.select(condition, p, q);
+    Some(dag.scale(c, choice))
 }
 
 fn square_of_root(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {

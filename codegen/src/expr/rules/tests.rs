@@ -213,6 +213,35 @@ const TABLE: &[(&str, Build, &str)] = &[
         },
         "abs(q1)",
     ),
+    (
+        "if 2 { x } else { y } = x",
+        |d, x, y, _| {
+            let two = d.constant(2.0);
+            d.select(two, x, y)
+        },
+        "q1",
+    ),
+    (
+        "if c { x } else { x } = x",
+        |d, x, _, k| d.select(k, x, x),
+        "q1",
+    ),
+    (
+        "if 2 c { x } else { y } = if c { x } else { y }",
+        |d, x, y, k| {
+            let condition = d.scale(2.0, k);
+            d.select(condition, x, y)
+        },
+        "(if t > 0 { q1 } else { q2 })",
+    ),
+    (
+        "if c { k x } else { k y } = k if c { x } else { y }",
+        |d, x, y, _| {
+            let (x, y) = (d.scale(3.0, x), d.scale(3.0, y));
+            d.max(x, y)
+        },
+        "3 (if q1 > q2 { q1 } else { q2 })",
+    ),
 ];
 
 #[test]
@@ -221,7 +250,8 @@ fn every_rule_rewrites_its_example() {
         .iter()
         .chain(PRODUCT)
         .map(|rule| rule.name)
-        .chain(CALL.iter().map(|rule| rule.name));
+        .chain(CALL.iter().map(|rule| rule.name))
+        .chain(SELECT.iter().map(|rule| rule.name));
     assert_eq!(
         names.collect::<Vec<_>>(),
         TABLE.iter().map(|row| row.0).collect::<Vec<_>>()

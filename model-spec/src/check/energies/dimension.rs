@@ -214,6 +214,9 @@ impl Walk<'_> {
                 let right = self.operand(1, y)?;
                 self.binary(*op, y, left, &right)
             }
+            Expr::Min(..) | Expr::Max(..) | Expr::Choice(_) => {
+                unreachable!("checked in energies::resolve: energies are smooth")
+            }
         }
     }
 

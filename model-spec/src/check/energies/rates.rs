@@ -45,6 +45,9 @@ impl Analysis<'_> {
                 let (left, right) = (self.operand(0, x)?, self.operand(1, y)?);
                 self.binary(*op, y, left, right)
             }
+            Expr::Min(..) | Expr::Max(..) | Expr::Choice(_) => {
+                unreachable!("checked in energies::resolve: energies are smooth")
+            }
         }
     }
 

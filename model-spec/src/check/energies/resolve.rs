@@ -99,6 +99,13 @@ impl Resolution<'_> {
                 let (x, y) = (self.operand(0, x), self.operand(1, y));
                 Some(Expr::Binary(*op, Box::new(x?), Box::new(y?)))
             }
+            ExprKind::Choice(..) => {
+                self.errors.push(
+                    Diagnostic::new(expr.span, "an energy has no choices", "jumps or bends here")
+                        .help("write one expression that holds everywhere"),
+                );
+                None
+            }
         }
     }
 

@@ -51,14 +51,14 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
         Task {
             name: "momentum_regressor",
             doc: "Momentum regressor `Y_p(q, dq)`: `tau = d/dt (Y_p * standard) - Y_h * standard`.",
-            arguments: "q dq time shapes",
+            arguments: "q dq measured_torque time inputs states shapes",
             outputs: form.momentum.concat(),
             returns: Returns::Matrix(standard),
         },
         Task {
             name: "drift_regressor",
             doc: "Drift regressor `Y_h(q, dq)`: what changes the momentum beside the torque, `C^T dq - G` less effects.",
-            arguments: "q dq time shapes",
+            arguments: "q dq measured_torque time inputs states shapes",
             outputs: form.drift.concat(),
             returns: Returns::Matrix(standard),
         },
@@ -66,14 +66,14 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
             name: "base_momentum_regressor",
             doc: "Momentum regressor of the base parameters: `tau = d/dt (Y_p * beta) - Y_h * beta`, besides what the spec \
                   fixes.",
-            arguments: "q dq time shapes",
+            arguments: "q dq measured_torque time inputs states shapes",
             outputs: kept(&compiled.base_momentum.momentum),
             returns: Returns::Matrix(base),
         },
         Task {
             name: "base_drift_regressor",
             doc: "Drift regressor of the base parameters.",
-            arguments: "q dq time shapes",
+            arguments: "q dq measured_torque time inputs states shapes",
             outputs: kept(&compiled.base_momentum.drift),
             returns: Returns::Matrix(base),
         },
@@ -123,7 +123,7 @@ fn forward_dynamics(context: &Context<'_>) -> Function {
         name: "forward_dynamics",
         doc: "Accelerations that `tau` gives, rad/s^2 (m/s^2 for prismatic joints): solves the inverse dynamics for `ddq`. \
               `None` where the inertia is singular, or not positive definite, which no physical `beta` gives.",
-        arguments: "q dq tau time beta shapes",
+        arguments: "q dq tau measured_torque time inputs states beta shapes",
         outputs: [slope, torque].concat(),
         returns: Returns::Accelerations(equations),
     })
@@ -135,14 +135,14 @@ fn slopes(context: &Context<'_>) -> Vec<Function> {
         Task {
             name: "inverse_dynamics_by_position",
             doc: "Slope of the inverse dynamics by positions, `[i][j] = d tau_i / d q_j`, effects included; jumps have none.",
-            arguments: "q dq ddq time beta shapes",
+            arguments: "q dq ddq measured_torque time inputs states beta shapes",
             outputs: compiled.partials.by_position.concat(),
             returns: Returns::Matrix(dof),
         },
         Task {
             name: "inverse_dynamics_by_velocity",
             doc: "Slope of the inverse dynamics by velocities, `[i][j] = d tau_i / d dq_j`, effects included; jumps have none.",
-            arguments: "q dq ddq time beta shapes",
+            arguments: "q dq ddq measured_torque time inputs states beta shapes",
             outputs: compiled.partials.by_velocity.concat(),
             returns: Returns::Matrix(dof),
         },

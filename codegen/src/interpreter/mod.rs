@@ -3,7 +3,10 @@
 //! In: a [`Dag`] and the outputs wanted. Out: a [`Program`], a flat schedule over reused registers. Each instruction works
 //! on a block of samples at a time, so that its cost is shared and the compiler vectorizes it.
 
-use crate::expr::{Dag, ExprId, Function, Node, Symbol};
+mod schedule;
+
+use crate::expr::{Dag, ExprId, Function, Symbol};
+use schedule::Scheduler;
 
 /// Samples an instruction works on at a time.
 const LANES: usize = 64;
@@ -65,6 +68,12 @@ enum Instruction {
         function: Function,
         x: Register,
     },
+    Select {
+        target: Register,
+        condition: Register,
+        x: Register,
+        y: Register,
+    },
     Store {
         x: Register,
         output: usize,
@@ -78,6 +87,22 @@ pub struct Program {
     symbols: Vec<Symbol>,
     registers: usize,
     outputs: usize,
+}
+
+/// Registers and outputs of a program that runs one sample at a time.
+#[derive(Debug, Clone)]
+pub struct Scratch {
+    operands: Vec<Operand<'static>>,
+    registers: Vec<[f64; 1]>,
+    out: Vec<Vec<f64>>,
+}
+
+impl Scratch {
+    /// Output `k` of the last run.
+    #[must_use]
+    pub fn output(&self, k: usize) -> f64 {
+        self.out[k][0]
+    }
 }
 
 impl Program {
@@ -145,6 +170,29 @@ impl Program {
         out.into_iter().flatten().collect()
     }
 
+    /// Room for [`Self::eval_in`].
+    #[must_use]
+    pub fn scratch(&self) -> Scratch {
+        Scratch {
+            operands: vec![Operand::Constant(0.0); self.symbols.len()],
+            registers: vec![[0.0; 1]; self.registers],
+            out: vec![vec![0.0]; self.outputs],
+        }
+    }
+
+    /// Evaluates one sample without allocation; `values` has one number per [`Self::symbols`].
+    pub fn eval_in(&self, values: &[f64], scratch: &mut Scratch) {
+        for (operand, &value) in scratch.operands.iter_mut().zip(values) {
+            *operand = Operand::Constant(value);
+        }
+        let Scratch {
+            operands,
+            registers,
+            out,
+        } = scratch;
+        self.run_block(operands, 0..1, registers, out);
+    }
+
     /// Runs all instructions on the samples of `range`, at most `N`.
     fn run_block<const N: usize>(
         &self,
@@ -184,6 +232,22 @@ impl Program {
                     Function::Sqrt => unary(registers, target, x, f64::sqrt),
                     _ => unary(registers, target, x, |x| function.apply(x)),
                 },
+                Instruction::Select {
+                    target,
+                    condition,
+                    x,
+                    y,
+                } => {
+                    // Copies: any two of the operands may be one register.
+                    let (condition, x, y) = (registers[condition], registers[x], registers[y]);
+                    registers[target] = std::array::from_fn(|lane| {
+                        if condition[lane] > 0.0 {
+                            x[lane]
+                        } else {
+                            y[lane]
+                        }
+                    });
+                }
                 Instruction::Store { x, output } => {
                     out[output][range.clone()].copy_from_slice(&registers[x][..range.len()]);
                 }
@@ -223,179 +287,5 @@ fn binary<const N: usize>(
         .expect("a target is no operand");
     for ((target, x), y) in target.iter_mut().zip(x).zip(y) {
         *target = f(*x, *y);
-    }
-}
-
-/// What a node is computed from, once constants and negations are absorbed.
-#[derive(Clone, Copy)]
-enum Step {
-    Sub(ExprId, ExprId),
-    Offset(ExprId, f64),
-    Scale(ExprId, f64),
-    Plain,
-}
-
-/// Assigns registers: a register is free again after the last use of its value.
-struct Scheduler<'a> {
-    dag: &'a Dag,
-    order: Vec<ExprId>,
-    /// Uses that are still to come, by expression.
-    uses: Vec<usize>,
-    register: Vec<Option<Register>>,
-    free: Vec<Register>,
-    program: Program,
-}
-
-impl<'a> Scheduler<'a> {
-    fn new(dag: &'a Dag, outputs: &[ExprId]) -> Self {
-        let order = dag.reachable(outputs);
-        let mut uses = vec![0; dag.len()];
-        for output in outputs {
-            uses[output.index()] += 1;
-        }
-        // From users to operands: what only an absorbed node would have needed is never scheduled.
-        for &x in order.iter().rev() {
-            if uses[x.index()] > 0 {
-                for operand in operands(dag, x) {
-                    uses[operand.index()] += 1;
-                }
-            }
-        }
-        let program = Program {
-            instructions: Vec::new(),
-            symbols: Vec::new(),
-            registers: 0,
-            outputs: outputs.len(),
-        };
-        Self {
-            dag,
-            order,
-            uses,
-            register: vec![None; dag.len()],
-            free: Vec::new(),
-            program,
-        }
-    }
-
-    fn schedule(mut self, outputs: &[ExprId]) -> Program {
-        for x in std::mem::take(&mut self.order) {
-            if self.uses[x.index()] > 0 {
-                self.compute(x);
-                // An output leaves its register at once, so that outputs do not pile up.
-                for output in (0..outputs.len()).filter(|&k| outputs[k] == x) {
-                    let register = self.register_of(x);
-                    self.program.instructions.push(Instruction::Store {
-                        x: register,
-                        output,
-                    });
-                    self.release(x);
-                }
-            }
-        }
-        self.program
-    }
-
-    fn compute(&mut self, x: ExprId) {
-        let target = self.free.pop().unwrap_or_else(|| {
-            self.program.registers += 1;
-            self.program.registers - 1
-        });
-        let instruction = match (step(self.dag, x), self.dag.node(x)) {
-            (Step::Sub(x, y), _) => Instruction::Sub {
-                target,
-                x: self.register_of(x),
-                y: self.register_of(y),
-            },
-            (Step::Offset(x, value), _) => Instruction::Offset {
-                target,
-                x: self.register_of(x),
-                value,
-            },
-            (Step::Scale(x, factor), _) => Instruction::Scale {
-                target,
-                x: self.register_of(x),
-                factor,
-            },
-            (_, Node::Constant(value)) => Instruction::Constant {
-                target,
-                value: value.get(),
-            },
-            (_, Node::Symbol(symbol)) => {
-                self.program.symbols.push(symbol);
-                Instruction::Load {
-                    target,
-                    symbol: self.program.symbols.len() - 1,
-                }
-            }
-            (_, Node::Add(x, y)) => Instruction::Add {
-                target,
-                x: self.register_of(x),
-                y: self.register_of(y),
-            },
-            (_, Node::Mul(x, y)) => Instruction::Mul {
-                target,
-                x: self.register_of(x),
-                y: self.register_of(y),
-            },
-            (_, Node::Power(x, y)) => Instruction::Power {
-                target,
-                x: self.register_of(x),
-                y: self.register_of(y),
-            },
-            (_, Node::Call(function, x)) => Instruction::Call {
-                target,
-                function,
-                x: self.register_of(x),
-            },
-        };
-        self.program.instructions.push(instruction);
-        self.register[x.index()] = Some(target);
-        for operand in operands(self.dag, x) {
-            self.release(operand);
-        }
-    }
-
-    fn register_of(&self, x: ExprId) -> Register {
-        self.register[x.index()].expect("operands come before their users")
-    }
-
-    /// Counts one use; after the last the register is free.
-    fn release(&mut self, x: ExprId) {
-        self.uses[x.index()] -= 1;
-        if self.uses[x.index()] == 0 {
-            let register = self.register_of(x);
-            self.free.push(register);
-        }
-    }
-}
-
-fn step(dag: &Dag, x: ExprId) -> Step {
-    match dag.node(x) {
-        Node::Add(p, q) => {
-            for (here, other) in [(p, q), (q, p)] {
-                if let Some(value) = dag.as_constant(here) {
-                    return Step::Offset(other, value);
-                }
-                if let (-1.0, Some(negated)) = dag.coefficient(here)
-                    && dag.as_constant(other).is_none()
-                {
-                    return Step::Sub(other, negated);
-                }
-            }
-            Step::Plain
-        }
-        Node::Mul(p, q) => dag
-            .as_constant(p)
-            .map_or(Step::Plain, |factor| Step::Scale(q, factor)),
-        _ => Step::Plain,
-    }
-}
-
-/// The expressions whose registers a node reads.
-fn operands(dag: &Dag, x: ExprId) -> Vec<ExprId> {
-    match step(dag, x) {
-        Step::Sub(x, y) => vec![x, y],
-        Step::Offset(x, _) | Step::Scale(x, _) => vec![x],
-        Step::Plain => dag.node(x).operands().collect(),
     }
 }

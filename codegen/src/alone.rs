@@ -1,0 +1,54 @@
+//! An effect by itself: what an arm does not declare, tried on given joints.
+
+use robot_model_spec::model::EffectDefinition;
+
+use crate::compiled::Block;
+use crate::dynamics::effect;
+use crate::expr::{Dag, ExprId, Symbol};
+use crate::states::States;
+
+/// The columns of an effect that is not declared, tried on given joints.
+#[derive(Debug, Clone)]
+pub struct EffectColumns {
+    /// Its columns: one per linear parameter of the definition. Shapes, inputs and states are symbols by their index in the
+    /// definition.
+    pub block: Block,
+    /// Its states.
+    pub states: States,
+}
+
+/// Columns of `definition` on `joints` of an arm with `dof` joints.
+#[must_use]
+pub fn effect_columns(
+    definition: &EffectDefinition,
+    joints: &[usize],
+    dof: usize,
+) -> EffectColumns {
+    let mut dag = Dag::new();
+    let parameters: Vec<Symbol> = (0..definition.linear.len())
+        .map(Symbol::Parameter)
+        .collect();
+    let linear: Vec<ExprId> = parameters
+        .iter()
+        .map(|&symbol| dag.symbol(symbol))
+        .collect();
+    let symbols = effect::Symbols::alone(&mut dag, definition);
+    let rigid_torque = effect::outside_rigid_torque(&mut dag, dof);
+    let scope = effect::Scope {
+        linear: &linear,
+        symbols: &symbols,
+        joints,
+        rigid_torque: &rigid_torque,
+    };
+    let entries = effect::entries(&mut dag, definition, &scope, &parameters);
+    let block = Block::new(
+        &dag,
+        entries
+            .into_iter()
+            .map(|entry| (entry.joint, entry.parameter, entry.value))
+            .collect(),
+    );
+    let rates = effect::rates(&mut dag, definition, &scope);
+    let states = States::new(&mut dag, &rates, [definition.states.len()]);
+    EffectColumns { block, states }
+}

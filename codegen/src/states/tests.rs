@@ -1,0 +1,58 @@
+use super::*;
+
+/// `dz/dt = dq - abs(dq) z / d`, Dahl's model, driven by a given velocity.
+fn dahl(dag: &mut Dag, d: f64) -> States {
+    use crate::expr::Function;
+    let (z, dq) = (dag.symbol(Symbol::State(0)), dag.symbol(Symbol::Dq(0)));
+    let speed = dag.call(Function::Abs, dq);
+    let loss = dag.mul(speed, z);
+    let loss = dag.scale(1.0 / d, loss);
+    let rate = dag.sub(dq, loss);
+    States::new(dag, &[rate], [1])
+}
+
+#[test]
+fn constant_speed_is_exact_however_stiff() {
+    let states = dahl(&mut Dag::new(), 1e-4);
+    let dq = vec![0.5; 21];
+    let z = states.integrate(21, 1e-4, &|_| Operand::Column(&dq));
+    for (k, z) in z[0].iter().enumerate() {
+        let wanted = 1e-4 * (1.0 - (-0.5 * k as f64 * 1e-4 / 1e-4).exp());
+        // Rounding of numbers near 1e-4.
+        assert!((z - wanted).abs() < 1e-18, "{k}: {z} {wanted}");
+    }
+    // A step of a second, ten thousand time constants.
+    let z = states.integrate(3, 1.0, &|_| Operand::Column(&dq));
+    assert!((z[0][2] - 1e-4).abs() < 1e-18);
+}
+
+#[test]
+fn a_reversal_inside_a_sample_is_met_where_it_is() {
+    let states = dahl(&mut Dag::new(), 0.1);
+    // From 1 to -1 rad/s: forward for half of the interval, then back.
+    let z = states.integrate(2, 0.2, &|_| Operand::Column(&[1.0, -1.0]));
+    // Both halves have the mean speed 0.5 over 0.1 s: 0.05 rad there and back.
+    let there = 0.1 * (1.0 - (-0.5_f64).exp());
+    let back = -0.1 + (there + 0.1) * (-0.5_f64).exp();
+    assert!((z[0][1] - back).abs() < 1e-15, "{} {back}", z[0][1]);
+}
+
+#[test]
+fn a_rate_that_is_not_affine_converges_with_the_second_order() {
+    // dz/dt = dq (1 - z^2): z = tanh(integral of dq).
+    let mut dag = Dag::new();
+    let (z, dq) = (dag.symbol(Symbol::State(0)), dag.symbol(Symbol::Dq(0)));
+    let square = dag.mul(z, z);
+    let one = dag.constant(1.0);
+    let rest = dag.sub(one, square);
+    let rate = dag.mul(dq, rest);
+    let states = States::new(&mut dag, &[rate], [1]);
+    let error = |samples: usize| {
+        let h = 2.0 / (samples - 1) as f64;
+        let dq: Vec<f64> = (0..samples).map(|k| (3.0 * h * k as f64).cos()).collect();
+        let z = states.integrate(samples, h, &|_| Operand::Column(&dq));
+        (z[0][samples - 1] - (6.0_f64.sin() / 3.0).tanh()).abs()
+    };
+    let (coarse, fine) = (error(101), error(201));
+    assert!(coarse < 1e-4 && coarse / fine > 3.5, "{coarse} {fine}");
+}

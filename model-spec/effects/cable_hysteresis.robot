@@ -1,0 +1,20 @@
+/// Torque of a hose or a cable bundle that is bent to and fro (Bouc and Wen's model).
+///
+/// `dz/dt = dq / width (1 - abs(z)^n (beta sign(dq z) + 1 - beta))`, `torque = f z`, with `abs(z) <= 1`. In the usual form,
+/// `dw/dt = dq (1 - abs(w)^n (B sign(dq w) + C))` and `torque = D w`, it is `w = width z`, `D = f / width`,
+/// `B = beta / width^n`, `C = (1 - beta) / width^n`. Loops of torque over position, wider than those of dry friction, that
+/// lose energy for `beta >= 0.5`. Identifiable from reversals at several amplitudes. Sources: Bouc 1967, Wen 1976.
+effect cable_hysteresis(j) {
+    /// Torque on the far sides of the loop, N m (N for a prismatic joint).
+    linear f >= 0;
+    /// Travel over which the torque builds up, rad (m for a prismatic joint).
+    shape width in 0.005 .. 1;
+    /// How much the way back differs from the way there: 0.5 goes back along a straight line.
+    shape beta in 0.4 .. 1 step 0.3;
+    /// How sharply the loop bends into its far sides.
+    shape n in 1 .. 2.5 step 0.5;
+    /// Torque over that on the far sides.
+    state z;
+    dot(z) = dq(j) / width * (1 - abs(z)^n * (beta * sign(dq(j) * z) + 1 - beta));
+    torque(j) = f * z;
+}

@@ -1,0 +1,14 @@
+/// Dry friction that changes with the joint's position: an eccentric gear, a seal that is not round.
+///
+/// `(a cos(k q) + b sin(k q)) sign(dq)`, on top of Coulomb friction: amplitude `sqrt(a^2 + b^2)`. The torque is against the
+/// motion, unlike a ripple, which keeps its sign when the motion turns round. Identifiable from slow motion in both
+/// directions over several periods.
+effect position_dependent_friction(j) {
+    /// Amplitude of the cosine, N m (N for a prismatic joint).
+    linear a;
+    /// Amplitude of the sine, N m (N for a prismatic joint).
+    linear b;
+    /// Periods per revolution (rad per m for a prismatic joint).
+    shape k in 1 .. 20 step 0.25;
+    torque(j) = (a * cos(k * q(j)) + b * sin(k * q(j))) * sign(dq(j));
+}

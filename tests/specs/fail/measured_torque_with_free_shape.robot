@@ -1,0 +1,6 @@
+robot Pendulum {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = 0.5; alpha = 0; d = 0; }
+    effects { torque_saturation(v0 = 5) on pivot; }
+}
