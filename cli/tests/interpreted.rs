@@ -64,6 +64,18 @@ fn motion() -> Motion {
     }
 }
 
+/// What another law finds at the ends of its ranges is not tried by itself; what explains itself never is.
+#[test]
+fn cases_of_other_laws_and_laws_of_the_measured_torque_are_no_candidates() {
+    let candidates = wrist().candidates();
+    for kind in ["dahl", "torque-saturation", "rokae"] {
+        assert_eq!(on(&candidates, kind), Vec::<Vec<usize>>::new(), "{kind}");
+    }
+    for kind in ["cable-hysteresis", "lugre-presliding", "stribeck"] {
+        assert_eq!(on(&candidates, kind), [[0], [1]], "{kind}");
+    }
+}
+
 #[test]
 fn candidates_are_what_is_not_declared() {
     let candidates = wrist().candidates();

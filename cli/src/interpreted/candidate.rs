@@ -21,7 +21,16 @@ impl InterpretedArm {
         let model = &self.compiled.model;
         let mut candidates = Vec::new();
         let definitions = model.definitions.iter();
-        for definition in definitions.filter(|definition| may_be_tried(definition)) {
+        let tried: Vec<&EffectDefinition> = definitions
+            .map(AsRef::as_ref)
+            .filter(|definition| may_be_tried(definition))
+            .collect();
+        let definitions = tried.iter().filter(|definition| {
+            !tried
+                .iter()
+                .any(|other| is_case_of(model, definition, other))
+        });
+        for definition in definitions {
             let mut seen: Vec<(BTreeSet<usize>, Vec<Entry>)> = Vec::new();
             for joints in tuples(model.joints.len(), definition.joints.len()) {
                 let group: BTreeSet<usize> = joints.iter().copied().collect();
@@ -109,8 +118,20 @@ impl InterpretedCandidate {
         }
     }
 
-    /// Its columns over a few states that have nothing to do with each other, in a canonical order.
+    /// Its columns over a few states that have nothing to do with each other, in a canonical order; shapes in the middle.
     fn probe(&self, dof: usize) -> Vec<Entry> {
+        self.probe_at(dof, &self.middle())
+    }
+
+    /// The middle of every shape's grid.
+    fn middle(&self) -> Vec<f64> {
+        let shapes = self.shapes.iter();
+        shapes
+            .map(|shape| shape.grid[shape.grid.len() / 2])
+            .collect()
+    }
+
+    fn probe_at(&self, dof: usize, shapes: &[f64]) -> Vec<Entry> {
         const STATES: usize = 5;
         // Multiples of the golden ratio: no two joints, signals or states alike.
         let value = |signal: usize, joint: usize, state: usize| {
@@ -148,12 +169,7 @@ impl InterpretedCandidate {
                 })
                 .collect(),
         };
-        let shapes: Vec<f64> = self
-            .shapes
-            .iter()
-            .map(|shape| shape.grid[shape.grid.len() / 2])
-            .collect();
-        let mut entries = self.entries(&motion, &shapes);
+        let mut entries = self.entries(&motion, shapes);
         entries.sort_by_key(|entry| (entry.column, entry.joint));
         entries
     }
@@ -189,6 +205,55 @@ impl Candidate for InterpretedCandidate {
     fn joints(&self) -> &[usize] {
         &self.joints
     }
+}
+
+/// Whether a law with shapes is another one with some of its shapes at the ends of their ranges, as Dahl's friction is one
+/// of Bouc and Wen's loops: the other law is tried, and finds it.
+fn is_case_of(model: &Model, law: &EffectDefinition, other: &EffectDefinition) -> bool {
+    let parameters = |law: &EffectDefinition| law.linear.len() + law.shapes.len();
+    let (dof, count) = (model.joints.len(), law.joints.len());
+    if law.shapes.is_empty() || parameters(other) <= parameters(law) || other.joints.len() != count
+    {
+        return false;
+    }
+    let Some(joints) = tuples(dof, count).into_iter().next() else {
+        return false;
+    };
+    let candidate = InterpretedCandidate::new(model, law, &joints);
+    let values = candidate.middle();
+    let wanted = candidate.probe(dof);
+    let other = InterpretedCandidate::new(model, other, &joints);
+    let mut points = vec![Vec::new()];
+    for shape in &other.shapes {
+        let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
+        let inside = values.iter().copied().filter(|v| (low..=high).contains(v));
+        let options: Vec<f64> = inside.chain([low, high]).collect();
+        let longer = |point: &Vec<f64>| {
+            let point = point.clone();
+            let options = options.clone();
+            options
+                .into_iter()
+                .map(move |value| [point.as_slice(), &[value]].concat())
+        };
+        points = points.iter().flat_map(longer).collect();
+    }
+    points.iter().any(|point| {
+        let found = other.probe_at(dof, point);
+        wanted
+            .iter()
+            .all(|entry| found.iter().any(|other| same_values(entry, other)))
+    })
+}
+
+/// Equal up to rounding on the same joint, whatever the columns are.
+fn same_values(left: &Entry, right: &Entry) -> bool {
+    let columns = |entry: &Entry| {
+        vec![Entry {
+            column: 0,
+            ..entry.clone()
+        }]
+    };
+    same(&columns(left), &columns(right))
 }
 
 /// The name that the effect would have if it were declared last: `JOINT.EFFECT`, or `JOINT.EFFECT2`.
