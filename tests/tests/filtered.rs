@@ -37,6 +37,8 @@ fn motion(dof: usize, t: f64) -> State {
         dq: (0..dof).map(|joint| of(joint, 1)).collect(),
         ddq: (0..dof).map(|joint| of(joint, 2)).collect(),
         time: t,
+        // Further channels and what effects remember stay what they are: any values do.
+        ..states::state(&mut states::generator(5), dof)
     }
 }
 
