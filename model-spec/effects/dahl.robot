@@ -2,7 +2,8 @@
 ///
 /// `dz/dt = (dq - abs(dq) z) / d`, `torque = fc z`: after a reversal the torque goes from one side to the other like
 /// `1 - 2 exp(-distance / d)`, at any speed. The loops of torque over position lose energy. Identifiable from reversals that
-/// an encoder resolves into some ten steps per `d`; over much longer distances it is Coulomb friction. Source: Dahl 1968.
+/// an encoder resolves into some ten steps per `d`; over much longer distances it is Coulomb friction. It is
+/// `cable_hysteresis` with `beta = 1` and `n = 1`. Source: Dahl 1968.
 effect dahl(j) {
     /// Torque of sliding, N m (N for a prismatic joint).
     linear fc >= 0;
