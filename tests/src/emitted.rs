@@ -58,6 +58,7 @@ robots! {
     pneumatic_arm "pneumatic_arm" PneumaticArm;
     puma_shoulder "puma_shoulder" PumaShoulder;
     puma560 "puma560" Puma560;
+    rokae_like "rokae_like" RokaeLike;
     skew "skew" Skew;
     slider "slider" Slider;
     spring_arm "spring_arm" SpringArm;
@@ -65,6 +66,13 @@ robots! {
     two_link "two_link" TwoLink;
     tx40 "tx40" Tx40;
     ur10 "ur10" Ur10;
+}
+
+/// Emitted from `lugre_link.robot`: functions alone, since friction with a memory reads more than a motion.
+#[deny(warnings)]
+#[allow(clippy::pedantic, reason = "derived, not written")]
+pub mod lugre_link {
+    robot_model::include_robot!("lugre_link");
 }
 
 /// Emitted from `memory.robot`: functions alone, since its effects read more than a motion.

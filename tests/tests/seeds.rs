@@ -421,3 +421,60 @@ fn phantom_end_point_moves_as_in_the_paper() {
         assert_close("(21)", &products(&found), &products(&printed));
     }
 }
+
+/// 16 parameters a joint; 36 base parameters of the rigid body, four of six rotors, five of friction a joint.
+#[test]
+fn six_joints_with_rotors_and_the_friction_law_have_70_of_96_parameters() {
+    let arm = interpreter("rokae_like");
+    let base = &arm.compiled.base;
+    assert_eq!((arm.compiled.standard.len(), base.kept.len()), (96, 70));
+    let of = |what: &str| base.names.iter().filter(|name| name.contains(what)).count();
+    assert_eq!((of(".rokae."), of(".motor_inertia.")), (30, 4));
+    for absorbed in ["j1.motor_inertia.ia", "j2.motor_inertia.ia"] {
+        let regrouped = base.combinations.iter().any(|combination| {
+            combination.len() > 1
+                && combination
+                    .iter()
+                    .any(|&(k, _)| arm.compiled.standard[k].name == absorbed)
+        });
+        assert!(regrouped, "{absorbed} belongs to its link");
+    }
+}
+
+/// Equation (7) without its two slips: the uniform rod has a third, not 0.3, and gravity one length, not two. As energies and
+/// as a chain.
+#[test]
+fn lugre_link_is_a_uniform_rod() {
+    let (m, l, a, g) = (0.045, 0.21, 0.005, 9.81);
+    let rod = interpreter("lugre_link");
+    let chain = "robot Rod {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint th: revolute { a = 0.21; alpha = 0; d = 0; }
+    }";
+    let chain = robot_model_spec::load("rod.robot", chain).unwrap();
+    let chain = Interpreter::new(robot_model_codegen::compile_model(&chain));
+    // The chain's frame lies at `l` on the rod's line, where its center of mass is at `a - l/2 - l`.
+    let x = a - l / 2.0 - l;
+    let of_chain: Vec<f64> = chain
+        .compiled
+        .standard
+        .iter()
+        .map(|parameter| match parameter.name.as_str() {
+            "th.m" => m,
+            "th.mx" => m * x,
+            "th.izz" => m * l * l / 12.0 + m * x * x,
+            _ => 0.0,
+        })
+        .collect();
+    let of_energies = standard(&rod, |_| m);
+    let mut random = states::generator(6);
+    for _ in 0..20 {
+        let state = states::state(&mut random, 1);
+        let wanted = m * (l * l / 3.0 - a * l + a * a) * state.ddq[0]
+            + m * g * (a - l / 2.0) * state.q[0].cos();
+        let wanted = column(&[wanted]);
+        assert_close("energies", &rod.rigid_torque(&of_energies, &state), &wanted);
+        assert_close("chain", &chain.rigid_torque(&of_chain, &state), &wanted);
+    }
+}
