@@ -49,7 +49,8 @@ enum Part {
 /// Coefficients of one function, one a standard parameter.
 type Row = Vec<f64>;
 
-/// Collects the lumps; `None` where the energies have functions without a series.
+/// Collects the lumps; `None` where the energies have functions without a series, or
+/// coefficients of which it is not clear whether they are independent.
 pub fn collect(dag: &mut Dag, energies: &Energies, dof: usize) -> Option<Lumps> {
     let mut ring = SeriesRing::new(dof);
     let expanded = expand_energies(&mut ring, energies).ok()?;
@@ -62,7 +63,7 @@ pub fn collect(dag: &mut Dag, energies: &Energies, dof: usize) -> Option<Lumps> 
         &expanded.potential,
         Part::Potential,
     )));
-    let choice = Choice::of(&functions);
+    let choice = Choice::of(&functions)?;
 
     let mut terms: Vec<EnergyTerm> = Vec::new();
     let mut lumps = Vec::new();

@@ -146,6 +146,47 @@ fn faults_of_the_effects_argument_are_named() {
 }
 
 #[test]
+fn damping_and_friction_are_declared_and_told() {
+    let mut parts = two_joints();
+    parts[7] = joint(
+        "j1",
+        "revolute",
+        "mount",
+        "upper",
+        "<dynamics damping='0.5' friction='0'/>",
+    );
+    parts[9] = joint(
+        "j2",
+        "prismatic",
+        "bracket",
+        "fore",
+        "<dynamics damping='2' friction='1.5'/>",
+    );
+    let (text, model) = imported(&parts, &ImportOptions::default());
+    let declared: Vec<String> = (0..model.effects.len())
+        .map(|k| model.effect_name(k))
+        .collect();
+    assert_eq!(
+        declared,
+        [
+            "j1.viscous_friction",
+            "j2.viscous_friction",
+            "j2.coulomb_friction"
+        ]
+    );
+    assert!(
+        text.contains("j1: damping 0.5; j2: damping 2, friction 1.5"),
+        "{text}"
+    );
+    // What the argument declares already is not declared twice.
+    let options = ImportOptions {
+        effects: "all:viscous_friction;2:coulomb_friction".to_owned(),
+        ..ImportOptions::default()
+    };
+    assert_eq!(imported(&parts, &options).1.effects.len(), 3);
+}
+
+#[test]
 fn a_branching_tree_needs_its_tip() {
     let mut parts = two_joints();
     parts.push(link("camera", 1.0, 0.0));

@@ -15,19 +15,20 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    pub(super) fn of(functions: &[Function]) -> Self {
+    /// `None` where lengths are so different that coefficients are neither clearly dependent nor clearly independent.
+    pub(super) fn of(functions: &[Function]) -> Option<Self> {
         let mut candidates = distinct(functions);
         // Stable: among lumps of one size the first written stays first.
         candidates.sort_by_key(size);
         subtract_contained(&mut candidates);
         candidates.sort_by_key(size);
         let lumps = independent(candidates);
-        let shares = shares(&lumps, functions);
-        Self {
-            representatives: representatives(&lumps),
+        let shares = shares(&lumps, functions)?;
+        Some(Self {
+            representatives: representatives(&lumps)?,
             lumps,
             shares,
-        }
+        })
     }
 }
 
@@ -142,8 +143,8 @@ fn unit(row: &Row) -> Row {
     row.iter().map(|x| x / length).collect()
 }
 
-/// Offers the functions' rows after the lumps: all of them are combinations of lumps.
-fn shares(lumps: &[Row], functions: &[Function]) -> Vec<Vec<f64>> {
+/// Offers the functions' rows after the lumps: all of them are combinations of lumps, but for rounding.
+fn shares(lumps: &[Row], functions: &[Function]) -> Option<Vec<Vec<f64>>> {
     let mut selection = Selection::default();
     let rows = || lumps.iter().chain(functions.iter().map(|f| &f.row));
     for (k, row) in rows().enumerate() {
@@ -152,16 +153,16 @@ fn shares(lumps: &[Row], functions: &[Function]) -> Vec<Vec<f64>> {
     let lengths: Vec<f64> = rows().map(|row| norm(row)).collect();
     let mut shares = vec![vec![0.0; functions.len()]; lumps.len()];
     for combination in selection.combinations(&lengths) {
-        let lump = combination[0].0;
+        let own = shares.get_mut(combination[0].0)?;
         for &(row, share) in &combination[1..] {
-            shares[lump][row - lumps.len()] = share;
+            *own.get_mut(row.checked_sub(lumps.len())?)? = share;
         }
     }
-    shares
+    Some(shares)
 }
 
 /// A distinct standard parameter per lump, by elimination; the first that the lump itself has.
-fn representatives(lumps: &[Row]) -> Vec<usize> {
+fn representatives(lumps: &[Row]) -> Option<Vec<usize>> {
     let mut reduced: Vec<Row> = lumps.to_vec();
     let mut representatives = Vec::new();
     for k in 0..lumps.len() {
@@ -173,8 +174,7 @@ fn representatives(lumps: &[Row]) -> Vec<usize> {
         let pivot = columns()
             .filter(left)
             .find(|c| lumps[k][*c] != 0.0)
-            .or_else(|| columns().find(left))
-            .expect("lumps are independent");
+            .or_else(|| columns().find(left))?;
         representatives.push(pivot);
         let row = reduced[k].clone();
         for other in &mut reduced[k + 1..] {
@@ -185,5 +185,5 @@ fn representatives(lumps: &[Row]) -> Vec<usize> {
             other[pivot] = 0.0;
         }
     }
-    representatives
+    Some(representatives)
 }

@@ -47,10 +47,67 @@ pub(super) fn declarations(
             ));
         }
     }
+    for (effect, names) in given(chain, names) {
+        match by_effect.iter_mut().find(|(name, _)| *name == effect) {
+            Some((_, all)) if all.iter().any(|target| target == "all") => {}
+            Some((_, all)) => {
+                let missing: Vec<String> = names.filter(|name| !all.contains(name)).collect();
+                all.extend(missing);
+            }
+            None => {
+                let targets: Vec<String> = names.collect();
+                if !targets.is_empty() {
+                    by_effect.push((effect.to_owned(), targets));
+                }
+            }
+        }
+    }
     Ok(by_effect
         .into_iter()
         .map(|(effect, targets)| format!("{effect} on {}", targets.join(", ")))
         .collect())
+}
+
+/// What `<dynamics damping=.. friction=..>` of the joints declares.
+fn given<'a>(
+    chain: &'a Chain,
+    names: &'a Names,
+) -> [(&'static str, impl Iterator<Item = String> + 'a); 2] {
+    let joints_with = |value: fn(&urdf_rs::Dynamics) -> f64| {
+        let joints = chain.joints.iter().zip(&names.joints);
+        joints
+            .filter(move |(joint, _)| {
+                let dynamics = joint.joint.dynamics.as_ref();
+                dynamics.is_some_and(|dynamics| value(dynamics) > 0.0)
+            })
+            .map(|(_, name)| name.clone())
+    };
+    [
+        ("viscous_friction", joints_with(|dynamics| dynamics.damping)),
+        (
+            "coulomb_friction",
+            joints_with(|dynamics| dynamics.friction),
+        ),
+    ]
+}
+
+/// The values of `<dynamics ..>`, joint by joint: the language identifies them, so they are told in a comment.
+pub(super) fn values(chain: &Chain, names: &Names) -> Vec<String> {
+    let joints = chain.joints.iter().zip(&names.joints);
+    joints
+        .filter_map(|(joint, name)| {
+            let dynamics = joint.joint.dynamics.as_ref()?;
+            let told = [
+                ("damping", dynamics.damping),
+                ("friction", dynamics.friction),
+            ]
+            .iter()
+            .filter(|(_, value)| *value > 0.0)
+            .map(|(what, value)| format!("{what} {value}"))
+            .collect::<Vec<_>>();
+            (!told.is_empty()).then(|| format!("{name}: {}", told.join(", ")))
+        })
+        .collect()
 }
 
 fn fault<T>(message: String) -> Result<T, ImportError> {

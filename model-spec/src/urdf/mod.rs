@@ -2,7 +2,8 @@
 //!
 //! The chain from a base link to a tip link becomes a robot with `convention = origin`. Fixed joints are folded: their
 //! transforms into the next joint's frame, the inertials behind them into the link that carries them. Branches that leave
-//! the chain are carried along the same way, with their joints held at zero.
+//! the chain are carried along the same way, with their joints held at zero. Damping and friction of a joint become declared
+//! effects. What mimics a joint of the chain is held at zero beside the chain, and refused on it.
 
 mod body;
 mod effects;

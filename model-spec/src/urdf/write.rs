@@ -84,6 +84,14 @@ pub(super) fn spec(
             held.join(", ")
         );
     }
+    let values = super::effects::values(chain, names);
+    if !values.is_empty() {
+        let _ = writeln!(
+            text,
+            "// The URDF's damping (N m s/rad) and friction (N m) are declared as effects, to be identified; it says {}.",
+            values.join("; ")
+        );
+    }
     let name = upper_camel(robot);
     let _ = writeln!(
         text,
