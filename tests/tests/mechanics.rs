@@ -5,6 +5,7 @@ use robot_model::{Kinematics, Points, Vector};
 use robot_model_tests::emitted::{self, Robot};
 use robot_model_tests::evaluate::{Interpreter, relative_difference};
 use robot_model_tests::mechanics;
+use robot_model_tests::oracle::{Frames, Oracle};
 use robot_model_tests::specs;
 use robot_model_tests::states::{self, State};
 
@@ -173,6 +174,31 @@ fn forward_dynamics_undoes_inverse_dynamics() {
         let wanted = column(&case.state.ddq);
         assert_close(case.robot.spec, &column(&found), &wanted, 1e-8);
     });
+}
+
+/// Pinocchio's torques give Pinocchio's accelerations. Effects' parameters are zero, which leaves no effect torque.
+#[test]
+fn forward_dynamics_is_that_of_the_oracle() {
+    for name in ["puma560", "ur10", "panda"] {
+        let Some(oracle) = Oracle::read(name) else {
+            continue;
+        };
+        let frames = match name {
+            "puma560" => Frames::StandardDh,
+            _ => Frames::Joint,
+        };
+        let robot = emitted::ROBOTS.iter().find(|robot| robot.spec == name);
+        let robot = robot.expect("a spec of this repository");
+        let mut standard = oracle.standard(frames);
+        standard.resize(robot.standard_parameters.len(), 0.0);
+        for reference in oracle.references(frames) {
+            let tau = reference.torque.as_slice();
+            let found = (robot.accelerations)(&standard, &reference.state, tau);
+            let found = found.unwrap_or_else(|| panic!("{name}: no accelerations"));
+            // The wrist of the PUMA without rotors: condition numbers of some ten thousands.
+            assert_close(name, &column(&found), &column(&reference.state.ddq), 1e-8);
+        }
+    }
 }
 
 /// No arm has negative masses: a status, not numbers.
