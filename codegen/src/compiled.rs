@@ -69,7 +69,7 @@ pub fn compile_model(model: &Model) -> Compiled {
     let symbols = vec![Value::Symbol; standard.len()];
     let mut momentum_of = |form: Option<&EnergyForm>, linear: &LinearForm| {
         let energies = dynamics::energies(&mut dag, model, form, &symbols);
-        filtered::derive(&mut dag, model, energies, linear)
+        filtered::derive(&mut dag, model, energies, linear, &dynamics.state_rates)
     };
     let momentum = momentum_of(written.as_ref(), &linear);
     let base_momentum = match form {

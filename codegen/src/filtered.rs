@@ -48,6 +48,8 @@ pub enum Reason {
     Coefficient,
     /// It reads the torque of the rigid body, in which accelerations are.
     Load,
+    /// It has a memory whose rate reads accelerations or the torque of the rigid body.
+    Memory,
 }
 
 impl fmt::Display for Reason {
@@ -57,6 +59,7 @@ impl fmt::Display for Reason {
             Self::Coefficient => {
                 "its torque has an acceleration with a factor that depends on more than positions"
             }
+            Self::Memory => "its torque has a memory that follows the acceleration",
             Self::Load => {
                 "its torque depends on the load, `rigid_torque`, which contains the acceleration"
             }
@@ -64,12 +67,14 @@ impl fmt::Display for Reason {
     }
 }
 
-/// Derives both regressors. `energies` have a symbol for every standard parameter of the rigid body.
+/// Derives both regressors. `energies` have a symbol for every standard parameter of the rigid body; `state_rates` are the rates
+/// of the declared effects' internal states.
 pub fn derive(
     dag: &mut Dag,
     model: &Model,
     energies: Energies,
     linear: &LinearForm,
+    state_rates: &[ExprId],
 ) -> MomentumForm {
     let dof = model.joints.len();
     let rigid = model.rigid_parameters();
@@ -97,7 +102,7 @@ pub fn derive(
         let entries: Vec<(usize, ExprId)> = linear.column(dag, parameter).collect();
         let split: Result<Vec<Split>, Reason> = entries
             .iter()
-            .map(|&(_, entry)| by_parts(dag, entry, dof))
+            .map(|&(_, entry)| by_parts(dag, entry, dof, state_rates))
             .collect();
         match split {
             Err(reason) => form.refused.push(Refusal { parameter, reason }),
@@ -118,7 +123,15 @@ struct Split {
     drift: ExprId,
 }
 
-fn by_parts(dag: &mut Dag, column: ExprId, dof: usize) -> Result<Split, Reason> {
+fn by_parts(
+    dag: &mut Dag,
+    column: ExprId,
+    dof: usize,
+    state_rates: &[ExprId],
+) -> Result<Split, Reason> {
+    if memory_follows_acceleration(dag, column, state_rates) {
+        return Err(Reason::Memory);
+    }
     let (mut momentum, mut drift) = (dag.zero(), dag.zero());
     for symbol in dag.symbols(&[column]) {
         let joint = match symbol {
@@ -148,6 +161,24 @@ fn by_parts(dag: &mut Dag, column: ExprId, dof: usize) -> Result<Split, Reason> 
         momentum,
         drift: dag.sub(drift, rest),
     })
+}
+
+/// Whether a state that the column reads, itself or through other states, has a rate that reads accelerations.
+fn memory_follows_acceleration(dag: &Dag, column: ExprId, state_rates: &[ExprId]) -> bool {
+    let mut seen = vec![false; state_rates.len()];
+    let mut to_look_at = vec![(column, false)];
+    while let Some((x, is_rate)) = to_look_at.pop() {
+        for symbol in dag.symbols(&[x]) {
+            match symbol {
+                Symbol::State(k) if !std::mem::replace(&mut seen[k], true) => {
+                    to_look_at.push((state_rates[k], true));
+                }
+                Symbol::Ddq(_) | Symbol::RigidTorque(_) if is_rate => return true,
+                _ => {}
+            }
+        }
+    }
+    false
 }
 
 /// `dA/dt` of an expression of positions and time.

@@ -214,6 +214,25 @@ fn with_effect(torque: &str) -> Compiled {
     ))
 }
 
+/// Bodies of effects with a state `z`: one follows the velocity, one the acceleration.
+#[test]
+fn a_memory_of_the_acceleration_is_refused_with_the_reason() {
+    for (rate, reason) in [
+        ("dq(j) - abs(dq(j)) * z", None),
+        ("ddq(j) - z", Some(Reason::Memory)),
+        ("abs(rigid_torque(j)) - z", Some(Reason::Memory)),
+    ] {
+        let arm = from_text(&format!(
+            "effect own(j) {{ linear c; state z; dot(z) = {rate}; torque(j) = c * z; }}
+            robot Arm {{ gravity = [0, -9.81, 0]; convention = standard_dh;
+                joint one: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+                effects {{ own on one; }} }}"
+        ));
+        let refused: Vec<Reason> = arm.momentum.refused.iter().map(|r| r.reason).collect();
+        assert_eq!(refused, Vec::from_iter(reason), "{rate}");
+    }
+}
+
 #[test]
 fn accelerations_that_do_not_go_by_parts_are_refused_with_the_reason() {
     for (torque, reason) in [
