@@ -108,7 +108,9 @@ fn fuzz(arguments: &Arguments) -> io::Result<bool> {
             }
         }
     }
-    fs::remove_file(&current)?;
+    if count > 0 {
+        fs::remove_file(&current)?;
+    }
     fs::write(arguments.failures.join("slowest.robot"), &slowest.1)?;
     println!(
         "{count} texts in {:.0?}, {emitted} of them compiled, {} different answers; the slowest took {:.1?}",

@@ -45,6 +45,9 @@ impl CheckedJoint {
     }
 }
 
+/// Equations of a serial chain grow with the cube of its length: with this many they take a minute, and no arm has as many.
+const MOST_JOINTS: usize = 24;
+
 /// All joints; without a convention their frames are not looked at.
 pub(super) fn check_joints(
     robot: &Robot,
@@ -56,6 +59,16 @@ pub(super) fn check_joints(
             Diagnostic::new(robot.name.span(), "the robot has no joints", "").help(
                 "write `joint name: revolute { .. }` for each joint, from the base to the tip",
             ),
+        );
+    }
+    if let Some(joint) = robot.joints.get(MOST_JOINTS) {
+        errors.push(
+            Diagnostic::new(
+                joint.name.span(),
+                format!("the robot has more than {MOST_JOINTS} joints"),
+                "one too many",
+            )
+            .help("describe the arms of a machine with several of them one by one"),
         );
     }
     let before = errors.len();
