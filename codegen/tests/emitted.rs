@@ -46,7 +46,9 @@ fn markers_become_comments_and_every_function_tells_its_cost() {
         !page.contains("__comment") && !page.contains("__blank"),
         "{page}"
     );
-    assert_eq!(page.matches("/// Cost: ").count(), 8, "{page}");
+    let functions = page.matches("\npub fn ").count();
+    assert!(functions > 8, "{page}");
+    assert_eq!(page.matches("/// Cost: ").count(), functions, "{page}");
     assert!(page.contains("    // Trigonometry.\n"), "{page}");
 }
 
