@@ -1,0 +1,163 @@
+//! What energies are made of: coordinates with their limits, parameters and constants with their units.
+
+use proc_macro2::Span;
+
+use super::dimension::{Dimensions, Inference};
+use super::resolve::Constant;
+use crate::ast::{self, Robot};
+use crate::check::chain::{check_gain, check_limits};
+use crate::check::setting::Settings;
+use crate::check::unit::Dimension;
+use crate::check::{Errors, value};
+use crate::diagnostic::Diagnostic;
+use crate::model::{Joint, JointKind, Limits, Parameter};
+use crate::suggest;
+
+pub(super) fn check_coordinates(robot: &Robot, errors: &mut Errors) -> Vec<Joint> {
+    let energies = &robot.energies;
+    if energies.coordinates.is_empty() {
+        errors.push(
+            Diagnostic::new(robot.name.span(), "the robot has no coordinates", "").help(
+                "write `coordinates th1, th2;`; a length is `x: m`, everything else an angle",
+            ),
+        );
+    }
+    for limits in &energies.limits {
+        let known = || energies.coordinates.iter().map(|c| c.name.to_string());
+        let name = limits.name.to_string();
+        if !known().any(|k| k == name) {
+            let names: Vec<String> = known().collect();
+            errors.push(
+                Diagnostic::new(
+                    limits.name.span(),
+                    format!("the robot has no coordinate `{name}`"),
+                    "unknown coordinate",
+                )
+                .help(suggest::help(&name, names.iter().map(String::as_str))),
+            );
+        }
+    }
+    energies
+        .coordinates
+        .iter()
+        .map(|coordinate| check_coordinate(coordinate, &energies.limits, errors))
+        .collect()
+}
+
+fn check_coordinate(
+    coordinate: &ast::Coordinate,
+    limits: &[ast::Limits],
+    errors: &mut Errors,
+) -> Joint {
+    let kind = coordinate.unit.as_ref().and_then(|unit| {
+        let dimension = value::constant(unit)
+            .map_err(|error| errors.push(error))
+            .ok()?
+            .dimension;
+        match dimension {
+            Some(d) if d == Dimension::LENGTH => Some(JointKind::Prismatic),
+            Some(d) if d == Dimension::ANGLE => Some(JointKind::Revolute),
+            _ => {
+                errors.push(
+                    Diagnostic::new(
+                        unit.span,
+                        format!(
+                            "coordinate `{}` is neither an angle nor a length",
+                            coordinate.name
+                        ),
+                        "neither",
+                    )
+                    .help("write `x: m` for a length, or no unit for an angle"),
+                );
+                None
+            }
+        }
+    });
+    let kind = kind.unwrap_or(JointKind::Revolute);
+    let own = limits.iter().find(|limits| limits.name == coordinate.name);
+    let (limits, actuator_gain) = own.map_or((Limits::default(), 1.0), |own| {
+        let owner = format!("`limits {}`", own.name);
+        let keys = ["position", "velocity", "torque", "actuator_gain"];
+        let settings = Settings::new(&own.settings, &owner, &keys, errors);
+        (
+            check_limits(&settings, kind, errors),
+            check_gain(&settings, errors),
+        )
+    });
+    Joint {
+        name: coordinate.name.to_string(),
+        kind,
+        limits,
+        actuator_gain,
+        line: coordinate.name.span().start().line,
+    }
+}
+
+pub(super) fn check_parameters(
+    robot: &Robot,
+    inference: &mut Inference,
+    errors: &mut Errors,
+) -> Vec<Parameter> {
+    let mut parameters = Vec::new();
+    for parameter in &robot.energies.parameters {
+        let mut quantity = |expr: &ast::Expr| {
+            value::constant(expr)
+                .map_err(|error| errors.push(error))
+                .ok()
+        };
+        let unit = parameter.unit.as_ref().and_then(&mut quantity);
+        let nominal = parameter.nominal.as_ref().and_then(&mut quantity);
+        let written = nominal.and_then(|nominal| nominal.dimension);
+        let dimensions = match (unit, written) {
+            (Some(unit), Some(written)) if unit.dimension != Some(written) => {
+                errors.push(two_dimensions(parameter, &written.describe()));
+                inference.unknown()
+            }
+            (Some(unit), _) => unit.dimension.map(Dimensions::of).unwrap_or_default(),
+            (None, Some(written)) => Dimensions::of(written),
+            (None, None) => inference.unknown(),
+        };
+        inference.parameters.push(dimensions);
+        parameters.push(Parameter {
+            name: parameter.name.to_string(),
+            doc: parameter.doc.clone(),
+            nominal: nominal.map(|nominal| nominal.value),
+        });
+    }
+    parameters
+}
+
+fn two_dimensions(parameter: &ast::Parameter, found: &str) -> Diagnostic {
+    let place = parameter
+        .nominal
+        .as_ref()
+        .map_or_else(Span::call_site, |n| n.span);
+    Diagnostic::new(
+        place,
+        format!("the value of `{}` does not have its unit", parameter.name),
+        format!("this is {found}"),
+    )
+    .help("write the value in the unit behind the name, or leave that unit away")
+}
+
+pub(super) fn check_constants(
+    robot: &Robot,
+    inference: &mut Inference,
+    errors: &mut Errors,
+) -> Vec<Constant> {
+    let mut constants = Vec::new();
+    for constant in &robot.energies.constants {
+        match value::constant(&constant.value) {
+            Ok(quantity) => constants.push(Constant {
+                name: constant.name.to_string(),
+                value: quantity.value,
+                dimensions: match quantity.dimension {
+                    Some(dimension) => Dimensions::of(dimension),
+                    None => inference.unknown(),
+                },
+            }),
+            Err(error) => errors.push(error),
+        }
+    }
+    constants
+}
