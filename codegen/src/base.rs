@@ -24,6 +24,9 @@ use crate::selection::{Selection, norm};
 pub const INDEPENDENT_ABOVE: f64 = 1e-7;
 /// A scaled column is a combination of those before it when no more than this is left.
 pub const DEPENDENT_BELOW: f64 = 1e-10;
+/// A column this much smaller than the largest is rounding: gravity along an axis that is tilted by 35 degrees, say. Columns
+/// of parameters differ by squares of lengths, far less than that.
+const ROUNDING: f64 = 1e-13;
 /// Random states are this many times as many as the parameters, over the degrees of freedom.
 const OVERSAMPLING: usize = 3;
 
@@ -146,13 +149,14 @@ pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
         }
     }
 
+    let rounding = ROUNDING * scale.iter().fold(0.0, |largest: f64, x| largest.max(*x));
     let mut selection = Selection::default();
     let (mut unidentifiable, mut fixed) = (Vec::new(), Vec::new());
     for k in order_of_choice(&parameters) {
         let column = std::mem::take(&mut columns[k]);
         if matches!(parameters[k].status, Status::Fixed(_)) {
             fixed.push(k);
-        } else if linear.column(dag, k).next().is_none() || scale[k] == 0.0 {
+        } else if linear.column(dag, k).next().is_none() || scale[k] <= rounding {
             unidentifiable.push(k);
         } else {
             selection.take(k, column, &parameters[k].name);

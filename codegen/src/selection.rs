@@ -113,9 +113,9 @@ impl Selection {
 }
 
 /// The named rounding step: a coefficient of a combination is 0 below [`COEFFICIENT_FLOOR`], else the shortest decimal
-/// within 2e-11, else twelve decimals. Geometry is written with fewer digits than that.
+/// within 1e-12, else twelve decimals. Geometry is written with fewer digits than that.
 pub fn snap(coefficient: f64) -> f64 {
-    const TOLERANCE: f64 = 2e-11;
+    const TOLERANCE: f64 = 1e-12;
     if coefficient.abs() < COEFFICIENT_FLOOR {
         return 0.0;
     }

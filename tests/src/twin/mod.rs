@@ -5,7 +5,7 @@
 //! the tip. Both take the ten parameters about the link frame's origin.
 
 mod energies;
-mod jet;
+pub mod jet;
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
 use robot_model_spec::Model;
