@@ -14,7 +14,7 @@ use crate::{Error, output};
 pub(crate) struct Show {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Which equations; without it a whole description, in LaTeX a document that compiles.
+    /// Which equations; without it a whole description, in LaTeX a whole document.
     #[arg(long, value_enum)]
     what: Option<WhatArgument>,
     /// Notation.
