@@ -3,6 +3,9 @@
 //! [`Diagnostic`] carries token spans: a derive turns it into a `compile_error!` at the attribute. [`Diagnostics`] carries
 //! the text and byte ranges: it renders the way rustc does and may cross threads.
 
+#[cfg(test)]
+pub(crate) mod goldens;
+
 use std::fmt;
 use std::ops::Range;
 
@@ -65,16 +68,21 @@ impl Place {
 impl Diagnostic {
     /// A mistake at a place. The message stands alone; the label is short and points.
     #[must_use]
+    #[track_caller]
     pub fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
         Self::at(Place::Tokens(span), message.into(), label.into())
     }
 
     /// A mistake in a text that has no tokens yet.
+    #[track_caller]
     pub(crate) fn in_text(bytes: Range<usize>, message: impl Into<String>, label: &str) -> Self {
         Self::at(Place::Bytes(bytes), message.into(), label.to_owned())
     }
 
+    #[track_caller]
     fn at(place: Place, message: String, label: String) -> Self {
+        #[cfg(test)]
+        goldens::note(&message);
         Self {
             message,
             labels: vec![Label { place, text: label }],
@@ -160,7 +168,10 @@ fn remedy(message: &str) -> String {
 }
 
 /// A `syn` error whose help survives the way through [`Diagnostic::from_syn`].
+#[track_caller]
 pub(crate) fn syn_error(span: Span, message: &str, help: Option<&str>) -> syn::Error {
+    #[cfg(test)]
+    goldens::note(message);
     match help {
         Some(help) => syn::Error::new(span, format!("{message}{HELP_MARK}{help}")),
         None => syn::Error::new(span, message),

@@ -40,10 +40,11 @@ fn is_abbreviation(wrong: &str, name: &str) -> bool {
     short.len() >= 3 && long.starts_with(short)
 }
 
-/// `write X` where a near name exists, else a list of what there is.
+/// `write X` where a near name exists, else a list of what there is, which may be nothing.
 pub(crate) fn help<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str> + Clone) -> String {
     match nearest(wrong, known.clone()) {
         Some(name) => format!("write `{name}`"),
+        None if known.clone().into_iter().next().is_none() => "declare one first".to_owned(),
         None if known.clone().into_iter().count() == 1 => format!("write {}", list(known)),
         None => format!("write one of {}", list(known)),
     }

@@ -110,6 +110,7 @@ pub(super) fn check_order(low: &Expr, high: &Expr, ends: (f64, f64)) -> Checked<
     .help("write the lower end first"))
 }
 
+#[track_caller]
 fn shape_of(span: Span, expected: &str, found: &str) -> Diagnostic {
     Diagnostic::new(span, format!("expected {expected}, found {found}"), "")
         .help(format!("write {expected}"))

@@ -54,9 +54,10 @@ fn check_nesting(tokens: &TokenStream) -> syn::Result<()> {
         match level.next() {
             Some(TokenTree::Group(group)) => {
                 if open.len() > MAX_NESTING {
-                    return Err(syn::Error::new(
+                    return Err(syn_error(
                         group.span_open(),
-                        format!("brackets are nested more than {MAX_NESTING} deep"),
+                        &format!("brackets are nested more than {MAX_NESTING} deep"),
+                        Some("take some of them away; no equation needs so many"),
                     ));
                 }
                 open.push(group.stream().into_iter());

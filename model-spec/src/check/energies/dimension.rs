@@ -150,15 +150,13 @@ impl Inference {
         if self.unify(found, &wanted) {
             return Ok(());
         }
-        Err(Box::new(Fault {
+        Err(Fault::new(
             statement,
-            path: Vec::new(),
-            message: format!("{what} is in {}", wanted.describe()),
-            label: format!("this is {}", self.reduced(found).describe()),
-            other: None,
-            help: "check the powers of masses, lengths and rates; write the unit of every constant, as in `g = 9.81 m/s^2`"
-                .to_owned(),
-        }))
+            Vec::new(),
+            format!("{what} is in {}", wanted.describe()),
+            format!("this is {}", self.reduced(found).describe()),
+            "check the powers of masses, lengths and rates; write the unit of every constant, as in `g = 9.81 m/s^2`",
+        ))
     }
 
     /// With what is solved put in.
@@ -288,30 +286,28 @@ impl Walk<'_> {
         if self.inference.unify(found, &Dimensions::default()) {
             return Ok(());
         }
-        Err(Box::new(Fault {
-            statement: self.statement,
-            path: self.path.clone(),
-            message: format!("{what} is a plain number or an angle"),
-            label: format!("this is {}", self.inference.reduced(found).describe()),
-            other: None,
-            help: "divide by a quantity of the same dimension".to_owned(),
-        }))
+        Err(Fault::new(
+            self.statement,
+            self.path.clone(),
+            format!("{what} is a plain number or an angle"),
+            format!("this is {}", self.inference.reduced(found).describe()),
+            "divide by a quantity of the same dimension",
+        ))
     }
 
     fn terms_differ(&self, left: &Dimensions, right: &Dimensions) -> Box<Fault> {
         let at = |operand: usize| [self.path.as_slice(), &[operand]].concat();
-        Box::new(Fault {
-            statement: self.statement,
-            path: at(0),
-            message: "terms of different dimensions do not add".to_owned(),
-            label: format!("this is {}", self.inference.reduced(left).describe()),
-            other: Some((
-                at(1),
-                format!("this is {}", self.inference.reduced(right).describe()),
-            )),
-            help: "check which factor one of them lacks; a plain number in a product has no dimension, so write the unit of \
-                   every constant, as in `g = 9.81 m/s^2`"
-                .to_owned(),
-        })
+        Fault::new(
+            self.statement,
+            at(0),
+            "terms of different dimensions do not add",
+            format!("this is {}", self.inference.reduced(left).describe()),
+            "check which factor one of them lacks; a plain number in a product has no dimension, so write the unit of \
+             every constant, as in `g = 9.81 m/s^2`",
+        )
+        .also(
+            at(1),
+            format!("this is {}", self.inference.reduced(right).describe()),
+        )
     }
 }

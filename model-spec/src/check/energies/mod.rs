@@ -33,6 +33,35 @@ struct Fault {
     help: String,
 }
 
+impl Fault {
+    #[track_caller]
+    fn new(
+        statement: Statement,
+        path: Vec<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: &str,
+    ) -> Box<Self> {
+        let message = message.into();
+        #[cfg(test)]
+        crate::diagnostic::goldens::note(&message);
+        Box::new(Self {
+            statement,
+            path,
+            message,
+            label: label.into(),
+            other: None,
+            help: help.to_owned(),
+        })
+    }
+
+    /// A second part that the message is about.
+    fn also(mut self: Box<Self>, path: Vec<usize>, label: String) -> Box<Self> {
+        self.other = Some((path, label));
+        self
+    }
+}
+
 /// Boxed: rules are passed far more often than broken.
 type Checked<T> = Result<T, Box<Fault>>;
 
@@ -142,7 +171,11 @@ fn check_names(robot: &Robot, errors: &mut Errors) {
     };
     check_unique(names(), "name", errors);
     check_unique(energies.points.iter().map(|p| &p.name), "point", errors);
-    check_unique(energies.limits.iter().map(|l| &l.name), "limits of", errors);
+    check_unique(
+        energies.limits.iter().map(|l| &l.name),
+        "block of limits of",
+        errors,
+    );
     let meant = |name: &&Ident| {
         let text = name.to_string();
         is_reserved(&text) || text == "dot" || text == "all" || text == "known"

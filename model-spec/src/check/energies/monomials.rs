@@ -84,8 +84,7 @@ pub(super) fn expand(
     value: &EnergyExpr,
     bindings: &[Polynomial<Coefficient>],
 ) -> Checked<Polynomial<Coefficient>> {
-    polynomial::expand(&mut Structure, value, bindings)
-        .map_err(|error| Box::new(fault(statement, error)))
+    polynomial::expand(&mut Structure, value, bindings).map_err(|error| fault(statement, error))
 }
 
 /// The products in both energies, lowest degree first, then in the order of the parameters. A constant part of the
@@ -101,40 +100,43 @@ pub(super) fn monomials(
     monomials
 }
 
-fn fault(statement: Statement, error: NotPolynomial) -> Fault {
-    let (message, label, help) = match error.reason {
-        Reason::InsideFunction => (
+fn fault(statement: Statement, NotPolynomial { reason, path }: NotPolynomial) -> Box<Fault> {
+    let not_linear = "the energy is not linear in products of parameters here";
+    match reason {
+        Reason::InsideFunction => Fault::new(
+            statement,
+            path,
             "an unknown parameter stands inside a function",
-            "the energy is not linear in products of parameters here",
+            not_linear,
             "make it a constant, or write the energy as a sum of products of parameters",
         ),
-        Reason::Denominator => (
+        Reason::Denominator => Fault::new(
+            statement,
+            path,
             "a sum of unknown parameters stands in a denominator",
-            "the energy is not linear in products of parameters here",
+            not_linear,
             "make them constants, or give the quotient a parameter of its own",
         ),
-        Reason::Power => (
+        Reason::Power => Fault::new(
+            statement,
+            path,
             "an unknown parameter has an exponent that is not a small whole number",
-            "the energy is not linear in products of parameters here",
+            not_linear,
             "write a whole exponent between -16 and 16, or give the power a parameter of its own",
         ),
-        Reason::TooMany => (
+        Reason::TooMany => Fault::new(
+            statement,
+            path,
             "the energy has too many products of parameters",
             "more than the compiler takes",
             "give sums of parameters a parameter of their own",
         ),
-        Reason::OutsideRing => (
+        Reason::OutsideRing => Fault::new(
+            statement,
+            path,
             "the energy cannot be expanded",
             "here",
             "simplify the expression",
         ),
-    };
-    Fault {
-        statement,
-        path: error.path,
-        message: message.to_owned(),
-        label: label.to_owned(),
-        other: None,
-        help: help.to_owned(),
     }
 }

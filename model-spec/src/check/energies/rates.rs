@@ -107,15 +107,14 @@ impl Analysis<'_> {
         )
     }
 
+    #[track_caller]
     fn fault(&self, message: &str, label: &str) -> Box<Fault> {
-        Box::new(Fault {
-            statement: self.statement,
-            path: self.path.clone(),
-            message: message.to_owned(),
-            label: label.to_owned(),
-            other: None,
-            help: "write the kinetic energy as a sum of products of two rates, and the potential energy without rates"
-                .to_owned(),
-        })
+        Fault::new(
+            self.statement,
+            self.path.clone(),
+            message,
+            label,
+            "write the kinetic energy as a sum of products of two rates, and the potential energy without rates",
+        )
     }
 }

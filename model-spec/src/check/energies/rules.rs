@@ -61,14 +61,13 @@ impl Rules<'_> {
             return Err(wrong_degree(statement, what, false));
         }
         if !found.polynomial.keys().all(Monomial::is_one) {
-            return Err(Box::new(Fault {
+            return Err(Fault::new(
                 statement,
-                path: Vec::new(),
-                message: "the position of a point has an unknown parameter".to_owned(),
-                label: "not known where it is".to_owned(),
-                other: None,
-                help: "make the lengths constants".to_owned(),
-            }));
+                Vec::new(),
+                "the position of a point has an unknown parameter",
+                "not known where it is",
+                "make the lengths constants",
+            ));
         }
         self.inference
             .expect(statement, &found.dimensions, [0.0, 1.0, 0.0], what)
@@ -76,23 +75,21 @@ impl Rules<'_> {
 }
 
 fn wrong_degree(statement: Statement, what: &str, quadratic: bool) -> Box<Fault> {
-    let (message, help) = if quadratic {
-        (
+    if quadratic {
+        Fault::new(
+            statement,
+            Vec::new(),
             format!("{what} is not quadratic in the rates"),
+            "",
             "rates are written `dot(q)`; each term has a product of two",
         )
     } else {
-        (
+        Fault::new(
+            statement,
+            Vec::new(),
             format!("{what} has rates in it"),
+            "",
             "write it in coordinates alone",
         )
-    };
-    Box::new(Fault {
-        statement,
-        path: Vec::new(),
-        message,
-        label: String::new(),
-        other: None,
-        help: help.to_owned(),
-    })
+    }
 }

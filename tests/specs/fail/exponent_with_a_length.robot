@@ -1,0 +1,5 @@
+robot Arm {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = 2^(3 m); alpha = 0; d = 0; }
+}

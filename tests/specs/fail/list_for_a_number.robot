@@ -1,0 +1,5 @@
+robot Arm {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = [0.5, 0]; alpha = 0; d = 0; }
+}

@@ -1,0 +1,4 @@
+robot Arm {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+}

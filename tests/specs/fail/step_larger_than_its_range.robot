@@ -1,0 +1,11 @@
+robot Pendulum {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = 0.5; alpha = 0; d = 0; }
+}
+
+effect creep(j) {
+    linear f;
+    shape k in 1 .. 2 step 3;
+    torque(j) = f * cos(k * q(j));
+}
