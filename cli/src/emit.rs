@@ -11,7 +11,7 @@ use robot_model_codegen::{Compiled, emit};
 use crate::Error;
 use crate::output::{self, Files};
 use crate::parameters;
-use crate::spec::compile;
+use crate::spec::compile_instantaneous;
 
 /// Write an arm's equations as source code.
 #[derive(Debug, Args)]
@@ -58,7 +58,7 @@ enum Language {
 
 impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let compiled = compile(&self.spec)?;
+        let compiled = compile_instantaneous(&self.spec)?;
         let mut code = match self.lang {
             Language::Rust => emit::rust::module_of(&compiled, self.functions.into()),
         };

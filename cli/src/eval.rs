@@ -10,7 +10,7 @@ use robot_model_codegen::{Block, Compiled};
 use serde::{Deserialize, Serialize};
 
 use crate::parameters::{self, Values};
-use crate::spec::{compile, read_text};
+use crate::spec::{compile_instantaneous, read_text};
 use crate::{Error, output};
 
 /// Mass matrix, Coriolis matrix, gravity, torque and regressors at given states, as JSON.
@@ -98,7 +98,7 @@ struct StateValues {
 
 impl Eval {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let compiled = compile(&self.spec)?;
+        let compiled = compile_instantaneous(&self.spec)?;
         let states = self.read_states(&compiled)?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let programs = Programs::new(&compiled);

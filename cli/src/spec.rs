@@ -27,6 +27,15 @@ pub(crate) fn compile(path: &Path) -> Result<Compiled, Error> {
     clear(compile_model(&load(path)?))
 }
 
+/// As [`compile`], where equations have to say the whole torque.
+pub(crate) fn compile_instantaneous(path: &Path) -> Result<Compiled, Error> {
+    let compiled = compile(path)?;
+    compiled
+        .check_instantaneous()
+        .map_err(|reason| Error::Argument(reason.to_string()))?;
+    Ok(compiled)
+}
+
 /// Reads, checks and compiles a spec to be looked at: base parameters in doubt are told.
 pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
     let compiled = compile_model(&load(path)?);

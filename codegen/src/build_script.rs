@@ -8,6 +8,7 @@ use robot_model_spec::Diagnostics;
 use crate::base::RankStatus;
 use crate::compiled::compile_model;
 use crate::emit;
+use crate::measured::NotInstantaneous;
 
 /// Why a spec was not compiled.
 pub enum CompileError {
@@ -21,6 +22,8 @@ pub enum CompileError {
     Spec(Box<Diagnostics>),
     /// The base parameters could not be decided.
     Rank(String, RankStatus),
+    /// No equation says the whole torque.
+    NotInstantaneous(NotInstantaneous),
 }
 
 impl fmt::Display for CompileError {
@@ -35,6 +38,7 @@ impl fmt::Display for CompileError {
             }
             Self::NoFileName(path) => write!(f, "`{}` names no file", path.display()),
             Self::Spec(diagnostics) => write!(f, "{diagnostics}"),
+            Self::NotInstantaneous(reason) => write!(f, "{reason}"),
             Self::Rank(source, status) => write!(
                 f,
                 "the base parameters of {source} are not certain: {status}; write exact values where lengths or angles \
@@ -83,6 +87,9 @@ pub fn compile_text(source_name: &str, text: &str) -> Result<String, CompileErro
     let model = robot_model_spec::load(source_name, text)
         .map_err(|errors| CompileError::Spec(Box::new(errors)))?;
     let compiled = compile_model(&model);
+    compiled
+        .check_instantaneous()
+        .map_err(CompileError::NotInstantaneous)?;
     match compiled.base.rank {
         RankStatus::Clear { .. } => Ok(emit::rust::module(&compiled)),
         RankStatus::Unclear(_) => Err(CompileError::Rank(

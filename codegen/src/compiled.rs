@@ -1,7 +1,7 @@
 //! The pipeline on a page, and the programs that run its forms.
 
 use robot_model_spec::model::Model;
-use robot_model_spec::parameter::{Owner, StandardParameter, Status};
+use robot_model_spec::parameter::{StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
@@ -78,7 +78,7 @@ pub fn compile_model(model: &Model) -> Compiled {
     };
     let kinematics = dynamics::kinematics(&mut dag, model);
     let points = energies.map_or_else(Vec::new, |energies| {
-        dynamics::points(&mut dag, energies, dof)
+        dynamics::points(&mut dag, model, energies)
     });
     Compiled {
         model: model.clone(),
@@ -202,13 +202,10 @@ impl Compiled {
             .collect()
     }
 
-    /// Whether base parameter `column` belongs to the rigid body, not to an effect.
+    /// Whether base parameter `column` belongs to the rigid body, not to an effect's torque.
     #[must_use]
     pub fn is_rigid(&self, column: usize) -> bool {
-        !matches!(
-            self.standard[self.base.kept[column]].owner,
-            Owner::Effect { .. }
-        )
+        self.model.is_rigid(&self.standard[self.base.kept[column]])
     }
 
     /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`].

@@ -48,6 +48,8 @@ pub enum Reason {
     Coefficient,
     /// It reads the torque of the rigid body, in which accelerations are.
     Load,
+    /// The effect moves a link by what changes along a motion, its load as a rule.
+    Displacement,
     /// It has a memory whose rate reads accelerations or the torque of the rigid body.
     Memory,
 }
@@ -59,6 +61,7 @@ impl fmt::Display for Reason {
             Self::Coefficient => {
                 "its torque has an acceleration with a factor that depends on more than positions"
             }
+            Self::Displacement => "it moves a link by what changes along a motion",
             Self::Memory => "its torque has a memory that follows the acceleration",
             Self::Load => {
                 "its torque depends on the load, `rigid_torque`, which contains the acceleration"
@@ -77,16 +80,18 @@ pub fn derive(
     state_rates: &[ExprId],
 ) -> MomentumForm {
     let dof = model.joints.len();
-    let rigid = model.rigid_parameters();
-    let count = linear.regressor.first().map_or(0, Vec::len);
+    let standard = model.standard_parameters();
+    let count = standard.len();
+    let (rigid, effects): (Vec<usize>, Vec<usize>) =
+        (0..count).partition(|&k| model.is_rigid(&standard[k]));
     let mut form = MomentumForm {
         momentum: vec![vec![dag.zero(); count]; dof],
         drift: vec![vec![dag.zero(); count]; dof],
         refused: Vec::new(),
     };
-    let mut kinetic = Vec::with_capacity(rigid);
-    let mut lagrangian = Vec::with_capacity(rigid);
-    for parameter in 0..rigid {
+    let mut kinetic = Vec::with_capacity(rigid.len());
+    let mut lagrangian = Vec::with_capacity(rigid.len());
+    for &parameter in &rigid {
         let of = [energies.kinetic, energies.potential];
         let of = dag.derivatives(&of, Symbol::Parameter(parameter));
         kinetic.push(of[0]);
@@ -95,10 +100,12 @@ pub fn derive(
     for joint in 0..dof {
         let momentum = dag.derivatives(&kinetic, Symbol::Dq(joint));
         let drift = dag.derivatives(&lagrangian, Symbol::Q(joint));
-        form.momentum[joint][..rigid].copy_from_slice(&momentum);
-        form.drift[joint][..rigid].copy_from_slice(&drift);
+        for ((&parameter, p), h) in rigid.iter().zip(momentum).zip(drift) {
+            form.momentum[joint][parameter] = p;
+            form.drift[joint][parameter] = h;
+        }
     }
-    for parameter in rigid..count {
+    for parameter in effects {
         let entries: Vec<(usize, ExprId)> = linear.column(dag, parameter).collect();
         let split: Result<Vec<Split>, Reason> = entries
             .iter()

@@ -23,7 +23,9 @@ mod alone;
 mod build_script;
 mod compiled;
 mod forms;
+mod measured;
 
 pub use alone::{EffectColumns, effect_columns};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
+pub use measured::NotInstantaneous;

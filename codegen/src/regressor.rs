@@ -36,10 +36,12 @@ impl LinearForm {
 pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> LinearForm {
     let dof = model.joints.len();
     let inertial = model.rigid_parameters();
-    let count = model.standard_parameters().len();
+    let standard = model.standard_parameters();
+    let count = standard.len();
     let rigid_torque = dynamics::rigid_torque(dag, model, form, &vec![Value::Symbol; count]);
     let mut regressor = vec![vec![dag.zero(); count]; dof];
-    for parameter in 0..inertial {
+    // Bodies that effects add are columns of the rigid body too.
+    for parameter in (0..count).filter(|&k| model.is_rigid(&standard[k])) {
         let column = dag.derivatives(&rigid_torque, Symbol::Parameter(parameter));
         for (row, entry) in regressor.iter_mut().zip(column) {
             row[parameter] = entry;

@@ -9,7 +9,7 @@ use crate::{load, parse};
 pub struct Amendment {
     /// Snake-case name of the effect.
     pub effect: String,
-    /// Names of the joints, one per formal joint of the effect.
+    /// Names of the joints, one per formal joint of the effect; none where it acts on the arm as a whole.
     pub joints: Vec<String>,
     /// Shape parameters by name, with their values in SI units.
     pub shapes: Vec<(String, f64)>,
@@ -54,12 +54,12 @@ fn declaration(amendment: &Amendment) -> String {
         format!("({})", shapes.join(", "))
     };
     let joints = amendment.joints.join(", ");
-    let joints = if amendment.joints.len() == 1 {
-        joints
-    } else {
-        format!("({joints})")
+    let on = match amendment.joints.len() {
+        0 => String::new(),
+        1 => format!(" on {joints}"),
+        _ => format!(" on ({joints})"),
     };
-    format!("{}{shapes} on {joints};", amendment.effect)
+    format!("{}{shapes}{on};", amendment.effect)
 }
 
 /// Lines above the closing brace, or words before it where the block is one line.

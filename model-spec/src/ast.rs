@@ -169,6 +169,8 @@ pub struct DeclaredEffect {
 /// Where a declared effect acts.
 #[derive(Debug, Clone)]
 pub enum Targets {
+    /// Nothing: on the arm as a whole.
+    Arm,
     /// `all`: one instance on every joint.
     All(Span),
     /// One instance on each.
@@ -207,6 +209,8 @@ pub struct Effect {
     pub rates: Vec<Equation>,
     /// `torque(j) = ..;`
     pub torques: Vec<Equation>,
+    /// What it changes beside torques.
+    pub acts: Vec<Act>,
 }
 
 /// `linear fs >= 0`
@@ -273,6 +277,32 @@ pub struct Equation {
     pub value: Expr,
 }
 
+/// `position(j) = ..`, `body(j) = [..]`, `tilt = [..]`, `delay = ..`
+#[derive(Debug, Clone)]
+pub struct Act {
+    /// Which of them.
+    pub kind: ActKind,
+    /// Its word.
+    pub keyword: Ident,
+    /// The formal joint; none where the whole arm is meant.
+    pub of: Option<Ident>,
+    /// The right-hand side, or the entries of its list.
+    pub values: Vec<Expr>,
+}
+
+/// What an effect can change beside torques.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ActKind {
+    /// `position(j) = ..`
+    Position,
+    /// `body(j) = [m, mx, ..]`
+    Body,
+    /// `tilt = [a, b]`
+    Tilt,
+    /// `delay = ..`
+    Delay,
+}
+
 /// An expression with its place in the text.
 #[derive(Debug, Clone)]
 pub struct Expr {
@@ -308,6 +338,22 @@ pub struct Condition {
     pub greater: Expr,
     /// Than this.
     pub smaller: Expr,
+}
+
+impl ActKind {
+    /// All of them with their words.
+    pub const ALL: [(&'static str, Self); 4] = [
+        ("position", Self::Position),
+        ("body", Self::Body),
+        ("tilt", Self::Tilt),
+        ("delay", Self::Delay),
+    ];
+
+    /// Whether it is one of a joint.
+    #[must_use]
+    pub const fn has_joint(self) -> bool {
+        matches!(self, Self::Position | Self::Body)
+    }
 }
 
 impl Value {

@@ -10,7 +10,7 @@ mod expr;
 use std::sync::Arc;
 
 pub use effect::{
-    Effect, EffectBinding, EffectDefinition, EffectExpr, EffectInput, EffectLeaf, EffectState,
+    Act, Effect, EffectBinding, EffectDefinition, EffectExpr, EffectInput, EffectLeaf, EffectState,
     EffectTorque, LinearParameter, ShapeParameter, Signal,
 };
 pub use expr::{BinaryOp, Choice, Expr, Function};

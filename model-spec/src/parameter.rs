@@ -132,7 +132,18 @@ impl Model {
         rigid.into_iter().chain(effects).collect()
     }
 
-    /// How many standard parameters, from the first, belong to the rigid body and not to effects.
+    /// Whether a parameter is one of the rigid body: of a link, of an energy, or of a body that an effect adds to a link.
+    #[must_use]
+    pub fn is_rigid(&self, parameter: &StandardParameter) -> bool {
+        match parameter.owner {
+            Owner::Link { .. } | Owner::Monomial(_) => true,
+            Owner::Effect { effect, parameter } => {
+                self.effects[effect].definition.is_of_body(parameter)
+            }
+        }
+    }
+
+    /// How many standard parameters, from the first, are those of links or energies and not of effects.
     #[must_use]
     pub fn rigid_parameters(&self) -> usize {
         match &self.body {
@@ -169,16 +180,18 @@ impl Model {
             .collect()
     }
 
-    /// `JOINT.EFFECT`, the first joint's name where there are several; a second instance on the same joints is `JOINT.EFFECT2`.
+    /// `JOINT.EFFECT`, the first joint's name where there are several, `EFFECT` where there is none; a second instance on the
+    /// same joints is `JOINT.EFFECT2`.
     #[must_use]
     pub fn effect_name(&self, effect: usize) -> String {
         let declared = &self.effects[effect];
-        let joint = &self.joints[declared.joints[0]].name;
+        let joint = declared.joints.first();
+        let joint = joint.map_or_else(String::new, |&k| format!("{}.", self.joints[k].name));
         let name = &declared.definition.name;
         if declared.instance == 1 {
-            format!("{joint}.{name}")
+            format!("{joint}{name}")
         } else {
-            format!("{joint}.{name}{}", declared.instance)
+            format!("{joint}{name}{}", declared.instance)
         }
     }
 }

@@ -101,8 +101,19 @@ pub trait Arm: Columns {
     fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 
     /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.
-    /// `shapes` as in [`Columns::entries`].
+    /// `shapes` as in [`Columns::entries`]. Links count as standing where the log has their joints.
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>>;
+
+    /// What the transmissions carried, `[joint][sample]`: the logged torque less that of the declared effects at `estimate`.
+    /// Empty where no link stands elsewhere because of it, as for most arms.
+    fn transmitted_torque(
+        &self,
+        _motion: &Motion,
+        _shapes: &[f64],
+        _estimate: &[f64],
+    ) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
 }
 
 /// An arm whose torque is known without accelerations, as `tau = d/dt (momentum columns) - (drift columns)`.
@@ -116,11 +127,12 @@ pub trait MomentumArm: Arm {
     /// Columns of what changes the momentum beside the torque, `Y_h`: for a rigid body `C^T dq - G`.
     fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
 
-    /// Momentum of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
-    fn known_momentum(&self, motion: &Motion) -> Vec<Vec<f64>>;
+    /// Momentum of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none. `shapes` as in
+    /// [`Columns::entries`].
+    fn known_momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 
     /// Drift of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
-    fn known_drift(&self, motion: &Motion) -> Vec<Vec<f64>>;
+    fn known_drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 }
 
 /// An effect that the spec does not declare, tried on given joints.

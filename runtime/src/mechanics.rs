@@ -27,7 +27,7 @@ use crate::model::{Matrix, RobotModel, State, Vector};
 /// let ddq = arm.forward_dynamics(&q, &dq, &Vector::zeros()).expect("a mass at the tip");
 /// assert!((ddq[0] + 9.81 / 0.5 * 0.3_f64.cos()).abs() < 1e-12);
 /// // The tip moves at l dq, across the arm.
-/// let velocity = Pendulum::jacobian(&q) * dq;
+/// let velocity = arm.jacobian(&q) * dq;
 /// assert!((velocity[1] - 1.5 * 0.3_f64.cos()).abs() < 1e-12 && velocity[5] == 3.0);
 /// ```
 pub trait Mechanics<
@@ -132,15 +132,16 @@ pub trait Mechanics<
     fn base_drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, BASE>;
 }
 
-/// Where the links of a chain are. Robots that say their energies have [`Points`] instead.
+/// Where the links of a chain are. Robots that say their energies have [`Points`] instead. Lengths are in the equations; of the
+/// value only shape parameters count, such as the offset of an encoder.
 pub trait Kinematics<const DOF: usize> {
     /// Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.
-    fn forward_kinematics(q: &Vector<DOF>) -> [Matrix<4, 4>; DOF];
+    fn forward_kinematics(&self, q: &Vector<DOF>) -> [Matrix<4, 4>; DOF];
 
     /// Geometric Jacobian, 6 x DOF: `jacobian * dq` is the velocity of the origin of the last link's frame, m/s, then the
     /// link's angular velocity, rad/s, both in the axes of the base frame. A force and a moment at the tip, stacked alike,
     /// load the joints with `jacobian^T * wrench`.
-    fn jacobian(q: &Vector<DOF>) -> Matrix<6, DOF>;
+    fn jacobian(&self, q: &Vector<DOF>) -> Matrix<6, DOF>;
 }
 
 /// Where the points are that a robot which says its energies names.
@@ -149,8 +150,8 @@ pub trait Points<const DOF: usize, const POINTS: usize> {
     const POINTS: [&'static str; POINTS];
 
     /// Positions in the base frame, m.
-    fn points(q: &Vector<DOF>) -> [Vector<3>; POINTS];
+    fn points(&self, q: &Vector<DOF>) -> [Vector<3>; POINTS];
 
     /// `[k] * dq` is the velocity of point `k`, m/s; a force there loads the joints with `[k]^T * force`.
-    fn point_jacobians(q: &Vector<DOF>) -> [Matrix<3, DOF>; POINTS];
+    fn point_jacobians(&self, q: &Vector<DOF>) -> [Matrix<3, DOF>; POINTS];
 }

@@ -1,6 +1,8 @@
 //! A measured motion, ready for the model: uniform time, filtered position and its derivatives.
 
 use crate::log::Channel;
+use crate::signal::resample::cubic;
+use crate::signal::{LowPass, MOTION_ORDER, derivative};
 
 /// Position, velocity and acceleration of every joint: `q[joint][sample]`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -33,9 +35,80 @@ pub struct Motion {
     pub tau: Vec<Vec<f64>>,
     /// Further channels of the log.
     pub extra: Vec<Channel>,
+    /// What the transmissions carried, `[joint][sample]`: the logged torque less that of effects at the present estimate, N m
+    /// or N; empty until an estimate exists.
+    pub transmitted_torque: Vec<Vec<f64>>,
+    /// Cutoff of the filter for displacements of links, Hz; 0 where they pass none.
+    pub displacement_hz: f64,
 }
 
 impl Motion {
+    /// The smooth band with links that stand elsewhere than their joints say: `displacements` are pairs of a joint and what is
+    /// added to its position at every sample, rad or m. They pass a zero-phase low-pass at [`Self::displacement_hz`], and are
+    /// differentiated as positions are.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::motion::Motion;
+    ///
+    /// let time: Vec<f64> = (0..9).map(|k| 0.1 * f64::from(k)).collect();
+    /// let mut motion = Motion { time: time.clone(), ..Motion::default() };
+    /// motion.smooth.q = vec![vec![1.0; 9]];
+    /// motion.smooth.dq = vec![vec![0.0; 9]];
+    /// motion.smooth.ddq = vec![vec![0.0; 9]];
+    /// let bent = motion.displaced(&[(0, time.iter().map(|t| t * t).collect())]);
+    /// assert!((bent.q[0][4] - 1.16).abs() < 1e-12);
+    /// assert!((bent.dq[0][4] - 0.8).abs() < 1e-12 && (bent.ddq[0][4] - 2.0).abs() < 1e-9);
+    /// ```
+    #[must_use]
+    pub fn displaced(&self, displacements: &[(usize, Vec<f64>)]) -> Kinematics {
+        let mut kinematics = self.smooth.clone();
+        let &[first, second, ..] = self.time.as_slice() else {
+            return kinematics;
+        };
+        let step = second - first;
+        let filter = LowPass::butterworth(MOTION_ORDER, self.displacement_hz, 1.0 / step).ok();
+        let (mut q, mut dq, mut ddq) = (Vec::new(), Vec::new(), Vec::new());
+        for (joint, values) in displacements {
+            match &filter {
+                Some(filter) => filter.apply(values, &mut q),
+                None => q.clone_from(values),
+            }
+            derivative(&q, step, &mut dq);
+            derivative(&dq, step, &mut ddq);
+            add(&mut kinematics.q[*joint], &q);
+            add(&mut kinematics.dq[*joint], &dq);
+            // A motion that was prepared without accelerations has no channels of them.
+            if let Some(column) = kinematics.ddq.get_mut(*joint) {
+                add(column, &ddq);
+            }
+        }
+        kinematics
+    }
+
+    /// What `values`, one a sample, were `seconds` before; before the first sample they are held.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::motion::Motion;
+    ///
+    /// let time: Vec<f64> = (0..9).map(|k| 0.1 * f64::from(k)).collect();
+    /// let motion = Motion { time: time.clone(), ..Motion::default() };
+    /// let late = motion.late(&time, 0.05);
+    /// assert!((late[4] - 0.35).abs() < 1e-12 && late[0] == 0.0);
+    /// ```
+    #[must_use]
+    pub fn late(&self, values: &[f64], seconds: f64) -> Vec<f64> {
+        let (Some(first), Some(last), true) =
+            (self.time.first(), self.time.last(), self.time.len() > 2)
+        else {
+            return values.to_vec();
+        };
+        let before = self.time.iter().map(|t| (t - seconds).clamp(*first, *last));
+        let before: Vec<f64> = before.collect();
+        cubic(&self.time, values, &before)
+    }
+
     /// The motion's wide band, time and rigid-body torque a part of a sample later (`-0.5 ..= 0.5`), linearly between
     /// samples; the smooth band stays empty.
     ///
@@ -59,6 +132,8 @@ impl Motion {
             },
             rigid_torque: shifted(&self.rigid_torque),
             tau: shifted(&self.tau),
+            transmitted_torque: shifted(&self.transmitted_torque),
+            displacement_hz: self.displacement_hz,
             extra: self
                 .extra
                 .iter()
@@ -76,6 +151,11 @@ impl Motion {
         let found = self.extra.iter().find(|channel| channel.name == name);
         found.map(|channel| channel.values.as_slice())
     }
+}
+
+/// `sum += values`
+fn add(sum: &mut [f64], values: &[f64]) {
+    sum.iter_mut().zip(values).for_each(|(s, v)| *s += v);
 }
 
 /// `values` a part of a sample later (`-1 ..= 1`), linearly between samples; the last (or first) sample is held.

@@ -53,6 +53,7 @@ robots! {
     cart_pole "cart_pole" CartPole;
     emps "emps" Emps;
     every_effect "every_effect" EveryEffect;
+    mounted_arm "mounted_arm" MountedArm;
     panda "panda" Panda;
     phantom "phantom" Phantom;
     pneumatic_arm "pneumatic_arm" PneumaticArm;

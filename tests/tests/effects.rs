@@ -11,7 +11,7 @@ struct At {
     ddq: [f64; 2],
     load: [f64; 2],
     /// Linear parameters.
-    p: [f64; 5],
+    p: [f64; 10],
     /// Shape parameters.
     s: [f64; 3],
     measured: [f64; 2],
@@ -124,7 +124,7 @@ fn states() -> Vec<At> {
             dq: [(1.8 + 1.5 * second) * first, 0.5 * second],
             ddq: [1.1, -2.3 * first],
             load: [-8.0 * second, 5.0],
-            p: [1.7, 0.6, 0.9, -0.4, 0.2],
+            p: [1.7, 0.6, 0.9, -0.4, 0.2, 1.3, -0.7, 2.2, 0.1, 3.1],
             s: [2.25 + 0.15 * first, 0.8, 1.5],
             measured: [-7.0 * second, 3.0],
             input: [31.0],
@@ -157,12 +157,13 @@ fn torque(definition: &EffectDefinition, at: &At, joints: &[usize], formal: usiz
 
 #[test]
 fn every_standard_effect_follows_its_law() {
-    let definitions = standard_effects();
+    let torques = standard_effects().iter().filter(|d| d.acts.is_empty());
+    let definitions: Vec<_> = torques.collect();
     let names: Vec<&str> = definitions.iter().map(|d| d.name.as_str()).collect();
     assert_eq!(
         names,
         LAWS.map(|(name, _)| name),
-        "one law per standard effect, by name"
+        "one law per standard effect that is a torque, by name"
     );
     for (definition, (name, law)) in definitions.iter().zip(LAWS) {
         for at in states() {
@@ -172,6 +173,45 @@ fn every_standard_effect_follows_its_law() {
                 (found - wanted).abs() < 1e-14 * (1.0 + wanted.abs()),
                 "{name}: {found} and {wanted}"
             );
+        }
+    }
+}
+
+type Acts = fn(&At) -> Vec<f64>;
+
+/// What the others change: position of the link less that of the joint, inertial parameters, angles of the base, seconds.
+const ACTS: [(&str, Acts); 7] = [
+    ("backlash", |at| vec![-at.s[0] * at.load[0].signum()]),
+    ("base_tilt", |at| vec![at.s[0], at.s[1]]),
+    ("encoder_offset", |at| vec![-at.s[0]]),
+    ("joint_elasticity", |at| vec![-at.load[0] / at.s[0]]),
+    ("link_inertial_error", |at| at.p.to_vec()),
+    ("payload", |at| at.p.to_vec()),
+    ("time_delay", |at| vec![at.s[0]]),
+];
+
+#[test]
+fn every_standard_effect_that_is_no_torque_follows_its_law() {
+    let others = standard_effects().iter().filter(|d| !d.acts.is_empty());
+    let definitions: Vec<_> = others.collect();
+    let names: Vec<&str> = definitions.iter().map(|d| d.name.as_str()).collect();
+    assert_eq!(names, ACTS.map(|(name, _)| name));
+    for (definition, (name, law)) in definitions.iter().zip(ACTS) {
+        assert!(definition.torques.is_empty() && definition.acts.len() == 1);
+        for at in states() {
+            let scope = scope(definition, &at, &[0, 1]);
+            let values = definition.acts[0].values();
+            let found: Vec<f64> = values.map(|x| value(x, &scope)).collect();
+            let wanted = law(&at);
+            assert_eq!(found.len(), wanted.len(), "{name}");
+            for (found, wanted) in found.iter().zip(wanted) {
+                // A handful of roundings.
+                let bound = 1e-14 * (1.0 + wanted.abs());
+                assert!(
+                    (found - wanted).abs() < bound,
+                    "{name}: {found} and {wanted}"
+                );
+            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Laws of emitted energies, momentum, slopes, forward dynamics and kinematics, for every spec.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use robot_model::{Kinematics, Points, Vector};
+use robot_model::{FromParameters, Kinematics, Points, Vector};
 use robot_model_tests::emitted::{self, Robot};
 use robot_model_tests::evaluate::{Interpreter, relative_difference};
 use robot_model_tests::mechanics;
@@ -226,7 +226,10 @@ fn parameters_of_no_arm_have_no_accelerations() {
 }
 
 /// `jacobian * dq` is what differences of the poses are, and rotations are rotations.
-fn assert_jacobian_is_the_rate_of_the_pose<R: Kinematics<DOF>, const DOF: usize>(name: &str) {
+fn assert_jacobian_is_the_rate_of_the_pose<const DOF: usize>(
+    arm: &impl Kinematics<DOF>,
+    name: &str,
+) {
     let mut random = states::generator(5);
     for _ in 0..STATES {
         let state = states::state(&mut random, DOF);
@@ -234,7 +237,7 @@ fn assert_jacobian_is_the_rate_of_the_pose<R: Kinematics<DOF>, const DOF: usize>
             Vector::<DOF>::from_column_slice(&state.q),
             Vector::<DOF>::from_column_slice(&state.dq),
         );
-        let pose = |t: f64| R::forward_kinematics(&(q + t * dq))[DOF - 1];
+        let pose = |t: f64| arm.forward_kinematics(&(q + t * dq))[DOF - 1];
         let (before, here, after) = (pose(-STEP), pose(0.0), pose(STEP));
         let rate = (after - before) / (2.0 * STEP);
         let rotation: Matrix3<f64> = here.fixed_view::<3, 3>(0, 0).into();
@@ -249,7 +252,7 @@ fn assert_jacobian_is_the_rate_of_the_pose<R: Kinematics<DOF>, const DOF: usize>
             spin[(0, 2)],
             spin[(1, 0)],
         ];
-        let found = R::jacobian(&q) * dq;
+        let found = arm.jacobian(&q) * dq;
         for (found, wanted) in found.iter().zip(wanted) {
             assert!(
                 (found - wanted).abs() < DIFFERENCE * dq.norm(),
@@ -261,18 +264,38 @@ fn assert_jacobian_is_the_rate_of_the_pose<R: Kinematics<DOF>, const DOF: usize>
 
 #[test]
 fn the_jacobian_is_the_rate_of_the_pose() {
-    assert_jacobian_is_the_rate_of_the_pose::<emitted::two_link::TwoLink, 2>("two_link");
-    assert_jacobian_is_the_rate_of_the_pose::<emitted::puma560::Puma560, 6>("puma560");
-    assert_jacobian_is_the_rate_of_the_pose::<emitted::panda::Panda, 7>("panda");
-    assert_jacobian_is_the_rate_of_the_pose::<emitted::stanford::Stanford, 4>("stanford");
-    assert_jacobian_is_the_rate_of_the_pose::<emitted::skew::Skew, 3>("skew");
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::two_link::TwoLink::from_base(&Vector::zeros()),
+        "two_link",
+    );
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::puma560::Puma560::from_base(&Vector::zeros()),
+        "puma560",
+    );
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::panda::Panda::from_base(&Vector::zeros()),
+        "panda",
+    );
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::stanford::Stanford::from_base(&Vector::zeros()),
+        "stanford",
+    );
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::mounted_arm::MountedArm::from_base(&Vector::zeros()),
+        "mounted_arm",
+    );
+    assert_jacobian_is_the_rate_of_the_pose(
+        &emitted::skew::Skew::from_base(&Vector::zeros()),
+        "skew",
+    );
 }
 
 /// A planar arm of 0.5 m and 0.4 m, the second offset by a quarter turn: where its links end, by hand.
 #[test]
 fn poses_are_those_of_the_drawing() {
     let q = Vector::from([0.3, 0.5]);
-    let [elbow, tip] = emitted::two_link::TwoLink::forward_kinematics(&q);
+    let [elbow, tip] =
+        emitted::two_link::TwoLink::from_base(&Vector::zeros()).forward_kinematics(&q);
     let second = 0.3 + 0.5 + specs_offset();
     let wanted = [0.5 * 0.3_f64.cos(), 0.5 * 0.3_f64.sin()];
     assert!((elbow[(0, 3)] - wanted[0]).abs() < 1e-15 && (elbow[(1, 3)] - wanted[1]).abs() < 1e-15);
@@ -295,20 +318,19 @@ fn specs_offset() -> f64 {
 /// The PHANTOM's tip and its Jacobian, equation (21) of Tafazoli et al. (2004) turned into the base frame's axes.
 #[test]
 fn the_tip_of_the_phantom_moves_as_its_jacobian_says() {
-    type Phantom = emitted::phantom::Phantom;
+    let phantom = emitted::phantom::Phantom::from_base(&Vector::zeros());
     let (q, dq) = (
         Vector::from([0.4, 0.2, -0.3]),
         Vector::from([1.1, -0.7, 0.5]),
     );
     let [rate] = [
-        (Phantom::points(&(q + STEP * dq))[0] - Phantom::points(&(q - STEP * dq))[0])
-            / (2.0 * STEP),
+        (phantom.points(&(q + STEP * dq))[0] - phantom.points(&(q - STEP * dq))[0]) / (2.0 * STEP),
     ];
-    let velocity = Phantom::point_jacobians(&q)[0] * dq;
+    let velocity = phantom.point_jacobians(&q)[0] * dq;
     assert!((velocity - rate).norm() < DIFFERENCE, "{velocity} {rate}");
-    assert_eq!(Phantom::POINTS, ["tip"]);
+    assert_eq!(emitted::phantom::Phantom::POINTS, ["tip"]);
     // Across the arm's plane only the first joint moves the tip, at its distance from the axis.
-    let across = Phantom::point_jacobians(&q)[0].column(0).norm();
+    let across = phantom.point_jacobians(&q)[0].column(0).norm();
     let (l1, l2) = (0.215, 0.170);
     assert!((across - (l1 * q[1].cos() + l2 * q[2].sin()).abs()).abs() < 1e-14);
 }

@@ -64,10 +64,13 @@ impl InterpretedArm {
 /// A law with more linear parameters than this is a model of its own, not what another model lacks.
 const MOST_UNKNOWNS: usize = 3;
 
-/// Whether a residual may be traced to an effect: not where the effect is made of the torque whose residual it is, which
-/// explains itself, and not to a sum of effects that are tried one by one.
+/// Whether a residual may be traced to an effect: where it is a torque that is added, not where it changes the rigid body or the
+/// log; not where it is made of the torque whose residual it is, which explains itself, and not to a sum of effects that are
+/// tried one by one.
 fn may_be_tried(definition: &EffectDefinition) -> bool {
-    definition.linear.len() <= MOST_UNKNOWNS && !definition.reads_measured_torque()
+    definition.linear.len() <= MOST_UNKNOWNS
+        && !definition.reads_measured_torque()
+        && definition.acts.is_empty()
 }
 
 /// An effect of the spec's library on joints where the spec does not declare it.
@@ -168,6 +171,7 @@ impl InterpretedCandidate {
                     values,
                 })
                 .collect(),
+            ..Motion::default()
         };
         let mut entries = self.entries(&motion, shapes);
         entries.sort_by_key(|entry| (entry.column, entry.joint));
@@ -259,7 +263,7 @@ fn same_values(left: &Entry, right: &Entry) -> bool {
 /// The name that the effect would have if it were declared last: `JOINT.EFFECT`, or `JOINT.EFFECT2`.
 fn next_name(model: &Model, definition: &EffectDefinition, joints: &[usize]) -> String {
     let same = |effect: &&robot_model_spec::model::Effect| {
-        effect.definition.name == definition.name && effect.joints[0] == joints[0]
+        effect.definition.name == definition.name && effect.joints.first() == joints.first()
     };
     let joint = &model.joints[joints[0]].name;
     match model.effects.iter().filter(same).count() {

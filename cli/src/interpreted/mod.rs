@@ -6,6 +6,7 @@
 
 mod band;
 mod candidate;
+mod measured;
 mod momentum;
 mod program;
 mod rough;
@@ -23,6 +24,7 @@ use robot_model_codegen::{Block, Compiled};
 use robot_model_spec::parameter::Owner;
 
 use band::EffectBlock;
+use measured::Measured;
 use program::{run, run_block};
 use rough::is_rough;
 use shape::grids;
@@ -43,6 +45,7 @@ pub struct InterpretedArm {
     effects: EffectBlock,
     rigid_torque: Program,
     known_torque: Program,
+    measured: Measured,
 }
 
 impl InterpretedArm {
@@ -84,9 +87,10 @@ impl InterpretedArm {
                 .map(|joint| joint.actuator_gain)
                 .collect(),
             rigid: compiled.rigid_columns(),
-            effects: effect_block(&compiled, compiled.effect_columns()),
+            effects: torque_block(&compiled, compiled.effect_columns()),
             rigid_torque: compiled.rigid_torque(),
             known_torque: compiled.known_torque(),
+            measured: Measured::new(&compiled),
             compiled,
         }
     }
@@ -117,7 +121,7 @@ impl Columns for InterpretedArm {
     }
 
     fn uses_rigid_torque(&self) -> bool {
-        self.effects.uses_rigid_torque()
+        self.effects.uses_rigid_torque() || self.measured.uses_rigid_torque()
     }
 
     fn inputs(&self) -> &[String] {
@@ -131,9 +135,10 @@ impl Columns for InterpretedArm {
             shapes: &shapes,
             own: &Own::default(),
         };
-        let mut entries = run_block(&self.rigid, &signals, &motion.smooth);
+        let links = self.measured.links(motion, &shapes);
+        let mut entries = run_block(&self.rigid, &signals, &links);
         entries.extend(self.effects.run(motion, &shapes));
-        entries
+        self.measured.entries(motion, &shapes, entries)
     }
 }
 
@@ -151,14 +156,17 @@ impl Arm for InterpretedArm {
     }
 
     fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        let shapes = self.all_shapes(shapes);
         let signals = Signals {
             motion,
-            shapes: &self.all_shapes(shapes),
+            shapes: &shapes,
             own: &Own::default(),
         };
-        run(&self.known_torque, motion, &|symbol| {
-            signals.bind(&motion.smooth, symbol)
-        })
+        let links = self.measured.links(motion, &shapes);
+        let torque = run(&self.known_torque, motion, &|symbol| {
+            signals.bind(&links, symbol)
+        });
+        self.measured.series(motion, &shapes, torque)
     }
 
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
@@ -172,6 +180,30 @@ impl Arm for InterpretedArm {
             Symbol::Parameter(k) => Operand::Constant(parameters[k]),
             other => signals.bind(&motion.smooth, other),
         })
+    }
+
+    fn transmitted_torque(
+        &self,
+        motion: &Motion,
+        shapes: &[f64],
+        estimate: &[f64],
+    ) -> Vec<Vec<f64>> {
+        if !self.measured.uses_rigid_torque() {
+            return Vec::new();
+        }
+        let mut torque: Vec<Vec<f64>> = motion
+            .tau
+            .iter()
+            .zip(&self.actuator_gain)
+            .map(|(tau, gain)| tau.iter().map(|tau| gain * tau).collect())
+            .collect();
+        for entry in self.effects.run(motion, &self.all_shapes(shapes)) {
+            let value = estimate[entry.column];
+            for (torque, column) in torque[entry.joint].iter_mut().zip(entry.values) {
+                *torque -= value * column;
+            }
+        }
+        torque
     }
 }
 
@@ -193,24 +225,29 @@ fn unknowns(compiled: &Compiled) -> Vec<Unknown> {
         .collect()
 }
 
-/// Columns of the declared effects, each with the band that it reads.
-fn effect_block(compiled: &Compiled, block: Block) -> EffectBlock {
+/// Columns of the declared effects' torques, each with the band that it reads.
+fn torque_block(compiled: &Compiled, block: Block) -> EffectBlock {
+    effect_block(compiled, block, |column| {
+        match compiled.standard[compiled.base.kept[column]].owner {
+            Owner::Effect { effect, parameter } => {
+                is_rough(&compiled.model.effects[effect].definition, parameter)
+            }
+            Owner::Link { .. } | Owner::Monomial(_) => false,
+        }
+    })
+}
+
+/// What declared effects compute along a motion; `is_rough` tells which columns read the wide band.
+fn effect_block(
+    compiled: &Compiled,
+    block: Block,
+    is_rough: impl Fn(usize) -> bool,
+) -> EffectBlock {
     let gain = compiled
         .model
         .joints
         .iter()
         .map(|joint| joint.actuator_gain);
     let (states, inputs) = (compiled.states(), compiled.model.inputs());
-    EffectBlock::new(
-        block,
-        states,
-        inputs,
-        gain.collect(),
-        |column| match compiled.standard[compiled.base.kept[column]].owner {
-            Owner::Effect { effect, parameter } => {
-                is_rough(&compiled.model.effects[effect].definition, parameter)
-            }
-            Owner::Link { .. } | Owner::Monomial(_) => false,
-        },
-    )
+    EffectBlock::new(block, states, inputs, gain.collect(), is_rough)
 }

@@ -11,7 +11,7 @@ use robot_model_codegen::{Block, Compiled};
 use super::band::EffectBlock;
 use super::program::{run, run_block};
 use super::signals::{Own, Signals};
-use super::{InterpretedArm, effect_block};
+use super::{InterpretedArm, torque_block};
 
 /// An arm whose columns need no accelerations.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub struct InterpretedMomentum {
     known_drift: Program,
 }
 
-/// Why an arm has no momentum form: an unknown whose column no filter frees of the acceleration.
+/// Why an arm has no momentum form: an unknown whose column no filter frees of the acceleration, or an effect that moves links.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NoMomentumForm {
     /// Where the effect is declared: file and line.
@@ -57,22 +57,24 @@ impl InterpretedMomentum {
         Ok(Self {
             momentum: compiled.base_momentum(),
             rigid_drift: compiled.rigid_drift(),
-            effect_drift: effect_block(&compiled, compiled.effect_drift()),
+            effect_drift: torque_block(&compiled, compiled.effect_drift()),
             known_momentum: compiled.known_momentum(),
             known_drift: compiled.known_drift(),
             arm: InterpretedArm::new(compiled),
         })
     }
 
-    fn known(program: &Program, motion: &Motion) -> Vec<Vec<f64>> {
+    fn known(&self, program: &Program, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        let shapes = self.arm.all_shapes(shapes);
         let signals = Signals {
             motion,
-            shapes: &[],
+            shapes: &shapes,
             own: &Own::default(),
         };
-        run(program, motion, &|symbol| {
+        let series = run(program, motion, &|symbol| {
             signals.bind(&motion.smooth, symbol)
-        })
+        });
+        self.arm.measured.series(motion, &shapes, series)
     }
 
     /// Columns of the rigid body.
@@ -87,6 +89,14 @@ impl InterpretedMomentum {
 }
 
 fn refusal(compiled: &Compiled) -> Option<NoMomentumForm> {
+    let mut effects = compiled.model.effects.iter();
+    if let Some(effect) = effects.find(|effect| effect.definition.moves_links()) {
+        return Some(NoMomentumForm {
+            place: format!("{}:{}", compiled.model.source, effect.line),
+            parameter: effect.definition.name.clone(),
+            reason: Reason::Displacement,
+        });
+    }
     let mut refused = compiled.base_momentum.refused.iter();
     // What regroups into other columns needs no column of its own.
     let refusal = refused.find(|refusal| compiled.base.kept.contains(&refusal.parameter))?;
@@ -151,21 +161,23 @@ impl Arm for InterpretedMomentum {
 
 impl MomentumArm for InterpretedMomentum {
     fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        self.rigid(&self.momentum, motion, shapes)
+        let entries = self.rigid(&self.momentum, motion, shapes);
+        let shapes = self.arm.all_shapes(shapes);
+        self.arm.measured.entries(motion, &shapes, entries)
     }
 
     fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
         let mut entries = self.rigid(&self.rigid_drift, motion, shapes);
         let shapes = self.arm.all_shapes(shapes);
         entries.extend(self.effect_drift.run(motion, &shapes));
-        entries
+        self.arm.measured.entries(motion, &shapes, entries)
     }
 
-    fn known_momentum(&self, motion: &Motion) -> Vec<Vec<f64>> {
-        Self::known(&self.known_momentum, motion)
+    fn known_momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        self.known(&self.known_momentum, motion, shapes)
     }
 
-    fn known_drift(&self, motion: &Motion) -> Vec<Vec<f64>> {
-        Self::known(&self.known_drift, motion)
+    fn known_drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        self.known(&self.known_drift, motion, shapes)
     }
 }

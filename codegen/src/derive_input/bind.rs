@@ -167,7 +167,10 @@ fn on_text(field: &RobotField) -> String {
         .as_deref()
         .unwrap_or(std::slice::from_ref(field.name));
     let names: Vec<String> = joints.iter().map(|joint| format!("`{joint}`")).collect();
-    names.join(", ")
+    match names.as_slice() {
+        [] => "the arm as a whole".to_owned(),
+        names => names.join(", "),
+    }
 }
 
 fn not_held(model: &Model, index: usize) -> String {
@@ -186,10 +189,11 @@ fn not_held(model: &Model, index: usize) -> String {
         ([joint], None) => format!("write `{joint}: {ty}`, or `{joint}: ({ty}, ..)`"),
         _ => format!("write `#[on({})] {name}: {ty}`", joints.join(", ")),
     };
-    format!(
-        "no field holds the parameters of `{name}` on `{}`: {field}",
-        joints.join("`, `")
-    )
+    let on = match joints.as_slice() {
+        [] => String::new(),
+        joints => format!(" on `{}`", joints.join("`, `")),
+    };
+    format!("no field holds the parameters of `{name}`{on}: {field}")
 }
 
 /// Every link whose inertial is not fixed is held.

@@ -18,6 +18,8 @@
 //!     elbow: ViscousFriction,                                // the inertial is known: effects only
 //!     #[on(shoulder, elbow)]
 //!     coupling: GearCoupling,                                // an effect of two joints
+//!     #[on()]
+//!     base_tilt: BaseTilt,                                   // an effect on the arm as a whole
 //! }
 //!
 //! #[derive(RobotModel)]
@@ -85,6 +87,9 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
             format!("base parameters are not certain: {}", compiled.base.rank),
         ));
     }
+    compiled
+        .check_instantaneous()
+        .map_err(|reason| syn::Error::new(robot.name.span(), reason))?;
     if compiled.reads_more_than_motion() {
         return Err(syn::Error::new(
             robot.name.span(),

@@ -117,14 +117,16 @@ fn spec(robot: &Robot) -> syn::Result<TokenStream> {
             joints.extend(joint);
         }
         let name = field.name;
-        let targets = field
-            .on
-            .as_ref()
-            .map_or_else(|| quote!(#name), |joints| quote!((#(#joints),*)));
+        let targets = match field.on.as_deref() {
+            None => quote!(on #name),
+            // The arm as a whole.
+            Some([]) => quote!(),
+            Some(joints) => quote!(on (#(#joints),*)),
+        };
         for effect in field.holds.effects() {
             let (effect, shapes) = (&effect.effect, &effect.shapes);
             let shapes = shapes.as_ref().map(|shapes| quote!((#shapes)));
-            effects.extend(quote!(#effect #shapes on #targets;));
+            effects.extend(quote!(#effect #shapes #targets;));
         }
     }
     errors.finish(())?;
@@ -162,7 +164,7 @@ fn joint(field: &RobotField) -> syn::Result<TokenStream> {
         }
         (None, Holds::Effects(_), None) => {
             return wrong(format!(
-                "`{name}` acts on no joint: write `#[joint(..)]` where it is one, or `#[on(joint, joint)]`"
+                "`{name}` acts on no joint: write `#[joint(..)]` where it is one, `#[on(joint, joint)]`, or `#[on()]` for the arm as a whole"
             ));
         }
         (Some(_), _, _) => {}

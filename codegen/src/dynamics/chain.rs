@@ -6,6 +6,7 @@
 
 use robot_model_spec::model::{self, Joint, JointKind};
 
+use super::changes::Changes;
 use super::frame::{Frame, frame};
 use super::inertia::{self, LinkParameters};
 use super::rigid::Terms;
@@ -17,7 +18,7 @@ pub struct Chain {
     pub(super) frames: Vec<Frame>,
     pub(super) links: Vec<LinkParameters>,
     /// Acceleration of gravity in the base frame.
-    pub(super) gravity: [f64; 3],
+    pub(super) gravity: Vector,
 }
 
 /// Motion of a link, in link coordinates.
@@ -33,23 +34,23 @@ struct LinkMotion {
 }
 
 impl Chain {
-    /// Frames of the chain with the given parameters.
+    /// Frames of the chain with the given parameters, and what effects change about them.
     pub fn new(
         dag: &mut Dag,
         joints: &[Joint],
         chain: &model::Chain,
-        links: Vec<LinkParameters>,
+        mut links: Vec<LinkParameters>,
+        changes: &Changes,
     ) -> Self {
-        let frames = joints
-            .iter()
-            .zip(&chain.links)
-            .enumerate()
-            .map(|(index, (joint, link))| frame(dag, index, joint.kind, &link.placement))
+        let placed = joints.iter().zip(&chain.links).zip(&changes.positions);
+        let frames = placed
+            .map(|((joint, link), &q)| frame(dag, q, joint.kind, &link.placement))
             .collect();
+        changes.load(dag, &mut links);
         Self {
             frames,
             links,
-            gravity: chain.gravity,
+            gravity: changes.gravity(dag, chain),
         }
     }
 
@@ -63,7 +64,7 @@ impl Chain {
     fn forward(&self, dag: &mut Dag, terms: Terms, labeled: bool) -> Vec<LinkMotion> {
         let still = vector::zero(dag);
         let up = if terms.gravity() {
-            vector::constant(dag, self.gravity.map(|g| -g))
+            self.gravity.map(|g| dag.neg(g))
         } else {
             still
         };

@@ -1,6 +1,6 @@
 //! Effects as the language defines them, lowered to expressions for given joints.
 
-use robot_model_spec::model::{EffectDefinition, EffectExpr, EffectLeaf, Model, Signal};
+use robot_model_spec::model::{Effect, EffectDefinition, EffectExpr, EffectLeaf, Model, Signal};
 
 use super::lower::lower_with;
 use crate::expr::{Dag, ExprId, Symbol};
@@ -77,6 +77,29 @@ pub fn outside_rigid_torque(dag: &mut Dag, dof: usize) -> Vec<ExprId> {
         .collect()
 }
 
+/// Declared effects in order, each with its scope. `parameters` has one expression per standard parameter of the model.
+pub fn each_declared(
+    dag: &mut Dag,
+    model: &Model,
+    parameters: &[ExprId],
+    rigid_torque: &[ExprId],
+    mut visit: impl FnMut(&mut Dag, &Effect, &Scope<'_>),
+) {
+    let mut linear = &parameters[model.rigid_parameters()..];
+    for (index, declared) in model.effects.iter().enumerate() {
+        let (own, rest) = linear.split_at(declared.definition.linear.len());
+        linear = rest;
+        let symbols = Symbols::declared(dag, model, index);
+        let scope = Scope {
+            linear: own,
+            symbols: &symbols,
+            joints: &declared.joints,
+            rigid_torque,
+        };
+        visit(dag, declared, &scope);
+    }
+}
+
 /// `(joint, torque)` for each joint that the effect acts on.
 pub fn torques(
     dag: &mut Dag,
@@ -92,6 +115,19 @@ pub fn torques(
             (scope.joints[torque.joint], value)
         })
         .collect()
+}
+
+/// What the effect changes beside torques: values of each act, in their order.
+pub fn acts(dag: &mut Dag, definition: &EffectDefinition, scope: &Scope<'_>) -> Vec<Vec<ExprId>> {
+    let bindings = bindings(dag, definition, scope);
+    let acts = definition.acts.iter();
+    acts.map(|act| {
+        let values = act.values();
+        values
+            .map(|value| lower(dag, value, scope, &bindings))
+            .collect()
+    })
+    .collect()
 }
 
 /// Rates of the effect's states, in their order.

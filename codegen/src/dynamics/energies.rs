@@ -40,7 +40,7 @@ impl Chain {
         let mut state = LinkState {
             w: still,
             v: still,
-            gravity: vector::constant(dag, self.gravity),
+            gravity: self.gravity,
             fall: dag.zero(),
         };
         let (mut kinetic, mut potential) = (dag.zero(), dag.zero());

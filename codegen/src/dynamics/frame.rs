@@ -3,7 +3,7 @@
 use robot_model_spec::model::{JointKind, Placement};
 
 use super::vector::{self, Matrix, Vector};
-use crate::expr::{Dag, ExprId, Function, Symbol};
+use crate::expr::{Dag, ExprId, Function};
 
 /// One joint's kinematics. The joint point is the origin of the frame after [`Placement::before`], fixed in the parent.
 pub struct Frame {
@@ -21,8 +21,8 @@ pub struct Frame {
     pub axis_in_parent: Vector,
 }
 
-/// Expressions for the frame of joint `index`.
-pub fn frame(dag: &mut Dag, index: usize, kind: JointKind, placement: &Placement) -> Frame {
+/// Expressions for the frame of a joint that stands at `q`.
+pub fn frame(dag: &mut Dag, q: ExprId, kind: JointKind, placement: &Placement) -> Frame {
     let Placement {
         before,
         axis,
@@ -30,7 +30,6 @@ pub fn frame(dag: &mut Dag, index: usize, kind: JointKind, placement: &Placement
         after,
         ..
     } = placement;
-    let q = dag.symbol(Symbol::Q(index));
     let axis_in_link = vector::rotate_back(&after.rotation, *axis);
     let fixed_to_origin = vector::rotate_back(&after.rotation, after.translation);
 
@@ -92,7 +91,7 @@ fn sine_and_cosine(dag: &mut Dag, q: ExprId, offset: f64) -> (ExprId, ExprId) {
 }
 
 /// Rodrigues' rotation about a unit axis: `cos + sin [a]x + (1 - cos) a a^T`, with every zero of the axis exact.
-fn rotation_about(dag: &mut Dag, a: [f64; 3], sin: ExprId, cos: ExprId) -> Matrix {
+pub fn rotation_about(dag: &mut Dag, a: [f64; 3], sin: ExprId, cos: ExprId) -> Matrix {
     std::array::from_fn(|i| {
         std::array::from_fn(|j| {
             let outer = a[i] * a[j];

@@ -21,9 +21,17 @@ pub struct Lagrangian {
 }
 
 impl Lagrangian {
-    /// Derives all parts. `parameters` has one expression per standard parameter.
-    pub fn new(dag: &mut Dag, form: &EnergyForm, dof: usize, parameters: &[ExprId]) -> Self {
+    /// Derives all parts. `positions` are the coordinates' values, `parameters` has one expression per standard parameter.
+    pub fn new(
+        dag: &mut Dag,
+        form: &EnergyForm,
+        positions: &[ExprId],
+        parameters: &[ExprId],
+    ) -> Self {
+        let dof = positions.len();
         let (kinetic, potential) = form.energies(dag, parameters);
+        let placed = placed(dag, &[kinetic, potential], positions);
+        let (kinetic, potential) = (placed[0], placed[1]);
         let momenta: Vec<ExprId> = (0..dof)
             .map(|i| dag.derivative(kinetic, Symbol::Dq(i)))
             .collect();
@@ -67,6 +75,14 @@ impl Lagrangian {
             })
             .collect()
     }
+}
+
+/// Expressions of coordinates where the coordinates have these values.
+pub fn placed(dag: &mut Dag, roots: &[ExprId], positions: &[ExprId]) -> Vec<ExprId> {
+    dag.substitute(roots, &|symbol| match symbol {
+        Symbol::Q(joint) => Some(positions[joint]),
+        _ => None,
+    })
 }
 
 /// `v_i = sum_jk c_ijk dq_j dq_k` with Christoffel's `c_ijk = 1/2 (dM_ij/dq_k + dM_ik/dq_j - dM_jk/dq_i)`.

@@ -4,6 +4,7 @@
 //! by construction, `dM/dt - 2 C` is skew by construction.
 
 mod chain;
+mod changes;
 mod coriolis;
 pub mod effect;
 mod energies;
@@ -23,6 +24,7 @@ use robot_model_spec::model::Model;
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
+pub use changes::Changes;
 pub use energies::Energies;
 use energy::EnergyForm;
 pub use kinematics::{Kinematics, Pose};
@@ -141,7 +143,8 @@ pub fn energies(
 pub fn kinematics(dag: &mut Dag, model: &Model) -> Option<Kinematics> {
     let chain = model.chain()?;
     let massless = vec![[dag.zero(); 10]; chain.links.len()];
-    Some(Chain::new(dag, &model.joints, chain, massless).kinematics(dag))
+    let changes = Changes::of(dag, model);
+    Some(Chain::new(dag, &model.joints, chain, massless, &changes).kinematics(dag))
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
@@ -163,21 +166,17 @@ fn effect_torque(
     rigid_torque: &[ExprId],
 ) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
-    let mut linear = &parameters[model.rigid_parameters()..];
-    for (index, effect) in model.effects.iter().enumerate() {
-        let (own, rest) = linear.split_at(effect.definition.linear.len());
-        linear = rest;
-        let symbols = effect::Symbols::declared(dag, model, index);
-        let scope = effect::Scope {
-            linear: own,
-            symbols: &symbols,
-            joints: &effect.joints,
-            rigid_torque,
-        };
-        for (joint, torque) in effect::torques(dag, &effect.definition, &scope) {
-            sum[joint] = dag.add(sum[joint], torque);
-        }
-    }
+    effect::each_declared(
+        dag,
+        model,
+        parameters,
+        rigid_torque,
+        |dag, declared, scope| {
+            for (joint, torque) in effect::torques(dag, &declared.definition, scope) {
+                sum[joint] = dag.add(sum[joint], torque);
+            }
+        },
+    );
     sum
 }
 
@@ -185,18 +184,17 @@ fn effect_torque(
 /// [`Symbol::RigidTorque`].
 fn state_rates(dag: &mut Dag, model: &Model) -> Vec<ExprId> {
     let rigid_torque = effect::outside_rigid_torque(dag, model.joints.len());
+    // Rates are free of linear parameters, but they stand beside bindings that are not.
+    let nothing = vec![dag.zero(); model.standard_parameters().len()];
     let mut rates = Vec::new();
-    for (index, effect) in model.effects.iter().enumerate() {
-        let symbols = effect::Symbols::declared(dag, model, index);
-        // Rates are free of linear parameters, but they stand beside bindings that are not.
-        let linear = vec![dag.zero(); effect.definition.linear.len()];
-        let scope = effect::Scope {
-            linear: &linear,
-            symbols: &symbols,
-            joints: &effect.joints,
-            rigid_torque: &rigid_torque,
-        };
-        rates.extend(effect::rates(dag, &effect.definition, &scope));
-    }
+    effect::each_declared(
+        dag,
+        model,
+        &nothing,
+        &rigid_torque,
+        |dag, declared, scope| {
+            rates.extend(effect::rates(dag, &declared.definition, scope));
+        },
+    );
     rates
 }

@@ -1,7 +1,9 @@
 //! Points of a robot that says its energies: positions as the spec gives them, and their slopes.
 
-use robot_model_spec::model::{Energies, EnergyExpr, EnergyLeaf};
+use robot_model_spec::model::{Energies, EnergyExpr, EnergyLeaf, Model};
 
+use super::changes::Changes;
+use super::lagrange::placed;
 use super::lower::lower_with;
 use crate::expr::{Dag, ExprId, Symbol};
 
@@ -17,11 +19,15 @@ pub struct Point {
 }
 
 /// The points of a spec.
-pub fn points(dag: &mut Dag, energies: &Energies, dof: usize) -> Vec<Point> {
+pub fn points(dag: &mut Dag, model: &Model, energies: &Energies) -> Vec<Point> {
+    let dof = model.joints.len();
+    let changes = Changes::of(dag, model);
     let points = energies.points.iter();
     points
         .map(|point| {
             let position = [0, 1, 2].map(|axis| lower(dag, energies, &point.position[axis]));
+            let position = placed(dag, &position, &changes.positions);
+            let position = [position[0], position[1], position[2]];
             let jacobian = position.map(|x| {
                 let joints = 0..dof;
                 joints

@@ -3,6 +3,7 @@
 use robot_model_spec::model::{Body, Model};
 
 use super::chain::Chain;
+use super::changes::Changes;
 use super::energies::Energies;
 use super::energy::EnergyForm;
 use super::lagrange::Lagrangian;
@@ -63,9 +64,10 @@ impl RigidBody {
         form: Option<&EnergyForm>,
         parameters: &[ExprId],
     ) -> Self {
+        let changes = Changes::new(dag, model, parameters);
         match (&model.body, form) {
             (_, Some(form)) => {
-                Self::Lagrangian(Lagrangian::new(dag, form, model.joints.len(), parameters))
+                Self::Lagrangian(Lagrangian::new(dag, form, &changes.positions, parameters))
             }
             (Body::Chain(chain), None) => {
                 let links = parameters
@@ -73,7 +75,7 @@ impl RigidBody {
                     .take(chain.links.len())
                     .map(|link| std::array::from_fn(|k| link[k]))
                     .collect();
-                Self::Chain(Chain::new(dag, &model.joints, chain, links))
+                Self::Chain(Chain::new(dag, &model.joints, chain, links, &changes))
             }
             _ => unreachable!("robots that say their energies come with their form"),
         }

@@ -7,7 +7,12 @@ use crate::compiled::Compiled;
 use crate::expr::Style;
 
 /// The chapters: title, what the symbols are, and the form.
-const CHAPTERS: [(&str, &str, What); 11] = [
+const CHAPTERS: [(&str, &str, What); 12] = [
+    (
+        "Measurement",
+        "Where links stand that are not at $q$, and by how many seconds logged torques are late.",
+        What::Measurement,
+    ),
     (
         "Base parameters",
         "What measurements tell: the smallest set of combinations of standard parameters that the torque determines.",

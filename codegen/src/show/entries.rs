@@ -56,6 +56,7 @@ pub fn entries(compiled: &Compiled, dag: &mut Dag, what: What) -> Vec<Entry> {
         ],
         What::ForwardKinematics => forward_kinematics(compiled),
         What::Jacobian => jacobian(compiled),
+        What::Measurement => measurement(compiled, dag),
         What::BaseParameters | What::Cost => Vec::new(),
     }
 }
@@ -154,6 +155,23 @@ fn jacobian(compiled: &Compiled) -> Vec<Entry> {
     for point in &compiled.points {
         entries.extend(matrix(&format!("J {}", point.name), &point.jacobian));
     }
+    entries
+}
+
+/// `link[2] = q2 - rigid_torque2/stiffness`, `delay`
+fn measurement(compiled: &Compiled, dag: &mut Dag) -> Vec<Entry> {
+    let measurement = compiled.measurement(dag);
+    let mut entries = Vec::new();
+    for (joint, displacement) in measurement.displacements {
+        let q = dag.symbol(Symbol::Q(joint));
+        let stands = dag.add(q, displacement);
+        entries.push(Entry::new(format!("link[{}]", joint + 1), stands));
+    }
+    entries.extend(
+        measurement
+            .delay
+            .map(|delay| Entry::new("delay".to_owned(), delay)),
+    );
     entries
 }
 

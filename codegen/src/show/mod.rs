@@ -57,6 +57,8 @@ pub enum What {
     ForwardKinematics,
     /// Slopes of the tip's pose, or of the points' positions.
     Jacobian,
+    /// Where links stand that are not at `q`, and by how much torques are late; nothing for most arms.
+    Measurement,
     /// How base parameters are made of standard ones.
     BaseParameters,
     /// Operations of the emitted functions.
@@ -65,7 +67,8 @@ pub enum What {
 
 impl What {
     /// All forms that a whole description shows, in its order.
-    pub const WHOLE: [Self; 7] = [
+    pub const WHOLE: [Self; 8] = [
+        Self::Measurement,
         Self::MassMatrix,
         Self::CoriolisMatrix,
         Self::Gravity,
@@ -88,8 +91,11 @@ pub fn whole(compiled: &Compiled) -> String {
         compiled.base.kept.len(),
     );
     for what in What::WHOLE {
-        text.push('\n');
-        text.push_str(&form(compiled, what, Style::Text));
+        let form = form(compiled, what, Style::Text);
+        if !form.is_empty() {
+            text.push('\n');
+            text.push_str(&form);
+        }
     }
     text
 }

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use proc_macro2::Span;
 use syn::Ident;
 
+use super::energies::says_energies;
 use super::setting::Settings;
 use super::{Errors, value};
 use crate::ast::{DeclaredEffect, Robot, Target, Targets};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Effect, EffectDefinition};
+use crate::model::{Act, Effect, EffectDefinition};
 use crate::suggest;
 
 /// Every instance, in the order of the spec; `joints` are the names of the joints or coordinates.
@@ -35,6 +36,8 @@ pub(super) fn check_effects(
         let Some(definition) = check_known(declared, definitions, errors) else {
             continue;
         };
+        check_has_links(robot, declared, definition, errors);
+        check_own_name(robot, declared, definition, errors);
         let before = errors.len();
         let shapes = check_shapes(declared, definition, errors);
         if errors.len() == before {
@@ -181,6 +184,20 @@ fn check_targets(
 ) -> Vec<(Vec<usize>, Span)> {
     let wanted = definition.joints.len();
     match &declared.targets {
+        Targets::Arm if wanted == 0 => vec![(Vec::new(), declared.name.span())],
+        Targets::Arm => {
+            errors.push(no_joints(declared));
+            Vec::new()
+        }
+        Targets::All(span) if wanted == 0 => {
+            errors.push(on_the_arm(declared, *span));
+            Vec::new()
+        }
+        Targets::Each(targets) if wanted == 0 => {
+            let first = targets.first().map_or(declared.name.span(), |t| t.span);
+            errors.push(on_the_arm(declared, first));
+            Vec::new()
+        }
         Targets::All(_) if wanted == 1 => (0..joints.len())
             .map(|k| (vec![k], declared.name.span()))
             .collect(),
@@ -264,6 +281,60 @@ fn check_joint(joints: &[&Ident], name: &Ident, errors: &mut Errors) -> Option<u
         );
     }
     found
+}
+
+fn no_joints(declared: &DeclaredEffect) -> Diagnostic {
+    let name = &declared.name;
+    let title = format!("effect `{name}` does not say which joints it acts on");
+    Diagnostic::new(name.span(), title, "on which joints?").help(format!(
+        "write `{name} on all;` or `{name} on first_joint, second_joint;`"
+    ))
+}
+
+fn on_the_arm(declared: &DeclaredEffect, span: Span) -> Diagnostic {
+    let name = &declared.name;
+    let title = format!("effect `{name}` acts on the arm as a whole");
+    Diagnostic::new(span, title, "not on joints").help(format!("write `{name};`"))
+}
+
+/// Parameters of an effect on the arm as a whole are `EFFECT.PARAMETER`, those of a link `LINK.PARAMETER`.
+fn check_own_name(
+    robot: &Robot,
+    declared: &DeclaredEffect,
+    definition: &EffectDefinition,
+    errors: &mut Errors,
+) {
+    let joints = robot.joints.iter().map(|joint| &joint.name);
+    let mut names = joints.chain(robot.links.iter().map(|link| &link.name));
+    if !definition.joints.is_empty() || names.all(|name| *name != declared.name) {
+        return;
+    }
+    let name = &declared.name;
+    let title = format!("effect `{name}` on the arm has the name of a joint or link");
+    errors.push(
+        Diagnostic::new(name.span(), title, "two parameters could be called alike")
+            .help("give the effect another name"),
+    );
+}
+
+/// Bodies are fixed to links, and the tilt of a base is that of gravity: robots that say their energies have neither.
+fn check_has_links(
+    robot: &Robot,
+    declared: &DeclaredEffect,
+    definition: &EffectDefinition,
+    errors: &mut Errors,
+) {
+    let of_links = |act: &Act| matches!(act, Act::Body { .. } | Act::Tilt { .. });
+    if !says_energies(robot) || !definition.acts.iter().any(of_links) {
+        return;
+    }
+    let name = &declared.name;
+    let title =
+        format!("effect `{name}` changes links or gravity, and the robot says its energies");
+    errors.push(
+        Diagnostic::new(name.span(), title, "for chains only")
+            .help("write it into `kinetic` and `potential`, with parameters of its own"),
+    );
 }
 
 fn wrong_number(declared: &DeclaredEffect, wanted: usize, label: &str, span: Span) -> Diagnostic {

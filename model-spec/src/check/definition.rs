@@ -2,6 +2,7 @@
 
 use syn::Ident;
 
+use super::act::{check_acts, check_constant, check_one_use};
 use super::binding::{self, Part};
 use super::linear::Degrees;
 use super::resolve::{Scope, is_reserved};
@@ -20,16 +21,6 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
     let before = errors.len();
     check_names(effect, errors);
     check_effect_name(&effect.name, errors);
-    if effect.joints.is_empty() {
-        errors.push(
-            Diagnostic::new(
-                effect.name.span(),
-                format!("effect `{}` acts on no joint", effect.name),
-                "",
-            )
-            .help(format!("write `effect {}(j) {{ .. }}`", effect.name)),
-        );
-    }
     let parts = binding::in_order(effect, errors);
     let scope = Scope {
         joints: effect.joints.iter().map(Ident::to_string).collect(),
@@ -56,6 +47,7 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
         .filter_map(|torque| check_torque(torque, &effect.joints, &scope, &degrees, errors))
         .collect();
     check_torques(effect, errors);
+    let acts = check_acts(effect, &scope, &degrees, errors);
     if errors.len() > before {
         return None;
     }
@@ -85,8 +77,11 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
         bindings,
         states,
         torques,
+        acts,
         joints: scope.joints,
     };
+    check_constant(effect, &definition, errors);
+    check_one_use(effect, &definition, errors);
     check_used(effect, &parts, &definition, errors);
     (errors.len() == before).then_some(definition)
 }
@@ -222,7 +217,7 @@ fn check_inputs(effect: &Effect, errors: &mut Errors) -> Vec<(String, Option<usi
 }
 
 /// Index of a formal joint.
-fn find_joint(joints: &[Ident], name: &Ident, errors: &mut Errors) -> Option<usize> {
+pub(super) fn find_joint(joints: &[Ident], name: &Ident, errors: &mut Errors) -> Option<usize> {
     let found = joints.iter().position(|joint| joint == name);
     if found.is_none() {
         let known = names(joints.iter());
@@ -299,25 +294,20 @@ fn check_torque(
     })
 }
 
-/// At least one equation, and one per joint at most.
+/// At least one equation, and one torque per joint at most.
 fn check_torques(effect: &Effect, errors: &mut Errors) {
     check_unique(
         effect.torques.iter().map(|torque| &torque.of),
         "torque of joint",
         errors,
     );
-    if effect.torques.is_empty() {
-        let joint = effect
-            .joints
-            .first()
-            .map_or_else(|| "j".to_owned(), Ident::to_string);
-        errors.push(
-            Diagnostic::new(
-                effect.name.span(),
-                format!("effect `{}` has no equation", effect.name),
-                "",
-            )
-            .help(format!("write `torque({joint}) = ..;`")),
-        );
+    if effect.torques.is_empty() && effect.acts.is_empty() {
+        let name = &effect.name;
+        let help = match effect.joints.first() {
+            Some(joint) => format!("write `torque({joint}) = ..;`"),
+            None => format!("write `effect {name}(j) {{ .. }}` and `torque(j) = ..;`"),
+        };
+        let title = format!("effect `{name}` has no equation");
+        errors.push(Diagnostic::new(name.span(), title, "").help(help));
     }
 }

@@ -36,9 +36,23 @@ impl Degrees {
     pub(super) fn check_torque(&self, torque: &Expr, errors: &mut Errors) {
         match self.degree(torque) {
             Ok(Degree::Linear) => {}
-            Ok(_) => errors.push(constant_term(torque)),
+            Ok(_) => errors.push(constant_term(torque, TERM)),
             Err(error) => errors.push(error),
         }
+    }
+
+    /// Reports what keeps an entry of a body from being zero or linear.
+    pub(super) fn check_body(&self, entry: &Expr, errors: &mut Errors) {
+        match self.degree(entry) {
+            Ok(Degree::Zero | Degree::Linear) => {}
+            Ok(Degree::Free) => errors.push(constant_term(entry, "an entry of the body")),
+            Err(error) => errors.push(error),
+        }
+    }
+
+    /// Whether an expression depends on linear parameters, or is a mistake.
+    pub(super) fn is_free(&self, value: &Expr) -> bool {
+        matches!(self.degree(value), Ok(Degree::Zero | Degree::Free))
     }
 
     /// Learns the degree of a binding whose parts are known.
@@ -54,7 +68,7 @@ impl Degrees {
 
     /// Reports a rate that depends on linear parameters.
     pub(super) fn check_rate(&self, rate: &Equation, errors: &mut Errors) {
-        if matches!(self.degree(&rate.value), Ok(Degree::Zero | Degree::Free)) {
+        if self.is_free(&rate.value) {
             return;
         }
         errors.push(
@@ -127,16 +141,19 @@ impl Degrees {
 /// The degree that two terms of a sum, or two values of a choice, have in common.
 fn either(left: &Expr, right: &Expr, degrees: (Degree, Degree)) -> Result<Degree, Diagnostic> {
     match degrees {
-        (Degree::Free, Degree::Linear) => Err(constant_term(left)),
-        (Degree::Linear, Degree::Free) => Err(constant_term(right)),
+        (Degree::Free, Degree::Linear) => Err(constant_term(left, TERM)),
+        (Degree::Linear, Degree::Free) => Err(constant_term(right, TERM)),
         (Degree::Zero, degree) | (degree, _) => Ok(degree),
     }
 }
 
-fn constant_term(term: &Expr) -> Diagnostic {
+/// What most often has no linear parameter.
+const TERM: &str = "a term of the torque";
+
+fn constant_term(term: &Expr, what: &str) -> Diagnostic {
     Diagnostic::new(
         term.span,
-        "a term of the torque has no linear parameter",
+        format!("{what} has no linear parameter"),
         "nothing to solve for here",
     )
     .help("multiply the term by a linear parameter, or move it into the terms that have one")

@@ -2,6 +2,7 @@
 //!
 //! In: a tree that follows the grammar. Out: a model downstream need not validate again (see [`crate::model`]).
 
+mod act;
 mod binding;
 mod chain;
 mod declared;

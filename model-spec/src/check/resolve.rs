@@ -5,7 +5,7 @@ use syn::Ident;
 
 use super::Errors;
 use super::binding::rate_name;
-use crate::ast::{self, ExprKind};
+use crate::ast::{self, ActKind, ExprKind};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
 use crate::suggest;
@@ -50,7 +50,8 @@ pub(super) fn is_reserved(name: &str) -> bool {
             | "step"
             | "in"
             | "on"
-    ) || SIGNALS.iter().any(|(signal, _)| *signal == name)
+    ) || ActKind::ALL.iter().any(|(act, _)| *act == name)
+        || SIGNALS.iter().any(|(signal, _)| *signal == name)
         || FUNCTIONS.iter().any(|(function, _)| *function == name)
 }
 

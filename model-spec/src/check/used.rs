@@ -6,7 +6,7 @@ use super::Errors;
 use super::binding::Part;
 use crate::ast::Effect;
 use crate::diagnostic::Diagnostic;
-use crate::model::{EffectDefinition, EffectExpr, EffectLeaf, Expr};
+use crate::model::{Act, EffectDefinition, EffectExpr, EffectLeaf, Expr};
 
 /// Reports what no equation uses. `parts` are the bindings of the definition.
 pub(super) fn check_used(
@@ -17,9 +17,9 @@ pub(super) fn check_used(
 ) {
     let uses = |wanted: &dyn Fn(&EffectLeaf) -> bool| {
         let wanted = |part: &EffectExpr| matches!(part, Expr::Leaf(leaf) if wanted(leaf));
-        let torques = definition.torques.iter().map(|torque| &torque.value);
         let bindings = definition.bindings.iter().map(|binding| &binding.value);
-        torques.chain(bindings).any(|value| value.contains(&wanted))
+        let mut all = definition.equations().chain(bindings);
+        all.any(|value| value.contains(&wanted))
     };
     let mut unused = |name: &Ident, what: &str| {
         errors.push(
@@ -28,7 +28,7 @@ pub(super) fn check_used(
                 format!("{what} `{name}` is not used"),
                 "in no equation",
             )
-            .help("use it in a torque, or delete it"),
+            .help("use it in an equation, or delete it"),
         );
     };
     for (k, linear) in effect.linear.iter().enumerate() {
@@ -60,7 +60,9 @@ pub(super) fn check_used(
         }
     }
     for (k, joint) in effect.joints.iter().enumerate() {
-        let acts = definition.torques.iter().any(|torque| torque.joint == k);
+        let torques = definition.torques.iter().map(|torque| torque.joint);
+        let others = definition.acts.iter().filter_map(Act::joint);
+        let acts = torques.chain(others).any(|joint| joint == k);
         let reads = |leaf: &EffectLeaf| match leaf {
             EffectLeaf::Signal(_, joint) => *joint == k,
             EffectLeaf::Input(input) => definition.inputs[*input].joint == Some(k),
@@ -78,10 +80,10 @@ fn uses_outside(definition: &EffectDefinition, rate: usize, state: usize) -> boo
         *part == Expr::Leaf(EffectLeaf::State(state))
             || *part == Expr::Leaf(EffectLeaf::Binding(rate))
     };
-    let torques = definition.torques.iter().map(|torque| &torque.value);
     let bindings = definition.bindings.iter().enumerate();
     let others = bindings
         .filter(|(k, _)| *k != rate)
         .map(|(_, binding)| &binding.value);
-    torques.chain(others).any(|value| value.contains(&wanted))
+    let mut all = definition.equations().chain(others);
+    all.any(|value| value.contains(&wanted))
 }

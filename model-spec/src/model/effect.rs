@@ -10,7 +10,7 @@ use super::Expr;
 pub struct Effect {
     /// Its definition in the language.
     pub definition: Arc<EffectDefinition>,
-    /// Joint indices, one per formal joint of the definition.
+    /// Joint indices, one per formal joint of the definition; none where it acts on the arm as a whole.
     pub joints: Vec<usize>,
     /// Values of the shape parameters as written at the declaration; `None` where they are left to identification.
     pub shapes: Vec<Option<f64>>,
@@ -20,7 +20,8 @@ pub struct Effect {
     pub line: usize,
 }
 
-/// An effect as the language defines it: torque added to the right-hand side of `tau = M ddq + C dq + G + effect`.
+/// An effect as the language defines it: torque added to the right-hand side of `tau = M ddq + C dq + G + effect`, or a change of
+/// what stands there.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct EffectDefinition {
@@ -28,9 +29,9 @@ pub struct EffectDefinition {
     pub name: String,
     /// The `///` comment in front of the definition.
     pub doc: String,
-    /// Formal joints, one or more: `effect gear_coupling(j, k)`.
+    /// Formal joints: `effect gear_coupling(j, k)`. None where it acts on the arm as a whole.
     pub joints: Vec<String>,
-    /// Parameters that least squares solves for; the torque is linear in them.
+    /// Parameters that least squares solves for; torques and bodies are linear in them.
     pub linear: Vec<LinearParameter>,
     /// Nonlinear parameters.
     pub shapes: Vec<ShapeParameter>,
@@ -40,11 +41,79 @@ pub struct EffectDefinition {
     pub bindings: Vec<EffectBinding>,
     /// Internal states; each is 0 at the start of a log.
     pub states: Vec<EffectState>,
-    /// One equation per formal joint that the effect acts on.
+    /// One equation per formal joint on which the effect is a torque.
     pub torques: Vec<EffectTorque>,
+    /// What it changes beside torques.
+    pub acts: Vec<Act>,
 }
 
 impl EffectDefinition {
+    /// Right-hand sides of all equations; bindings are not among them.
+    pub fn equations(&self) -> impl Iterator<Item = &EffectExpr> {
+        let torques = self.torques.iter().map(|torque| &torque.value);
+        torques.chain(self.acts.iter().flat_map(Act::values))
+    }
+
+    /// Whether a linear parameter is one of a body, not of a torque.
+    #[must_use]
+    pub fn is_of_body(&self, parameter: usize) -> bool {
+        let is_it = |leaf: &EffectLeaf| *leaf == EffectLeaf::Linear(parameter);
+        let mut bodies = self.acts.iter().filter_map(|act| match act {
+            Act::Body { inertial, .. } => Some(inertial),
+            _ => None,
+        });
+        bodies.any(|inertial| inertial.iter().any(|value| self.reads(value, &is_it)))
+    }
+
+    /// Whether an expression stays what it is along a motion.
+    #[must_use]
+    pub fn is_constant(&self, value: &EffectExpr) -> bool {
+        let moves = |leaf: &EffectLeaf| match leaf {
+            EffectLeaf::Signal(..)
+            | EffectLeaf::Time
+            | EffectLeaf::Input(_)
+            | EffectLeaf::State(_) => true,
+            EffectLeaf::Linear(_) | EffectLeaf::Shape(_) | EffectLeaf::Binding(_) => false,
+        };
+        !self.reads(value, &moves)
+    }
+
+    /// Whether links move against their joints by what changes along a motion: then the torque at an instant is no function of
+    /// `q, dq, ddq` at that instant.
+    #[must_use]
+    pub fn moves_links(&self) -> bool {
+        self.acts.iter().any(|act| match act {
+            Act::Position { value, .. } => !self.is_constant(value),
+            Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => false,
+        })
+    }
+
+    /// Whether an expression reads a leaf that is wanted, itself or through bindings.
+    #[must_use]
+    pub fn reads(&self, value: &EffectExpr, wanted: &dyn Fn(&EffectLeaf) -> bool) -> bool {
+        let mut through = vec![false; self.bindings.len()];
+        // Bindings use earlier ones only: from the last to the first, each is known to be read or not when its turn comes.
+        let mut next = Some(value);
+        let mut k = self.bindings.len();
+        loop {
+            if let Some(value) = next {
+                let is_wanted =
+                    |part: &EffectExpr| matches!(part, Expr::Leaf(leaf) if wanted(leaf));
+                if value.contains(&is_wanted) {
+                    return true;
+                }
+                for (k, read) in through.iter_mut().enumerate() {
+                    *read |= value.contains(&|part| *part == Expr::Leaf(EffectLeaf::Binding(k)));
+                }
+            }
+            if k == 0 {
+                return false;
+            }
+            k -= 1;
+            next = through[k].then(|| &self.bindings[k].value);
+        }
+    }
+
     /// Whether an equation reads the torque that the model is to explain.
     #[must_use]
     pub fn reads_measured_torque(&self) -> bool {
@@ -54,9 +123,9 @@ impl EffectDefinition {
                 Expr::Leaf(EffectLeaf::Signal(Signal::MeasuredTorque, _))
             )
         };
-        let torques = self.torques.iter().map(|torque| &torque.value);
         let bindings = self.bindings.iter().map(|binding| &binding.value);
-        torques.chain(bindings).any(|value| value.contains(&reads))
+        let mut all = self.equations().chain(bindings);
+        all.any(|value| value.contains(&reads))
     }
 }
 
@@ -112,6 +181,62 @@ pub struct EffectTorque {
     pub joint: usize,
     /// Linear in the definition's linear parameters.
     pub value: EffectExpr,
+}
+
+/// What an effect changes beside torques. Joints are indices into [`EffectDefinition::joints`].
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Act {
+    /// `position(j) = ..`: the rigid body stands that far from where the log has the joint, rad or m. Free of linear
+    /// parameters.
+    Position {
+        /// The joint.
+        joint: usize,
+        /// Added to the logged position.
+        value: EffectExpr,
+    },
+    /// `body(j) = [..]`: a rigid body more on the joint's link. Constant, and linear in linear parameters.
+    Body {
+        /// The joint that moves the link.
+        joint: usize,
+        /// Ten inertial parameters about the origin of the link's frame, in the order of
+        /// [`InertialElement::ALL`](crate::parameter::InertialElement::ALL).
+        inertial: Vec<EffectExpr>,
+    },
+    /// `tilt = [a, b]`: the base is turned by `a` about the first, then by `b` about the second of the two axes of its frame that
+    /// are left when the one nearest to gravity is taken away, in the order x, y, z; rad. Constant.
+    Tilt {
+        /// Both angles.
+        angles: Vec<EffectExpr>,
+    },
+    /// `delay = ..`: the log has torques that many seconds after their positions. Constant.
+    Delay {
+        /// Negative where torques come early.
+        seconds: EffectExpr,
+    },
+}
+
+impl Act {
+    /// Its right-hand side, or the entries of its list.
+    pub fn values(&self) -> impl Iterator<Item = &EffectExpr> {
+        match self {
+            Self::Position { value, .. } | Self::Delay { seconds: value } => {
+                std::slice::from_ref(value)
+            }
+            Self::Body { inertial, .. } => inertial.as_slice(),
+            Self::Tilt { angles } => angles.as_slice(),
+        }
+        .iter()
+    }
+
+    /// The joint, where it is one of a joint.
+    #[must_use]
+    pub const fn joint(&self) -> Option<usize> {
+        match self {
+            Self::Position { joint, .. } | Self::Body { joint, .. } => Some(*joint),
+            Self::Tilt { .. } | Self::Delay { .. } => None,
+        }
+    }
 }
 
 /// A parameter in which an effect's torque is linear.

@@ -1,11 +1,12 @@
-//! `effect name(j, k) { linear ..; shape ..; input ..; state ..; let ..; dot(z) = ..; torque(j) = ..; }`.
+//! `effect name(j, k) { linear ..; shape ..; input ..; state ..; let ..; dot(z) = ..; torque(j) = ..; }`, and the acts that
+//! are no torques.
 
 use proc_macro2::TokenTree;
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
 use super::{Sink, block, doc_comment, found, semicolon, statements, with_sink, word};
-use crate::ast::{Effect, Equation, Expr, Input, Let, Linear, Shape, State};
+use crate::ast::{Act, ActKind, Effect, Equation, Expr, Input, Let, Linear, Shape, State};
 use crate::diagnostic::syn_error;
 
 /// Behind the word `effect`.
@@ -16,7 +17,8 @@ pub(super) fn effect(input: ParseStream, doc: String, errors: &mut Sink) -> syn:
             input.span(),
             &format!("effect `{name}` does not name the joints it acts on"),
             Some(&format!(
-                "write `effect {name}(j) {{ .. }}`, or `effect {name}(j, k) {{ .. }}` for two joints"
+                "write `effect {name}(j) {{ .. }}`, `effect {name}(j, k) {{ .. }}` for two joints, or `effect {name}() {{ .. }}` \
+                 for the arm as a whole"
             )),
         ));
     }
@@ -37,6 +39,7 @@ pub(super) fn effect(input: ParseStream, doc: String, errors: &mut Sink) -> syn:
         lets: vec![],
         rates: vec![],
         torques: vec![],
+        acts: vec![],
     };
     statements(&content, errors, |input, _| statement(input, &mut effect));
     Ok(effect)
@@ -57,16 +60,20 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
         "torque" => effect
             .torques
             .push(equation(input, "one of the effect's joints")?),
-        _ => {
-            return Err(syn_error(
-                keyword.span(),
-                &format!("an effect has no `{keyword}`"),
-                Some(
-                    "write `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
-                     `dot(z) = ..;` or `torque(j) = ..;`",
-                ),
-            ));
-        }
+        word => match ActKind::ALL.into_iter().find(|(name, _)| *name == word) {
+            Some((_, kind)) => effect.acts.push(act(input, kind, keyword)?),
+            None => {
+                return Err(syn_error(
+                    keyword.span(),
+                    &format!("an effect has no `{keyword}`"),
+                    Some(
+                        "write `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
+                         `dot(z) = ..;`, `torque(j) = ..;`, `position(j) = ..;`, `body(j) = [..];`, `tilt = [..];` or \
+                         `delay = ..;`",
+                    ),
+                ));
+            }
+        },
     }
     semicolon(input)
 }
@@ -167,14 +174,42 @@ fn binding(input: ParseStream) -> syn::Result<Let> {
 
 /// `(j) = ..`
 fn equation(input: ParseStream, of: &str) -> syn::Result<Equation> {
-    let content;
-    syn::parenthesized!(content in input);
-    let of = word(&content, of)?;
+    let of = in_parentheses(input, of)?;
     input.parse::<Token![=]>()?;
     Ok(Equation {
         of,
         value: input.parse()?,
     })
+}
+
+/// `(j) = ..` or `= ..`, with one expression or a list of them.
+fn act(input: ParseStream, kind: ActKind, keyword: Ident) -> syn::Result<Act> {
+    let of = if kind.has_joint() {
+        Some(in_parentheses(input, "one of the effect's joints")?)
+    } else {
+        None
+    };
+    input.parse::<Token![=]>()?;
+    let values = if input.peek(syn::token::Bracket) {
+        let content;
+        syn::bracketed!(content in input);
+        let values = content.parse_terminated(Expr::parse, Token![,])?;
+        values.into_iter().collect()
+    } else {
+        vec![input.parse()?]
+    };
+    Ok(Act {
+        kind,
+        keyword,
+        of,
+        values,
+    })
+}
+
+fn in_parentheses(input: ParseStream, wanted: &str) -> syn::Result<Ident> {
+    let content;
+    syn::parenthesized!(content in input);
+    word(&content, wanted)
 }
 
 impl Parse for Effect {

@@ -177,7 +177,7 @@ impl Parse for Value {
 }
 
 impl Parse for DeclaredEffect {
-    /// `name(shape = value) on targets`
+    /// `name(shape = value) on targets`, or without targets
     fn parse(input: ParseStream) -> syn::Result<Self> {
         let name = word(input, "the name of an effect")?;
         let shapes = if input.peek(syn::token::Paren) {
@@ -191,20 +191,16 @@ impl Parse for DeclaredEffect {
             Vec::new()
         };
         let on = input.fork();
-        if !word(&on, "`on`").is_ok_and(|on| on == "on") {
-            return Err(crate::diagnostic::syn_error(
-                input.span(),
-                &format!("effect `{name}` does not say which joints it acts on"),
-                Some(&format!(
-                    "write `{name} on all;` or `{name} on first_joint, second_joint;`"
-                )),
-            ));
-        }
-        word(input, "`on`")?;
+        let targets = if word(&on, "`on`").is_ok_and(|on| on == "on") {
+            word(input, "`on`")?;
+            input.parse()?
+        } else {
+            Targets::Arm
+        };
         Ok(Self {
             name,
             shapes,
-            targets: input.parse()?,
+            targets,
         })
     }
 }

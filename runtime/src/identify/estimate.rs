@@ -9,7 +9,7 @@ use crate::signal::{Bands, Prepared, prepare};
 
 use super::least_squares::Solution;
 use super::stack::{Stack, torque_of};
-use super::{IdentifyError, Method};
+use super::{IdentifyError, Method, load_motion};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
 const ERROR_BORDER_S: f64 = 1.0;
@@ -238,7 +238,7 @@ impl Estimate {
         let shapes: Vec<f64> = self.shapes.iter().map(|(_, value)| *value).collect();
         let mut motion = prepared.motion.clone();
         if arm.uses_rigid_torque() {
-            motion.rigid_torque = arm.rigid_torque(&motion, &shapes, &values);
+            load_motion(arm, &mut motion, &shapes, &values);
         }
         let mut torque = torque_of(arm, &motion, &shapes, &values, arm.dof());
         for (sum, known) in torque.iter_mut().zip(arm.known_torque(&motion, &shapes)) {

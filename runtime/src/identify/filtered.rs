@@ -240,10 +240,10 @@ impl Arm for FilteredArm<'_> {
         self.arm.actuator_gain()
     }
 
-    fn known_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
         let filter = self.filter(motion);
-        let known = self.arm.known_momentum(motion);
-        let series = known.iter().zip(self.arm.known_drift(motion));
+        let known = self.arm.known_momentum(motion, shapes);
+        let series = known.iter().zip(self.arm.known_drift(motion, shapes));
         series
             .map(|(p, h)| Self::filtered(motion, filter, Some(p), Some(&h)))
             .collect()

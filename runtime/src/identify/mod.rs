@@ -32,6 +32,7 @@ pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
 use crate::columns::Arm;
 use crate::log::Log;
+use crate::motion::Motion;
 use crate::signal::{Bands, Prepared, prepare};
 
 /// How rows of different joints are weighed against each other.
@@ -190,8 +191,14 @@ pub(crate) fn slowest_bands(logs: &[Log]) -> Bands {
 /// The torque of the rigid body at an estimate, for the effects that depend on it.
 fn update_load(arm: &dyn Arm, logs: &mut [Prepared], shapes: &[f64], estimate: &[f64]) {
     for log in logs {
-        log.motion.rigid_torque = arm.rigid_torque(&log.motion, shapes, estimate);
+        load_motion(arm, &mut log.motion, shapes, estimate);
     }
+}
+
+/// What effects read of the load along a motion.
+pub(crate) fn load_motion(arm: &dyn Arm, motion: &mut Motion, shapes: &[f64], estimate: &[f64]) {
+    motion.rigid_torque = arm.rigid_torque(motion, shapes, estimate);
+    motion.transmitted_torque = arm.transmitted_torque(motion, shapes, estimate);
 }
 
 pub(crate) fn prepare_all(logs: &[Log], bands: &Bands) -> Result<Vec<Prepared>, IdentifyError> {

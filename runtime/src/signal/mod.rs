@@ -16,6 +16,7 @@ pub use derivative::derivative;
 pub use error::SignalError;
 pub use filter::LowPass;
 pub use first_order::FirstOrder;
+pub(crate) use prepare::MOTION_ORDER;
 pub use prepare::{Bands, Prepared, prepare, prepare_velocities};
 pub use shared::SharedFilter;
 pub(crate) use shared::border;

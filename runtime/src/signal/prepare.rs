@@ -5,7 +5,11 @@ use crate::log::{Channel, Log};
 use crate::motion::{Kinematics, Motion};
 
 /// Order per direction of all motion filters.
-const ORDER: usize = 4;
+pub(crate) const MOTION_ORDER: usize = 4;
+
+/// Displacements of links are made of torques, which are noisier than positions, and differentiated twice: they pass a band
+/// that is this much wider than the one that counts.
+const DISPLACEMENT_BAND: f64 = 1.5;
 
 /// Logs come down to about this rate: the widest default band fits five times into it.
 const RATE_HZ: f64 = 500.0;
@@ -131,7 +135,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     let rate_hz = logged_hz / stride as f64;
     let anti_alias = if stride > 1 {
         Some(LowPass::butterworth(
-            ORDER,
+            MOTION_ORDER,
             ANTI_ALIAS * rate_hz,
             logged_hz,
         )?)
@@ -145,8 +149,8 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
             rate_hz,
         });
     }
-    let smooth = LowPass::butterworth(ORDER, smooth_hz, logged_hz)?;
-    let wide = LowPass::butterworth(ORDER, wide_hz, logged_hz)?;
+    let smooth = LowPass::butterworth(MOTION_ORDER, smooth_hz, logged_hz)?;
+    let wide = LowPass::butterworth(MOTION_ORDER, wide_hz, logged_hz)?;
     let shared = SharedFilter::new(bands, rate_hz)?;
 
     let samples = log.time.len().div_ceil(stride);
@@ -176,6 +180,8 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
             smooth: rates(&smooth),
             wide: rates(&wide),
             rigid_torque: Vec::new(),
+            transmitted_torque: Vec::new(),
+            displacement_hz: (DISPLACEMENT_BAND * shared_hz).min(smooth_hz),
             tau: tau.clone(),
             extra: log
                 .extra

@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::columns::{Arm, Candidate};
 use crate::identify::{
-    Identify, IdentifyError, Method, Solution, Stack, check_logs, missing_input, prepare_all,
-    slowest_bands,
+    Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
+    prepare_all, slowest_bands,
 };
 use crate::log::Log;
 use crate::signal::Prepared;
@@ -194,9 +194,8 @@ impl Search<'_> {
     fn update_rigid_torque(&mut self, state: &State) {
         let own = self.arm.unknowns().len();
         for log in &mut self.prepared {
-            log.motion.rigid_torque =
-                self.arm
-                    .rigid_torque(&log.motion, &self.shapes, &state.solution.estimate[..own]);
+            let estimate = &state.solution.estimate[..own];
+            load_motion(self.arm, &mut log.motion, &self.shapes, estimate);
         }
     }
 

@@ -4,12 +4,13 @@
 //! force and moment gives the joint torques (Kane's form). The compiler works in link frames and sums forces backward from
 //! the tip. Both take the ten parameters about the link frame's origin.
 
+mod acts;
 mod energies;
 pub mod jet;
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
 use robot_model_spec::Model;
-use robot_model_spec::model::{JointKind, Transform};
+use robot_model_spec::model::{Effect, JointKind, Transform};
 
 use energies::EnergyTwin;
 
@@ -67,11 +68,8 @@ impl<'a> Twin<'a> {
         Self { model, shapes }
     }
 
-    fn gravity(&self) -> Vector3<f64> {
-        Vector3::from(self.model.chain().expect("the twin is of a chain").gravity)
-    }
-
     fn links(&self, state: &State) -> Vec<LinkMotion> {
+        let state = &self.placed(state);
         let mut links: Vec<LinkMotion> = Vec::new();
         let zero = Vector3::zeros();
         let chain = self.model.chain().expect("the twin is of a chain");
@@ -135,10 +133,10 @@ impl<'a> Twin<'a> {
     #[must_use]
     pub fn rigid_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
         if let Some(energies) = self.model.energies() {
-            return EnergyTwin::new(energies).torque(standard, state);
+            return EnergyTwin::new(energies).torque(standard, &self.placed(state));
         }
         let links = self.links(state);
-        let gravity = self.gravity();
+        let (gravity, standard) = (self.gravity(state), self.loaded(standard, state));
         let mut torque = vec![0.0; links.len()];
         for (i, link) in links.iter().enumerate() {
             let body = Body::new(&standard[10 * i..10 * i + 10], &link.rotation);
@@ -159,6 +157,22 @@ impl<'a> Twin<'a> {
     pub fn effect_torque(&self, standard: &[f64], state: &State) -> Vec<f64> {
         let rigid = self.rigid_torque(standard, state);
         let mut torque = vec![0.0; rigid.len()];
+        self.each_effect(standard, state, &rigid, |effect, scope| {
+            for equation in &effect.definition.torques {
+                torque[effect.joints[equation.joint]] += expression::value(&equation.value, scope);
+            }
+        });
+        torque
+    }
+
+    /// Every declared effect with what its names stand for.
+    fn each_effect(
+        &self,
+        standard: &[f64],
+        state: &State,
+        rigid: &[f64],
+        mut visit: impl FnMut(&Effect, &Scope<'_>),
+    ) {
         let (mut linear, mut shape, mut first_state) = (self.model.rigid_parameters(), 0, 0);
         let columns = self.model.inputs();
         for effect in &self.model.effects {
@@ -177,7 +191,7 @@ impl<'a> Twin<'a> {
                     &state.q,
                     &state.dq,
                     &state.ddq,
-                    &rigid,
+                    rigid,
                     &state.measured_torque,
                 ],
                 inputs: &inputs,
@@ -185,14 +199,11 @@ impl<'a> Twin<'a> {
                 bindings: &definition.bindings,
                 time: state.time,
             };
-            for equation in &definition.torques {
-                torque[effect.joints[equation.joint]] += expression::value(&equation.value, &scope);
-            }
+            visit(effect, &scope);
             linear += definition.linear.len();
             shape += definition.shapes.len();
             first_state += definition.states.len();
         }
-        torque
     }
 
     /// `rigid_torque + effect_torque`
@@ -207,9 +218,9 @@ impl<'a> Twin<'a> {
     #[must_use]
     pub fn mass_matrix(&self, standard: &[f64], state: &State) -> DMatrix<f64> {
         if let Some(energies) = self.model.energies() {
-            return EnergyTwin::new(energies).mass_matrix(standard, state);
+            return EnergyTwin::new(energies).mass_matrix(standard, &self.placed(state));
         }
-        let links = self.links(state);
+        let (links, standard) = (self.links(state), self.loaded(standard, state));
         let mut mass_matrix = DMatrix::zeros(links.len(), links.len());
         for (i, link) in links.iter().enumerate() {
             let body = Body::new(&standard[10 * i..10 * i + 10], &link.rotation);
@@ -232,9 +243,9 @@ impl<'a> Twin<'a> {
     #[must_use]
     pub fn potential_energy(&self, standard: &[f64], state: &State) -> f64 {
         if let Some(energies) = self.model.energies() {
-            return EnergyTwin::new(energies).potential_energy(standard, state);
+            return EnergyTwin::new(energies).potential_energy(standard, &self.placed(state));
         }
-        let gravity = self.gravity();
+        let (gravity, standard) = (self.gravity(state), self.loaded(standard, state));
         let links = self.links(state);
         let energy = |(i, link): (usize, &LinkMotion)| {
             let body = Body::new(&standard[10 * i..10 * i + 10], &link.rotation);

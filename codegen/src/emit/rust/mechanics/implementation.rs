@@ -98,11 +98,11 @@ fn place(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStre
         return quote! {
             __blank!();
             impl ::robot_model::Kinematics<#dof> for #name {
-                fn forward_kinematics(q: &model::Vector<#dof>) -> [model::Matrix<4, 4>; #dof] {
+                fn forward_kinematics(&self, q: &model::Vector<#dof>) -> [model::Matrix<4, 4>; #dof] {
                     #poses.map(|pose| from_rows(&pose))
                 }
                 __blank!();
-                fn jacobian(q: &model::Vector<#dof>) -> model::Matrix<6, #dof> {
+                fn jacobian(&self, q: &model::Vector<#dof>) -> model::Matrix<6, #dof> {
                     from_rows(&#jacobian)
                 }
             }
@@ -119,11 +119,11 @@ fn place(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStre
         impl ::robot_model::Points<#dof, #points> for #name {
             const POINTS: [&'static str; #points] = [#(#names),*];
             __blank!();
-            fn points(q: &model::Vector<#dof>) -> [model::Vector<3>; #points] {
+            fn points(&self, q: &model::Vector<#dof>) -> [model::Vector<3>; #points] {
                 #positions.map(Into::into)
             }
             __blank!();
-            fn point_jacobians(q: &model::Vector<#dof>) -> [model::Matrix<3, #dof>; #points] {
+            fn point_jacobians(&self, q: &model::Vector<#dof>) -> [model::Matrix<3, #dof>; #points] {
                 #jacobians.map(|jacobian| from_rows(&jacobian))
             }
         }

@@ -23,14 +23,14 @@ fn energies(context: &Context<'_>) -> Vec<Function> {
         Task {
             name: "kinetic_energy",
             doc: "Kinetic energy of the rigid body, `1/2 dq^T M dq`, J.",
-            arguments: "q dq beta",
+            arguments: "q dq beta shapes",
             outputs: vec![energies.kinetic],
             returns: Returns::Scalar,
         },
         Task {
             name: "potential_energy",
             doc: "Potential energy of the rigid body, J, up to a constant: `G` is its gradient.",
-            arguments: "q beta",
+            arguments: "q beta shapes",
             outputs: vec![energies.potential],
             returns: Returns::Scalar,
         },
@@ -169,7 +169,7 @@ fn kinematics(context: &Context<'_>) -> Vec<Function> {
         Task {
             name: "forward_kinematics",
             doc: "Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.",
-            arguments: "q",
+            arguments: "q shapes",
             outputs: poses,
             returns: Returns::Poses,
         },
@@ -177,7 +177,7 @@ fn kinematics(context: &Context<'_>) -> Vec<Function> {
             name: "jacobian",
             doc: "Geometric Jacobian of the tip, the origin of the last link's frame, in base coordinates: `jacobian * dq` is its \
                   velocity, then its angular velocity.",
-            arguments: "q",
+            arguments: "q shapes",
             outputs: kinematics.jacobian.concat(),
             returns: Returns::Matrix(compiled.dof()),
         },
@@ -195,14 +195,14 @@ fn points(context: &Context<'_>) -> Vec<Function> {
         Task {
             name: "points",
             doc: "Positions of the points that the spec names, in the base frame, m.",
-            arguments: "q",
+            arguments: "q shapes",
             outputs: points.iter().flat_map(|point| point.position).collect(),
             returns: Returns::Matrix(3),
         },
         Task {
             name: "point_jacobians",
             doc: "Slopes of the points' positions: `[k] * dq` is the velocity of point `k`.",
-            arguments: "q",
+            arguments: "q shapes",
             outputs: points
                 .iter()
                 .flat_map(|point| point.jacobian.concat())

@@ -1,0 +1,93 @@
+//! What stands between the equations and a log: links that are not where their encoders say, torques that come late.
+//!
+//! Both are no functions of `q, dq, ddq` at one instant, so no equation has them: identification and prediction apply them to
+//! whole motions.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use crate::compiled::{Block, Compiled};
+use crate::dynamics::Changes;
+use crate::expr::{Dag, ExprId};
+use crate::interpreter::Program;
+
+/// An effect because of which the torque is no function of `q, dq, ddq` at one instant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NotInstantaneous {
+    /// File and line of the declaration.
+    place: String,
+    effect: String,
+}
+
+impl fmt::Display for NotInstantaneous {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}: `{}` moves a link by what changes along a motion, so the torque of one instant is not known from `q`, `dq` and `ddq`; \
+             identify with it, and take it out where equations or code are wanted",
+            self.place, self.effect
+        )
+    }
+}
+
+impl std::error::Error for NotInstantaneous {}
+
+/// What the log's positions and torques are to those of the equations.
+#[derive(Debug, Clone)]
+pub(crate) struct Measurement {
+    /// Added to the position of a joint, as that of its link, rad or m; one entry a joint at most, ascending.
+    pub displacements: Vec<(usize, ExprId)>,
+    /// Seconds by which torques are late.
+    pub delay: Option<ExprId>,
+}
+
+impl Compiled {
+    /// As expressions of signals and shapes.
+    pub(crate) fn measurement(&self, dag: &mut Dag) -> Measurement {
+        let changes = Changes::of(dag, &self.model);
+        let mut sums = BTreeMap::new();
+        for (joint, value) in changes.displacements {
+            let sum = sums.entry(joint).or_insert(dag.zero());
+            *sum = dag.add(*sum, value);
+        }
+        let is_there = !changes.delays.is_empty();
+        Measurement {
+            displacements: sums.into_iter().collect(),
+            delay: is_there.then(|| dag.sum(changes.delays)),
+        }
+    }
+
+    /// How far links stand from where the log has their joints, along a motion: output `k` is that of joint
+    /// `entries[k].0`, rad or m. `None` where all stand where they should, or a constant away, which is in the equations.
+    #[must_use]
+    pub fn displacements(&self) -> Option<Block> {
+        let mut dag = self.dag.clone();
+        let displacements = self.measurement(&mut dag).displacements.into_iter();
+        let entries = displacements.map(|(joint, value)| (joint, joint, value));
+        let block = Block::new(&dag, entries.collect());
+        (!block.entries.is_empty()).then_some(block)
+    }
+
+    /// Seconds by which the log's torques are late, one output; reads shapes. `None` where they are not.
+    #[must_use]
+    pub fn delay(&self) -> Option<Program> {
+        let mut dag = self.dag.clone();
+        let delay = self.measurement(&mut dag).delay?;
+        Some(Program::new(&dag, &[delay]))
+    }
+
+    /// Whether equations say the whole torque.
+    ///
+    /// # Errors
+    /// [`NotInstantaneous`] names the first effect that moves a link along a motion.
+    pub fn check_instantaneous(&self) -> Result<(), NotInstantaneous> {
+        let mut effects = self.model.effects.iter();
+        match effects.find(|effect| effect.definition.moves_links()) {
+            None => Ok(()),
+            Some(effect) => Err(NotInstantaneous {
+                place: format!("{}:{}", self.model.source, effect.line),
+                effect: effect.definition.name.clone(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,12 @@
+/// A base that does not stand as the spec says: gravity comes from another direction.
+///
+/// The base is turned by two angles about the axes of its frame that are not along gravity: for gravity along z first about x, then
+/// about y. Turning it about gravity itself changes nothing. Identifiable where a joint that the tilt loads moves through a good part
+/// of a turn; where all inertials are unknown, through the axes that gravity did not load before.
+effect base_tilt() {
+    /// Angle about the first axis, rad.
+    shape first in -0.3 .. 0.3 step 0.05;
+    /// Angle about the second axis, rad.
+    shape second in -0.3 .. 0.3 step 0.05;
+    tilt = [first, second];
+}

@@ -1,0 +1,6 @@
+robot Pendulum {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = 0.5; alpha = 0; d = 0; }
+    effects { base_tilt on pivot; time_delay on all; }
+}

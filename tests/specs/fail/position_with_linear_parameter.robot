@@ -1,0 +1,10 @@
+robot Pendulum {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint pivot: revolute { a = 0.5; alpha = 0; d = 0; }
+}
+
+effect soft(j) {
+    linear c;
+    position(j) = -c * rigid_torque(j);
+}
