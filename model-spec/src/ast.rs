@@ -315,8 +315,8 @@ pub struct Expr {
 /// The forms of an expression.
 #[derive(Debug, Clone)]
 pub enum ExprKind {
-    /// `90 deg`, `0.3`
-    Number(f64, Option<Ident>),
+    /// `90 deg`, `3 m^2`, `0.3`
+    Number(f64, Option<Unit>),
     /// A parameter, `pi`, `time`, a unit, a word.
     Name(Ident),
     /// `f(x)`
@@ -327,6 +327,15 @@ pub enum ExprKind {
     Binary(BinaryOp, Box<Expr>, Box<Expr>),
     /// `if c { x } else { y }`
     Choice(Box<Condition>, Box<Expr>, Box<Expr>),
+}
+
+/// `deg`, `m^2`: behind a number, and part of it.
+#[derive(Debug, Clone)]
+pub struct Unit {
+    /// Its name.
+    pub name: Ident,
+    /// Its power.
+    pub exponent: i32,
 }
 
 /// `greater > smaller`, or `greater >= smaller`; `x < y` is `y > x`.

@@ -4,7 +4,7 @@ use proc_macro2::Span;
 use syn::Ident;
 
 use super::unit::{self, Dimension};
-use crate::ast::{BinaryOp, Expr, ExprKind, Value};
+use crate::ast::{BinaryOp, Expr, ExprKind, Unit, Value};
 use crate::diagnostic::Diagnostic;
 use crate::model::Function;
 use crate::suggest;
@@ -182,10 +182,10 @@ fn evaluate(expr: &Expr) -> Checked<Quantity> {
             dimension: None,
         }),
         ExprKind::Number(value, Some(unit)) => {
-            let (factor, dimension) = find_unit(unit)?;
+            let (factor, dimension) = find_unit(&unit.name)?;
             Ok(Quantity {
                 value: in_unit(*value, factor, unit),
-                dimension: Some(dimension),
+                dimension: Some(dimension.power(unit.exponent)),
             })
         }
         ExprKind::Name(name) => constant_name(name),
@@ -205,11 +205,11 @@ fn evaluate(expr: &Expr) -> Checked<Quantity> {
 }
 
 /// Degrees are scaled as `value / 180 * pi` so that 90 deg is the double nearest to a quarter turn.
-fn in_unit(value: f64, factor: f64, unit: &Ident) -> f64 {
-    if unit == "deg" {
+fn in_unit(value: f64, factor: f64, unit: &Unit) -> f64 {
+    if unit.name == "deg" && unit.exponent == 1 {
         value / 180.0 * std::f64::consts::PI
     } else {
-        value * factor
+        value * factor.powi(unit.exponent)
     }
 }
 
@@ -304,15 +304,8 @@ fn binary(op: BinaryOp, left: Quantity, right: Quantity, expr: &Expr) -> Checked
             }
         },
     };
-    let value = match op {
-        BinaryOp::Add => left.value + right.value,
-        BinaryOp::Sub => left.value - right.value,
-        BinaryOp::Mul => left.value * right.value,
-        BinaryOp::Div => left.value / right.value,
-        BinaryOp::Pow => left.value.powf(right.value),
-    };
     Ok(Quantity {
-        value,
+        value: op.apply(left.value, right.value),
         dimension: dimension.filter(|dimension| *dimension != Dimension::NONE),
     })
 }

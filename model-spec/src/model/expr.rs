@@ -35,6 +35,20 @@ pub struct Choice<Leaf> {
 }
 
 impl<Leaf> Expr<Leaf> {
+    /// The value, where it is made of numbers alone; `known` gives those of leaves that are numbers.
+    pub fn number(&self, known: &dyn Fn(&Leaf) -> Option<f64>) -> Option<f64> {
+        match self {
+            Self::Number(value) => Some(*value),
+            Self::Leaf(leaf) => known(leaf),
+            Self::Neg(x) => Some(-x.number(known)?),
+            Self::Binary(op, x, y) => Some(op.apply(x.number(known)?, y.number(known)?)),
+            Self::Call(function, x) => Some(function.apply(x.number(known)?)),
+            Self::Min(x, y) => Some(x.number(known)?.min(y.number(known)?)),
+            Self::Max(x, y) => Some(x.number(known)?.max(y.number(known)?)),
+            Self::Choice(_) => None,
+        }
+    }
+
     /// Whether `wanted` holds for some part of the expression.
     pub fn contains(&self, wanted: &dyn Fn(&Self) -> bool) -> bool {
         wanted(self)
@@ -69,6 +83,20 @@ pub enum BinaryOp {
     Div,
     /// `^`
     Pow,
+}
+
+impl BinaryOp {
+    /// Its value.
+    #[must_use]
+    pub fn apply(self, x: f64, y: f64) -> f64 {
+        match self {
+            Self::Add => x + y,
+            Self::Sub => x - y,
+            Self::Mul => x * y,
+            Self::Div => x / y,
+            Self::Pow => x.powf(y),
+        }
+    }
 }
 
 impl Function {

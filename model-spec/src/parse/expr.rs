@@ -1,7 +1,7 @@
 //! Expressions: our own precedence over tokens, because in Rust `^` is exclusive-or and binds looser than `+`.
 //!
-//! From loose to tight: `+ -`, `* /`, unary `-`, `^` (to the right). A number may carry a unit: `90 deg`. A choice,
-//! `if a < b { x } else { y }`, is a value like a number.
+//! From loose to tight: `+ -`, `* /`, unary `-`, `^` (to the right). A number may carry a unit, whose power is the unit's
+//! and not the number's: `90 deg`, `2 m^2`. A choice, `if a < b { x } else { y }`, is a value like a number.
 
 use proc_macro2::Span;
 use syn::ext::IdentExt as _;
@@ -9,7 +9,7 @@ use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Lit, Token};
 
 use super::{block, found, word};
-use crate::ast::{BinaryOp, Condition, Expr, ExprKind, join};
+use crate::ast::{BinaryOp, Condition, Expr, ExprKind, Unit, join};
 use crate::diagnostic::syn_error;
 
 /// More operators than an equation of physics has; keeps trees shallow enough for recursion.
@@ -20,6 +20,9 @@ impl Parse for Expr {
         Climber { operators: 0 }.sum(input)
     }
 }
+
+/// No quantity of mechanics has a unit of a higher power.
+const LARGEST_POWER_OF_UNIT: i32 = 6;
 
 struct Climber {
     operators: usize,
@@ -233,7 +236,7 @@ fn unexpected(content: ParseStream) -> syn::Error {
     )
 }
 
-/// A literal and its unit: `90 deg`, `90deg`, `0.3`.
+/// A literal and its unit: `90 deg`, `90deg`, `3 m^2`, `0.3`.
 fn number(input: ParseStream) -> syn::Result<Expr> {
     let literal: Lit = input.parse()?;
     let (digits, suffix, span) = match &literal {
@@ -265,16 +268,51 @@ fn number(input: ParseStream) -> syn::Result<Expr> {
             Some("write zero, or a number between 1e-30 and 1e30"),
         ));
     }
-    let unit = if suffix.is_empty() {
+    let name = if suffix.is_empty() {
         unit(input)?
     } else {
         Some(Ident::new(&suffix, span))
     };
-    let span: Span = unit.as_ref().map_or(span, |unit| join(span, unit.span()));
+    let Some(name) = name else {
+        return Ok(Expr {
+            kind: ExprKind::Number(value, None),
+            span,
+        });
+    };
+    let whole = join(span, name.span());
+    let (exponent, whole) = if input.peek(Token![^]) {
+        let (exponent, end) = power_of_unit(input)?;
+        (exponent, join(whole, end))
+    } else {
+        (1, whole)
+    };
     Ok(Expr {
-        kind: ExprKind::Number(value, unit),
-        span,
+        kind: ExprKind::Number(value, Some(Unit { name, exponent })),
+        span: whole,
     })
+}
+
+/// `^2`, `^-3`: the power of the unit alone, so `2 m^2` are two square meters.
+fn power_of_unit(input: ParseStream) -> syn::Result<(i32, Span)> {
+    let hat: Token![^] = input.parse()?;
+    let minus: Option<Token![-]> = input.parse()?;
+    let digit: Option<syn::LitInt> = input.parse().ok();
+    let exponent = digit
+        .as_ref()
+        .filter(|digit| digit.suffix().is_empty())
+        .and_then(|digit| digit.base10_parse::<i32>().ok())
+        .filter(|exponent| (1..=LARGEST_POWER_OF_UNIT).contains(exponent));
+    match (exponent, digit) {
+        (Some(exponent), Some(digit)) if !input.peek(Token![^]) => {
+            let sign = if minus.is_some() { -1 } else { 1 };
+            Ok((sign * exponent, digit.span()))
+        }
+        (_, digit) => Err(syn_error(
+            digit.map_or(hat.span, |digit| digit.span()),
+            "the power of a unit is a whole number from 1 to 6, or its negative",
+            Some("write `2 m^2` or `2 m^-3`; a power of number and unit together is `(2 m)^2`"),
+        )),
+    }
 }
 
 /// The word behind a number, unless it is `step` or begins the next setting (a `;` is missing then).

@@ -3,9 +3,12 @@
 //! Parameters and constants without a unit have unknown dimensions. They are inferred: each rule is a linear equation
 //! between exponents, and only a contradiction is a mistake. Angles count as plain numbers, as they do in energies.
 
+use super::monomials::{Coefficient, number};
+use super::resolve::Resolved;
 use super::{Checked, Fault, Statement};
 use crate::check::unit::Dimension;
 use crate::model::{BinaryOp, EnergyExpr, EnergyLeaf, Expr, Function, JointKind};
+use crate::polynomial::Polynomial;
 
 /// Exponents of kg, m and s, with unknown dimensions as further factors: `known + sum of exponent * unknown`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -122,20 +125,21 @@ impl Inference {
         }
     }
 
-    /// The dimensions of a statement's value; `numbers` are those of its named constants, which are numbers in `value`.
+    /// The dimensions of a statement's value; `expanded` are the bindings before it, some of which are numbers.
     pub(super) fn infer(
         &mut self,
         statement: Statement,
-        value: &EnergyExpr,
-        constants: &Constants,
+        resolved: &Resolved,
+        expanded: &[Polynomial<Coefficient>],
     ) -> Checked<Dimensions> {
         Walk {
             inference: self,
             statement,
-            constants,
+            constants: &resolved.constants,
+            expanded,
             path: Vec::new(),
         }
-        .infer(value)
+        .infer(&resolved.value)
     }
 
     /// Says that a statement's value has these dimensions.
@@ -192,6 +196,7 @@ struct Walk<'a> {
     inference: &'a mut Inference,
     statement: Statement,
     constants: &'a Constants,
+    expanded: &'a [Polynomial<Coefficient>],
     path: Vec<usize>,
 }
 
@@ -271,8 +276,8 @@ impl Walk<'_> {
                 self.path.push(1);
                 self.plain(right, "an exponent")?;
                 self.path.pop();
-                if let Expr::Number(exponent) = exponent {
-                    return Ok(Dimensions::default().times(&left, *exponent));
+                if let Some(exponent) = number(exponent, self.expanded) {
+                    return Ok(Dimensions::default().times(&left, exponent));
                 }
                 self.path.push(0);
                 self.plain(&left, "the base of an exponent that is not a number")?;

@@ -1,7 +1,7 @@
 //! Energies are sums of products of parameters: which products there are.
 
 use super::{Checked, Fault, Statement};
-use crate::model::{EnergyExpr, Function, Monomial};
+use crate::model::{EnergyExpr, EnergyLeaf, Function, Monomial};
 use crate::polynomial::{self, NotPolynomial, Polynomial, Reason, Ring};
 
 /// What the check needs to know of a coefficient.
@@ -85,6 +85,21 @@ pub(super) fn expand(
     bindings: &[Polynomial<Coefficient>],
 ) -> Checked<Polynomial<Coefficient>> {
     polynomial::expand(&mut Structure, value, bindings).map_err(|error| fault(statement, error))
+}
+
+/// The value of an expression that is made of numbers and of bindings that are numbers.
+pub(super) fn number(
+    expr: &EnergyExpr,
+    bindings: &[Polynomial<Coefficient>],
+) -> Option<f64> {
+    expr.number(&|leaf| match leaf {
+        EnergyLeaf::Binding(k) => match bindings[*k].iter().collect::<Vec<_>>().as_slice() {
+            [] => Some(0.0),
+            [(monomial, coefficient)] if monomial.is_one() => coefficient.number,
+            _ => None,
+        },
+        _ => None,
+    })
 }
 
 /// The products in both energies, lowest degree first, then in the order of the parameters. A constant part of the

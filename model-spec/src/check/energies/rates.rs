@@ -1,21 +1,24 @@
 //! The kinetic energy is quadratic in the rates of the coordinates, the potential energy is free of them.
 
+use super::monomials::{Coefficient, number};
 use super::{Checked, Fault, Statement};
 use crate::model::{BinaryOp, EnergyExpr, EnergyLeaf, Expr};
-use crate::polynomial::whole;
+use crate::polynomial::{Polynomial, whole};
 
 /// Degree in the rates of an expression whose terms all have the same one; `None` for zero, which has any.
 pub(super) type Degree = Option<u32>;
 
-/// The degree of a statement; `bindings` are those of the bindings before it.
+/// The degree of a statement; `bindings` are those of the bindings before it, and `expanded` what these are.
 pub(super) fn degree(
     statement: Statement,
     value: &EnergyExpr,
     bindings: &[Degree],
+    expanded: &[Polynomial<Coefficient>],
 ) -> Checked<Degree> {
     let mut analysis = Analysis {
         statement,
         bindings,
+        expanded,
         path: Vec::new(),
     };
     analysis.degree(value)
@@ -24,6 +27,7 @@ pub(super) fn degree(
 struct Analysis<'a> {
     statement: Statement,
     bindings: &'a [Degree],
+    expanded: &'a [Polynomial<Coefficient>],
     path: Vec<usize>,
 }
 
@@ -89,14 +93,14 @@ impl Analysis<'_> {
                 "a rate stands in a denominator",
                 "energies are quadratic in the rates",
             )),
-            BinaryOp::Pow => match (x, right) {
-                (None | Some(0), _) if y.is_none_or(|y| y == 0) => Ok(Some(0)),
-                (Some(x), Expr::Number(exponent)) => match whole(*exponent, 16) {
-                    Some(k) if k > 0 => Ok(Some(x * k.unsigned_abs())),
+            BinaryOp::Pow if x.is_none_or(|x| x == 0) && y.is_none_or(|y| y == 0) => Ok(Some(0)),
+            BinaryOp::Pow => {
+                let exponent = number(right, self.expanded).and_then(|value| whole(value, 16));
+                match (x, exponent) {
+                    (Some(x), Some(k)) if k > 0 => Ok(Some(x * k.unsigned_abs())),
                     _ => Err(self.exponent()),
-                },
-                _ => Err(self.exponent()),
-            },
+                }
+            }
         }
     }
 

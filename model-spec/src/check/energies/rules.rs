@@ -27,8 +27,8 @@ impl Rules<'_> {
         Ok(Found {
             dimensions: self
                 .inference
-                .infer(statement, &resolved.value, &resolved.constants)?,
-            degree: rates::degree(statement, &resolved.value, self.degrees)?,
+                .infer(statement, resolved, self.expanded)?,
+            degree: rates::degree(statement, &resolved.value, self.degrees, self.expanded)?,
             polynomial: monomials::expand(statement, &resolved.value, self.expanded)?,
         })
     }
