@@ -1,7 +1,8 @@
 //! What a spec means: frames, units, effects, and the tree that a derive builds.
 use robot_model_spec::ast::{self, DeclaredEffect, Setting};
 use robot_model_spec::model::{
-    BinaryOp, Convention, Expr, Inertial, JointKind, Placement, Transform,
+    BinaryOp, Convention, EffectLeaf, EnergyLeaf, Expr, Inertial, JointKind, Placement, Signal,
+    Transform,
 };
 use robot_model_spec::{Ast, Model, check, load};
 
@@ -270,5 +271,38 @@ fn a_derive_builds_the_same_tree_from_tokens() {
         errors[0].to_syn_error().to_string(),
         "the robot does not say how its frames are written\n\
          help: write `convention = standard_dh;`, `modified_dh` or `origin`; there is no default"
+    );
+}
+
+/// `2 m^2` are two square meters, with a power of one unit, of several, and inside an effect; exponents are made of numbers.
+#[test]
+fn a_power_behind_a_unit_is_the_units() {
+    let text = include_str!("../../tests/specs/pass/units.robot");
+    let model = load("units.robot", text).unwrap_or_else(|errors| panic!("{errors}"));
+    let energies = model.energies().expect("the robot says its energies");
+    let (x, inertia, stiffness) = (0.7_f64, 0.3, 0.11);
+    let value = energies.potential.number(&|leaf| match leaf {
+        EnergyLeaf::Coordinate(0) => Some(x),
+        EnergyLeaf::Coordinate(_) => Some(0.0),
+        EnergyLeaf::Parameter(1) => Some(inertia),
+        EnergyLeaf::Parameter(2) => Some(stiffness),
+        _ => None,
+    });
+    let (k, area, side, inch) = (5.0, 3.0, 20e-6, 25.4e-3);
+    let wanted = k * area / 2.0 * x.powi(2) + k * side / inch * x.powi(3) + stiffness;
+    assert!(
+        (value.unwrap() - wanted).abs() < 1e-14,
+        "{value:?} {wanted}"
+    );
+
+    let torque = &model.effects[0].definition.torques[0].value;
+    let value = torque.number(&|leaf| match leaf {
+        EffectLeaf::Linear(0) => Some(3.0),
+        EffectLeaf::Signal(Signal::Velocity, 0) => Some(0.5),
+        _ => None,
+    });
+    assert!(
+        (value.unwrap() - 3.0 * 2e-6 * 0.5).abs() < 1e-20,
+        "{value:?}"
     );
 }

@@ -66,6 +66,7 @@ robots! {
     stanford "stanford" Stanford;
     two_link "two_link" TwoLink;
     tx40 "tx40" Tx40;
+    units "units" Units;
     ur10 "ur10" Ur10;
 }
 

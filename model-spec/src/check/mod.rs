@@ -135,6 +135,7 @@ fn check_energies(
     let names: Vec<&Ident> = robot.energies.coordinates.iter().map(|c| &c.name).collect();
     let effects = declared::check_effects(robot, &names, definitions, errors);
     let (joints, energies) = described?;
+    energies::check_inertia(robot, &energies, &effects, errors);
     Some(Described {
         joints,
         body: Body::Energies(energies),

@@ -1,13 +1,15 @@
 //! What energies are made of: coordinates with their limits, parameters and constants with their units.
 
 use proc_macro2::Span;
+use syn::Ident;
 
 use super::dimension::{Dimensions, Inference};
 use super::resolve::Constant;
-use crate::ast::{self, Robot};
+use crate::ast::{self, BinaryOp, ExprKind, Robot};
 use crate::check::chain::{check_gain, check_limits};
 use crate::check::setting::Settings;
-use crate::check::unit::Dimension;
+use crate::check::unit::{self, Dimension};
+use crate::check::value::Quantity;
 use crate::check::{Errors, value};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Joint, JointKind, Limits, Parameter};
@@ -100,13 +102,15 @@ pub(super) fn check_parameters(
 ) -> Vec<Parameter> {
     let mut parameters = Vec::new();
     for parameter in &robot.energies.parameters {
-        let mut quantity = |expr: &ast::Expr| {
-            value::constant(expr)
-                .map_err(|error| errors.push(error))
-                .ok()
+        let mut found = |quantity: Result<Quantity, Diagnostic>| {
+            quantity.map_err(|error| errors.push(error)).ok()
         };
-        let unit = parameter.unit.as_ref().and_then(&mut quantity);
-        let nominal = parameter.nominal.as_ref().and_then(&mut quantity);
+        let unit = parameter.unit.as_ref().map(value::constant);
+        let unit = unit.and_then(&mut found);
+        let help = "write its value in numbers; where it is no unknown of its own, use a `let`";
+        let nominal = parameter.nominal.as_ref();
+        let nominal = nominal.map(|expr| number_of(expr, robot, help));
+        let nominal = nominal.and_then(&mut found);
         let written = nominal.and_then(|nominal| nominal.dimension);
         let dimensions = match (unit, written) {
             (Some(unit), Some(written)) if unit.dimension != Some(written) => {
@@ -125,6 +129,61 @@ pub(super) fn check_parameters(
         });
     }
     parameters
+}
+
+/// A number with its unit. Names of the robot have no place in it; behind a quantity, as in `5 N/m`, a name is a unit
+/// whatever else it is called.
+fn number_of(expr: &ast::Expr, robot: &Robot, help: &str) -> Result<Quantity, Diagnostic> {
+    let energies = &robot.energies;
+    let is_declared = |name: &Ident| {
+        let mut names = energies
+            .constants
+            .iter()
+            .map(|constant| &constant.name)
+            .chain(energies.parameters.iter().map(|p| &p.name))
+            .chain(energies.coordinates.iter().map(|c| &c.name))
+            .chain(energies.bindings.iter().map(|b| &b.name));
+        names.any(|declared| declared == name)
+    };
+    let Some(name) = name_in(expr, &is_declared) else {
+        return value::constant(expr);
+    };
+    Err(Diagnostic::new(
+        name.span(),
+        format!("expected a number, found `{name}`"),
+        "a name of the robot",
+    )
+    .help(help))
+}
+
+/// The first name that `wanted` knows and that is not the unit of a quantity.
+fn name_in<'a>(expr: &'a ast::Expr, wanted: &dyn Fn(&Ident) -> bool) -> Option<&'a Ident> {
+    match &expr.kind {
+        ExprKind::Number(..) | ExprKind::Choice(..) => None,
+        ExprKind::Name(name) => wanted(name).then_some(name),
+        ExprKind::Call(_, arguments) => arguments.iter().find_map(|x| name_in(x, wanted)),
+        ExprKind::Neg(x) => name_in(x, wanted),
+        ExprKind::Binary(_, x, y) => {
+            let behind = if is_quantity(expr) { None } else { Some(y) };
+            name_in(x, wanted).or_else(|| name_in(behind?, wanted))
+        }
+    }
+}
+
+/// `5 N`, `5 N/m`, `0.3 kg*m^2`
+fn is_quantity(expr: &ast::Expr) -> bool {
+    let is_unit = |unit: &ast::Expr| {
+        let base = match &unit.kind {
+            ExprKind::Binary(BinaryOp::Pow, base, _) => base,
+            _ => unit,
+        };
+        matches!(&base.kind, ExprKind::Name(name) if unit::find(&name.to_string()).is_some())
+    };
+    match &expr.kind {
+        ExprKind::Number(_, unit) => unit.is_some(),
+        ExprKind::Binary(BinaryOp::Mul | BinaryOp::Div, x, y) => is_quantity(x) && is_unit(y),
+        _ => false,
+    }
 }
 
 fn two_dimensions(parameter: &ast::Parameter, found: &str) -> Diagnostic {
@@ -147,7 +206,9 @@ pub(super) fn check_constants(
 ) -> Vec<Constant> {
     let mut constants = Vec::new();
     for constant in &robot.energies.constants {
-        match value::constant(&constant.value) {
+        let name = &constant.name;
+        let help = format!("write `let {name} = ..;`: a `let` may be made of other names");
+        match number_of(&constant.value, robot, &help) {
             Ok(quantity) => constants.push(Constant {
                 name: constant.name.to_string(),
                 value: quantity.value,

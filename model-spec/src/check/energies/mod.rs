@@ -2,6 +2,7 @@
 
 mod declared;
 mod dimension;
+mod inertia;
 mod monomials;
 mod rates;
 mod resolve;
@@ -18,6 +19,7 @@ use crate::diagnostic::Diagnostic;
 use crate::model::{Energies, Joint, JointKind};
 use declared::{check_constants, check_coordinates, check_parameters};
 use dimension::Inference;
+pub(in crate::check) use inertia::check_inertia;
 use resolve::Scope;
 use written::Written;
 

@@ -88,10 +88,7 @@ pub(super) fn expand(
 }
 
 /// The value of an expression that is made of numbers and of bindings that are numbers.
-pub(super) fn number(
-    expr: &EnergyExpr,
-    bindings: &[Polynomial<Coefficient>],
-) -> Option<f64> {
+pub(super) fn number(expr: &EnergyExpr, bindings: &[Polynomial<Coefficient>]) -> Option<f64> {
     expr.number(&|leaf| match leaf {
         EnergyLeaf::Binding(k) => match bindings[*k].iter().collect::<Vec<_>>().as_slice() {
             [] => Some(0.0),

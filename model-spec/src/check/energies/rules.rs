@@ -25,9 +25,7 @@ pub(super) struct Rules<'a> {
 impl Rules<'_> {
     pub(super) fn check(&mut self, statement: Statement, resolved: &Resolved) -> Checked<Found> {
         Ok(Found {
-            dimensions: self
-                .inference
-                .infer(statement, resolved, self.expanded)?,
+            dimensions: self.inference.infer(statement, resolved, self.expanded)?,
             degree: rates::degree(statement, &resolved.value, self.degrees, self.expanded)?,
             polynomial: monomials::expand(statement, &resolved.value, self.expanded)?,
         })
