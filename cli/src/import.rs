@@ -72,8 +72,11 @@ impl Import {
             gravity: self.gravity,
         };
         let file = Files::reading([self.urdf.as_path()]).claim(&self.output)?;
-        let spec = import(&urdf, &options).map_err(|error| self.refused(error))?;
-        file.commit(spec.as_bytes())
+        let imported = import(&urdf, &options).map_err(|error| self.refused(error))?;
+        for warning in &imported.warnings {
+            eprintln!("warning: {warning}");
+        }
+        file.commit(imported.spec.as_bytes())
     }
 
     fn refused(&self, error: ImportError) -> Error {

@@ -22,6 +22,23 @@ pub(crate) fn snap(angle: f64) -> f64 {
     quarter_turns(angle).map_or(angle, |turns| turns * FRAC_PI_2 + 0.0)
 }
 
+/// Fewest decimals with which a rounded multiple of a quarter turn cannot be an angle of its own.
+const FEWEST_DECIMALS: usize = 4;
+
+/// The multiple of a quarter turn that `angle` is the decimal rounding of, to four places or more: 1.5708 is pi/2.
+///
+/// For files whose numbers are written by programs. The shortest decimal that is read as `angle` stands for what was written.
+pub(crate) fn rounded_quarter_turn(angle: f64) -> Option<f64> {
+    let written = format!("{}", angle.abs());
+    let decimals = written.split_once('.').map_or(0, |(_, tail)| tail.len());
+    let turns = (angle / FRAC_PI_2).round();
+    let meant = turns * FRAC_PI_2;
+    (turns != 0.0
+        && decimals >= FEWEST_DECIMALS
+        && format!("{:.decimals$}", meant.abs()) == written)
+        .then_some(meant)
+}
+
 /// Sine and cosine; exactly 0, 1 or -1 at multiples of a quarter turn.
 pub(crate) fn sin_cos(angle: f64) -> (f64, f64) {
     let Some(turns) = quarter_turns(angle) else {
@@ -54,6 +71,17 @@ fn rotation_y(angle: f64) -> Rotation {
 pub(crate) fn rotation_z(angle: f64) -> Rotation {
     let (s, c) = sin_cos(angle);
     clean([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+}
+
+/// Rotation by `angle` about a unit vector: `c 1 + s [n]x + (1 - c) n n^T`.
+pub(crate) fn rotation_about([x, y, z]: [f64; 3], angle: f64) -> Rotation {
+    let (s, c) = sin_cos(angle);
+    let v = 1.0 - c;
+    clean([
+        [x * x * v + c, x * y * v - z * s, x * z * v + y * s],
+        [x * y * v + z * s, y * y * v + c, y * z * v - x * s],
+        [x * z * v - y * s, y * z * v + x * s, z * z * v + c],
+    ])
 }
 
 /// Roll, pitch, yaw as in URDF: `Rz(yaw) Ry(pitch) Rx(roll)`.
@@ -154,6 +182,30 @@ mod tests {
             [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
         );
         assert_eq!(sin_cos(-FRAC_PI_2), (-1.0, 0.0));
+    }
+
+    #[test]
+    fn decimals_of_four_places_and_more_are_rounded_quarter_turns() {
+        for (written, meant) in [
+            (1.5708, FRAC_PI_2),
+            (-1.570_796, -FRAC_PI_2),
+            (3.1416, 2.0 * FRAC_PI_2),
+            (-3.141_59, -2.0 * FRAC_PI_2),
+            (4.7124, 3.0 * FRAC_PI_2),
+        ] {
+            assert_eq!(rounded_quarter_turn(written), Some(meant), "{written}");
+        }
+        // Three decimals, cut instead of rounded, another angle, none.
+        for angle in [1.571, 1.5707, 1.5709, 0.7854, 0.0] {
+            assert_eq!(rounded_quarter_turn(angle), None, "{angle}");
+        }
+    }
+
+    #[test]
+    fn rotations_about_axes_are_those_of_the_axes() {
+        assert_eq!(rotation_about([1.0, 0.0, 0.0], 0.3), rotation_x(0.3));
+        assert_eq!(rotation_about([0.0, 1.0, 0.0], 0.3), rotation_y(0.3));
+        assert_eq!(rotation_about([0.0, 0.0, 1.0], -2.0), rotation_z(-2.0));
     }
 
     #[test]

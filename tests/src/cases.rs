@@ -91,11 +91,11 @@ fn read(folder: &Path) -> Case {
         gravity: robot.gravity,
         ..ImportOptions::default()
     };
-    let spec =
+    let imported =
         import(&text("robot.urdf"), &options).unwrap_or_else(|error| panic!("{name}: {error}"));
     Case {
         name,
-        spec,
+        spec: imported.spec,
         dof: robot.dof,
         identify: folder.join("identify.csv.gz"),
         expected_outcome: key.expected_outcome,

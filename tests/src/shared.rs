@@ -2,10 +2,18 @@
 
 use std::path::PathBuf;
 
+const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared");
+
+/// Whether the material is there: then nothing of it may be passed over.
+#[must_use]
+pub fn is_present() -> bool {
+    PathBuf::from(SHARED).exists()
+}
+
 /// A file or folder of the shared material; where it is absent, says so and what is therefore not tested.
 #[must_use]
 pub fn find(path: &str, what: &str) -> Option<PathBuf> {
-    let found = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../shared")).join(path);
+    let found = PathBuf::from(SHARED).join(path);
     if found.exists() {
         return Some(found);
     }

@@ -33,17 +33,19 @@ impl Dag {
                 self.add(left, right)
             }
             Node::Power(base, exponent) => {
-                // d (b^e) = b^e (e / b db + ln(b) de)
-                let ratio = self.div(exponent, base);
-                let from_base = self.mul(ratio, of[base.index()]);
-                let from_exponent = if self.is_zero(of[exponent.index()]) {
-                    self.zero()
-                } else {
-                    let ln = self.call(Function::Ln, base);
-                    self.mul(ln, of[exponent.index()])
-                };
-                let sum = self.add(from_base, from_exponent);
-                self.mul(x, sum)
+                // d (b^e) = e b^(e-1) db + b^e ln(b) de. Not b^e e / b db, which is no number at b = 0.
+                let one = self.constant(1.0);
+                let lower = self.sub(exponent, one);
+                let lower = self.power(base, lower);
+                let slope = self.mul(exponent, lower);
+                let from_base = self.mul(slope, of[base.index()]);
+                if self.is_zero(of[exponent.index()]) {
+                    return from_base;
+                }
+                let ln = self.call(Function::Ln, base);
+                let growth = self.mul(x, ln);
+                let from_exponent = self.mul(growth, of[exponent.index()]);
+                self.add(from_base, from_exponent)
             }
             Node::Select(condition, p, q) => self.select(condition, of[p.index()], of[q.index()]),
             Node::Call(_, inside) if self.is_zero(of[inside.index()]) => self.zero(),
@@ -86,6 +88,28 @@ impl Dag {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// `abs(x)^1.5 sign(x)`, a friction law, is level at rest.
+    #[test]
+    fn powers_above_one_are_level_where_their_base_is_zero() {
+        let mut dag = Dag::new();
+        let x = dag.symbol(Symbol::Q(0));
+        let (size, sign) = (dag.call(Function::Abs, x), dag.call(Function::Sign, x));
+        for exponent in [1.5, 2.0, 3.0, 2.5] {
+            let exponent = dag.constant(exponent);
+            let power = dag.power(size, exponent);
+            let law = dag.mul(power, sign);
+            let slope = dag.derivative(law, Symbol::Q(0));
+            let at_rest = dag.evaluate(slope, &|_| 0.0);
+            assert!(at_rest == 0.0, "{exponent:?}: {at_rest}");
+        }
+        // An exponent that is a parameter.
+        let symbolic = dag.symbol(Symbol::Q(1));
+        let power = dag.power(size, symbolic);
+        let slope = dag.derivative(power, Symbol::Q(0));
+        let at_rest = dag.evaluate(slope, &|s| if s == Symbol::Q(1) { 1.5 } else { 0.0 });
+        assert!(at_rest == 0.0, "{at_rest}");
+    }
 
     #[test]
     fn derivatives_agree_with_finite_differences() {

@@ -1,8 +1,9 @@
-//! What a link of the chain carries: its own inertial and those of everything that does not move against it.
+//! What a link of the chain carries: its own inertial and those of everything that is held against it.
 
 use urdf_rs::{JointType, Link};
 
 use super::ImportError;
+use super::held::Held;
 use super::tree::{Chain, ChainJoint, Tree, origin};
 use crate::model::Transform;
 use crate::transform::product;
@@ -19,8 +20,8 @@ pub(super) struct Body {
 /// What hangs on a joint of the chain down to the next one, as one body.
 pub(super) struct Carried<'a> {
     pub(super) body: Body,
-    /// Moving joints of side branches, which stand at zero.
-    pub(super) held: Vec<&'a str>,
+    /// Moving joints of side branches, which stand still.
+    pub(super) held: Vec<Held<'a>>,
 }
 
 /// Collects what moves together with the link behind `joint`.
@@ -44,14 +45,17 @@ pub(super) fn carried<'a>(
             {
                 continue;
             }
-            if next.joint_type != JointType::Fixed {
-                held.push(next.name.as_str());
-            }
             let here = origin(
                 &next.origin,
                 &format!("the origin of joint `{}`", next.name),
             )?;
-            open.push((next.child.link.as_str(), pose.then(&here)));
+            let mut behind = pose.then(&here);
+            if next.joint_type != JointType::Fixed {
+                let joint = Held::new(tree, chain, next)?;
+                behind = behind.then(&joint.motion());
+                held.push(joint);
+            }
+            open.push((next.child.link.as_str(), behind));
         }
     }
     Ok(Carried {

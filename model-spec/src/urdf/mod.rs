@@ -2,11 +2,13 @@
 //!
 //! The chain from a base link to a tip link becomes a robot with `convention = origin`. Fixed joints are folded: their
 //! transforms into the next joint's frame, the inertials behind them into the link that carries them. Branches that leave
-//! the chain are carried along the same way, with their joints held at zero. Damping and friction of a joint become declared
-//! effects. What mimics a joint of the chain is held at zero beside the chain, and refused on it.
+//! the chain are carried along the same way, with their joints held: at zero, or, where they mimic another joint, where this
+//! puts them. What mimics a joint of the chain is held where that one is zero, with a warning if it has mass; on the chain it
+//! is refused. Damping and friction of a joint become declared effects.
 
 mod body;
 mod effects;
+mod held;
 mod tree;
 mod write;
 
@@ -101,11 +103,21 @@ pub enum ImportError {
     Refused(Diagnostics),
 }
 
-/// Turns a URDF into the text of a spec, which is sure to [`load`](crate::load).
+/// A URDF as a spec.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Imported {
+    /// The text of the spec, which is sure to [`load`](crate::load).
+    pub spec: String,
+    /// What the URDF says and the spec cannot; its comments say it too.
+    pub warnings: Vec<String>,
+}
+
+/// Turns a URDF into a spec.
 ///
 /// # Errors
 /// [`ImportError`], with what to change in the URDF or in the options.
-pub fn import(urdf: &str, options: &ImportOptions) -> Result<String, ImportError> {
+pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportError> {
     if !options.gravity.iter().all(|g| g.is_finite()) {
         return Err(ImportError::NotFinite {
             what: "--gravity".to_owned(),
@@ -122,12 +134,25 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<String, ImportError
         .collect::<Result<Vec<_>, _>>()?;
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
-    let text = write::spec(&robot.name, &chain, &names, &carried, &effects, options);
-    let Err(refused) = crate::load("imported.robot", &text) else {
-        return Ok(text);
+    let warnings = held::warnings(&tree, &carried);
+    let notes = [tree::notes(&robot), warnings.clone()].concat();
+    let written = |effects: &[String]| {
+        write::spec(
+            &robot.name,
+            &chain,
+            &names,
+            &carried,
+            effects,
+            &notes,
+            options,
+        )
+    };
+    let spec = written(&effects);
+    let Err(refused) = crate::load("imported.robot", &spec) else {
+        return Ok(Imported { spec, warnings });
     };
     // Where the spec is sound without the effects, the mistake is in the argument, and the author has not seen the text.
-    let bare = write::spec(&robot.name, &chain, &names, &carried, &[], options);
+    let bare = written(&[]);
     Err(match crate::load("imported.robot", &bare) {
         Ok(_) => {
             let mistakes: Vec<String> = refused.messages_with_help().collect();

@@ -1,17 +1,18 @@
 //! The tree of links, and the one chain of it that is imported.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use urdf_rs::{Joint, JointType, Link, Robot};
 
 use super::ImportError;
 use crate::model::Transform;
 use crate::suggest;
-use crate::transform::rotation_rpy;
+use crate::transform::{quarter_turns, rotation_rpy, rounded_quarter_turn};
 
 /// Links and joints by name; every link has one parent joint at most, and there are no loops.
 pub(super) struct Tree<'a> {
     pub(super) links: BTreeMap<&'a str, &'a Link>,
+    joints: BTreeMap<&'a str, &'a Joint>,
     parent: BTreeMap<&'a str, &'a Joint>,
     children: BTreeMap<&'a str, Vec<&'a Joint>>,
 }
@@ -45,6 +46,11 @@ impl<'a> Tree<'a> {
         }
         let mut tree = Self {
             links,
+            joints: robot
+                .joints
+                .iter()
+                .map(|joint| (joint.name.as_str(), joint))
+                .collect(),
             parent: BTreeMap::new(),
             children: BTreeMap::new(),
         };
@@ -94,6 +100,10 @@ impl<'a> Tree<'a> {
                 name: name.to_owned(),
                 help: suggest::help(name, self.links.keys().copied()),
             })
+    }
+
+    pub(super) fn joint(&self, name: &str) -> Option<&'a Joint> {
+        self.joints.get(name).copied()
     }
 
     pub(super) fn joints_of(&self, link: &str) -> &[&'a Joint] {
@@ -223,7 +233,7 @@ fn fold<'a>(path: &[&'a Joint]) -> Result<Vec<ChainJoint<'a>>, ImportError> {
         check_kind(joint)?;
         let written = before
             .is_none()
-            .then_some((joint.origin.xyz.0, joint.origin.rpy.0));
+            .then_some((joint.origin.xyz.0, joint.origin.rpy.0.map(meant)));
         joints.push(ChainJoint {
             joint,
             origin: folded,
@@ -274,7 +284,32 @@ fn check_kind(joint: &Joint) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// A URDF pose, with the angles' quarter turns exact.
+/// The angle that is meant where it is written with few decimals: a quarter turn for 1.5708.
+pub(super) fn meant(angle: f64) -> f64 {
+    rounded_quarter_turn(angle).unwrap_or(angle)
+}
+
+/// What is read otherwise than it is written: angles that round a multiple of a quarter turn.
+pub(super) fn notes(robot: &Robot) -> Vec<String> {
+    let joints = robot.joints.iter().map(|joint| &joint.origin);
+    let links = robot.links.iter().map(|link| &link.inertial.origin);
+    let angles = joints.chain(links).flat_map(|pose| pose.rpy.0);
+    let short: BTreeSet<String> = angles
+        // Closer ones are quarter turns in every spec.
+        .filter(|angle| quarter_turns(*angle).is_none() && rounded_quarter_turn(*angle).is_some())
+        .map(|angle| angle.to_string())
+        .collect();
+    if short.is_empty() {
+        return Vec::new();
+    }
+    let short: Vec<String> = short.into_iter().collect();
+    vec![format!(
+        "Angles of the URDF that round a multiple of a quarter turn are read as one: {}",
+        short.join(", ")
+    )]
+}
+
+/// A URDF pose, with the angles' quarter turns exact, also where they are written short.
 pub(super) fn origin(pose: &urdf_rs::Pose, what: &str) -> Result<Transform, ImportError> {
     if pose
         .xyz
@@ -283,7 +318,7 @@ pub(super) fn origin(pose: &urdf_rs::Pose, what: &str) -> Result<Transform, Impo
         .all(|x| x.is_finite())
     {
         return Ok(Transform {
-            rotation: rotation_rpy(pose.rpy.0),
+            rotation: rotation_rpy(pose.rpy.0.map(meant)),
             translation: pose.xyz.0,
         });
     }

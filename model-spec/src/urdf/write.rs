@@ -66,6 +66,7 @@ pub(super) fn spec(
     names: &Names,
     carried: &[Carried],
     effects: &[String],
+    notes: &[String],
     options: &ImportOptions,
 ) -> String {
     let mut text = format!(
@@ -75,14 +76,17 @@ pub(super) fn spec(
     let held: Vec<String> = carried
         .iter()
         .flat_map(|one| &one.held)
-        .map(|name| comment(name))
+        .map(|joint| comment(&joint.describe()))
         .collect();
     if !held.is_empty() {
         let _ = writeln!(
             text,
-            "// Beside the chain, held at zero and part of the links that carry them: {}.",
+            "// Beside the chain, held (at zero where no place is named) and part of the links that carry them: {}.",
             held.join(", ")
         );
+    }
+    for note in notes {
+        let _ = writeln!(text, "// {}.", comment(note));
     }
     let values = super::effects::values(chain, names);
     if !values.is_empty() {
@@ -190,7 +194,7 @@ fn list(numbers: &[f64]) -> String {
 }
 
 /// The shortest text that is read back as the same number; powers of ten below a thousandth.
-fn number(x: f64) -> String {
+pub(super) fn number(x: f64) -> String {
     let plain = format!("{}", x + 0.0);
     let scientific = format!("{x:e}");
     if plain.len() > scientific.len() + 3 {

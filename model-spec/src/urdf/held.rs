@@ -1,0 +1,151 @@
+//! Moving joints beside the chain, which the spec holds where they are.
+
+use urdf_rs::{Joint, JointType};
+
+use super::ImportError;
+use super::body::Carried;
+use super::tree::{Chain, Tree, meant};
+use super::write::number;
+use crate::model::Transform;
+use crate::transform::rotation_about;
+
+/// A joint of a side branch, and where it stands.
+pub(super) struct Held<'a> {
+    joint: &'a Joint,
+    /// rad or m.
+    position: f64,
+    /// The joint of the chain that it follows, if there is one.
+    follows: Option<&'a str>,
+}
+
+impl<'a> Held<'a> {
+    /// A joint that mimics another stands at `multiplier * position + offset` of that one; all others, joints of the chain
+    /// among them, at zero.
+    pub(super) fn new(
+        tree: &Tree<'a>,
+        chain: &Chain,
+        joint: &'a Joint,
+    ) -> Result<Self, ImportError> {
+        let refuse = |reason: String| {
+            Err(ImportError::Joint {
+                joint: joint.name.clone(),
+                reason,
+            })
+        };
+        let mut held = Self {
+            joint,
+            position: 0.0,
+            follows: None,
+        };
+        let mut passed = vec![joint.name.as_str()];
+        let (mut at, mut factor) = (joint, 1.0);
+        while let Some(mimic) = &at.mimic {
+            let Some(leader) = tree.joint(&mimic.joint) else {
+                return refuse(format!(
+                    "mimics joint `{}`, which the URDF does not have: write the name of a joint",
+                    mimic.joint
+                ));
+            };
+            if passed.contains(&leader.name.as_str()) {
+                return refuse(format!(
+                    "mimics itself, by way of joint `{}`: take one `<mimic>` away",
+                    at.name
+                ));
+            }
+            held.position += factor * meant(mimic.offset.unwrap_or(0.0));
+            factor *= mimic.multiplier.unwrap_or(1.0);
+            if chain
+                .joints
+                .iter()
+                .any(|moving| moving.joint.name == leader.name)
+            {
+                held.follows = Some(&leader.name);
+                break;
+            }
+            passed.push(&leader.name);
+            at = leader;
+        }
+        if !held.position.is_finite() {
+            return Err(ImportError::NotFinite {
+                what: format!("the place where joint `{}` mimics another", joint.name),
+            });
+        }
+        if held.position != 0.0 && held.direction().is_none() {
+            return refuse("has an axis without direction: write its `<axis xyz=..>`".to_owned());
+        }
+        Ok(held)
+    }
+
+    /// Unit vector of a joint that turns about or slides along one.
+    fn direction(&self) -> Option<[f64; 3]> {
+        let axis = self.joint.axis.xyz.0;
+        let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (length > 0.0 && length.is_finite()).then(|| axis.map(|x| x / length))
+    }
+
+    /// From where the joint is zero to where it stands.
+    pub(super) fn motion(&self) -> Transform {
+        let Some(axis) = self.direction() else {
+            return Transform::IDENTITY;
+        };
+        match self.joint.joint_type {
+            JointType::Revolute | JointType::Continuous => Transform {
+                rotation: rotation_about(axis, self.position),
+                ..Transform::IDENTITY
+            },
+            JointType::Prismatic => Transform {
+                translation: axis.map(|x| x * self.position),
+                ..Transform::IDENTITY
+            },
+            JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => {
+                Transform::IDENTITY
+            }
+        }
+    }
+
+    /// "finger", "finger at 0.3"
+    pub(super) fn describe(&self) -> String {
+        let name = &self.joint.name;
+        if self.position == 0.0 {
+            name.clone()
+        } else {
+            format!("{name} at {}", number(self.position))
+        }
+    }
+}
+
+/// Followers of the chain's joints whose mass the spec holds still.
+pub(super) fn warnings(tree: &Tree, carried: &[Carried]) -> Vec<String> {
+    let held = carried.iter().flat_map(|carried| &carried.held);
+    held.filter_map(|held| {
+        let leader = held.follows?;
+        let mass = mass_behind(tree, held.joint);
+        let name = &held.joint.name;
+        (mass > 0.0).then(|| {
+            format!(
+                "joint `{name}` follows joint `{leader}` of the chain with {} kg: the spec holds it where `{leader}` is zero, so \
+                 its own motion is missing in the equations",
+                number(mass)
+            )
+        })
+    })
+    .collect()
+}
+
+/// Mass of everything that moves with a joint, kg.
+fn mass_behind(tree: &Tree, joint: &Joint) -> f64 {
+    let mut open = vec![joint.child.link.as_str()];
+    let mut mass = 0.0;
+    while let Some(link) = open.pop() {
+        mass += tree
+            .links
+            .get(link)
+            .map_or(0.0, |link| link.inertial.mass.value);
+        open.extend(
+            tree.joints_of(link)
+                .iter()
+                .map(|next| next.child.link.as_str()),
+        );
+    }
+    mass
+}
