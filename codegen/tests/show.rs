@@ -182,3 +182,65 @@ fn what_has_no_filtered_form_is_told() {
         "no filtered form: two.load_dependent_friction.mu, as its torque depends on the load";
     assert!(text.contains(told), "{text}");
 }
+
+/// Each line uses the one before it twice: written out, the last one would be 2^40 long.
+fn nested(first: &str) -> String {
+    let lines = (1..=40).map(|k| format!("let n{k} = sin(n{p}) + cos(n{p});\n", p = k - 1));
+    format!("let n0 = {first};\n{}", lines.collect::<String>())
+}
+
+#[test]
+fn what_is_used_twice_is_written_once() {
+    let effect = format!(
+        "effect nest(j) {{
+            /// Torque, N m.
+            linear k;
+            {}
+            torque(j) = k * n40;
+        }}
+        {}",
+        nested("q(j)"),
+        TEXTBOOK.trim_end_matches('}').to_owned() + "effects { nest on two; } }"
+    );
+    let point = format!(
+        "robot Arm {{
+            coordinates th;
+            parameters J: kg*m^2;
+            constants a = 1 m;
+            {}
+            kinetic = J/2*dot(th)^2;
+            potential = 0;
+            point tip = [a*n40, 0, 0];
+        }}",
+        nested("th")
+    );
+    for (spec, what) in [
+        (&effect, What::InverseDynamics),
+        (&effect, What::BaseRegressor),
+        (&effect, What::Slopes),
+        (&point, What::ForwardKinematics),
+        (&point, What::Jacobian),
+    ] {
+        for style in [Style::Text, Style::Latex] {
+            let text = form(&compiled(spec), what, style);
+            assert!(text.len() < 60_000, "{what:?}: {} characters", text.len());
+        }
+    }
+}
+
+/// Parameters and rates may stand in a position where they cancel.
+#[test]
+fn positions_are_free_of_what_cancels() {
+    let arm = compiled(
+        "robot Arm {
+            coordinates x: m;
+            parameters m: kg;
+            let moment = m*x;
+            kinetic = m/2*dot(x)^2;
+            potential = 0;
+            point tip = [moment/m, 0*dot(x)*2, 0];
+        }",
+    );
+    let text = form(&arm, What::ForwardKinematics, Style::Text);
+    assert_eq!(text, "tip[1] = x\nzero   tip[2] tip[3]\n");
+}

@@ -94,16 +94,28 @@ pub fn expand_energies<R: Ring>(
     ring: &mut R,
     energies: &Energies,
 ) -> Result<Expanded<R::Element>, NotPolynomial> {
-    let mut bindings = Vec::new();
-    for binding in &energies.bindings {
-        let value = expand(ring, &binding.value, &bindings)?;
-        bindings.push(value);
-    }
+    let bindings = expand_bindings(ring, energies)?;
     Ok(Expanded {
         kinetic: expand(ring, &energies.kinetic, &bindings)?,
         potential: expand(ring, &energies.potential, &bindings)?,
         bindings,
     })
+}
+
+/// Expands the bindings of a robot, each with those before it.
+///
+/// # Errors
+/// As [`expand_energies`].
+pub fn expand_bindings<R: Ring>(
+    ring: &mut R,
+    energies: &Energies,
+) -> Result<Vec<Polynomial<R::Element>>, NotPolynomial> {
+    let mut bindings = Vec::new();
+    for binding in &energies.bindings {
+        let value = expand(ring, &binding.value, &bindings)?;
+        bindings.push(value);
+    }
+    Ok(bindings)
 }
 
 /// Expands one expression whose bindings are expanded already.

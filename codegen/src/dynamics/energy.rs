@@ -3,8 +3,8 @@
 //! In: the energies of a spec. Out: [`EnergyForm`], one term a standard parameter. Source of the idea: Gautier and Khalil
 //! 1988, energy functions of the standard parameters.
 
-use robot_model_spec::model::{Energies, Function as SpecFunction};
-use robot_model_spec::polynomial::{Ring, expand_energies};
+use robot_model_spec::model::{Energies, EnergyExpr, Function as SpecFunction, Monomial};
+use robot_model_spec::polynomial::{Ring, expand, expand_bindings, expand_energies};
 
 use super::lower::expression_function;
 use crate::expr::{Dag, ExprId, Symbol};
@@ -57,6 +57,22 @@ pub fn written(dag: &mut Dag, energies: &Energies, dof: usize) -> EnergyForm {
             })
             .collect(),
     }
+}
+
+/// Positions of the points of a spec, each binding put in once. What parameters and rates a position is written with cancel.
+pub fn positions(dag: &mut Dag, energies: &Energies, dof: usize) -> Vec<[ExprId; 3]> {
+    const CHECKED: &str = "checked in model-spec: positions are polynomials in the parameters";
+    let ring = &mut Coefficients { dag, dof };
+    let bindings = expand_bindings(ring, energies).expect(CHECKED);
+    let mut coordinate = |expr: &EnergyExpr| {
+        let position = expand(ring, expr, &bindings).expect(CHECKED);
+        let known = position.get(&Monomial::one());
+        known.copied().unwrap_or_else(|| ring.dag.zero())
+    };
+    let points = energies.points.iter();
+    points
+        .map(|point| [0, 1, 2].map(|axis| coordinate(&point.position[axis])))
+        .collect()
 }
 
 /// Coefficients as expressions of coordinates and rates.

@@ -1,10 +1,10 @@
 //! Points of a robot that says its energies: positions as the spec gives them, and their slopes.
 
-use robot_model_spec::model::{Energies, EnergyExpr, EnergyLeaf, Model};
+use robot_model_spec::model::{Energies, Model};
 
 use super::changes::Changes;
+use super::energy::positions;
 use super::lagrange::placed;
-use super::lower::lower_with;
 use crate::expr::{Dag, ExprId, Symbol};
 
 /// A named point as expressions of `q`.
@@ -22,10 +22,10 @@ pub struct Point {
 pub fn points(dag: &mut Dag, model: &Model, energies: &Energies) -> Vec<Point> {
     let dof = model.joints.len();
     let changes = Changes::of(dag, model);
-    let points = energies.points.iter();
+    let positions = positions(dag, energies, dof);
+    let points = energies.points.iter().zip(positions);
     points
-        .map(|point| {
-            let position = [0, 1, 2].map(|axis| lower(dag, energies, &point.position[axis]));
+        .map(|(point, position)| {
             let position = placed(dag, &position, &changes.positions);
             let position = [position[0], position[1], position[2]];
             let jacobian = position.map(|x| {
@@ -41,14 +41,4 @@ pub fn points(dag: &mut Dag, model: &Model, energies: &Energies) -> Vec<Point> {
             }
         })
         .collect()
-}
-
-fn lower(dag: &mut Dag, energies: &Energies, expr: &EnergyExpr) -> ExprId {
-    lower_with(dag, expr, &mut |dag, leaf| match leaf {
-        EnergyLeaf::Coordinate(joint) => dag.symbol(Symbol::Q(joint)),
-        EnergyLeaf::Binding(k) => lower(dag, energies, &energies.bindings[k].value),
-        EnergyLeaf::Rate(_) | EnergyLeaf::Parameter(_) | EnergyLeaf::BindingRate(_) => {
-            unreachable!("checked in model-spec: positions are free of parameters and rates")
-        }
-    })
 }

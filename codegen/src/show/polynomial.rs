@@ -8,6 +8,9 @@ use crate::expr::{Dag, ExprId, Function, Names, Node, Style, Symbol};
 pub const MOST_TERMS: usize = 24;
 /// While multiplying out, terms may be this many: identities then bring them together.
 const MOST_TERMS_ON_THE_WAY: usize = 96;
+/// Factors of more symbols, numbers and operators than this are shown by intermediate names instead: shared parts are
+/// repeated in a factor, so that it may be exponentially longer than the expression is large.
+const LONGEST_FACTOR: usize = 64;
 
 /// A factor: parameters first, then functions, then coordinates; each kind in its own order.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,13 +40,14 @@ impl Polynomial {
         /// Sums of lengths cancel to rounding.
         const CANCELED: f64 = 1e-14;
         let degree = monomial.iter().map(|(_, power)| power.unsigned_abs()).sum();
-        let sum = self.0.entry((degree, monomial)).or_insert(0.0);
-        let scale = sum.abs().max(coefficient.abs());
-        *sum += coefficient;
-        if sum.abs() <= CANCELED * scale {
-            *sum = 0.0;
+        let key = (degree, monomial);
+        let before = self.0.get(&key).copied().unwrap_or(0.0);
+        let sum = before + coefficient;
+        if sum.abs() <= CANCELED * before.abs().max(coefficient.abs()) {
+            self.0.remove(&key);
+        } else {
+            self.0.insert(key, sum);
         }
-        self.0.retain(|_, coefficient| *coefficient != 0.0);
     }
 
     fn terms(&self) -> impl Iterator<Item = (&Monomial, f64)> {
@@ -53,10 +57,21 @@ impl Polynomial {
     }
 }
 
-/// Multiplies out; `None` if that takes too many terms.
+/// Multiplies out; `None` if that takes too many terms, or if factors are too long.
 pub fn expand(dag: &mut Dag, x: ExprId, names: &Names) -> Option<Polynomial> {
     let mut known: BTreeMap<ExprId, Polynomial> = BTreeMap::new();
+    // Nodes of each part written as a tree.
+    let mut lengths: BTreeMap<ExprId, usize> = BTreeMap::new();
     for part in dag.reachable(&[x]) {
+        let operands = dag.node(part).operands();
+        let length = operands.fold(1, |sum: usize, operand| {
+            sum.saturating_add(lengths[&operand])
+        });
+        lengths.insert(part, length);
+        let is_factor = !matches!(dag.node(part), Node::Add(..) | Node::Mul(..));
+        if is_factor && length > LONGEST_FACTOR {
+            return None;
+        }
         let polynomial = match dag.node(part) {
             Node::Constant(value) => Polynomial::of(Vec::new(), value.get()),
             Node::Add(p, q) => {
