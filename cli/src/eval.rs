@@ -13,7 +13,8 @@ use crate::parameters::{self, Values};
 use crate::spec::{compile_instantaneous, read_text};
 use crate::{Error, output};
 
-/// Mass matrix, Coriolis matrix, gravity, torque and regressors at given states, as JSON.
+/// Mass matrix, Coriolis matrix, gravity, torque and regressors at given states, energies and slopes, and where the links or
+/// the spec's points are, with their Jacobians, as JSON.
 #[derive(Debug, Args)]
 pub(crate) struct Eval {
     /// The `.robot` file.
@@ -94,6 +95,18 @@ struct StateValues {
     /// Of a chain.
     #[serde(skip_serializing_if = "Option::is_none")]
     jacobian: Option<Matrix>,
+    /// Of a robot that says its energies, in the order of the spec.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    points: Vec<PointValues>,
+}
+
+#[derive(Serialize)]
+struct PointValues {
+    name: String,
+    /// In the base frame, m.
+    position: Vec<f64>,
+    /// `d position / dq`
+    jacobian: Matrix,
 }
 
 impl Eval {
@@ -217,6 +230,8 @@ struct Programs {
     by_velocity: Program,
     forward_kinematics: Option<Program>,
     jacobian: Option<Program>,
+    point_names: Vec<String>,
+    points: Program,
 }
 
 impl Programs {
@@ -241,6 +256,8 @@ impl Programs {
             by_velocity: compiled.by_velocity(),
             forward_kinematics: compiled.forward_kinematics(),
             jacobian: compiled.jacobian(),
+            point_names: compiled.points.iter().map(|p| p.name.clone()).collect(),
+            points: compiled.points(),
         }
     }
 
@@ -290,6 +307,23 @@ impl Programs {
             torque_by_velocity: square(&self.by_velocity),
             forward_kinematics: self.forward_kinematics.as_ref().map(poses),
             jacobian: self.jacobian.as_ref().map(square),
+            points: self.point_values(&run(&self.points)),
         }
+    }
+
+    fn point_values(&self, values: &[f64]) -> Vec<PointValues> {
+        let each = values.chunks(3 + 3 * self.dof);
+        let names = self.point_names.iter();
+        names
+            .zip(each)
+            .map(|(name, values)| {
+                let (position, jacobian) = values.split_at(3);
+                PointValues {
+                    name: name.clone(),
+                    position: position.to_vec(),
+                    jacobian: jacobian.chunks(self.dof).map(<[f64]>::to_vec).collect(),
+                }
+            })
+            .collect()
     }
 }

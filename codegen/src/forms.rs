@@ -34,6 +34,17 @@ impl Compiled {
         Some(Program::new(&self.dag, &jacobian.concat()))
     }
 
+    /// Points of a robot that says its energies, `3 + 3 dof` outputs each: the position in the base frame, m, and its slopes
+    /// `d position / dq`, row by row.
+    #[must_use]
+    pub fn points(&self) -> Program {
+        let points = self.points.iter();
+        let outputs: Vec<ExprId> = points
+            .flat_map(|point| [&point.position[..], &point.jacobian.concat()].concat())
+            .collect();
+        Program::new(&self.dag, &outputs)
+    }
+
     /// `d tau / dq`, row by row.
     #[must_use]
     pub fn by_position(&self) -> Program {

@@ -4,6 +4,8 @@ use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{compile_model, emit};
 use robot_model_spec::load;
 
+use crate::forms;
+
 /// What came of a text. Two texts with equal answers exercise about the same code.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Answer {
@@ -48,6 +50,7 @@ pub fn answer(text: &str) -> Answer {
         return Answer::Uncertain { dof };
     }
     let page = emit::rust::module(&compiled);
+    forms::exercise(&compiled);
     Answer::Emitted {
         dof,
         standard: compiled.standard.len().checked_ilog2().unwrap_or_default(),

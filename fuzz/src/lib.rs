@@ -5,6 +5,7 @@
 //! not seen before is damaged further.
 
 pub mod answer;
+mod forms;
 pub mod minimize;
 pub mod mutate;
 pub mod run;

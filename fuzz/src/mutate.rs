@@ -4,7 +4,7 @@ use rand::RngExt as _;
 use rand_chacha::ChaCha8Rng;
 
 /// Words and numbers that are put in the place of others.
-const WORDS: [&str; 48] = [
+const WORDS: [&str; 58] = [
     "0",
     "1",
     "-1",
@@ -52,6 +52,16 @@ const WORDS: [&str; 48] = [
     "parameters",
     "constants",
     "let",
+    "point",
+    "state",
+    "input",
+    "if",
+    "min",
+    "max",
+    "position",
+    "body",
+    "tilt",
+    "delay",
     "^",
 ];
 
@@ -76,7 +86,7 @@ const NUMBERS: [&str; 16] = [
 ];
 
 /// Statements that some block may take.
-const STATEMENTS: [&str; 14] = [
+const STATEMENTS: [&str; 24] = [
     "viscous_friction on all;",
     "load_dependent_friction on all;",
     "stribeck on all;",
@@ -91,6 +101,16 @@ const STATEMENTS: [&str; 14] = [
     "shape extra in 0.1 .. 10;",
     "let extra = 2;",
     "parameters extra;",
+    "point extra = [1 m, 0, 0];",
+    "state extra;",
+    "dot(extra) = dq(j) - extra;",
+    "input extra;",
+    "input extra(j);",
+    "let extra = if q(j) > 0 { min(q(j), 1) } else { max(dq(j), -1) };",
+    "position(j) = 0.01;",
+    "body(j) = [1, 0, 0, 0, 0, 0, 0, 0, 0, 0];",
+    "tilt = [0.01, 0.02];",
+    "delay = 0.001;",
 ];
 
 /// A damaged copy of `text`; parts of `other` may be spliced in.

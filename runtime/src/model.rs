@@ -56,7 +56,8 @@ impl<const DOF: usize> State<DOF> {
 /// One arm with its parameters: `tau = M(q) * ddq + C(q, dq) * dq + G(q) + effects`.
 ///
 /// The value is the parameter set, the type has the equations: `arm.inverse_dynamics(&q, &dq, &ddq)` is a torque in N m
-/// (N for prismatic joints), `Arm::regressor(&q, &dq, &ddq)` the matrix `Y` of `tau = Y * standard`. Both routes of the
+/// (N for prismatic joints), `arm.regressor_of(&q, &dq, &ddq)` the matrix `Y` of `tau = Y * standard`, and
+/// `Arm::regressor(&q, &dq, &ddq)` the same where no effect depends on the load or on shape parameters. Both routes of the
 /// compiler write implementations: `#[derive(RobotModel)]` for a struct of links, the build script for a struct of base
 /// parameters. What the spec fixes is inside the functions. Nothing allocates, nothing panics.
 ///
@@ -81,7 +82,7 @@ impl<const DOF: usize> State<DOF> {
 /// // m l^2 ddq + fv dq + m g l cos(q)
 /// let tau = arm.inverse_dynamics(&q, &dq, &ddq);
 /// assert!((tau[0] - (0.5 + 0.3 + 9.81)).abs() < 1e-12);
-/// assert!((tau - Pendulum::regressor(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
+/// assert!((tau - arm.regressor_of(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
 /// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
 /// ```
 pub trait RobotModel<
@@ -147,7 +148,43 @@ pub trait RobotModel<
     /// load of load-dependent effects is the arm's own.
     fn inverse_dynamics_at(&self, state: &State<DOF>) -> Vector<DOF>;
 
-    /// Regressor `Y`, DOF x STANDARD: `tau = Y * standard`, at time zero, without load, with nominal shapes.
+    /// Regressor `Y` of this arm, DOF x STANDARD: `inverse_dynamics = Y * standard`, at time zero.
+    ///
+    /// Columns of load-dependent effects are those of the arm's own load `M ddq + C dq + G`, and shape parameters are its own.
+    #[must_use]
+    fn regressor_of(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        ddq: &Vector<DOF>,
+    ) -> Matrix<DOF, STANDARD> {
+        Self::regressor_at(&self.loaded(q, dq, ddq), &self.shapes())
+    }
+
+    /// Base regressor `Y_b` of this arm, DOF x BASE: `inverse_dynamics = Y_b * beta`, besides the torque of what the spec
+    /// fixes; as [`Self::regressor_of`].
+    #[must_use]
+    fn base_regressor_of(
+        &self,
+        q: &Vector<DOF>,
+        dq: &Vector<DOF>,
+        ddq: &Vector<DOF>,
+    ) -> Matrix<DOF, BASE> {
+        Self::base_regressor_at(&self.loaded(q, dq, ddq), &self.shapes())
+    }
+
+    /// The motion with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`, at time zero: what
+    /// [`Self::regressor_at`] reads.
+    #[must_use]
+    fn loaded(&self, q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> State<DOF> {
+        State {
+            rigid_torque: self.mass_matrix(q) * ddq + self.bias(q, dq),
+            ..State::new(*q, *dq, *ddq)
+        }
+    }
+
+    /// Regressor `Y`, DOF x STANDARD, at time zero, without load, with nominal shapes: `tau = Y * standard` of an arm whose
+    /// effects read no load and whose shape parameters are the nominal ones. Of every arm: [`Self::regressor_of`].
     #[must_use]
     fn regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
         Self::regressor_at(&State::new(*q, *dq, *ddq), &Self::NOMINAL_SHAPES.into())

@@ -169,3 +169,52 @@ fn trace_adds_what_is_missing_to_the_energies() {
     assert!(amended.contains("coulomb_friction on q2;"), "{amended}");
     assert!(amended.contains("let x2 = l1*sin(q1) + c2*sin(q1 + q2);"));
 }
+
+#[test]
+fn eval_gives_points_and_their_jacobians() {
+    let folder = Folder::new();
+    let spec = "\
+robot Slide {
+    coordinates th, x: m;
+    parameters m = 2 kg, J = 0.1 kg*m^2;
+    constants l = 0.4 m, h = 1.5 m;
+    let px = x + l*sin(th);
+    kinetic = m/2*dot(x)^2 + J/2*dot(th)^2;
+    potential = 0;
+    point tip = [px, 0, h - l*cos(th)];
+    point cart = [x, 0, 0];
+}
+";
+    folder.write("slide.robot", spec);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.3,-0.8],"dq":[1,2],"ddq":[0,0]}]}"#,
+    );
+    let out = json(&folder.succeed(&["eval", "slide.robot", "--states", "states.json"]));
+    let points = &out["states"][0]["points"];
+    let (sin, cos) = 0.3_f64.sin_cos();
+    let wanted = [
+        (
+            "tip",
+            [-0.8 + 0.4 * sin, 0.0, 1.5 - 0.4 * cos],
+            [[0.4 * cos, 1.0], [0.0, 0.0], [0.4 * sin, 0.0]],
+        ),
+        (
+            "cart",
+            [-0.8, 0.0, 0.0],
+            [[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]],
+        ),
+    ];
+    for (k, (name, position, jacobian)) in wanted.into_iter().enumerate() {
+        let point = &points[k];
+        assert_eq!(point["name"], name);
+        for (found, wanted) in numbers(&point["position"]).into_iter().zip(position) {
+            close(found, wanted, 1e-15);
+        }
+        for (row, wanted) in jacobian.into_iter().enumerate() {
+            for (found, wanted) in numbers(&point["jacobian"][row]).into_iter().zip(wanted) {
+                close(found, wanted, 1e-15);
+            }
+        }
+    }
+}

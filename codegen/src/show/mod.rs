@@ -66,6 +66,26 @@ pub enum What {
 }
 
 impl What {
+    /// Every form.
+    pub const ALL: [Self; 16] = [
+        Self::MassMatrix,
+        Self::CoriolisMatrix,
+        Self::Gravity,
+        Self::Bias,
+        Self::InverseDynamics,
+        Self::ForwardDynamics,
+        Self::Slopes,
+        Self::Regressor,
+        Self::BaseRegressor,
+        Self::FilteredRegressor,
+        Self::BaseFilteredRegressor,
+        Self::Energies,
+        Self::ForwardKinematics,
+        Self::Jacobian,
+        Self::BaseParameters,
+        Self::Cost,
+    ];
+
     /// All forms that a whole description shows, in its order.
     pub const WHOLE: [Self; 8] = [
         Self::Measurement,
