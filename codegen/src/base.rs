@@ -220,6 +220,7 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
     const SEED: u64 = 0x726f_626f_745f_6d6f;
     let dof = model.joints.len();
     let samples = OVERSAMPLING * count.div_ceil(dof) + 16;
+    let parameters = model.standard_parameters();
     let entries: Vec<(usize, usize)> = (0..count)
         .flat_map(|k| linear.column(dag, k).map(move |(joint, _)| (joint, k)))
         .collect();
@@ -269,8 +270,24 @@ fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -
     program.eval_batch(samples, &bind, &mut values);
 
     let mut columns = vec![vec![0.0; samples * dof]; count];
-    for ((joint, k), values) in entries.into_iter().zip(values) {
+    for (&(joint, k), values) in entries.iter().zip(values) {
         columns[k][joint * samples..(joint + 1) * samples].copy_from_slice(&values);
+    }
+    // A torque that acts at none of these states acts beyond them: above a limit, behind a stop. Any column stands for it,
+    // since logs will tell whether it is one of its own. A body that shows nowhere has no such elsewhere.
+    let is_torque = |k: usize| match parameters[k].owner {
+        Owner::Effect { effect, parameter } => {
+            !model.effects[effect].definition.is_of_body(parameter)
+        }
+        Owner::Link { .. } | Owner::Monomial(_) => false,
+    };
+    let silent: Vec<bool> = (0..count)
+        .map(|k| is_torque(k) && columns[k].iter().all(|x| *x == 0.0))
+        .collect();
+    for &(joint, k) in entries.iter().filter(|(_, k)| silent[*k]) {
+        for x in &mut columns[k][joint * samples..(joint + 1) * samples] {
+            *x = generator.symmetric();
+        }
     }
     columns
 }

@@ -1,15 +1,23 @@
 //! Shape parameters without a value: a search over their ranges, the linear unknowns solved for at every point.
 
+mod simplex;
+
+use std::ops::Range;
+
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
 use super::IdentifyError;
+use simplex::simplex;
 
-/// Rounds over all shape parameters, one at a time.
+/// Rounds over all effects, one at a time.
 const SWEEPS: usize = 2;
 
 /// Steps of the golden section inside the best grid interval: narrows it a hundred times.
 const GOLDEN_STEPS: usize = 10;
+
+/// Shape parameters of one effect are tried in all combinations of their grids where there are at most so many.
+const MOST_COMBINATIONS: usize = 400;
 
 /// The middle of every shape's grid.
 pub(super) fn middle(arm: &dyn Arm) -> Vec<f64> {
@@ -21,6 +29,9 @@ pub(super) fn middle(arm: &dyn Arm) -> Vec<f64> {
 
 /// Looks through the whole range of each free shape parameter.
 ///
+/// Those of one effect bend one curve together, so that their optimum lies in a valley that runs across their axes: all
+/// combinations of their grids are tried, and a simplex goes on from the best.
+///
 /// # Errors
 /// Those of `cost`.
 pub(super) fn search(
@@ -29,19 +40,87 @@ pub(super) fn search(
     cost: impl Fn(&[Prepared], &[f64]) -> Result<f64, IdentifyError>,
 ) -> Result<Vec<f64>, IdentifyError> {
     let mut shapes = middle(arm);
-    let sweeps = if shapes.len() > 1 { SWEEPS } else { 1 };
-    for _ in 0..sweeps {
-        for number in 0..shapes.len() {
-            let grid = &arm.shapes()[number].grid;
-            let mut at = |value: f64| {
+    let groups = groups(arm.shapes().iter().map(|shape| shape.name.as_str()));
+    let sweeps = if groups.len() > 1 { SWEEPS } else { 1 };
+    for sweep in 0..sweeps {
+        for group in &groups {
+            let grids: Vec<&[f64]> = arm.shapes()[group.clone()]
+                .iter()
+                .map(|shape| shape.grid.as_slice())
+                .collect();
+            let now = shapes[group.clone()].to_vec();
+            let mut at = |values: &[f64]| {
                 let mut trial = shapes.clone();
-                trial[number] = value;
+                trial[group.clone()].copy_from_slice(values);
                 cost(logs, &trial)
             };
-            shapes[number] = minimize(grid, &mut at)?;
+            let found = match grids.as_slice() {
+                [grid] => vec![minimize(grid, &mut |value| at(&[value]))?],
+                // What the other effects explain by now moves the optimum a little, not to another valley.
+                _ if sweep > 0 => simplex(&grids, &now, &mut at)?,
+                _ => {
+                    let start = best_combination(&grids, now, &mut at)?;
+                    simplex(&grids, &start, &mut at)?
+                }
+            };
+            shapes[group.clone()].copy_from_slice(&found);
         }
     }
     Ok(shapes)
+}
+
+/// Neighbors of one effect, by their names `JOINT.EFFECT.SHAPE`.
+fn groups<'a>(names: impl Iterator<Item = &'a str>) -> Vec<Range<usize>> {
+    let effect = |name: &'a str| name.rsplit_once('.').map_or(name, |(effect, _)| effect);
+    let mut groups: Vec<(&str, Range<usize>)> = Vec::new();
+    for (k, name) in names.enumerate() {
+        match groups.last_mut() {
+            Some((last, group)) if *last == effect(name) => group.end = k + 1,
+            _ => groups.push((effect(name), k..k + 1)),
+        }
+    }
+    groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// The best of all combinations of grid points; of too many, the best along one axis after the other.
+///
+/// # Errors
+/// Those of `at`.
+fn best_combination<E>(
+    grids: &[&[f64]],
+    mut now: Vec<f64>,
+    at: &mut impl FnMut(&[f64]) -> Result<f64, E>,
+) -> Result<Vec<f64>, E> {
+    let product = grids.iter().map(|grid| grid.len()).product::<usize>();
+    if product > MOST_COMBINATIONS {
+        for _ in 0..SWEEPS {
+            for (k, grid) in grids.iter().enumerate() {
+                now[k] = minimize(grid, &mut |value| {
+                    let mut trial = now.clone();
+                    trial[k] = value;
+                    at(&trial)
+                })?;
+            }
+        }
+        return Ok(now);
+    }
+    let mut best = (f64::INFINITY, now);
+    for number in 0..product {
+        let mut rest = number;
+        let point: Vec<f64> = grids
+            .iter()
+            .map(|grid| {
+                let value = grid[rest % grid.len()];
+                rest /= grid.len();
+                value
+            })
+            .collect();
+        let cost = at(&point)?;
+        if cost < best.0 {
+            best = (cost, point);
+        }
+    }
+    Ok(best.1)
 }
 
 /// Looks near the present values only: the range between the grid's neighbors.
@@ -145,6 +224,25 @@ mod tests {
         let grid = [1.0, 2.0, 3.0];
         let found = minimize(&grid, &mut |x: f64| Ok::<_, ()>(-x)).expect("the cost has no errors");
         assert!((found - 3.0).abs() < 0.02 && found <= 3.0, "{found}");
+    }
+
+    #[test]
+    fn shapes_of_one_effect_belong_together() {
+        let names = ["j.lugre.d", "j.lugre.vs", "j.lugre2.d", "k.lugre.d", "own"];
+        assert_eq!(groups(names.into_iter()), [0..2, 2..3, 3..4, 4..5]);
+    }
+
+    #[test]
+    fn too_many_combinations_are_tried_along_the_axes() {
+        let grid: Vec<f64> = (0..40).map(f64::from).collect();
+        let mut calls = 0;
+        let found = best_combination(&[&grid, &grid], vec![20.0, 20.0], &mut |x| {
+            calls += 1;
+            Ok::<_, ()>((x[0] - 6.0).abs() + (x[1] - 31.0).abs())
+        })
+        .expect("the cost has no errors");
+        assert!((found[0] - 6.0).abs() < 0.02 && (found[1] - 31.0).abs() < 0.02);
+        assert!(calls < 400, "{calls}");
     }
 
     #[test]
