@@ -152,7 +152,10 @@ fn check_definitions(ast: &Ast, errors: &mut Errors) -> Vec<Arc<EffectDefinition
         errors,
     );
     for effect in &ast.effects {
-        if definitions.iter().any(|known| effect.name == known.name) {
+        if standard_effects()
+            .iter()
+            .any(|known| effect.name == known.name)
+        {
             errors.push(
                 Diagnostic::new(
                     effect.name.span(),
@@ -270,6 +273,7 @@ fn check_gravity(robot: &Robot, settings: &Settings, errors: &mut Errors) -> Opt
 }
 
 /// No name twice; both places are shown.
+#[track_caller]
 fn check_unique<'a>(names: impl IntoIterator<Item = &'a Ident>, what: &str, errors: &mut Errors) {
     let mut seen: BTreeMap<String, Span> = BTreeMap::new();
     for name in names {

@@ -21,42 +21,32 @@ pub(super) fn check_used(
         let mut all = definition.equations().chain(bindings);
         all.any(|value| value.contains(&wanted))
     };
-    let mut unused = |name: &Ident, what: &str| {
-        errors.push(
-            Diagnostic::new(
-                name.span(),
-                format!("{what} `{name}` is not used"),
-                "in no equation",
-            )
-            .help("use it in an equation, or delete it"),
-        );
-    };
     for (k, linear) in effect.linear.iter().enumerate() {
         if !uses(&|leaf| *leaf == EffectLeaf::Linear(k)) {
-            unused(&linear.name, "linear parameter");
+            errors.push(unused(&linear.name, "linear parameter"));
         }
     }
     for (k, shape) in effect.shapes.iter().enumerate() {
         if !uses(&|leaf| *leaf == EffectLeaf::Shape(k)) {
-            unused(&shape.name, "shape parameter");
+            errors.push(unused(&shape.name, "shape parameter"));
         }
     }
     for (k, input) in effect.inputs.iter().enumerate() {
         if !uses(&|leaf| *leaf == EffectLeaf::Input(k)) {
-            unused(&input.name, "input");
+            errors.push(unused(&input.name, "input"));
         }
     }
     for (k, part) in parts.iter().enumerate() {
         if let Part::Let(binding) = part
             && !uses(&|leaf| *leaf == EffectLeaf::Binding(k))
         {
-            unused(&binding.name, "binding");
+            errors.push(unused(&binding.name, "binding"));
         }
     }
     for (k, state) in effect.states.iter().enumerate() {
         let rate = definition.states[k].rate;
         if !uses_outside(definition, rate, k) {
-            unused(&state.name, "state");
+            errors.push(unused(&state.name, "state"));
         }
     }
     for (k, joint) in effect.joints.iter().enumerate() {
@@ -69,9 +59,19 @@ pub(super) fn check_used(
             _ => false,
         };
         if !acts && !uses(&reads) {
-            unused(joint, "joint");
+            errors.push(unused(joint, "joint"));
         }
     }
+}
+
+#[track_caller]
+fn unused(name: &Ident, what: &str) -> Diagnostic {
+    Diagnostic::new(
+        name.span(),
+        format!("{what} `{name}` is not used"),
+        "in no equation",
+    )
+    .help("use it in an equation, or delete it")
 }
 
 /// Whether a state, or its rate, is read elsewhere than in its own rate.

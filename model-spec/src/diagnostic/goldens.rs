@@ -16,13 +16,15 @@ use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 
 /// Functions that are marked `#[track_caller]`, with what stands before their name in a call: a type, the dot of a method, or
 /// nothing.
-const SPEAKERS: [(&str, &str); 6] = [
+const SPEAKERS: [(&str, &str); 8] = [
+    ("", "check_unique"),
     (".", "fault"),
     ("Diagnostic", "in_text"),
     ("Diagnostic", "new"),
     ("Fault", "new"),
     ("", "shape_of"),
     ("", "syn_error"),
+    ("", "unused"),
 ];
 
 /// A line without a golden: file, words of its call, and why no spec makes it speak.
