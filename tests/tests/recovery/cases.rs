@@ -2,6 +2,9 @@
 
 use crate::plant::{GRAVITY, Law, Tones, advance, dry};
 
+/// Parameters by the names that the spec gives them, from a machine's body and its constants.
+pub type Found = fn(&[f64], &[f64]) -> Vec<(&'static str, f64)>;
+
 /// A machine with an effect, and what identification has to find.
 pub struct Case {
     /// Declared effects of the first joint.
@@ -9,8 +12,7 @@ pub struct Case {
     pub body: &'static [f64],
     pub law: Law,
     pub constants: &'static [f64],
-    /// Parameters by their names, from the body and the constants.
-    pub found: fn(&[f64], &[f64]) -> Vec<(&'static str, f64)>,
+    pub found: Found,
     /// Standard deviation of the torque's noise, N m.
     pub noise: f64,
     pub tones: Tones,

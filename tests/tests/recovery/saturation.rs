@@ -1,5 +1,7 @@
 //! A pendulum under a controller whose motor does not deliver all that is commanded.
 
+use std::f64::consts::FRAC_PI_2;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
@@ -19,13 +21,13 @@ pub const NOISE: f64 = 0.1;
 
 /// Hanging down, and swinging so fast that the motor gives in a few times a second.
 pub const TONES: &[(f64, f64, f64)] = &[
-    (-1.57, 0.0, 1.5708),
+    (-FRAC_PI_2, 0.0, FRAC_PI_2),
     (0.9, 0.31, 0.2),
     (0.4, 0.83, 1.1),
     (0.08, 1.9, 2.3),
 ];
 pub const OTHER_TONES: &[(f64, f64, f64)] = &[
-    (-1.57, 0.0, 1.5708),
+    (-FRAC_PI_2, 0.0, FRAC_PI_2),
     (0.8, 0.27, 1.4),
     (0.4, 0.87, 0.3),
     (0.08, 2.1, 0.9),
