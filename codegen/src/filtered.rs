@@ -8,7 +8,7 @@
 //!
 //! Passed through `L(s) = w / (s + w)`, with `s L = w (1 - L)`: `L{tau} = Y_L * standard` where
 //! `Y_L = w (Y_p - L{Y_p}) - L{Y_h}` (Hsu, Bodson, Sastry and Paden 1987). The columns are filtered after their
-//! nonlinear terms are formed, so that holds for effects that jump as well.
+//! nonlinear terms are formed, so that holds for drifts that jump, such as dry friction, as well.
 
 use std::fmt;
 
@@ -46,6 +46,8 @@ pub enum Reason {
     NotAffine,
     /// An acceleration's coefficient depends on more than positions and time.
     Coefficient,
+    /// An acceleration's coefficient jumps.
+    Jump,
     /// It reads the torque of the rigid body, in which accelerations are.
     Load,
     /// The effect moves a link by what changes along a motion, its load as a rule.
@@ -58,6 +60,7 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::NotAffine => "its torque is not linear in the acceleration",
+            Self::Jump => "its torque has an acceleration with a factor that jumps",
             Self::Coefficient => {
                 "its torque has an acceleration with a factor that depends on more than positions"
             }
@@ -139,20 +142,27 @@ fn by_parts(
     if memory_follows_acceleration(dag, column, state_rates) {
         return Err(Reason::Memory);
     }
+    let symbols = dag.symbols(&[column]);
+    if symbols.iter().any(|s| matches!(s, Symbol::RigidTorque(_))) {
+        return Err(Reason::Load);
+    }
+    if !dag.is_affine(&[column], &|symbol| matches!(symbol, Symbol::Ddq(_))) {
+        return Err(Reason::NotAffine);
+    }
     let (mut momentum, mut drift) = (dag.zero(), dag.zero());
-    for symbol in dag.symbols(&[column]) {
-        let joint = match symbol {
-            Symbol::Ddq(joint) => joint,
-            Symbol::RigidTorque(_) => return Err(Reason::Load),
-            _ => continue,
+    for symbol in symbols {
+        let Symbol::Ddq(joint) = symbol else {
+            continue;
         };
         let coefficient = dag.derivative(column, symbol);
-        for inside in dag.symbols(&[coefficient]) {
-            match inside {
-                Symbol::Q(_) | Symbol::Time | Symbol::Shape(_) => {}
-                Symbol::Ddq(_) => return Err(Reason::NotAffine),
-                _ => return Err(Reason::Coefficient),
-            }
+        let is_position = |s: Symbol| matches!(s, Symbol::Q(_) | Symbol::Time);
+        let mut inside = dag.symbols(&[coefficient]).into_iter();
+        if !inside.all(|s| is_position(s) || matches!(s, Symbol::Shape(_))) {
+            return Err(Reason::Coefficient);
+        }
+        // A momentum that jumps has a rate that no drift takes away.
+        if dag.may_jump(coefficient, &is_position) {
+            return Err(Reason::Jump);
         }
         let dq = dag.symbol(Symbol::Dq(joint));
         let part = dag.mul(coefficient, dq);

@@ -26,7 +26,7 @@ struct Part {
     count: usize,
     /// The rates, then the Jacobian row by row.
     program: Program,
-    /// Whether the Jacobian is free of the states.
+    /// Whether the rates are affine in the states.
     affine: bool,
 }
 
@@ -102,8 +102,7 @@ impl Part {
                 jacobian[row * count + column] = derivative;
             }
         }
-        let is_state = |symbol: &Symbol| matches!(symbol, Symbol::State(_));
-        let affine = !dag.symbols(&jacobian).iter().any(is_state);
+        let affine = dag.is_affine(rates, &|symbol| matches!(symbol, Symbol::State(_)));
         outputs.extend(jacobian);
         Self {
             first,

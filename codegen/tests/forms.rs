@@ -240,7 +240,14 @@ fn accelerations_that_do_not_go_by_parts_are_refused_with_the_reason() {
         ("c * cos(q(j)) * ddq(j) + c * dq(j)^2", None),
         ("c * abs(ddq(j))", Some(Reason::NotAffine)),
         ("c * ddq(j)^2", Some(Reason::NotAffine)),
+        ("c * sign(ddq(j))", Some(Reason::NotAffine)),
         ("c * dq(j) * ddq(j)", Some(Reason::Coefficient)),
+        (
+            "c * ddq(j) * if q(j) > 0 { 1 } else { 0 }",
+            Some(Reason::Jump),
+        ),
+        ("c * ddq(j) * sign(time - 1)", Some(Reason::Jump)),
+        ("c * ddq(j) * max(q(j), 0)", None),
         ("c * abs(rigid_torque(j)) * sign(dq(j))", Some(Reason::Load)),
     ] {
         let arm = with_effect(torque);
@@ -383,13 +390,16 @@ fn slopes_are_what_differences_of_the_torque_are() {
 }
 
 #[test]
-fn only_the_load_makes_the_torque_depend_on_the_sign_of_an_acceleration() {
+fn the_torque_is_affine_in_accelerations_but_for_loads_and_jumps() {
     for (torque, affine, symmetric) in [
         ("c * ddq(j)", true, true),
         ("c * abs(rigid_torque(j)) * sign(dq(j))", false, false),
+        // Level on both sides of a jump: no slope tells of it.
+        ("c * sign(ddq(j))", false, true),
+        ("c * if rigid_torque(j) > 1 { 1 } else { 0 }", false, true),
     ] {
         let arm = with_effect(torque);
-        assert_eq!(arm.partials.is_affine(&arm.dag), affine, "{torque}");
+        assert_eq!(arm.partials.is_affine, affine, "{torque}");
         assert_eq!(arm.partials.is_symmetric(), symmetric, "{torque}");
     }
 }

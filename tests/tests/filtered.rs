@@ -87,7 +87,7 @@ const GAUSS: [(f64, f64); 5] = [
 ];
 
 /// `L` is integrated exactly, `x(t + h) = e^-wh x(t) + int w e^-w(h - s) u(t + s) ds`, by a rule whose error over 10 ms is below
-/// rounding for smooth signals. Jumps, such as those of dry friction, are no matter: the rule is linear, and torque and columns
+/// rounding for smooth signals. Jumps of the drift, such as those of dry friction, are no matter: the rule is linear, and torque and columns
 /// jump alike. So neither a hold nor a rate is what this tests, but the equation, its start included.
 #[test]
 fn filtered_torque_is_the_filtered_regressor_times_the_parameters() {

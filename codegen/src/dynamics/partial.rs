@@ -15,6 +15,9 @@ pub struct Partials {
     pub by_velocity: Vec<Vec<ExprId>>,
     /// `d tau / d ddq`: the mass matrix with what effects add to it, such as rotors.
     pub by_acceleration: Vec<Vec<ExprId>>,
+    /// Whether `tau` is a sum of accelerations with factors and a rest. Load-dependent effects are not: the load of a joint
+    /// contains its acceleration, and its sign counts.
+    pub is_affine: bool,
 }
 
 impl Partials {
@@ -24,21 +27,13 @@ impl Partials {
         let effects = jacobian(dag, &dynamics.effect_torque, Symbol::Ddq);
         let by_acceleration = dynamics.mass_matrix.iter().zip(effects);
         Self {
+            is_affine: dag.is_affine(tau, &|symbol| matches!(symbol, Symbol::Ddq(_))),
             by_position: jacobian(dag, tau, Symbol::Q),
             by_velocity: jacobian(dag, tau, Symbol::Dq),
             by_acceleration: by_acceleration
                 .map(|(row, more)| row.iter().zip(more).map(|(&m, e)| dag.add(m, e)).collect())
                 .collect(),
         }
-    }
-
-    /// Whether `tau` is a sum of accelerations with factors and a rest. Load-dependent effects are not: the load of a joint
-    /// contains its acceleration, and its sign counts.
-    #[must_use]
-    pub fn is_affine(&self, dag: &Dag) -> bool {
-        !dag.symbols(&self.by_acceleration.concat())
-            .iter()
-            .any(|symbol| matches!(symbol, Symbol::Ddq(_)))
     }
 
     /// Whether `d tau / d ddq` is symmetric by construction, as a mass matrix is; an effect may act on one joint alone.

@@ -7,6 +7,7 @@
 //! There is no negation and no subtraction: `-x` is `-1 * x`, and a numeric factor always stands in front of a product.
 //! Integer powers are products; a quotient is a product with [`Function::Recip`].
 
+mod affine;
 mod diff;
 mod display;
 mod eval;

@@ -91,14 +91,21 @@ fn mass_matrix(rows: &[Vec<ExprId>]) -> Vec<Entry> {
     entries
 }
 
-/// `A ddq = tau - b`. Where friction depends on the load, `A` and `b` are those on this side of its sign.
+/// `A ddq = tau - b`. Where an effect is not affine in accelerations, such as friction that depends on the load, `A` is the mass
+/// matrix and `b` has the effects with the accelerations in them.
 fn forward_dynamics(compiled: &Compiled, dag: &mut Dag) -> Vec<Entry> {
-    let zero = dag.zero();
-    let still = |symbol| matches!(symbol, Symbol::Ddq(_)).then_some(zero);
-    let rest = dag.substitute(&compiled.dynamics.effect_torque, &still);
-    let bias = compiled.dynamics.bias.iter().zip(rest);
+    let dynamics = &compiled.dynamics;
+    let (slope, effects) = if compiled.partials.is_affine {
+        let zero = dag.zero();
+        let still = |symbol| matches!(symbol, Symbol::Ddq(_)).then_some(zero);
+        let rest = dag.substitute(&dynamics.effect_torque, &still);
+        (&compiled.partials.by_acceleration, rest)
+    } else {
+        (&dynamics.mass_matrix, dynamics.effect_torque.clone())
+    };
+    let bias = dynamics.bias.iter().zip(effects);
     let rest: Vec<ExprId> = bias.map(|(&bias, effect)| dag.add(bias, effect)).collect();
-    let mut entries = matrix("A", &compiled.partials.by_acceleration);
+    let mut entries = matrix("A", slope);
     entries.extend(vector("b", &rest));
     entries
 }

@@ -56,3 +56,21 @@ fn a_rate_that_is_not_affine_converges_with_the_second_order() {
     let (coarse, fine) = (error(101), error(201));
     assert!(coarse < 1e-4 && coarse / fine > 3.5, "{coarse} {fine}");
 }
+
+/// `dz/dt = if z > 1 { 0 } else { abs(dq) }`: level on both sides, and yet it has to be asked where it is.
+#[test]
+fn a_rate_that_jumps_with_its_state_is_not_affine() {
+    use crate::expr::Function;
+    let mut dag = Dag::new();
+    let (z, dq) = (dag.symbol(Symbol::State(0)), dag.symbol(Symbol::Dq(0)));
+    let (one, zero) = (dag.constant(1.0), dag.zero());
+    let beyond = dag.sub(z, one);
+    let speed = dag.call(Function::Abs, dq);
+    let rate = dag.select(beyond, zero, speed);
+    let states = States::new(&mut dag, &[rate], [1]);
+    let dq = vec![0.5; 101];
+    let z = states.integrate(101, 0.03, &|_| Operand::Column(&dq));
+    // A step of 0.015 past the gate at most.
+    let end = z[0][100];
+    assert!((1.0..1.016).contains(&end), "{end}");
+}

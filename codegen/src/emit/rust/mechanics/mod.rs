@@ -98,7 +98,7 @@ fn forward_dynamics(context: &Context<'_>) -> Function {
     let compiled = context.compiled;
     let mut dag = compiled.dag.clone();
     let slope = compiled.partials.by_acceleration.concat();
-    let equations = if !compiled.partials.is_affine(&dag) {
+    let equations = if !compiled.partials.is_affine {
         Equations::Nonlinear
     } else if compiled.partials.is_symmetric() {
         Equations::Symmetric
