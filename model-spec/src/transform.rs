@@ -160,9 +160,15 @@ pub(crate) fn upper_camel(name: &str) -> String {
     }
 }
 
+/// No quantity of a robot is larger in SI units.
+pub(crate) const LARGEST: f64 = 1e30;
+
+/// Of what moves: half a turn to a higher power is larger than [`LARGEST`].
+pub(crate) const LARGEST_EXPONENT: f64 = 60.0;
+
 /// Whether products of a few such numbers stay finite: zero, or 1e-30 to 1e30. No quantity of a robot is outside.
 pub(crate) fn is_in_range(x: f64) -> bool {
-    x == 0.0 || (1e-30..=1e30).contains(&x.abs())
+    x == 0.0 || (1e-30..=LARGEST).contains(&x.abs())
 }
 
 #[cfg(test)]

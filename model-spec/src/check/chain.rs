@@ -45,8 +45,26 @@ impl CheckedJoint {
     }
 }
 
-/// Equations of a serial chain grow with the cube of its length: with this many they take a minute, and no arm has as many.
+/// Equations grow with the cube of the number of joints: with this many they take a minute, and no arm has as many.
 const MOST_JOINTS: usize = 24;
+
+/// Joints of a chain, or coordinates of energies.
+pub(super) fn check_number_of_joints<'a>(
+    mut names: impl Iterator<Item = &'a Ident>,
+    what: &str,
+    errors: &mut Errors,
+) {
+    if let Some(name) = names.nth(MOST_JOINTS) {
+        errors.push(
+            Diagnostic::new(
+                name.span(),
+                format!("the robot has more than {MOST_JOINTS} {what}"),
+                "one too many",
+            )
+            .help("describe the arms of a machine with several of them one by one"),
+        );
+    }
+}
 
 /// All joints; without a convention their frames are not looked at.
 pub(super) fn check_joints(
@@ -61,16 +79,11 @@ pub(super) fn check_joints(
             ),
         );
     }
-    if let Some(joint) = robot.joints.get(MOST_JOINTS) {
-        errors.push(
-            Diagnostic::new(
-                joint.name.span(),
-                format!("the robot has more than {MOST_JOINTS} joints"),
-                "one too many",
-            )
-            .help("describe the arms of a machine with several of them one by one"),
-        );
-    }
+    check_number_of_joints(
+        robot.joints.iter().map(|joint| &joint.name),
+        "joints",
+        errors,
+    );
     let before = errors.len();
     check_unique(
         robot.joints.iter().map(|joint| &joint.name),

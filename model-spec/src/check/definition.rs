@@ -5,7 +5,7 @@ use syn::Ident;
 use super::act::{check_acts, check_constant, check_one_use};
 use super::binding::{self, Part};
 use super::linear::Degrees;
-use super::resolve::{Scope, is_reserved};
+use super::resolve::{Scope, reserved, reserved_name};
 use super::used::check_used;
 use super::{Errors, check_unique, value};
 use crate::ast::{self, Effect};
@@ -110,15 +110,8 @@ fn check_names(effect: &Effect, errors: &mut Errors) {
             .chain(effect.lets.iter().map(|binding| &binding.name))
     };
     check_unique(names(), "name", errors);
-    for name in names().filter(|name| is_reserved(&name.to_string())) {
-        errors.push(
-            Diagnostic::new(
-                name.span(),
-                format!("`{name}` has a meaning in the language"),
-                "reserved",
-            )
-            .help("choose another name"),
-        );
+    for name in names().filter(|name| reserved().any(|word| *name == word)) {
+        errors.push(reserved_name(name, reserved()));
     }
 }
 

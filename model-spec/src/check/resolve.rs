@@ -7,8 +7,9 @@ use super::Errors;
 use super::binding::rate_name;
 use crate::ast::{self, ActKind, ExprKind};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
+use crate::model::{BinaryOp, Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
 use crate::suggest;
+use crate::transform::{LARGEST, LARGEST_EXPONENT};
 
 /// Names of the functions.
 const FUNCTIONS: [(&str, Function); 7] = [
@@ -30,29 +31,36 @@ const SIGNALS: [(&str, Signal); 5] = [
     ("measured_torque", Signal::MeasuredTorque),
 ];
 
-/// Words that parameters and formal joints may not take.
-pub(super) fn is_reserved(name: &str) -> bool {
-    matches!(
-        name,
-        "pi" | "time"
-            | "torque"
-            | "tau"
-            | "linear"
-            | "shape"
-            | "input"
-            | "state"
-            | "let"
-            | "dot"
-            | "if"
-            | "else"
-            | "min"
-            | "max"
-            | "step"
-            | "in"
-            | "on"
-    ) || ActKind::ALL.iter().any(|(act, _)| *act == name)
-        || SIGNALS.iter().any(|(signal, _)| *signal == name)
-        || FUNCTIONS.iter().any(|(function, _)| *function == name)
+/// Words with a meaning of their own, besides functions, signals and acts.
+const WORDS: [&str; 17] = [
+    "pi", "time", "torque", "tau", "linear", "shape", "input", "state", "let", "dot", "if", "else",
+    "min", "max", "step", "in", "on",
+];
+
+/// Words that no name of an equation may take.
+pub(super) fn reserved() -> impl Iterator<Item = &'static str> {
+    let signals = SIGNALS.iter().map(|(name, _)| *name);
+    let functions = FUNCTIONS.iter().map(|(name, _)| *name);
+    let acts = ActKind::ALL.iter().map(|(name, _)| *name);
+    WORDS
+        .into_iter()
+        .chain(signals)
+        .chain(functions)
+        .chain(acts)
+}
+
+/// A name that is a word of the language.
+pub(super) fn reserved_name(name: &Ident, words: impl Iterator<Item = &'static str>) -> Diagnostic {
+    let words: Vec<&str> = words.collect();
+    Diagnostic::new(
+        name.span(),
+        format!("`{name}` has a meaning in the language"),
+        "reserved",
+    )
+    .help(format!(
+        "choose another name; taken are {}",
+        words.join(", ")
+    ))
 }
 
 /// The function of that name.
@@ -89,6 +97,21 @@ fn two_arguments(name: &Ident, count: usize, span: Span) -> Diagnostic {
     .help(format!("write `{name}(x, y)`"))
 }
 
+/// What to do about a value that cannot be computed with.
+pub(super) const NOT_COMPUTABLE: &str = "divide by no zero, take no root of a negative number, stay below 1e30, and \
+                                         write exponents of at most 60";
+
+/// Whether what is known of the value without any leaf can be computed with.
+fn is_computable(value: &EffectExpr) -> bool {
+    let number = |part: &EffectExpr| part.number(&|_| None);
+    let is_so = match value {
+        Expr::Binary(BinaryOp::Div, _, y) => number(y) != Some(0.0),
+        Expr::Binary(BinaryOp::Pow, _, y) => number(y).is_none_or(|y| y.abs() <= LARGEST_EXPONENT),
+        _ => true,
+    };
+    is_so && number(value).is_none_or(|x| x.abs() <= LARGEST)
+}
+
 /// The names that an effect's equations may use.
 pub(super) struct Scope {
     pub(super) joints: Vec<String>,
@@ -104,6 +127,22 @@ pub(super) struct Scope {
 impl Scope {
     /// The equation over indices; `None` behind an error.
     pub(super) fn resolve(&self, expr: &ast::Expr, errors: &mut Errors) -> Option<EffectExpr> {
+        let value = self.resolve_part(expr, errors)?;
+        if is_computable(&value) {
+            return Some(value);
+        }
+        errors.push(
+            Diagnostic::new(
+                expr.span,
+                "this is not a finite number, or too large to compute with",
+                "whatever the arm does",
+            )
+            .help(NOT_COMPUTABLE),
+        );
+        None
+    }
+
+    fn resolve_part(&self, expr: &ast::Expr, errors: &mut Errors) -> Option<EffectExpr> {
         match &expr.kind {
             ExprKind::Number(value, None) => Some(Expr::Number(*value)),
             ExprKind::Number(..) => super::value::constant(expr)
@@ -390,4 +429,16 @@ fn one_of(function: &str, arguments: &[String]) -> String {
         .iter()
         .map(|argument| format!("`{function}({argument})`"));
     calls.collect::<Vec<_>>().join(" or ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::reserved;
+
+    #[test]
+    fn the_reference_lists_the_reserved_words() {
+        let reference = include_str!("../../LANGUAGE.md");
+        let words: Vec<String> = reserved().map(|word| format!("`{word}`")).collect();
+        assert!(reference.contains(&words.join(" ")), "{}", words.join(" "));
+    }
 }

@@ -53,28 +53,35 @@ impl Dimension {
             .iter()
             .find(|(dimension, ..)| *dimension == self)
             .map_or_else(
-                || {
-                    let factors = [
-                        ("kg", self.mass),
-                        ("m", self.length),
-                        ("s", self.time),
-                        ("rad", self.angle),
-                    ];
-                    let text: Vec<String> = factors
-                        .into_iter()
-                        .filter(|(_, exponent)| *exponent != 0)
-                        .map(|(unit, exponent)| {
-                            if exponent == 1 {
-                                unit.to_owned()
-                            } else {
-                                format!("{unit}^{exponent}")
-                            }
-                        })
-                        .collect();
-                    format!("a quantity in {}", text.join(" "))
-                },
+                || format!("a quantity in {}", self.factors(" ")),
                 |(_, name, _)| (*name).to_owned(),
             )
+    }
+
+    /// The SI unit, as it is written behind a name: `kg*m^2`.
+    pub(super) fn in_si(self) -> String {
+        self.factors("*")
+    }
+
+    fn factors(self, between: &str) -> String {
+        let factors = [
+            ("kg", self.mass),
+            ("m", self.length),
+            ("s", self.time),
+            ("rad", self.angle),
+        ];
+        let text: Vec<String> = factors
+            .into_iter()
+            .filter(|(_, exponent)| *exponent != 0)
+            .map(|(unit, exponent)| {
+                if exponent == 1 {
+                    unit.to_owned()
+                } else {
+                    format!("{unit}^{exponent}")
+                }
+            })
+            .collect();
+        text.join(between)
     }
 
     /// Units to write it in.

@@ -206,7 +206,7 @@ impl Climber {
             return Err(syn_error(
                 input.span(),
                 &format!("an expression of more than {MAX_OPERATORS} operators"),
-                Some("split it into several effects, or simplify it"),
+                Some("name parts of it with `let name = ..;`, or simplify it"),
             ));
         }
         Ok(())

@@ -22,6 +22,9 @@ use crate::diagnostic::{Diagnostic, syn_error};
 /// Brackets in brackets; a robot needs five. Keeps recursion away from the stack's end.
 const MAX_NESTING: usize = 48;
 
+/// Characters of a name. Names stand in tables, messages and file formats, and no person writes longer ones.
+const LONGEST_NAME: usize = 64;
+
 /// Parses a spec's text.
 pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
     let tokens = TokenStream::from_str(text).map_err(|error| {
@@ -43,12 +46,12 @@ pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
 /// # Errors
 /// All grammar errors, combined.
 pub fn parse_tokens(tokens: TokenStream) -> syn::Result<Ast> {
-    check_nesting(&tokens)?;
+    check_tokens(&tokens)?;
     Ast::parse.parse2(tokens)
 }
 
-/// Refuses deep nesting before anything recursive sees it.
-fn check_nesting(tokens: &TokenStream) -> syn::Result<()> {
+/// Refuses deep nesting and long names before anything else sees them.
+fn check_tokens(tokens: &TokenStream) -> syn::Result<()> {
     let mut open = vec![tokens.clone().into_iter()];
     while let Some(level) = open.last_mut() {
         match level.next() {
@@ -61,6 +64,13 @@ fn check_nesting(tokens: &TokenStream) -> syn::Result<()> {
                     ));
                 }
                 open.push(group.stream().into_iter());
+            }
+            Some(TokenTree::Ident(name)) if name.to_string().len() > LONGEST_NAME => {
+                return Err(syn_error(
+                    name.span(),
+                    &format!("a name of more than {LONGEST_NAME} characters"),
+                    Some("write a shorter one"),
+                ));
             }
             Some(_) => {}
             None => {
@@ -179,11 +189,34 @@ fn semicolon(input: ParseStream) -> syn::Result<()> {
         input.parse::<Token![;]>()?;
         return Ok(());
     }
+    let help = if goes_on_with_a_value(input) {
+        "write one number, and join its units with `*` or `/`, as in `9.81 m/s^2` or `3 N*m`; `;` ends the statement"
+    } else {
+        "end every setting and declaration with `;`"
+    };
     Err(syn_error(
         input.span(),
         &format!("expected `;`{}", found(input)),
-        Some("end every setting and declaration with `;`"),
+        Some(help),
     ))
+}
+
+/// Whether a number or a word follows that begins no other statement: `9.81 m s^-2`, `1 1/s^2`.
+fn goes_on_with_a_value(input: ParseStream) -> bool {
+    use syn::ext::IdentExt as _;
+    let ahead = input.fork();
+    if ahead.peek(syn::Lit) {
+        return true;
+    }
+    if !ahead.peek(Ident::peek_any) || Ident::parse_any(&ahead).is_err() {
+        return false;
+    }
+    ahead.is_empty()
+        || ahead.peek(Token![;])
+        || ahead.peek(Token![,])
+        || ahead.peek(Token![^])
+        || ahead.peek(Token![*])
+        || ahead.peek(Token![/])
 }
 
 /// The lines of `///` in front of an item, without their margin.

@@ -6,7 +6,7 @@ use syn::Ident;
 use super::dimension::{Dimensions, Inference};
 use super::resolve::Constant;
 use crate::ast::{self, BinaryOp, ExprKind, Robot};
-use crate::check::chain::{check_gain, check_limits};
+use crate::check::chain::{check_gain, check_limits, check_number_of_joints};
 use crate::check::setting::Settings;
 use crate::check::unit::{self, Dimension};
 use crate::check::value::Quantity;
@@ -24,6 +24,11 @@ pub(super) fn check_coordinates(robot: &Robot, errors: &mut Errors) -> Vec<Joint
             ),
         );
     }
+    check_number_of_joints(
+        energies.coordinates.iter().map(|c| &c.name),
+        "coordinates",
+        errors,
+    );
     for limits in &energies.limits {
         let known = || energies.coordinates.iter().map(|c| c.name.to_string());
         let name = limits.name.to_string();
@@ -52,7 +57,7 @@ fn check_coordinate(
     errors: &mut Errors,
 ) -> Joint {
     let kind = coordinate.unit.as_ref().and_then(|unit| {
-        let dimension = value::constant(unit)
+        let dimension = unit_of(&coordinate.name, unit)
             .map_err(|error| errors.push(error))
             .ok()?
             .dimension;
@@ -105,7 +110,8 @@ pub(super) fn check_parameters(
         let mut found = |quantity: Result<Quantity, Diagnostic>| {
             quantity.map_err(|error| errors.push(error)).ok()
         };
-        let unit = parameter.unit.as_ref().map(value::constant);
+        let unit = parameter.unit.as_ref();
+        let unit = unit.map(|unit| unit_of(&parameter.name, unit));
         let unit = unit.and_then(&mut found);
         let help = "write its value in numbers; where it is no unknown of its own, use a `let`";
         let nominal = parameter.nominal.as_ref();
@@ -129,6 +135,28 @@ pub(super) fn check_parameters(
         });
     }
     parameters
+}
+
+/// The unit behind a declared name. It says a dimension: logs, parameter files and results are in SI units, so one with a scale
+/// would be believed and not obeyed.
+fn unit_of(name: &Ident, unit: &ast::Expr) -> Result<Quantity, Diagnostic> {
+    let quantity = value::constant(unit)?;
+    #[expect(clippy::float_cmp, reason = "the scale of SI units is exactly one")]
+    if quantity.value == 1.0 {
+        return Ok(quantity);
+    }
+    let si = quantity.dimension.unwrap_or(Dimension::NONE).in_si();
+    let help = if si.is_empty() {
+        "write the name alone".to_owned()
+    } else {
+        format!("write `{name}: {si}`")
+    };
+    Err(Diagnostic::new(
+        unit.span,
+        format!("the unit of `{name}` is not an SI unit: logs, parameter files and results are in SI units"),
+        format!("is {} {si}", quantity.value),
+    )
+    .help(help))
 }
 
 /// A number with its unit. Names of the robot have no place in it; behind a quantity, as in `5 N/m`, a name is a unit

@@ -9,9 +9,7 @@ mod resolve;
 mod rules;
 mod written;
 
-use syn::Ident;
-
-use super::resolve::is_reserved;
+use super::resolve::{reserved, reserved_name};
 use super::setting::Settings;
 use super::{Errors, check_unique};
 use crate::ast::{self, Robot, Value};
@@ -178,19 +176,13 @@ fn check_names(robot: &Robot, errors: &mut Errors) {
         "block of limits of",
         errors,
     );
-    let meant = |name: &&Ident| {
-        let text = name.to_string();
-        is_reserved(&text) || text == "dot" || text == "all" || text == "known"
+    // The position of a joint has no name in energies, and `q` is what many call theirs.
+    let taken = || {
+        let words = reserved().filter(|word| *word != "q");
+        words.chain(["all", "known"])
     };
-    for name in names().filter(meant) {
-        errors.push(
-            Diagnostic::new(
-                name.span(),
-                format!("`{name}` has a meaning in the language"),
-                "reserved",
-            )
-            .help("choose another name"),
-        );
+    for name in names().filter(|name| taken().any(|word| *name == word)) {
+        errors.push(reserved_name(name, taken()));
     }
 }
 

@@ -1,8 +1,10 @@
 //! Energies are sums of products of parameters: which products there are.
 
 use super::{Checked, Fault, Statement};
+use crate::check::resolve::NOT_COMPUTABLE;
 use crate::model::{EnergyExpr, EnergyLeaf, Function, Monomial};
 use crate::polynomial::{self, NotPolynomial, Polynomial, Reason, Ring};
+use crate::transform::{LARGEST, LARGEST_EXPONENT};
 
 /// What the check needs to know of a coefficient.
 #[derive(Debug, Clone, Copy)]
@@ -11,6 +13,8 @@ pub(super) struct Coefficient {
     number: Option<f64>,
     /// Whether it changes when the robot moves.
     varies: bool,
+    /// Whether no number that it is made of is beyond what can be computed with.
+    is_computable: bool,
 }
 
 /// The ring of what may change and what does not. A sum of two coefficients counts as one that is not zero.
@@ -23,6 +27,7 @@ impl Ring for Structure {
         Coefficient {
             number: Some(value),
             varies: false,
+            is_computable: true,
         }
     }
 
@@ -47,13 +52,15 @@ impl Ring for Structure {
     }
 
     fn power(&mut self, x: &Coefficient, y: &Coefficient) -> Option<Coefficient> {
-        Some(both(x, y, f64::powf))
+        let is_steep = x.varies && y.number.is_some_and(|y| y.abs() > LARGEST_EXPONENT);
+        let power = computable(both(x, y, f64::powf));
+        power.filter(|_| !is_steep)
     }
 
     fn call(&mut self, function: Function, x: &Coefficient) -> Option<Coefficient> {
-        Some(Coefficient {
+        computable(Coefficient {
             number: x.number.map(|x| function.apply(x)),
-            varies: x.varies,
+            ..*x
         })
     }
 
@@ -69,12 +76,24 @@ impl Ring for Structure {
 const VARYING: Coefficient = Coefficient {
     number: None,
     varies: true,
+    is_computable: true,
 };
 
+/// None for a number that is none, or too large to compute with.
+fn computable(x: Coefficient) -> Option<Coefficient> {
+    (x.is_computable && is_computable(x.number)).then_some(x)
+}
+
+fn is_computable(number: Option<f64>) -> bool {
+    number.is_none_or(|number| number.abs() <= LARGEST)
+}
+
 fn both(x: &Coefficient, y: &Coefficient, combine: impl Fn(f64, f64) -> f64) -> Coefficient {
+    let number = x.number.zip(y.number).map(|(x, y)| combine(x, y));
     Coefficient {
-        number: x.number.zip(y.number).map(|(x, y)| combine(x, y)),
+        number,
         varies: x.varies || y.varies,
+        is_computable: x.is_computable && y.is_computable && is_computable(number),
     }
 }
 
@@ -84,7 +103,13 @@ pub(super) fn expand(
     value: &EnergyExpr,
     bindings: &[Polynomial<Coefficient>],
 ) -> Checked<Polynomial<Coefficient>> {
-    polynomial::expand(&mut Structure, value, bindings).map_err(|error| fault(statement, error))
+    let expanded = polynomial::expand(&mut Structure, value, bindings)
+        .map_err(|error| fault(statement, error))?;
+    // Sums and products have no place to refuse.
+    if expanded.values().all(|x| computable(*x).is_some()) {
+        return Ok(expanded);
+    }
+    Err(not_computable(statement, Vec::new()))
 }
 
 /// The value of an expression that is made of numbers and of bindings that are numbers.
@@ -143,12 +168,16 @@ fn fault(statement: Statement, NotPolynomial { reason, path }: NotPolynomial) ->
             "more than the compiler takes",
             "give sums of parameters a parameter of their own",
         ),
-        Reason::OutsideRing => Fault::new(
-            statement,
-            path,
-            "the energy cannot be expanded",
-            "here",
-            "simplify the expression",
-        ),
+        Reason::OutsideRing => not_computable(statement, path),
     }
+}
+
+fn not_computable(statement: Statement, path: Vec<usize>) -> Box<Fault> {
+    Fault::new(
+        statement,
+        path,
+        "this is not a finite number, or too large to compute with",
+        "wherever the robot is",
+        NOT_COMPUTABLE,
+    )
 }
