@@ -39,6 +39,8 @@ pub fn effect_columns(
         symbols: &symbols,
         joints,
         rigid_torque: &rigid_torque,
+        // An effect that acts otherwise than by torques does not stand alone.
+        levers: &[],
     };
     let entries = effect::entries(&mut dag, definition, &scope, &parameters);
     let block = Block::new(

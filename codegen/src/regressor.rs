@@ -48,6 +48,7 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
         }
     }
     let outside = effect::outside_rigid_torque(dag, dof);
+    let levers = dynamics::levers(dag, model);
     let mut first = inertial;
     for (index, declared) in model.effects.iter().enumerate() {
         let symbols: Vec<Symbol> = (first..first + declared.definition.linear.len())
@@ -60,6 +61,7 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
             symbols: &names,
             joints: &declared.joints,
             rigid_torque: &outside,
+            levers: &levers,
         };
         for entry in effect::entries(dag, &declared.definition, &scope, &symbols) {
             let cell = &mut regressor[entry.joint][first + entry.parameter];

@@ -1,9 +1,9 @@
 /// A torque channel that comes later than the position channel: a filter in the drive, a bus, another clock.
 ///
-/// The log has at `t` the torque of `t - lag`. A fault of the log and not of the arm: emitted equations do not know it. Identifiable
+/// The log has at `t` the torque of `t - delay`. A fault of the log and not of the arm: emitted equations do not know it. Identifiable
 /// where accelerations are large, as the torque of inertia changes fastest; beside unknown viscous friction in more than one pose.
 effect time_delay() {
     /// Seconds; negative where the torque comes early.
-    shape lag in -0.03 .. 0.03 step 0.005;
-    delay = lag;
+    shape delay in -0.03 .. 0.03 step 0.005;
+    delay = delay;
 }

@@ -277,7 +277,7 @@ pub struct Equation {
     pub value: Expr,
 }
 
-/// `position(j) = ..`, `body(j) = [..]`, `tilt = [..]`, `delay = ..`
+/// `force(j) = [..]`, `position(j) = ..`, `body(j) = [..]`, `tilt = [..]`, `delay = ..`
 #[derive(Debug, Clone)]
 pub struct Act {
     /// Which of them.
@@ -293,6 +293,8 @@ pub struct Act {
 /// What an effect can change beside torques.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ActKind {
+    /// `force(j) = [x, y, z]`
+    Force,
     /// `position(j) = ..`
     Position,
     /// `body(j) = [m, mx, ..]`
@@ -351,7 +353,8 @@ pub struct Condition {
 
 impl ActKind {
     /// All of them with their words.
-    pub const ALL: [(&'static str, Self); 4] = [
+    pub const ALL: [(&'static str, Self); 5] = [
+        ("force", Self::Force),
         ("position", Self::Position),
         ("body", Self::Body),
         ("tilt", Self::Tilt),
@@ -361,7 +364,7 @@ impl ActKind {
     /// Whether it is one of a joint.
     #[must_use]
     pub const fn has_joint(self) -> bool {
-        matches!(self, Self::Position | Self::Body)
+        matches!(self, Self::Force | Self::Position | Self::Body)
     }
 }
 

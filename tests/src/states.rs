@@ -65,9 +65,18 @@ pub fn physical(random: &mut ChaCha8Rng, model: &Model) -> Vec<f64> {
         Some(energies) => products(random, energies),
         None => (0..model.joints.len()).flat_map(|_| body(random)).collect(),
     };
+    let mut carried = Vec::new();
     for parameter in model.standard_parameters().iter().skip(standard.len()) {
-        assert!(matches!(parameter.owner, Owner::Effect { .. }));
-        standard.push(random.random_range(0.1..1.0));
+        // Standard effects list the ten numbers of a body in their order.
+        let value = if model.is_rigid(parameter) {
+            if carried.is_empty() {
+                carried = body(random).into_iter().rev().collect();
+            }
+            carried.pop()
+        } else {
+            None
+        };
+        standard.push(value.unwrap_or_else(|| random.random_range(0.1..1.0)));
     }
     keep_fixed(model, &mut standard);
     standard

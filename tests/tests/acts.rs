@@ -259,7 +259,7 @@ fn a_late_torque_is_found() {
     for compiled in [declared(effects), spec(DOWN, "nominal", LINKS[2], effects)] {
         let found = identify(compiled, delayed);
         found.leaves_noise_alone(0.15);
-        close(found.value("time_delay.lag"), late, 0.02);
+        close(found.value("time_delay.delay"), late, 0.02);
     }
 }
 

@@ -125,7 +125,7 @@ fn states() -> Vec<At> {
             ddq: [1.1, -2.3 * first],
             load: [-8.0 * second, 5.0],
             p: [1.7, 0.6, 0.9, -0.4, 0.2, 1.3, -0.7, 2.2, 0.1, 3.1],
-            s: [2.25 + 0.15 * first, 0.8, 1.5],
+            s: [2.25 + 0.15 * first, 3.3 - 2.5 * first, 1.5],
             measured: [-7.0 * second, 3.0],
             input: [31.0],
             z: [0.6 * second],
@@ -179,11 +179,18 @@ fn every_standard_effect_follows_its_law() {
 
 type Acts = fn(&At) -> Vec<f64>;
 
-/// What the others change: position of the link less that of the joint, inertial parameters, angles of the base, seconds.
-const ACTS: [(&str, Acts); 7] = [
+/// What the others change: position of the link less that of the joint, force, inertial parameters, angles of the base, seconds.
+const ACTS: [(&str, Acts); 8] = [
     ("backlash", |at| vec![-at.s[0] * at.load[0].signum()]),
     ("base_tilt", |at| vec![at.s[0], at.s[1]]),
     ("encoder_offset", |at| vec![-at.s[0]]),
+    ("external_force", |at| {
+        let touched = at.s[0] <= TIME && TIME < at.s[1];
+        at.p[..3]
+            .iter()
+            .map(|f| if touched { *f } else { 0.0 })
+            .collect()
+    }),
     ("joint_elasticity", |at| vec![-at.load[0] / at.s[0]]),
     ("link_inertial_error", |at| at.p.to_vec()),
     ("payload", |at| at.p.to_vec()),

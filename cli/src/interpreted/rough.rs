@@ -17,8 +17,8 @@ pub(super) fn is_rough(definition: &EffectDefinition, parameter: usize) -> bool 
         };
         known.bindings.push(facts);
     }
-    let mut torques = definition.torques.iter();
-    torques.any(|torque| known.has_rough_term(&torque.value))
+    let mut torques = definition.torque_equations();
+    torques.any(|value| known.has_rough_term(value))
 }
 
 /// What is known of a binding.

@@ -43,6 +43,7 @@ impl Changes {
             model,
             parameters,
             &rigid_torque,
+            &[],
             |dag, declared, scope| {
                 changes.take(dag, declared, scope);
             },

@@ -1,8 +1,14 @@
 //! Effects as the language defines them, lowered to expressions for given joints.
 
-use robot_model_spec::model::{Effect, EffectDefinition, EffectExpr, EffectLeaf, Model, Signal};
+use std::collections::BTreeMap;
 
+use robot_model_spec::model::{
+    Act, Effect, EffectDefinition, EffectExpr, EffectLeaf, Model, Signal,
+};
+
+use super::kinematics::Lever;
 use super::lower::lower_with;
+use super::vector;
 use crate::expr::{Dag, ExprId, Symbol};
 
 /// What the names in an effect's definition stand for.
@@ -15,6 +21,8 @@ pub struct Scope<'a> {
     pub joints: &'a [usize],
     /// Torque of the rigid body, one per joint of the arm: symbols where it comes from outside, expressions where not.
     pub rigid_torque: &'a [ExprId],
+    /// What forces on links have to be multiplied with; empty where no effect is one.
+    pub levers: &'a [Lever],
 }
 
 /// What the names stand for that have one meaning in all forms.
@@ -83,6 +91,7 @@ pub fn each_declared(
     model: &Model,
     parameters: &[ExprId],
     rigid_torque: &[ExprId],
+    levers: &[Lever],
     mut visit: impl FnMut(&mut Dag, &Effect, &Scope<'_>),
 ) {
     let mut linear = &parameters[model.rigid_parameters()..];
@@ -95,26 +104,40 @@ pub fn each_declared(
             symbols: &symbols,
             joints: &declared.joints,
             rigid_torque,
+            levers,
         };
         visit(dag, declared, &scope);
     }
 }
 
-/// `(joint, torque)` for each joint that the effect acts on.
+/// `(joint, torque)` for each joint that the effect acts on; a joint may come twice.
 pub fn torques(
     dag: &mut Dag,
     definition: &EffectDefinition,
     scope: &Scope<'_>,
 ) -> Vec<(usize, ExprId)> {
     let bindings = bindings(dag, definition, scope);
-    definition
-        .torques
-        .iter()
-        .map(|torque| {
-            let value = lower(dag, &torque.value, scope, &bindings);
-            (scope.joints[torque.joint], value)
-        })
-        .collect()
+    let mut torques = Vec::new();
+    for torque in &definition.torques {
+        let value = lower(dag, &torque.value, scope, &bindings);
+        torques.push((scope.joints[torque.joint], value));
+    }
+    for act in &definition.acts {
+        let Act::Force { joint, components } = act else {
+            continue;
+        };
+        // The motors hold against the force: `-J^T F`.
+        let lever = &scope.levers[scope.joints[*joint]];
+        let force: Vec<ExprId> = components
+            .iter()
+            .map(|value| lower(dag, value, scope, &bindings))
+            .collect();
+        for (joint, velocity) in lever.iter().enumerate() {
+            let power = vector::dot(dag, *velocity, [force[0], force[1], force[2]]);
+            torques.push((joint, dag.neg(power)));
+        }
+    }
+    torques
 }
 
 /// What the effect changes beside torques: values of each act, in their order.
@@ -164,10 +187,14 @@ pub fn entries(
     scope: &Scope<'_>,
     parameters: &[Symbol],
 ) -> Vec<EffectEntry> {
-    let torques = torques(dag, definition, scope);
+    let mut sums: BTreeMap<usize, ExprId> = BTreeMap::new();
+    for (joint, torque) in torques(dag, definition, scope) {
+        let sum = sums.entry(joint).or_insert(dag.zero());
+        *sum = dag.add(*sum, torque);
+    }
     let mut entries = Vec::new();
     for (parameter, &symbol) in parameters.iter().enumerate() {
-        for &(joint, torque) in &torques {
+        for (&joint, &torque) in &sums {
             let value = dag.derivative(torque, symbol);
             if !dag.is_zero(value) {
                 entries.push(EffectEntry {

@@ -40,10 +40,48 @@ impl Pose {
     }
 }
 
+/// Velocity of the origin of a link's frame per velocity of each joint up to the link's own, in base coordinates.
+pub type Lever = Vec<Vector>;
+
+/// A joint in base coordinates.
+#[derive(Clone, Copy)]
+struct PlacedJoint {
+    kind: JointKind,
+    axis: Vector,
+    /// From the parent's origin to the joint.
+    to_joint: Vector,
+    /// From the joint to the link's origin.
+    from_joint: Vector,
+}
+
 impl Chain {
     /// Poses by products of frames; column `j` of the Jacobian is `[z x (p - o), z]` of a revolute joint and `[z, 0]` of a
     /// prismatic one, with `z` its axis, `o` a point on it and `p` the tip. Source: Siciliano et al. 2009, ch. 3.
     pub fn kinematics(&self, dag: &mut Dag) -> Kinematics {
+        let (poses, joints) = self.place(dag);
+        let columns = columns(dag, &joints);
+        let jacobian = std::array::from_fn(|row| {
+            let entry = |(velocity, angular): &(Vector, Vector)| match row {
+                0..3 => velocity[row],
+                _ => angular[row - 3],
+            };
+            columns.iter().map(entry).collect()
+        });
+        Kinematics { poses, jacobian }
+    }
+
+    /// One a link.
+    pub fn levers(&self, dag: &mut Dag) -> Vec<Lever> {
+        let (_, joints) = self.place(dag);
+        (1..=joints.len())
+            .map(|links| {
+                let columns = columns(dag, &joints[..links]);
+                columns.into_iter().map(|(velocity, _)| velocity).collect()
+            })
+            .collect()
+    }
+
+    fn place(&self, dag: &mut Dag) -> (Vec<Pose>, Vec<PlacedJoint>) {
         let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut pose = Pose {
             rotation: identity.map(|row| vector::constant(dag, row)),
@@ -56,7 +94,12 @@ impl Chain {
             let axis = vector::apply(dag, &pose.rotation, frame.axis_in_parent);
             let rotation = multiply(dag, &pose.rotation, &frame.rotation);
             let from_joint = vector::apply(dag, &rotation, frame.to_origin);
-            joints.push((frame.kind, axis, to_joint, from_joint));
+            joints.push(PlacedJoint {
+                kind: frame.kind,
+                axis,
+                to_joint,
+                from_joint,
+            });
             let joint_point = vector::add(dag, pose.translation, to_joint);
             pose = Pose {
                 rotation,
@@ -64,26 +107,24 @@ impl Chain {
             };
             poses.push(pose);
         }
-        // From the tip inward, so that levers are sums and not differences of positions.
-        let zero = dag.zero();
-        let mut lever = [zero; 3];
-        let mut columns = Vec::with_capacity(joints.len());
-        for (kind, axis, to_joint, from_joint) in joints.into_iter().rev() {
-            lever = vector::add(dag, from_joint, lever);
-            columns.push(match kind {
-                JointKind::Revolute => (vector::cross(dag, axis, lever), axis),
-                JointKind::Prismatic => (axis, [zero; 3]),
-            });
-            lever = vector::add(dag, to_joint, lever);
-        }
-        columns.reverse();
-        let jacobian = std::array::from_fn(|row| {
-            let entry = |(velocity, angular): &(Vector, Vector)| match row {
-                0..3 => velocity[row],
-                _ => angular[row - 3],
-            };
-            columns.iter().map(entry).collect()
-        });
-        Kinematics { poses, jacobian }
+        (poses, joints)
     }
+}
+
+/// Velocity and angular velocity of the last link per velocity of each joint.
+fn columns(dag: &mut Dag, joints: &[PlacedJoint]) -> Vec<(Vector, Vector)> {
+    // From the tip inward, so that levers are sums and not differences of positions.
+    let zero = dag.zero();
+    let mut lever = [zero; 3];
+    let mut columns = Vec::with_capacity(joints.len());
+    for joint in joints.iter().rev() {
+        lever = vector::add(dag, joint.from_joint, lever);
+        columns.push(match joint.kind {
+            JointKind::Revolute => (vector::cross(dag, joint.axis, lever), joint.axis),
+            JointKind::Prismatic => (joint.axis, [zero; 3]),
+        });
+        lever = vector::add(dag, joint.to_joint, lever);
+    }
+    columns.reverse();
+    columns
 }

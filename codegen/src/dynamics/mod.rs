@@ -20,14 +20,14 @@ mod point;
 mod rigid;
 mod vector;
 
-use robot_model_spec::model::Model;
+use robot_model_spec::model::{Act, Model};
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
 pub use changes::Changes;
 pub use energies::Energies;
 use energy::EnergyForm;
-pub use kinematics::{Kinematics, Pose};
+pub use kinematics::{Kinematics, Lever, Pose};
 pub use partial::Partials;
 pub use point::{Point, points};
 use rigid::{RigidBody, Terms};
@@ -141,10 +141,26 @@ pub fn energies(
 
 /// Where the links are; `None` for a robot without links.
 pub fn kinematics(dag: &mut Dag, model: &Model) -> Option<Kinematics> {
+    Some(massless(dag, model)?.kinematics(dag))
+}
+
+/// What forces on links are multiplied with; empty where no declared effect is a force.
+pub(crate) fn levers(dag: &mut Dag, model: &Model) -> Vec<Lever> {
+    let mut acts = model
+        .effects
+        .iter()
+        .flat_map(|effect| &effect.definition.acts);
+    if !acts.any(|act| matches!(act, Act::Force { .. })) {
+        return Vec::new();
+    }
+    massless(dag, model).map_or_else(Vec::new, |chain| chain.levers(dag))
+}
+
+fn massless(dag: &mut Dag, model: &Model) -> Option<Chain> {
     let chain = model.chain()?;
-    let massless = vec![[dag.zero(); 10]; chain.links.len()];
+    let links = vec![[dag.zero(); 10]; chain.links.len()];
     let changes = Changes::of(dag, model);
-    Some(Chain::new(dag, &model.joints, chain, massless, &changes).kinematics(dag))
+    Some(Chain::new(dag, &model.joints, chain, links, &changes))
 }
 
 fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
@@ -166,11 +182,13 @@ fn effect_torque(
     rigid_torque: &[ExprId],
 ) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
+    let levers = levers(dag, model);
     effect::each_declared(
         dag,
         model,
         parameters,
         rigid_torque,
+        &levers,
         |dag, declared, scope| {
             for (joint, torque) in effect::torques(dag, &declared.definition, scope) {
                 sum[joint] = dag.add(sum[joint], torque);
@@ -192,6 +210,7 @@ fn state_rates(dag: &mut Dag, model: &Model) -> Vec<ExprId> {
         model,
         &nothing,
         &rigid_torque,
+        &[],
         |dag, declared, scope| {
             rates.extend(effect::rates(dag, &declared.definition, scope));
         },

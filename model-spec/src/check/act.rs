@@ -63,8 +63,8 @@ fn check_act(
     };
     let fits = check_count(act, errors);
     for value in &act.values {
-        if act.kind == ActKind::Body {
-            degrees.check_body(value, errors);
+        if let ActKind::Body | ActKind::Force = act.kind {
+            degrees.check_entry(value, &left_hand_side(act), errors);
         } else if !degrees.is_free(value) {
             let title = format!("`{}` depends on a linear parameter", left_hand_side(act));
             errors.push(
@@ -86,6 +86,10 @@ fn check_act(
             joint,
             value: values.pop()?,
         },
+        ActKind::Force => Act::Force {
+            joint,
+            components: values,
+        },
         ActKind::Body => Act::Body {
             joint,
             inertial: values,
@@ -101,6 +105,7 @@ fn check_count(act: &ast::Act, errors: &mut Errors) -> bool {
     let (count, list) = match act.kind {
         ActKind::Position | ActKind::Delay => (1, "..".to_owned()),
         ActKind::Tilt => (2, "[a, b]".to_owned()),
+        ActKind::Force => (3, "[x, y, z]".to_owned()),
         ActKind::Body => {
             let names: Vec<&str> = InertialElement::ALL.map(InertialElement::name).to_vec();
             (names.len(), format!("[{}]", names.join(", ")))
@@ -125,7 +130,7 @@ fn check_count(act: &ast::Act, errors: &mut Errors) -> bool {
 /// A body, a tilt and a delay stay what they are along a motion.
 pub(super) fn check_constant(effect: &Effect, definition: &EffectDefinition, errors: &mut Errors) {
     for (act, checked) in effect.acts.iter().zip(&definition.acts) {
-        if act.kind == ActKind::Position {
+        if let ActKind::Position | ActKind::Force = act.kind {
             continue;
         }
         for (written, value) in act.values.iter().zip(checked.values()) {
@@ -146,8 +151,8 @@ pub(super) fn check_one_use(effect: &Effect, definition: &EffectDefinition, erro
     let in_torques: BTreeSet<usize> = (0..definition.linear.len())
         .filter(|&k| {
             let is_it = |leaf: &EffectLeaf| *leaf == EffectLeaf::Linear(k);
-            let mut torques = definition.torques.iter();
-            torques.any(|torque| definition.reads(&torque.value, &is_it))
+            let mut torques = definition.torque_equations();
+            torques.any(|value| definition.reads(value, &is_it))
         })
         .collect();
     for (k, linear) in effect.linear.iter().enumerate() {

@@ -324,13 +324,14 @@ fn check_has_links(
     definition: &EffectDefinition,
     errors: &mut Errors,
 ) {
-    let of_links = |act: &Act| matches!(act, Act::Body { .. } | Act::Tilt { .. });
+    let of_links =
+        |act: &Act| matches!(act, Act::Force { .. } | Act::Body { .. } | Act::Tilt { .. });
     if !says_energies(robot) || !definition.acts.iter().any(of_links) {
         return;
     }
     let name = &declared.name;
     let title =
-        format!("effect `{name}` changes links or gravity, and the robot says its energies");
+        format!("effect `{name}` is about links or gravity, and the robot says its energies");
     errors.push(
         Diagnostic::new(name.span(), title, "for chains only")
             .help("write it into `kinetic` and `potential`, with parameters of its own"),

@@ -41,11 +41,11 @@ impl Degrees {
         }
     }
 
-    /// Reports what keeps an entry of a body from being zero or linear.
-    pub(super) fn check_body(&self, entry: &Expr, errors: &mut Errors) {
+    /// Reports what keeps an entry of a list from being zero or linear; `list` is its name.
+    pub(super) fn check_entry(&self, entry: &Expr, list: &str, errors: &mut Errors) {
         match self.degree(entry) {
             Ok(Degree::Zero | Degree::Linear) => {}
-            Ok(Degree::Free) => errors.push(constant_term(entry, "an entry of the body")),
+            Ok(Degree::Free) => errors.push(constant_term(entry, &format!("an entry of `{list}`"))),
             Err(error) => errors.push(error),
         }
     }

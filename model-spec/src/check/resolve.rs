@@ -5,7 +5,7 @@ use syn::Ident;
 
 use super::Errors;
 use super::binding::rate_name;
-use crate::ast::{self, ActKind, ExprKind};
+use crate::ast::{self, ExprKind};
 use crate::diagnostic::Diagnostic;
 use crate::model::{BinaryOp, Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
 use crate::suggest;
@@ -31,7 +31,7 @@ const SIGNALS: [(&str, Signal); 5] = [
     ("measured_torque", Signal::MeasuredTorque),
 ];
 
-/// Words with a meaning of their own, besides functions, signals and acts.
+/// Words with a meaning of their own, besides functions and signals; words that only begin a statement may be names.
 const WORDS: [&str; 17] = [
     "pi", "time", "torque", "tau", "linear", "shape", "input", "state", "let", "dot", "if", "else",
     "min", "max", "step", "in", "on",
@@ -41,12 +41,7 @@ const WORDS: [&str; 17] = [
 pub(super) fn reserved() -> impl Iterator<Item = &'static str> {
     let signals = SIGNALS.iter().map(|(name, _)| *name);
     let functions = FUNCTIONS.iter().map(|(name, _)| *name);
-    let acts = ActKind::ALL.iter().map(|(name, _)| *name);
-    WORDS
-        .into_iter()
-        .chain(signals)
-        .chain(functions)
-        .chain(acts)
+    WORDS.into_iter().chain(signals).chain(functions)
 }
 
 /// A name that is a word of the language.

@@ -54,6 +54,16 @@ impl EffectDefinition {
         torques.chain(self.acts.iter().flat_map(Act::values))
     }
 
+    /// Right-hand sides that are torques or make some: components of forces among them.
+    pub fn torque_equations(&self) -> impl Iterator<Item = &EffectExpr> {
+        let torques = self.torques.iter().map(|torque| &torque.value);
+        let forces = self
+            .acts
+            .iter()
+            .filter(|act| matches!(act, Act::Force { .. }));
+        torques.chain(forces.flat_map(Act::values))
+    }
+
     /// Whether a linear parameter is one of a body, not of a torque.
     #[must_use]
     pub fn is_of_body(&self, parameter: usize) -> bool {
@@ -84,7 +94,7 @@ impl EffectDefinition {
     pub fn moves_links(&self) -> bool {
         self.acts.iter().any(|act| match act {
             Act::Position { value, .. } => !self.is_constant(value),
-            Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => false,
+            Act::Force { .. } | Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => false,
         })
     }
 
@@ -187,6 +197,14 @@ pub struct EffectTorque {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Act {
+    /// `force(j) = [x, y, z]`: something outside pushes the origin of the frame of the joint's link, N in the axes of the base frame. The
+    /// motors supply `-J^T` times that. Each component is zero or linear in linear parameters.
+    Force {
+        /// The joint that moves the link.
+        joint: usize,
+        /// Three components.
+        components: Vec<EffectExpr>,
+    },
     /// `position(j) = ..`: the rigid body stands that far from where the log has the joint, rad or m. Free of linear
     /// parameters.
     Position {
@@ -223,6 +241,7 @@ impl Act {
             Self::Position { value, .. } | Self::Delay { seconds: value } => {
                 std::slice::from_ref(value)
             }
+            Self::Force { components, .. } => components.as_slice(),
             Self::Body { inertial, .. } => inertial.as_slice(),
             Self::Tilt { angles } => angles.as_slice(),
         }
@@ -233,7 +252,9 @@ impl Act {
     #[must_use]
     pub const fn joint(&self) -> Option<usize> {
         match self {
-            Self::Position { joint, .. } | Self::Body { joint, .. } => Some(*joint),
+            Self::Force { joint, .. } | Self::Position { joint, .. } | Self::Body { joint, .. } => {
+                Some(*joint)
+            }
             Self::Tilt { .. } | Self::Delay { .. } => None,
         }
     }

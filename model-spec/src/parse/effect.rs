@@ -68,8 +68,8 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
                     &format!("an effect has no `{keyword}`"),
                     Some(
                         "write `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
-                         `dot(z) = ..;`, `torque(j) = ..;`, `position(j) = ..;`, `body(j) = [..];`, `tilt = [..];` or \
-                         `delay = ..;`",
+                         `dot(z) = ..;`, `torque(j) = ..;`, `force(j) = [..];`, `position(j) = ..;`, `body(j) = [..];`, \
+                         `tilt = [..];` or `delay = ..;`",
                     ),
                 ));
             }

@@ -6,5 +6,5 @@ robot Pendulum {
 
 effect creep(j) {
     linear k;
-    force(j) = k * q(j);
+    moment(j) = k * q(j);
 }

@@ -1,4 +1,4 @@
-// An arm as it was mounted and is used: on a base that leans, with a tool in its hand, an encoder that was put on badly, and a
+// An arm as it was mounted and is used: on a base that leans, with a tool in its hand that is touched for a while, an encoder that was put on badly, and a
 // log whose torques come late. What effects say of these is in the equations, but for the delay, which is the log's.
 robot MountedArm {
     gravity = [0, 0, -9.81];
@@ -9,9 +9,10 @@ robot MountedArm {
     link reach: fixed { mass = 2.1; com = [0, 0.02, -0.1]; inertia = [0.02, 0.02, 0.01, 0, 0, 0]; }
     effects {
         base_tilt;
-        time_delay(lag = 0.004);
+        time_delay(delay = 0.004);
         encoder_offset(offset = 0.05) on lift;
         payload on reach;
+        external_force(start = 2, end = 8) on reach;
         viscous_friction on all;
     }
 }

@@ -10,7 +10,7 @@ pub mod jet;
 
 use nalgebra::{DMatrix, Matrix3, Rotation3, Unit, Vector3};
 use robot_model_spec::Model;
-use robot_model_spec::model::{Effect, JointKind, Transform};
+use robot_model_spec::model::{Act, Effect, JointKind, Transform};
 
 use energies::EnergyTwin;
 
@@ -161,8 +161,22 @@ impl<'a> Twin<'a> {
             for equation in &effect.definition.torques {
                 torque[effect.joints[equation.joint]] += expression::value(&equation.value, scope);
             }
+            for act in &effect.definition.acts {
+                if let Act::Force { joint, components } = act {
+                    let force = Vector3::from_fn(|k, _| expression::value(&components[k], scope));
+                    self.hold(&mut torque, effect.joints[*joint], &force, state);
+                }
+            }
         });
         torque
+    }
+
+    /// The torques that hold a force on a link: by virtual work the power of the force is taken by the motors.
+    fn hold(&self, torque: &mut [f64], link: usize, force: &Vector3<f64>, state: &State) {
+        let links = self.links(state);
+        for (j, torque) in torque.iter_mut().enumerate().take(link + 1) {
+            *torque -= self.partial(&links, link, j).0.dot(force);
+        }
     }
 
     /// Every declared effect with what its names stand for.
