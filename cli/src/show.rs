@@ -52,6 +52,8 @@ enum WhatArgument {
     ForwardKinematics,
     /// Velocity and angular velocity of the tip per joint velocity, or of the points
     Jacobian,
+    /// Rates of the internal states of effects
+    StateRates,
     /// Where links stand that are not at `q`, and by how much logged torques are late
     Measurement,
     /// How `beta` is made of the standard parameters
@@ -77,6 +79,7 @@ impl From<WhatArgument> for What {
             WhatArgument::Energies => Self::Energies,
             WhatArgument::ForwardKinematics => Self::ForwardKinematics,
             WhatArgument::Jacobian => Self::Jacobian,
+            WhatArgument::StateRates => Self::StateRates,
             WhatArgument::Measurement => Self::Measurement,
             WhatArgument::BaseParameters => Self::BaseParameters,
             WhatArgument::Cost => Self::Cost,

@@ -295,23 +295,6 @@ impl Compiled {
         Program::new(&self.dag, &self.dynamics.inverse_dynamics)
     }
 
-    /// Torque of the parameters that the spec fixes, one output a joint.
-    #[must_use]
-    pub fn known_torque(&self) -> Program {
-        let mut dag = self.dag.clone();
-        let values: Vec<Value> = self
-            .standard
-            .iter()
-            .map(|parameter| Value::Number(fixed_value(parameter)))
-            .collect();
-        let form = self
-            .model
-            .energies()
-            .map(|energies| energy::written(&mut dag, energies, self.dof()));
-        let torque = dynamics::rigid_torque(&mut dag, &self.model, form.as_ref(), &values);
-        Program::new(&dag, &torque)
-    }
-
     /// `M`, row by row.
     #[must_use]
     pub fn mass_matrix(&self) -> Program {

@@ -93,6 +93,12 @@ impl Compiled {
         self.base_columns(&self.base_momentum.drift, |column| !self.is_rigid(column))
     }
 
+    /// Torque of the parameters that the spec fixes, one output a joint.
+    #[must_use]
+    pub fn known_torque(&self) -> Program {
+        self.fixed_part(&self.linear.regressor)
+    }
+
     /// Momentum of the parameters that the spec fixes, one output a joint.
     #[must_use]
     pub fn known_momentum(&self) -> Program {
@@ -105,6 +111,7 @@ impl Compiled {
         self.fixed_part(&self.momentum.drift)
     }
 
+    /// The columns of fixed parameters times their values.
     fn fixed_part(&self, regressor: &[Vec<ExprId>]) -> Program {
         let mut dag = self.dag.clone();
         let outputs: Vec<ExprId> = regressor

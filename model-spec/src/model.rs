@@ -6,6 +6,7 @@
 
 mod effect;
 mod expr;
+mod monomial;
 
 use std::sync::Arc;
 

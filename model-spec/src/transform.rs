@@ -174,6 +174,7 @@ pub(crate) fn is_in_range(x: f64) -> bool {
 #[cfg(test)]
 mod tests {
     #![expect(clippy::float_cmp, reason = "these numbers are exact")]
+    #![expect(clippy::approx_constant, reason = "as files write them")]
 
     use super::*;
 

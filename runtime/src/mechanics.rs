@@ -88,8 +88,9 @@ pub trait Mechanics<
 
     /// Momentum regressor `Y_p`, DOF x STANDARD: `tau = d/dt (Y_p * standard) - Y_h * standard`, with nominal shapes.
     ///
-    /// No acceleration is in it. Columns of effects that read accelerations otherwise, as friction that depends on the load
-    /// does, are zero here and in `Y_h`.
+    /// No acceleration is in it. Effects that read accelerations otherwise, as friction that depends on the load does, have no
+    /// such form: their columns are zero here and in `Y_h`, and the equation holds for the torque without them. The emitted
+    /// functions say which they are.
     #[must_use]
     fn momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
         let state = State::new(*q, *dq, Vector::zeros());
@@ -100,7 +101,7 @@ pub trait Mechanics<
     fn momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
 
     /// Drift regressor `Y_h`, DOF x STANDARD: what changes the momentum beside the torque. For the rigid body
-    /// `Y_h * standard = C^T dq - G`.
+    /// `Y_h * standard = C^T dq - G`. Zero columns as in [`Self::momentum_regressor`].
     #[must_use]
     fn drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
         let state = State::new(*q, *dq, Vector::zeros());
@@ -110,7 +111,8 @@ pub trait Mechanics<
     /// [`Self::drift_regressor`] for effects that depend on time or shape parameters; `state.ddq` is not read.
     fn drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
 
-    /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes.
+    /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
+    /// [`Self::momentum_regressor`].
     #[must_use]
     fn base_momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
         let state = State::new(*q, *dq, Vector::zeros());
@@ -121,7 +123,8 @@ pub trait Mechanics<
     fn base_momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>)
     -> Matrix<DOF, BASE>;
 
-    /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes.
+    /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
+    /// [`Self::momentum_regressor`].
     #[must_use]
     fn base_drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
         let state = State::new(*q, *dq, Vector::zeros());

@@ -1,7 +1,7 @@
 //! Laws of emitted energies, momentum, slopes, forward dynamics and kinematics, for every spec.
 
 use nalgebra::{DMatrix, Matrix3, Vector3};
-use robot_model::{FromParameters, Kinematics, Points, Vector};
+use robot_model::{FromParameters, Kinematics, Points, RobotModel as _, Vector};
 use robot_model_tests::emitted::{self, Robot};
 use robot_model_tests::evaluate::{Interpreter, relative_difference};
 use robot_model_tests::mechanics;
@@ -208,21 +208,61 @@ fn forward_dynamics_is_that_of_the_oracle() {
 /// No arm has negative masses: a status, not numbers.
 #[test]
 fn parameters_of_no_arm_have_no_accelerations() {
-    for robot in emitted::ROBOTS
-        .iter()
-        .filter(|robot| robot.spec == "puma560")
-    {
-        let count = robot.standard_parameters.len();
-        let state = State {
-            q: vec![0.3; 6],
-            dq: vec![0.1; 6],
-            ddq: vec![0.0; 6],
-            ..State::default()
-        };
-        for standard in [vec![0.0; count], vec![-1.0; count], vec![f64::NAN; count]] {
-            assert_eq!((robot.accelerations)(&standard, &state, &[1.0; 6]), None);
-        }
+    let robot = emitted::ROBOTS.iter().find(|robot| robot.spec == "puma560");
+    let robot = robot.expect("a spec of this repository");
+    let count = robot.standard_parameters.len();
+    let state = State {
+        q: vec![0.3; 6],
+        dq: vec![0.1; 6],
+        ddq: vec![0.0; 6],
+        ..State::default()
+    };
+    for standard in [vec![0.0; count], vec![-1.0; count], vec![f64::NAN; count]] {
+        assert_eq!((robot.accelerations)(&standard, &state, &[1.0; 6]), None);
     }
+}
+
+/// `inverse_dynamics = Y * standard = Y_b * beta` with the arm's own load and shapes, which the associated functions do not
+/// know.
+#[test]
+fn an_arms_regressor_has_its_load_and_its_shapes() {
+    type Arm = emitted::every_effect::EveryEffect;
+    assert_regressor_of::<Arm, _, _, _, _>(|arm| {
+        let shapes = arm.shapes();
+        Arm::from_parameters(&arm.standard(), &(shapes * 1.1))
+    });
+}
+
+fn assert_regressor_of<
+    R,
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+>(
+    other_shapes: impl Fn(&R) -> R,
+) where
+    R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
+{
+    let mut random = states::generator(11);
+    let state = states::state(&mut random, DOF);
+    let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
+    let (q, dq, ddq) = (vector(&state.q), vector(&state.dq), vector(&state.ddq));
+    let standard =
+        Vector::<STANDARD>::from_fn(|k, _| 0.5 + 0.01 * f64::from(u32::try_from(k).unwrap_or(0)));
+    let arm = other_shapes(&R::from_standard(&standard));
+    let torque = arm.inverse_dynamics(&q, &dq, &ddq);
+    let scale = torque.amax();
+    let own = arm.regressor_of(&q, &dq, &ddq) * arm.standard();
+    assert!((torque - own).amax() < ROUNDING * scale, "{torque} {own}");
+    // Sums over columns that are regrouped, some with large coefficients.
+    let base = arm.base_regressor_of(&q, &dq, &ddq) * arm.beta();
+    assert!((torque - base).amax() < 1e-9 * scale, "{torque} {base}");
+    let plain = R::regressor(&q, &dq, &ddq) * arm.standard();
+    assert!(
+        (torque - plain).amax() > 1e-3 * scale,
+        "the load and the shapes count"
+    );
 }
 
 /// `jacobian * dq` is what differences of the poses are, and rotations are rotations.

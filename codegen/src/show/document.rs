@@ -7,11 +7,16 @@ use crate::compiled::Compiled;
 use crate::expr::Style;
 
 /// The chapters: title, what the symbols are, and the form.
-const CHAPTERS: [(&str, &str, What); 12] = [
+const CHAPTERS: [(&str, &str, What); 13] = [
     (
         "Measurement",
         "Where links stand that are not at $q$, and by how many seconds logged torques are late.",
         What::Measurement,
+    ),
+    (
+        "Internal states",
+        "Rates of what effects remember; each state is zero at the start of a log.",
+        What::StateRates,
     ),
     (
         "Base parameters",

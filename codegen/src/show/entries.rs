@@ -56,6 +56,7 @@ pub fn entries(compiled: &Compiled, dag: &mut Dag, what: What) -> Vec<Entry> {
         ],
         What::ForwardKinematics => forward_kinematics(compiled),
         What::Jacobian => jacobian(compiled),
+        What::StateRates => state_rates(compiled),
         What::Measurement => measurement(compiled, dag),
         What::BaseParameters | What::Cost => Vec::new(),
     }
@@ -182,6 +183,15 @@ fn measurement(compiled: &Compiled, dag: &mut Dag) -> Vec<Entry> {
     entries
 }
 
+/// `dot(elbow.dahl.z)`
+fn state_rates(compiled: &Compiled) -> Vec<Entry> {
+    let states = compiled.model.states();
+    let rates = states.iter().zip(&compiled.dynamics.state_rates);
+    rates
+        .map(|(state, &rate)| Entry::new(format!("dot({state})"), rate))
+        .collect()
+}
+
 /// A left-hand side in its notation.
 pub fn left(name: &str, style: Style) -> String {
     if style == Style::Text {
@@ -190,6 +200,13 @@ pub fn left(name: &str, style: Style) -> String {
     if let Some((above, below)) = name.strip_prefix("d ").and_then(|n| n.split_once("/d ")) {
         let (above, below) = (left(above, style), left(below, style));
         return format!("\\partial {above} / \\partial {below}");
+    }
+    let state = name.strip_prefix("dot(").and_then(|n| n.strip_suffix(')'));
+    if let Some(state) = state {
+        return format!(
+            "\\tfrac{{d}}{{dt}} \\mathrm{{{}}}",
+            state.replace('_', "\\_")
+        );
     }
     let Some((stem, index)) = name.trim_end_matches(']').split_once('[') else {
         return name.to_owned();

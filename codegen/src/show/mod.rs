@@ -57,6 +57,8 @@ pub enum What {
     ForwardKinematics,
     /// Slopes of the tip's pose, or of the points' positions.
     Jacobian,
+    /// Rates of the effects' internal states; nothing for effects without memory.
+    StateRates,
     /// Where links stand that are not at `q`, and by how much torques are late; nothing for most arms.
     Measurement,
     /// How base parameters are made of standard ones.
@@ -67,7 +69,7 @@ pub enum What {
 
 impl What {
     /// Every form.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::MassMatrix,
         Self::CoriolisMatrix,
         Self::Gravity,
@@ -82,13 +84,16 @@ impl What {
         Self::Energies,
         Self::ForwardKinematics,
         Self::Jacobian,
+        Self::StateRates,
+        Self::Measurement,
         Self::BaseParameters,
         Self::Cost,
     ];
 
     /// All forms that a whole description shows, in its order.
-    pub const WHOLE: [Self; 8] = [
+    pub const WHOLE: [Self; 9] = [
         Self::Measurement,
+        Self::StateRates,
         Self::MassMatrix,
         Self::CoriolisMatrix,
         Self::Gravity,

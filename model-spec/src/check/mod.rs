@@ -135,7 +135,10 @@ fn check_energies(
     let names: Vec<&Ident> = robot.energies.coordinates.iter().map(|c| &c.name).collect();
     let effects = declared::check_effects(robot, &names, definitions, errors);
     let (joints, energies) = described?;
-    energies::check_inertia(robot, &energies, &effects, errors);
+    // Effects may have inertia: those with mistakes are not among them.
+    if errors.is_empty() {
+        energies::check_inertia(robot, &energies, &effects, errors);
+    }
     Some(Described {
         joints,
         body: Body::Energies(energies),

@@ -52,7 +52,12 @@ impl<'a> Held<'a> {
                     at.name
                 ));
             }
-            held.position += factor * meant(mimic.offset.unwrap_or(0.0));
+            let offset = mimic.offset.unwrap_or(0.0);
+            held.position += factor
+                * match at.joint_type {
+                    JointType::Prismatic => offset,
+                    _ => meant(offset),
+                };
             factor *= mimic.multiplier.unwrap_or(1.0);
             if chain
                 .joints
