@@ -306,3 +306,17 @@ fn a_power_behind_a_unit_is_the_units() {
         "{value:?}"
     );
 }
+
+/// Measured of a printed arm: softer bristles and more breakaway torque than a search expects.
+#[test]
+fn shapes_that_are_given_may_lie_outside_of_the_search() {
+    let text = include_str!("../../tests/specs/pass/lugre_link.robot").replace(
+        "lugre_presliding on th",
+        "lugre_presliding(d = 0.27, vs = 0.838, rise = 2.43) on th",
+    );
+    let model = load("lugre_link.robot", &text).unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(
+        model.effects[0].shapes,
+        [Some(0.27), Some(0.838), Some(2.43)]
+    );
+}

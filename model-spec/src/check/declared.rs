@@ -7,7 +7,7 @@ use syn::Ident;
 
 use super::energies::says_energies;
 use super::setting::Settings;
-use super::{Errors, value};
+use super::{Definitions, Errors, value};
 use crate::ast::{DeclaredEffect, Robot, Target, Targets};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Act, Effect, EffectDefinition};
@@ -17,7 +17,7 @@ use crate::suggest;
 pub(super) fn check_effects(
     robot: &Robot,
     joints: &[&Ident],
-    definitions: &[Arc<EffectDefinition>],
+    definitions: &Definitions,
     errors: &mut Errors,
 ) -> Vec<Effect> {
     if let [first, second, ..] = robot.effects.as_slice() {
@@ -68,17 +68,21 @@ fn shares_name(other: &Effect, definition: &EffectDefinition, joints: &[usize]) 
 
 fn check_known<'a>(
     declared: &DeclaredEffect,
-    definitions: &'a [Arc<EffectDefinition>],
+    definitions: &'a Definitions,
     errors: &mut Errors,
 ) -> Option<&'a Arc<EffectDefinition>> {
     let name = declared.name.to_string();
     let found = definitions
+        .sound
         .iter()
         .find(|definition| definition.name == name);
-    if found.is_none() {
+    // What is wrong with a faulty definition is said there.
+    if found.is_none() && !definitions.faulty.contains(&name) {
         let known = definitions
+            .sound
             .iter()
-            .map(|definition| definition.name.as_str());
+            .map(|definition| definition.name.as_str())
+            .chain(definitions.faulty.iter().map(String::as_str));
         errors.push(
             Diagnostic::new(
                 declared.name.span(),
@@ -128,15 +132,18 @@ fn check_shapes(
         let given = settings.get(&shape.name)?;
         let number = value::any_scalar(given);
         let in_range = number.and_then(|number| {
-            if (shape.low..=shape.high).contains(&number) {
+            let Some(wanted) = shape.misses(number) else {
                 return Ok(number);
-            }
+            };
             Err(Diagnostic::new(
                 given.span(),
-                format!("`{}` of {owner} is outside its range", shape.name),
+                format!("`{}` of {owner} is not {wanted}", shape.name),
                 format!("is {number}"),
             )
-            .help(format!("write a value in {} .. {}", shape.low, shape.high)))
+            .help(format!(
+                "write {wanted}; without a value it is looked for in {} .. {}",
+                shape.low, shape.high
+            )))
         });
         Some(in_range)
     };

@@ -75,7 +75,7 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
         joints,
         body,
         effects,
-        definitions,
+        definitions: definitions.sound,
     })
 }
 
@@ -86,11 +86,7 @@ struct Described {
     effects: Vec<Effect>,
 }
 
-fn check_chain(
-    robot: &Robot,
-    definitions: &[Arc<EffectDefinition>],
-    errors: &mut Errors,
-) -> Option<Described> {
+fn check_chain(robot: &Robot, definitions: &Definitions, errors: &mut Errors) -> Option<Described> {
     let settings = Settings::new(
         &robot.settings,
         "the robot",
@@ -121,7 +117,7 @@ fn check_chain(
 
 fn check_energies(
     robot: &Robot,
-    definitions: &[Arc<EffectDefinition>],
+    definitions: &Definitions,
     errors: &mut Errors,
 ) -> Option<Described> {
     let settings = Settings::new(
@@ -146,9 +142,19 @@ fn check_energies(
     })
 }
 
-/// The standard effects and the spec's own, in that order.
-fn check_definitions(ast: &Ast, errors: &mut Errors) -> Vec<Arc<EffectDefinition>> {
-    let mut definitions = standard_effects().to_vec();
+/// What a robot may declare.
+struct Definitions {
+    /// The standard effects and the spec's own, in that order.
+    sound: Vec<Arc<EffectDefinition>>,
+    /// Names of those with mistakes: known, so that declaring them is no further mistake.
+    faulty: Vec<String>,
+}
+
+fn check_definitions(ast: &Ast, errors: &mut Errors) -> Definitions {
+    let mut definitions = Definitions {
+        sound: standard_effects().to_vec(),
+        faulty: Vec::new(),
+    };
     check_unique(
         ast.effects.iter().map(|effect| &effect.name),
         "effect",
@@ -174,7 +180,10 @@ fn check_definitions(ast: &Ast, errors: &mut Errors) -> Vec<Arc<EffectDefinition
                 )),
             );
         }
-        definitions.extend(check_definition(effect, errors).map(Arc::new));
+        match check_definition(effect, errors) {
+            Some(definition) => definitions.sound.push(Arc::new(definition)),
+            None => definitions.faulty.push(effect.name.to_string()),
+        }
     }
     definitions
 }

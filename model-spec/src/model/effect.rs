@@ -272,7 +272,8 @@ pub struct LinearParameter {
     pub nonnegative: bool,
 }
 
-/// A parameter in which an effect's torque is not linear, with the range in which it is looked for.
+/// A parameter in which an effect's torque is not linear, with the range in which it is looked for; see [`Self::misses`] for
+/// the values that a spec may give.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ShapeParameter {
@@ -286,6 +287,27 @@ pub struct ShapeParameter {
     pub high: f64,
     /// Spacing of the first search; `None`: logarithmic.
     pub step: Option<f64>,
+}
+
+impl ShapeParameter {
+    /// What a value given in a spec has to be, where it is not: the sign that the range has on its whole length.
+    ///
+    /// The range is where a search is worth its time, not where the law holds. A scale may have any size, but a law that is
+    /// searched among positive numbers divides by them, or takes their roots.
+    #[must_use]
+    pub fn misses(&self, value: f64) -> Option<&'static str> {
+        if self.low > 0.0 {
+            (value <= 0.0).then_some("a positive number")
+        } else if self.low == 0.0 {
+            (value < 0.0).then_some("zero or a positive number")
+        } else if self.high < 0.0 {
+            (value >= 0.0).then_some("a negative number")
+        } else if self.high == 0.0 {
+            (value > 0.0).then_some("zero or a negative number")
+        } else {
+            None
+        }
+    }
 }
 
 /// An expression of an effect.

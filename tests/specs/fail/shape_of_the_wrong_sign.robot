@@ -3,5 +3,5 @@ robot Arm {
     convention = standard_dh;
     joint waist: revolute { a = 0; alpha = 90 deg; d = 0; }
     joint elbow: revolute { a = 0.4; alpha = 0; d = 0; }
-    effects { stribeck(vs = 3) on elbow; }
+    effects { stribeck(vs = 0) on elbow, waist; dahl(d = 40) on waist; lugre_presliding(rise = -1) on elbow; }
 }
