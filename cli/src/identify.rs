@@ -130,6 +130,9 @@ impl IdentifyArguments {
             return Err(Error::Argument(reason.to_owned()));
         }
         let compiled = compile(&self.spec)?;
+        for remark in compiled.base.remarks(&compiled.standard) {
+            output::say(&format!("warning: {}: {remark}", compiled.model.source));
+        }
         match self.form {
             FormArgument::Acceleration => self.fit(&ByAcceleration(InterpretedArm::new(compiled))),
             FormArgument::Filtered => {

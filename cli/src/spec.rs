@@ -36,31 +36,33 @@ pub(crate) fn compile_instantaneous(path: &Path) -> Result<Compiled, Error> {
     Ok(compiled)
 }
 
-/// Reads, checks and compiles a spec to be looked at: base parameters in doubt are told.
+/// Reads, checks and compiles a spec to be looked at: base parameters in doubt are told. Where there is no number there are
+/// no equations to look at.
 pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
     let compiled = compile_model(&load(path)?);
-    if let Some(doubt) = doubt(&compiled) {
-        output::say(&format!("warning: {doubt}"));
+    match &compiled.base.rank {
+        RankStatus::Clear { .. } => {}
+        RankStatus::Unclear(_) => output::say(&format!("warning: {}", doubt(&compiled))),
+        RankStatus::NoNumber(_) => return Err(Error::Argument(doubt(&compiled))),
+    }
+    for remark in compiled.base.remarks(&compiled.standard) {
+        output::say(&format!("warning: {}: {remark}", compiled.model.source));
     }
     Ok(compiled)
 }
 
 /// The gate before everything that computes with base parameters.
 pub(crate) fn clear(compiled: Compiled) -> Result<Compiled, Error> {
-    match doubt(&compiled) {
-        Some(doubt) => Err(Error::Argument(doubt)),
-        None => Ok(compiled),
+    if compiled.base.rank.is_clear() {
+        Ok(compiled)
+    } else {
+        Err(Error::Argument(doubt(&compiled)))
     }
 }
 
 /// Why it is not clear which base parameters the arm has, with the numbers.
-fn doubt(compiled: &Compiled) -> Option<String> {
-    match compiled.base.rank {
-        RankStatus::Unclear(_) => {
-            Some(format!("{}: {}", compiled.model.source, compiled.base.rank))
-        }
-        RankStatus::Clear { .. } => None,
-    }
+fn doubt(compiled: &Compiled) -> String {
+    format!("{}: {}", compiled.model.source, compiled.base.rank)
 }
 
 /// Reads a log of an arm with `dof` joints, and says what is remarkable about it.

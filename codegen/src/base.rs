@@ -7,28 +7,25 @@
 //! is a combination of the columns kept before it, from the first link to the last. So parameters of links near the tip
 //! regroup into those near the base. Inside a link, inertia is looked at first, then first moments, then the mass: so
 //! coefficients are lengths and squares of lengths, never one over a length.
+//!
+//! A column that is not zero by structure is never taken for one without influence because it is zero where we looked: it is
+//! kept, and told. A column of an effect is a combination of others only where that holds state by state, in proportion to
+//! what the columns are there.
+
+mod names;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter, Status};
 
-use crate::expr::{Dag, Symbol};
-use crate::interpreter::{Operand, Program};
+use crate::expr::Dag;
 use crate::lumps::Lump;
-use crate::random::Generator;
 use crate::regressor::LinearForm;
-use crate::selection::{Selection, norm};
-
-/// A scaled column is independent of those before it when this much of it is left after projecting them out.
-pub const INDEPENDENT_ABOVE: f64 = 1e-7;
-/// A scaled column is a combination of those before it when no more than this is left.
-pub const DEPENDENT_BELOW: f64 = 1e-10;
-/// A column this much smaller than the largest is rounding: gravity along an axis that is tilted by 35 degrees, say. Columns
-/// of parameters differ by squares of lengths, far less than that.
-const ROUNDING: f64 = 1e-13;
-/// Random states are this many times as many as the parameters, over the degrees of freedom.
-const OVERSAMPLING: usize = 3;
+use crate::sample::{Column, NoNumber, Sample, sample};
+use crate::selection::{
+    DEPENDENT_BELOW, Dependence, INDEPENDENT_ABOVE, Offer, Selection, norm, shortest,
+};
 
 /// The base parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +39,8 @@ pub struct BaseForm {
     pub combinations: Vec<Vec<(usize, f64)>>,
     /// Standard parameters without influence on any torque.
     pub unidentifiable: Vec<usize>,
+    /// Kept parameters whose torque was zero at every state that was tried: an effect behind a threshold that nothing reaches.
+    pub asleep: Vec<usize>,
     /// Standard parameters that the spec fixes: neither kept nor regrouped.
     pub fixed: Vec<usize>,
     /// How clear the decisions were.
@@ -60,6 +59,16 @@ pub enum RankStatus {
     },
     /// Some columns were inside the gap; they are kept.
     Unclear(Vec<UnclearColumn>),
+    /// A column is no number where it was looked at; nothing is kept.
+    NoNumber(NoNumber),
+}
+
+impl RankStatus {
+    /// Whether base parameters may be computed with.
+    #[must_use]
+    pub const fn is_clear(&self) -> bool {
+        matches!(self, Self::Clear { .. })
+    }
 }
 
 /// A column that is neither clearly independent nor clearly dependent.
@@ -84,20 +93,28 @@ impl std::fmt::Display for RankStatus {
             Self::Unclear(columns) => {
                 write!(
                     f,
-                    "rank is not clear between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e}:"
+                    "the base parameters are not certain: between {DEPENDENT_BELOW:.0e} and {INDEPENDENT_ABOVE:.0e},"
                 )?;
                 for column in columns {
                     write!(f, " `{}` has {:.1e} left", column.name, column.residual)?;
                 }
-                Ok(())
+                f.write_str(
+                    "; write exact values where lengths or angles are nearly equal or nearly zero",
+                )
             }
+            Self::NoNumber(no_number) => write!(f, "{no_number}"),
         }
     }
 }
 
 impl BaseForm {
     /// Writes lumps as the combinations of standard parameters that they are; until here each is its representative.
-    pub(crate) fn spell_out(&mut self, standard: &[StandardParameter], lumps: &[Lump]) {
+    pub(crate) fn spell_out(
+        &mut self,
+        model: &Model,
+        standard: &[StandardParameter],
+        lumps: &[Lump],
+    ) {
         for combination in &mut self.combinations {
             let mut spelled: BTreeMap<usize, f64> = BTreeMap::new();
             for &(k, coefficient) in combination.iter() {
@@ -112,7 +129,7 @@ impl BaseForm {
             }
             *combination = spelled.into_iter().collect();
         }
-        self.names = base_names(standard, &self.kept, &self.combinations);
+        self.names = names::base_names(model, standard, &self.kept, &self.combinations);
         let used: BTreeSet<usize> = self
             .combinations
             .iter()
@@ -120,6 +137,33 @@ impl BaseForm {
             .map(|&(k, _)| k)
             .collect();
         self.unidentifiable.retain(|k| !used.contains(k));
+    }
+
+    /// What is remarkable about the effects that the spec declares, a sentence each: those that move nothing.
+    #[must_use]
+    pub fn remarks(&self, standard: &[StandardParameter]) -> Vec<String> {
+        let names = |indices: &[usize]| -> Vec<String> {
+            let of_effects = indices
+                .iter()
+                .map(|&k| &standard[k])
+                .filter(|p| matches!(p.owner, Owner::Effect { .. }));
+            of_effects.map(|p| format!("`{}`", p.name)).collect()
+        };
+        let (unidentifiable, asleep) = (names(&self.unidentifiable), names(&self.asleep));
+        let mut remarks = Vec::new();
+        if !unidentifiable.is_empty() {
+            remarks.push(format!(
+                "no torque depends on {}",
+                unidentifiable.join(", ")
+            ));
+        }
+        if !asleep.is_empty() {
+            remarks.push(format!(
+                "the torque of {} was zero at every state that was tried: is a threshold beyond all motions?",
+                asleep.join(", ")
+            ));
+        }
+        remarks
     }
 
     /// `beta = map * standard`
@@ -141,39 +185,187 @@ impl BaseForm {
 #[must_use]
 pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
     let parameters = model.standard_parameters();
-    let mut columns = sample_columns(dag, model, linear, parameters.len());
-    let scale: Vec<f64> = columns.iter().map(|column| norm(column)).collect();
-    for (column, &scale) in columns.iter_mut().zip(&scale) {
-        for x in column {
-            *x /= scale.max(f64::MIN_POSITIVE);
+    let is_fixed = |k: &usize| matches!(parameters[*k].status, Status::Fixed(_));
+    let mut base = BaseForm {
+        kept: Vec::new(),
+        names: Vec::new(),
+        combinations: Vec::new(),
+        unidentifiable: Vec::new(),
+        asleep: Vec::new(),
+        fixed: (0..parameters.len()).filter(is_fixed).collect(),
+        rank: RankStatus::Clear {
+            smallest_kept: 1.0,
+            largest_dropped: 0.0,
+        },
+    };
+    let sample = match sample(dag, model, linear, &parameters) {
+        Ok(sample) => sample,
+        Err(no_number) => {
+            base.rank = RankStatus::NoNumber(no_number);
+            return base;
+        }
+    };
+    let mut reduction = Reduction::new(&sample);
+    for k in order_of_choice(&parameters) {
+        if is_fixed(&k) {
+            continue;
+        }
+        match &sample.columns[k] {
+            Some(column) if !column.values.is_empty() => {
+                reduction.offer(k, column, &parameters[k].name);
+            }
+            Some(column) if column.is_asleep && !sample.is_analytic[k] => {
+                base.asleep.push(k);
+                reduction.combinations.insert(k, vec![(k, 1.0)]);
+            }
+            _ => base.unidentifiable.push(k),
+        }
+    }
+    base.rank = reduction.status();
+    // Inside a combination the kept one leads.
+    for (k, mut combination) in reduction.combinations {
+        combination[1..].sort_unstable_by_key(|&(k, _)| k);
+        base.kept.push(k);
+        base.combinations.push(combination);
+    }
+    base.unidentifiable.sort_unstable();
+    base.asleep.sort_unstable();
+    base.names = names::base_names(model, &parameters, &base.kept, &base.combinations);
+    base
+}
+
+/// The scan over the columns.
+struct Reduction<'a> {
+    sample: &'a Sample,
+    selection: Selection,
+    /// Columns of the selection's basis.
+    basis: Vec<usize>,
+    /// Per kept parameter its combination.
+    combinations: BTreeMap<usize, Vec<(usize, f64)>>,
+    unclear: Vec<UnclearColumn>,
+    smallest_kept: f64,
+    largest_dropped: f64,
+}
+
+impl<'a> Reduction<'a> {
+    fn new(sample: &'a Sample) -> Self {
+        Self {
+            sample,
+            selection: Selection::default(),
+            basis: Vec::new(),
+            combinations: BTreeMap::new(),
+            unclear: Vec::new(),
+            smallest_kept: 1.0,
+            largest_dropped: 0.0,
         }
     }
 
-    let rounding = ROUNDING * scale.iter().fold(0.0, |largest: f64, x| largest.max(*x));
-    let mut selection = Selection::default();
-    let (mut unidentifiable, mut fixed) = (Vec::new(), Vec::new());
-    for k in order_of_choice(&parameters) {
-        let column = std::mem::take(&mut columns[k]);
-        if matches!(parameters[k].status, Status::Fixed(_)) {
-            fixed.push(k);
-        } else if linear.column(dag, k).next().is_none() || scale[k] <= rounding {
-            unidentifiable.push(k);
-        } else {
-            selection.take(k, column, &parameters[k].name);
+    fn offer(&mut self, k: usize, column: &Column, name: &str) {
+        match self.selection.offer(&column.values) {
+            Offer::Kept(residual) => {
+                if residual < INDEPENDENT_ABOVE {
+                    let name = name.to_owned();
+                    self.unclear.push(UnclearColumn { name, residual });
+                }
+                self.smallest_kept = self.smallest_kept.min(residual);
+                self.basis.push(k);
+                self.combinations.insert(k, vec![(k, 1.0)]);
+            }
+            Offer::Dependent(dependence) => {
+                if !self.sample.is_analytic[k] && !self.holds_at_every_state(column, &dependence) {
+                    self.combinations.insert(k, vec![(k, 1.0)]);
+                    return;
+                }
+                self.largest_dropped = self.largest_dropped.max(dependence.residual);
+                for (kept, coefficient) in self.coefficients(column, &dependence) {
+                    let combination = self.combinations.entry(kept);
+                    combination.or_default().push((k, coefficient));
+                }
+            }
         }
     }
-    unidentifiable.sort_unstable();
-    fixed.sort_unstable();
-    let combinations = selection.combinations(&scale);
-    selection.kept.sort_unstable();
-    let names = base_names(&parameters, &selection.kept, &combinations);
-    BaseForm {
-        rank: selection.status(),
-        kept: selection.kept,
-        names,
-        combinations,
-        unidentifiable,
-        fixed,
+
+    fn column(&self, k: usize) -> &'a Column {
+        let column = self.sample.columns[k].as_ref();
+        column.expect("a column of the basis has values")
+    }
+
+    /// Whether the combination is the column in proportion to what both are at each state, at more states than any
+    /// combination of so many columns would be.
+    fn holds_at_every_state(&self, column: &Column, dependence: &Dependence) -> bool {
+        /// Coefficients are known to far more digits; laws that differ do so by far more where they do.
+        const ALIKE: f64 = 1e-6;
+        /// Of the largest entry of its row: rounding.
+        const NOTHING: f64 = 1e-13;
+        let terms: Vec<(f64, &[f64])> = self
+            .basis
+            .iter()
+            .zip(&dependence.weights)
+            .filter(|(_, (weight, error))| weight.abs() > *error)
+            .map(|(&k, &(weight, _))| (weight, self.column(k).values.as_slice()))
+            .collect();
+        let awake = column.values.iter().filter(|x| **x != 0.0).count();
+        awake > 2 * terms.len() + 2
+            && column.values.iter().enumerate().all(|(row, &wanted)| {
+                let parts = terms.iter().map(|(weight, values)| weight * values[row]);
+                let size = wanted.abs() + parts.clone().map(f64::abs).sum::<f64>();
+                (wanted - parts.sum::<f64>()).abs() <= ALIKE * size + NOTHING
+            })
+    }
+
+    /// Coefficients in the units of the parameters, with no more digits than they are known to.
+    fn coefficients(&self, column: &Column, dependence: &Dependence) -> Vec<(usize, f64)> {
+        /// Geometry is written with fewer digits than this.
+        const DIGITS: f64 = 1e-12;
+        /// Up to which a weight may be taken for nothing. Errors of weights may be large where those of the combination are
+        /// not: they belong together, and to leave out some parts them. So it is tried from the most generous to none.
+        const NOTHING: [f64; 3] = [1e-9, DIGITS, 0.0];
+        let rounded = |nothing: f64| -> Vec<(usize, f64, f64)> {
+            let weights = self.basis.iter().zip(&dependence.weights);
+            weights
+                .filter(|(_, (weight, error))| weight.abs() > error.min(nothing))
+                .map(|(&kept, &(weight, error))| {
+                    let unit = column.scale / self.column(kept).scale;
+                    let tolerance = error.max(DIGITS * weight.abs()).min(DIGITS).min(nothing);
+                    let coefficient = shortest(weight * unit, tolerance * unit);
+                    (kept, coefficient, coefficient / unit)
+                })
+                .collect()
+        };
+        let residual = |terms: &[(usize, f64, f64)]| {
+            let mut left = column.values.clone();
+            for &(kept, _, weight) in terms {
+                let values = &self.column(kept).values;
+                left.iter_mut()
+                    .zip(values)
+                    .for_each(|(x, y)| *x -= weight * y);
+            }
+            norm(&left)
+        };
+        let size: f64 = dependence
+            .weights
+            .iter()
+            .map(|(weight, _)| weight.abs())
+            .sum();
+        let good_enough = 4.0 * dependence.residual + DIGITS * (1.0 + size);
+        let [generous, digits, none] = NOTHING.map(rounded);
+        let chosen = [generous, digits]
+            .into_iter()
+            .find(|terms| residual(terms) <= good_enough)
+            .unwrap_or(none);
+        chosen.into_iter().map(|(kept, c, _)| (kept, c)).collect()
+    }
+
+    /// How clear the decisions were.
+    fn status(&self) -> RankStatus {
+        if self.unclear.is_empty() {
+            RankStatus::Clear {
+                smallest_kept: self.smallest_kept,
+                largest_dropped: self.largest_dropped,
+            }
+        } else {
+            RankStatus::Unclear(self.unclear.clone())
+        }
     }
 }
 
@@ -194,104 +386,6 @@ fn order_of_choice(parameters: &[StandardParameter]) -> Vec<usize> {
     order
 }
 
-fn base_names(
-    parameters: &[StandardParameter],
-    kept: &[usize],
-    combinations: &[Vec<(usize, f64)>],
-) -> Vec<String> {
-    kept.iter()
-        .zip(combinations)
-        .map(|(&k, combination)| {
-            format!(
-                "{}{}",
-                parameters[k].name,
-                if *combination == [(k, 1.0)] { "" } else { "r" }
-            )
-        })
-        .collect()
-}
-
-/// One state in so many has a given joint at rest.
-const REST_EVERY: usize = 7;
-
-/// The regressor's columns at random states, stacked over joints.
-fn sample_columns(dag: &Dag, model: &Model, linear: &LinearForm, count: usize) -> Vec<Vec<f64>> {
-    /// Any fixed number: same spec, same states.
-    const SEED: u64 = 0x726f_626f_745f_6d6f;
-    let dof = model.joints.len();
-    let samples = OVERSAMPLING * count.div_ceil(dof) + 16;
-    let parameters = model.standard_parameters();
-    let entries: Vec<(usize, usize)> = (0..count)
-        .flat_map(|k| linear.column(dag, k).map(move |(joint, _)| (joint, k)))
-        .collect();
-    let outputs: Vec<_> = entries
-        .iter()
-        .map(|&(joint, k)| linear.regressor[joint][k])
-        .collect();
-    let program = Program::new(dag, &outputs);
-
-    let mut generator = Generator::new(SEED);
-    let shapes = generic_shapes(model, &mut generator);
-    // Drawn for every symbol in a fixed order, so that a state does not depend on what the program reads.
-    let mut draw = |scale: f64| -> Vec<f64> {
-        (0..samples)
-            .map(|_| scale * generator.symmetric())
-            .collect()
-    };
-    let q: Vec<Vec<f64>> = (0..dof).map(|_| draw(3.0)).collect();
-    let mut dq: Vec<Vec<f64>> = (0..dof).map(|_| draw(2.0)).collect();
-    let ddq: Vec<Vec<f64>> = (0..dof).map(|_| draw(4.0)).collect();
-    let rigid_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
-    let time: Vec<f64> = draw(20.0).into_iter().map(f64::abs).collect();
-    let measured_torque: Vec<Vec<f64>> = (0..dof).map(|_| draw(10.0)).collect();
-    let inputs: Vec<Vec<f64>> = model.inputs().iter().map(|_| draw(30.0)).collect();
-    let states: Vec<Vec<f64>> = model.states().iter().map(|_| draw(1.0)).collect();
-    // Some states have a joint at rest: laws that jump there are told from those that do not.
-    for (joint, velocities) in dq.iter_mut().enumerate() {
-        velocities
-            .iter_mut()
-            .skip(joint)
-            .step_by(REST_EVERY)
-            .for_each(|v| *v = 0.0);
-    }
-    let bind = |symbol: Symbol| match symbol {
-        Symbol::Q(joint) => Operand::Column(&q[joint]),
-        Symbol::Dq(joint) => Operand::Column(&dq[joint]),
-        Symbol::Ddq(joint) => Operand::Column(&ddq[joint]),
-        Symbol::RigidTorque(joint) => Operand::Column(&rigid_torque[joint]),
-        Symbol::Time => Operand::Column(&time),
-        Symbol::MeasuredTorque(joint) => Operand::Column(&measured_torque[joint]),
-        Symbol::Input(k) => Operand::Column(&inputs[k]),
-        Symbol::State(k) => Operand::Column(&states[k]),
-        Symbol::Shape(k) => Operand::Constant(shapes[k]),
-        Symbol::Parameter(_) => unreachable!("checked in regressor::linearize"),
-    };
-    let mut values = vec![Vec::new(); outputs.len()];
-    program.eval_batch(samples, &bind, &mut values);
-
-    let mut columns = vec![vec![0.0; samples * dof]; count];
-    for (&(joint, k), values) in entries.iter().zip(values) {
-        columns[k][joint * samples..(joint + 1) * samples].copy_from_slice(&values);
-    }
-    // A torque that acts at none of these states acts beyond them: above a limit, behind a stop. Any column stands for it,
-    // since logs will tell whether it is one of its own. A body that shows nowhere has no such elsewhere.
-    let is_torque = |k: usize| match parameters[k].owner {
-        Owner::Effect { effect, parameter } => {
-            !model.effects[effect].definition.is_of_body(parameter)
-        }
-        Owner::Link { .. } | Owner::Monomial(_) => false,
-    };
-    let silent: Vec<bool> = (0..count)
-        .map(|k| is_torque(k) && columns[k].iter().all(|x| *x == 0.0))
-        .collect();
-    for &(joint, k) in entries.iter().filter(|(_, k)| silent[*k]) {
-        for x in &mut columns[k][joint * samples..(joint + 1) * samples] {
-            *x = generator.symmetric();
-        }
-    }
-    columns
-}
-
 /// A value for every shape parameter of the declared effects: the spec's, else the geometric middle of its range.
 #[must_use]
 pub fn shape_values(model: &Model) -> Vec<f64> {
@@ -304,19 +398,6 @@ pub fn shape_values(model: &Model) -> Vec<f64> {
                 .iter()
                 .zip(&effect.definition.shapes)
                 .map(|(value, shape)| value.unwrap_or_else(|| middle(shape.low, shape.high)))
-        })
-        .collect()
-}
-
-/// The spec's values of shape parameters, and a value without meaning inside the range for every other: no law may look like
-/// another one because both stand at a special value.
-fn generic_shapes(model: &Model, generator: &mut Generator) -> Vec<f64> {
-    let effects = model.effects.iter();
-    effects
-        .flat_map(|effect| effect.shapes.iter().zip(&effect.definition.shapes))
-        .map(|(value, shape)| {
-            let part = 0.5 + 0.4 * generator.symmetric();
-            value.unwrap_or(shape.low + part * (shape.high - shape.low))
         })
         .collect()
 }

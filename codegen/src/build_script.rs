@@ -39,11 +39,7 @@ impl fmt::Display for CompileError {
             Self::NoFileName(path) => write!(f, "`{}` names no file", path.display()),
             Self::Spec(diagnostics) => write!(f, "{diagnostics}"),
             Self::NotInstantaneous(reason) => write!(f, "{reason}"),
-            Self::Rank(source, status) => write!(
-                f,
-                "the base parameters of {source} are not certain: {status}; write exact values where lengths or angles \
-                 are nearly equal or nearly zero"
-            ),
+            Self::Rank(source, status) => write!(f, "{source}: {status}"),
         }
     }
 }
@@ -90,12 +86,11 @@ pub fn compile_text(source_name: &str, text: &str) -> Result<String, CompileErro
     compiled
         .check_instantaneous()
         .map_err(CompileError::NotInstantaneous)?;
-    match compiled.base.rank {
-        RankStatus::Clear { .. } => Ok(emit::rust::module(&compiled)),
-        RankStatus::Unclear(_) => Err(CompileError::Rank(
-            source_name.to_owned(),
-            compiled.base.rank,
-        )),
+    if compiled.base.rank.is_clear() {
+        Ok(emit::rust::module(&compiled))
+    } else {
+        let rank = compiled.base.rank;
+        Err(CompileError::Rank(source_name.to_owned(), rank))
     }
 }
 

@@ -61,7 +61,7 @@ pub fn compile_model(model: &Model) -> Compiled {
     };
     let mut base = base::reduce(&dag, model, &candidates);
     if let Some(lumps) = &lumps {
-        base.spell_out(&standard, &lumps.lumps);
+        base.spell_out(model, &standard, &lumps.lumps);
     }
     let values = base_values(&standard, &base);
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);

@@ -7,6 +7,7 @@
 pub mod base;
 pub mod derive_input;
 pub mod dynamics;
+mod elimination;
 pub mod emit;
 pub mod expr;
 pub mod filtered;
@@ -15,6 +16,8 @@ pub mod lumps;
 mod random;
 pub mod regressor;
 mod right_inverse;
+mod rounded;
+mod sample;
 mod selection;
 pub mod show;
 pub mod states;

@@ -105,7 +105,7 @@ fn rows(
             let entry = rows
                 .entry(harmonic.clone())
                 .or_insert_with(|| (part, vec![0.0; energies.monomials.len()]));
-            entry.1[k] = coefficient / function::share_of_energy(harmonic);
+            entry.1[k] = coefficient.value / function::share_of_energy(harmonic);
         }
     }
     rows
@@ -142,7 +142,8 @@ fn known(
     let mut sum = |energy: &Polynomial<Series>, part: Part| {
         let mut total = dag.zero();
         let series = energy.get(&energies.monomials[parameter]);
-        for (harmonic, &coefficient) in series.into_iter().flatten() {
+        for (harmonic, coefficient) in series.into_iter().flatten() {
+            let coefficient = coefficient.value;
             let function = Function::single(part, harmonic, Vec::new());
             let value = function.energy(dag);
             let scaled = dag.scale(coefficient / function::share_of_energy(harmonic), value);

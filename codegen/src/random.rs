@@ -19,4 +19,15 @@ impl Generator {
         // The 53 high bits fill a double's mantissa.
         (z >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
+
+    /// A whole number below `count`.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "0 <= x < count"
+    )]
+    pub fn below(&mut self, count: usize) -> usize {
+        let part = 0.5 * (self.symmetric() + 1.0);
+        ((part * count as f64) as usize).min(count - 1)
+    }
 }

@@ -1,5 +1,7 @@
 //! From base parameters back to standard ones: a right inverse of `beta = map * standard`.
 
+use crate::rounded::Rounded;
+
 /// Per standard parameter its combination `(base parameter, coefficient)`, so that `map * standard(beta) = beta`.
 ///
 /// `combinations` are the rows of `map`, `kept` says which standard parameters are preferred: where their columns are
@@ -12,42 +14,45 @@ pub fn right_inverse(
 ) -> Vec<Vec<(usize, f64)>> {
     let base = combinations.len();
     // Gauss-Jordan on [map | 1].
-    let mut rows: Vec<Vec<f64>> = combinations
+    let mut rows: Vec<Vec<Rounded>> = combinations
         .iter()
         .enumerate()
         .map(|(j, combination)| {
-            let mut row = vec![0.0; standard + base];
+            let mut row = vec![Rounded::ZERO; standard + base];
             for &(k, coefficient) in combination {
-                row[k] += coefficient;
+                row[k] = row[k] + Rounded::constant(coefficient);
             }
-            row[standard + j] = 1.0;
+            row[standard + j] = Rounded::relative(1.0, 0.0);
             row
         })
         .collect();
     let mut pivots: Vec<Option<usize>> = vec![None; base];
     let others = (0..standard).filter(|k| !kept.contains(k));
     for column in kept.iter().copied().chain(others) {
-        let candidates = (0..base).filter(|&j| pivots[j].is_none());
-        let Some(pivot) =
-            candidates.max_by(|&i, &j| rows[i][column].abs().total_cmp(&rows[j][column].abs()))
-        else {
-            break;
-        };
-        if rows[pivot][column].abs() < SMALLEST_PIVOT {
+        // Rows stand in units of their own: what counts is how well an entry is known.
+        let doubt = |j: &usize| rows[*j][column].error / rows[*j][column].value.abs();
+        let pivot = (0..base)
+            .filter(|&j| pivots[j].is_none() && rows[j][column].value != 0.0)
+            .min_by(|i, j| doubt(i).total_cmp(&doubt(j)));
+        let Some(pivot) = pivot else {
             continue;
-        }
+        };
         pivots[pivot] = Some(column);
         let scale = rows[pivot][column];
         for entry in &mut rows[pivot] {
-            *entry /= scale;
+            *entry = entry.over(scale);
         }
+        rows[pivot][column] = Rounded::relative(1.0, 0.0);
         let reduced = rows[pivot].clone();
         for (j, row) in rows.iter_mut().enumerate() {
             let factor = row[column];
-            if j != pivot && factor != 0.0 {
+            if j != pivot && factor.value != 0.0 {
                 for (entry, term) in row.iter_mut().zip(&reduced) {
-                    *entry -= factor * term;
+                    if term.value != 0.0 {
+                        *entry = (*entry - factor * *term).cleaned();
+                    }
                 }
+                row[column] = Rounded::ZERO;
             }
         }
     }
@@ -56,15 +61,12 @@ pub fn right_inverse(
         let Some(column) = pivot else { continue };
         let terms = row[standard..].iter().enumerate();
         inverse[column] = terms
-            .filter(|(_, coefficient)| **coefficient != 0.0)
-            .map(|(j, coefficient)| (j, *coefficient))
+            .filter(|(_, coefficient)| coefficient.value != 0.0)
+            .map(|(j, coefficient)| (j, coefficient.value))
             .collect();
     }
     inverse
 }
-
-/// Coefficients of combinations are lengths, squares of them and small fractions; less is rounding.
-const SMALLEST_PIVOT: f64 = 1e-9;
 
 #[cfg(test)]
 mod tests {

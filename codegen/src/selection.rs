@@ -1,135 +1,103 @@
 //! Independent columns, one by one, and the others as combinations of them.
 
-use crate::base::{DEPENDENT_BELOW, INDEPENDENT_ABOVE, RankStatus, UnclearColumn};
+use crate::rounded::UNIT;
 
-/// Coefficients of a combination below this are noise.
-const COEFFICIENT_FLOOR: f64 = 1e-9;
+/// A scaled column is independent of those before it when this much of it is left after projecting them out.
+pub const INDEPENDENT_ABOVE: f64 = 1e-7;
+/// A scaled column is a combination of those before it when no more than this is left.
+pub const DEPENDENT_BELOW: f64 = 1e-10;
 
-/// Orthogonalization column by column, keeping what is needed to express the dropped columns.
+/// What a column turned out to be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Offer {
+    /// Independent of those before, with what is left of it; the basis has grown by it.
+    Kept(f64),
+    /// A combination of those before; nothing has changed.
+    Dependent(Dependence),
+}
+
+/// A column as a combination of kept ones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependence {
+    /// What the combination leaves of the column.
+    pub residual: f64,
+    /// Per kept column its weight, with a bound of the weight's error.
+    pub weights: Vec<(f64, f64)>,
+}
+
+/// Orthogonalization column by column, keeping what is needed to express the dependent columns.
 #[derive(Default)]
 pub struct Selection {
-    /// Independent columns, in the order they were offered.
-    pub kept: Vec<usize>,
     /// Orthonormal basis of the kept columns.
     basis: Vec<Vec<f64>>,
     /// Column `j` of the triangular factor: kept column `j` in the basis.
     triangle: Vec<Vec<f64>>,
-    /// `(standard parameter, its column in the basis)`
-    dropped: Vec<(usize, Vec<f64>)>,
-    unclear: Vec<UnclearColumn>,
-    smallest_kept: Option<f64>,
-    largest_dropped: f64,
 }
 
 impl Selection {
     /// Offers a column of length one.
-    pub fn take(&mut self, k: usize, mut column: Vec<f64>, name: &str) {
+    pub fn offer(&mut self, column: &[f64]) -> Offer {
+        let mut left = column.to_vec();
         let mut coordinates = vec![0.0; self.basis.len()];
         // Twice is enough for orthogonality to rounding.
         for _ in 0..2 {
             for (coordinate, direction) in coordinates.iter_mut().zip(&self.basis) {
-                let projection = dot(direction, &column);
+                let projection = dot(direction, &left);
                 *coordinate += projection;
-                column
-                    .iter_mut()
+                left.iter_mut()
                     .zip(direction)
                     .for_each(|(x, d)| *x -= projection * d);
             }
         }
-        let residual = norm(&column);
-        if !residual.is_finite() {
-            // An effect that is no number at some state, such as the root of a negative signal.
-            self.unclear.push(UnclearColumn {
-                name: name.to_owned(),
-                residual,
-            });
-            return;
-        }
+        let residual = norm(&left);
         if residual <= DEPENDENT_BELOW {
-            self.largest_dropped = self.largest_dropped.max(residual);
-            self.dropped.push((k, coordinates));
-            return;
+            let weights = self.weights(coordinates);
+            return Offer::Dependent(Dependence { residual, weights });
         }
-        if residual < INDEPENDENT_ABOVE {
-            self.unclear.push(UnclearColumn {
-                name: name.to_owned(),
-                residual,
-            });
-        }
-        self.smallest_kept = Some(
-            self.smallest_kept
-                .map_or(residual, |smallest| smallest.min(residual)),
-        );
-        for x in &mut column {
+        for x in &mut left {
             *x /= residual;
         }
         coordinates.push(residual);
-        self.kept.push(k);
-        self.basis.push(column);
+        self.basis.push(left);
         self.triangle.push(coordinates);
+        Offer::Kept(residual)
     }
 
-    /// How clear the decisions were.
-    pub fn status(&self) -> RankStatus {
-        if self.unclear.is_empty() {
-            RankStatus::Clear {
-                smallest_kept: self.smallest_kept.unwrap_or(1.0),
-                largest_dropped: self.largest_dropped,
-            }
-        } else {
-            RankStatus::Unclear(self.unclear.clone())
-        }
-    }
-
-    /// Per kept column what regroups into it, in the units of the unscaled columns.
-    pub fn combinations(&self, scale: &[f64]) -> Vec<Vec<(usize, f64)>> {
-        let mut combinations: Vec<Vec<(usize, f64)>> =
-            self.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
-        for (k, coordinates) in &self.dropped {
-            let mut rest = coordinates.clone();
-            for j in (0..rest.len()).rev() {
-                let weight = rest[j] / self.triangle[j][j];
-                for (i, entry) in self.triangle[j][..j].iter().enumerate() {
-                    rest[i] -= weight * entry;
-                }
-                let coefficient = snap(weight * scale[*k] / scale[self.kept[j]]);
-                if coefficient != 0.0 {
-                    combinations[j].push((*k, coefficient));
-                }
+    /// Solves the triangle, with the errors that rounding makes on the way.
+    fn weights(&self, mut rest: Vec<f64>) -> Vec<(f64, f64)> {
+        // A projection is a sum over as many products as the column has rows.
+        let rows = self.basis.first().map_or(0, Vec::len) as f64;
+        let mut errors = vec![4.0 * UNIT * rows.sqrt(); rest.len()];
+        let mut weights = vec![(0.0, 0.0); rest.len()];
+        for j in (0..rest.len()).rev() {
+            let pivot = self.triangle[j][j];
+            let weight = rest[j] / pivot;
+            let error = errors[j] / pivot + UNIT * weight.abs();
+            weights[j] = (weight, error);
+            for (i, entry) in self.triangle[j][..j].iter().enumerate() {
+                rest[i] -= weight * entry;
+                errors[i] += error * entry.abs() + UNIT * (weight * entry).abs();
             }
         }
-        // In the order of the kept parameters; inside a combination the kept one leads.
-        let mut order: Vec<usize> = (0..self.kept.len()).collect();
-        order.sort_unstable_by_key(|&j| self.kept[j]);
-        order
-            .into_iter()
-            .map(|j| {
-                let mut combination = std::mem::take(&mut combinations[j]);
-                combination[1..].sort_unstable_by_key(|&(k, _)| k);
-                combination
-            })
-            .collect()
+        weights
     }
 }
 
-/// The named rounding step: a coefficient of a combination is 0 below [`COEFFICIENT_FLOOR`], else the shortest decimal
-/// within 1e-12, else twelve decimals. Geometry is written with fewer digits than that.
-pub fn snap(coefficient: f64) -> f64 {
-    const TOLERANCE: f64 = 1e-12;
-    if coefficient.abs() < COEFFICIENT_FLOOR {
+/// The named rounding step of coefficients: the number with the fewest digits that is not farther away than `tolerance`,
+/// which is the rounding of the coefficient itself, not a size that a number of any unit could have.
+pub fn shortest(number: f64, tolerance: f64) -> f64 {
+    /// More digits than this are all that a double has.
+    const DIGITS: usize = 15;
+    if number.abs() <= tolerance {
         return 0.0;
     }
-    let rounded = |digits: i32| {
-        let unit = 10f64.powi(digits);
-        (coefficient * unit).round() / unit
-    };
-    (0..=9)
-        .map(rounded)
-        .find(|value| (value - coefficient).abs() <= TOLERANCE)
-        .unwrap_or_else(|| rounded(12))
+    (0..DIGITS)
+        .filter_map(|digits| format!("{number:.digits$e}").parse::<f64>().ok())
+        .find(|short| (short - number).abs() <= tolerance)
+        .unwrap_or(number)
 }
 
-fn dot(x: &[f64], y: &[f64]) -> f64 {
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
@@ -143,11 +111,41 @@ mod tests {
     use super::*;
 
     #[test]
-    #[expect(clippy::float_cmp, reason = "snapping gives exact decimals")]
-    fn snapping_gives_the_shortest_decimal() {
-        assert_eq!(snap(0.186_451_240_000_003), 0.186_451_24);
-        assert_eq!(snap(-1.000_000_000_000_4), -1.0);
-        assert_eq!(snap(3e-10), 0.0);
-        assert_eq!(snap(0.123_456_789_123_456), 0.123_456_789_123);
+    #[expect(clippy::float_cmp, reason = "rounding gives exact decimals")]
+    fn rounding_gives_the_fewest_digits_whatever_the_unit() {
+        for (number, short) in [
+            (0.186_451_240_000_003, 0.186_451_24),
+            (-1.000_000_000_000_4, -1.0),
+            (0.123_456_789_123_456, 0.123_456_789_123),
+        ] {
+            assert_eq!(shortest(number, 1e-12 * number.abs().max(0.5)), short);
+        }
+        // Squares of micrometers, and moments of area in m^4, are numbers like others.
+        for number in [3e-10, 4e-12, 3.14e-12, 7.2e-25] {
+            assert_eq!(shortest(number, 1e-12 * number), number);
+            let noisy = number * (1.0 + 3e-13);
+            assert_eq!(shortest(noisy, 1e-12 * number), number);
+        }
+        assert_eq!(shortest(3e-17, 1e-15), 0.0);
+    }
+
+    #[test]
+    fn weights_are_those_of_the_combination() {
+        let mut selection = Selection::default();
+        let half = 0.5f64.sqrt();
+        assert!(matches!(selection.offer(&[1.0, 0.0, 0.0]), Offer::Kept(_)));
+        assert!(matches!(
+            selection.offer(&[half, half, 0.0]),
+            Offer::Kept(_)
+        ));
+        let Offer::Dependent(found) = selection.offer(&[0.6, 0.8, 0.0]) else {
+            panic!("it lies in their plane");
+        };
+        for ((weight, error), wanted) in found.weights.into_iter().zip([-0.2, 0.8 / half]) {
+            assert!(
+                (weight - wanted).abs() <= error && error < 1e-14,
+                "{weight} {error}"
+            );
+        }
     }
 }

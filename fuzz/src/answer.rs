@@ -1,10 +1,9 @@
 //! What the compiler makes of a text.
 
-use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{compile_model, emit};
 use robot_model_spec::load;
 
-use crate::forms;
+use crate::{forms, oracle};
 
 /// What came of a text. Two texts with equal answers exercise about the same code.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -30,6 +29,9 @@ pub enum Answer {
 }
 
 /// From spec text to emitted code.
+///
+/// # Panics
+/// Where the forms of a text do not agree: a failure of the compiler, as is every other panic.
 #[must_use]
 pub fn answer(text: &str) -> Answer {
     let model = match load("fuzz.robot", text) {
@@ -45,12 +47,13 @@ pub fn answer(text: &str) -> Answer {
     };
     let compiled = compile_model(&model);
     let dof = model.joints.len();
-    if let RankStatus::Unclear(_) = compiled.base.rank {
+    if !compiled.base.rank.is_clear() {
         let _ = compiled.base.rank.to_string();
         return Answer::Uncertain { dof };
     }
     let page = emit::rust::module(&compiled);
     forms::exercise(&compiled);
+    assert_eq!(oracle::check(&compiled), Ok(()));
     Answer::Emitted {
         dof,
         standard: compiled.standard.len().checked_ilog2().unwrap_or_default(),

@@ -8,4 +8,5 @@ pub mod answer;
 mod forms;
 pub mod minimize;
 pub mod mutate;
+mod oracle;
 pub mod run;

@@ -1,5 +1,6 @@
 //! What the crates promise together, tested from outside: the specs, their independent twin, the oracles and real logs.
 
+pub mod base_map;
 pub mod cases;
 pub mod emitted;
 pub mod evaluate;

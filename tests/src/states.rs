@@ -35,24 +35,30 @@ pub fn generator(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// A state without special values.
+/// A state without special values. Its size is not that of the states at which the compiler compares columns: motions are
+/// slow or fast, torques small or large, by powers of ten.
 pub fn state(random: &mut ChaCha8Rng, dof: usize) -> State {
+    let size = 10f64.powf(random.random_range(-3.0..1.0));
     let mut uniform = |limit: f64| -> Vec<f64> {
         (0..dof)
             .map(|_| random.random_range(-limit..limit))
             .collect()
     };
-    let (q, dq, ddq) = (uniform(3.0), uniform(2.0), uniform(5.0));
+    let (q, dq, ddq) = (uniform(3.0), uniform(2.0 * size), uniform(5.0 * size));
     State {
         q,
         dq,
         ddq,
         time: random.random_range(0.0..10.0),
-        measured_torque: (0..dof).map(|_| random.random_range(-9.0..9.0)).collect(),
+        measured_torque: (0..dof)
+            .map(|_| size * random.random_range(-90.0..90.0))
+            .collect(),
         inputs: (0..SPARE)
             .map(|_| random.random_range(10.0..40.0))
             .collect(),
-        states: (0..SPARE).map(|_| random.random_range(-0.9..0.9)).collect(),
+        states: (0..SPARE)
+            .map(|_| size * random.random_range(-0.9..0.9))
+            .collect(),
     }
 }
 

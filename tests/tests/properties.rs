@@ -5,8 +5,9 @@ use proptest::test_runner::{Config, RngSeed};
 use robot_model_codegen::expr::{Dag, ExprId, Function, Symbol};
 use robot_model_codegen::interpreter::Program;
 use robot_model_spec::model::Function as SpecFunction;
+use robot_model_tests::base_map::largest_difference;
 use robot_model_tests::evaluate::Interpreter;
-use robot_model_tests::states;
+use robot_model_tests::states::{self, State};
 use robot_model_tests::twin::jet::{E1, Jet};
 
 fn config(cases: u32) -> Config {
@@ -220,43 +221,116 @@ fn joint() -> impl Strategy<Value = (bool, f64, i32, f64)> {
     )
 }
 
+/// Effects of the last joint, of which some are one law with others.
+const EFFECTS: [&str; 6] = [
+    "viscous_friction",
+    "coulomb_friction",
+    "stribeck(vs = 0.02)",
+    "motor_inertia",
+    "asymmetric_coulomb",
+    "asymmetric_viscous",
+];
+
 proptest! {
     #![proptest_config(config(150))]
 
-    /// As many base parameters as the stacked regressor has rank, and `Y_b * beta = Y * standard`.
+    /// As many base parameters as the stacked regressor has rank, and `Y_b * beta = Y * standard` for each parameter by
+    /// itself, for arms from tenths of millimeters to tens of meters.
     #[test]
-    fn base_parameters_are_the_rank_of_the_regressor(joints in prop::collection::vec(joint(), 1..5)) {
+    fn base_parameters_are_the_rank_of_the_regressor(
+        joints in prop::collection::vec(joint(), 1..5),
+        size in -4.0..2.0,
+        effects in prop::sample::subsequence(EFFECTS.to_vec(), 0..5),
+    ) {
+        let unit = 10f64.powf(size);
         let joints: Vec<String> = joints
             .iter()
             .enumerate()
             .map(|(k, (revolute, a, alpha, other))| {
-                let (kind, key) = if *revolute { ("revolute", "d") } else { ("prismatic", "theta") };
+                let (kind, key, unit_of_other) =
+                    if *revolute { ("revolute", "d", unit) } else { ("prismatic", "theta", 1.0) };
+                let (a, other) = (a * unit, other * unit_of_other);
                 format!("joint j{k}: {kind} {{ a = {a}; alpha = {alpha} deg; {key} = {other}; }}")
             })
             .collect();
+        let last = joints.len() - 1;
+        let declared: Vec<String> = effects.iter().map(|effect| format!("{effect} on j{last};")).collect();
         let text = format!(
-            "robot Random {{ gravity = [0, 0, -9.81]; convention = standard_dh; {} }}",
-            joints.join(" ")
+            "robot Random {{ gravity = [0, 0, -9.81]; convention = standard_dh; {} effects {{ {} }} }}",
+            joints.join(" "),
+            declared.join(" "),
         );
         let model = robot_model_spec::load("random.robot", &text).expect("a spec");
         let interpreter = Interpreter::new(robot_model_codegen::compile_model(&model));
         let mut random = states::generator(9);
-        let standard = states::physical(&mut random, &model);
-        let beta = interpreter.compiled.base.beta(&standard);
+        let mut samples: Vec<State> = (0..60)
+            .map(|_| states::state(&mut random, joints.len()))
+            .collect();
+        // Dry friction that differs between directions is told from an offset at rest.
+        for (k, state) in samples.iter_mut().enumerate() {
+            let rests = k % (2 * joints.len());
+            if let Some(speed) = state.dq.get_mut(rests) {
+                *speed = 0.0;
+            }
+        }
+        let (difference, name) = largest_difference(&interpreter, &samples);
+        prop_assert!(difference <= 1e-9, "{text}: {name} {difference:.1e}");
+
+        prop_assume!(interpreter.compiled.base.rank.is_clear());
+        let zero = vec![0.0; interpreter.compiled.standard.len()];
         let mut rows = Vec::new();
-        for _ in 0..40 {
-            let state = states::state(&mut random, joints.len());
-            let forms = interpreter.forms(&standard, &state);
-            let torque = &forms.regressor * nalgebra::DVector::from_column_slice(&standard);
-            let by_base = &forms.base_regressor * nalgebra::DVector::from_column_slice(&beta);
-            let difference = (&torque - by_base).amax();
-            prop_assert!(difference <= 1e-10 * torque.amax().max(1.0), "{text}: {difference:.1e}");
+        for state in &samples {
+            let forms = interpreter.forms(&zero, state);
             rows.extend(forms.regressor.row_iter().map(nalgebra::Matrix::into_owned));
         }
-        let stacked = nalgebra::DMatrix::from_rows(&rows);
+        let mut stacked = nalgebra::DMatrix::from_rows(&rows);
+        // Rounding, as was seen above.
+        for &k in &interpreter.compiled.base.unidentifiable {
+            stacked.column_mut(k).fill(0.0);
+        }
+        // Each parameter has a unit of its own, and each joint's torque and each motion a size.
+        for _ in 0..3 {
+            for mut row in stacked.row_iter_mut() {
+                row /= row.amax().max(f64::MIN_POSITIVE);
+            }
+            for mut column in stacked.column_iter_mut() {
+                column /= column.amax().max(f64::MIN_POSITIVE);
+            }
+        }
         let singular = stacked.singular_values();
-        // Lengths here are tenths of meters: what is not zero is far above rounding.
+        // Rounding is below, what a clear decision keeps is above.
         let rank = singular.iter().filter(|value| **value > 1e-9 * singular.max()).count();
-        prop_assert_eq!(rank, beta.len(), "{}", text);
+        prop_assert_eq!(rank, interpreter.compiled.base.kept.len(), "{}", text);
+    }
+
+    /// Lumps keep the torque of every parameter, whatever the units of parameters and lengths make of its coefficient.
+    #[test]
+    fn lumps_keep_the_torque_of_each_parameter(
+        exponents in prop::collection::vec(-14.0..14.0, 5),
+        shares in prop::collection::vec(0.2..3.0, 3),
+    ) {
+        let [l, i, c, d, e] = std::array::from_fn(|k| format!("{:e}", 10f64.powf(exponents[k])));
+        let text = format!(
+            "robot Random {{
+                coordinates th, x: m;
+                parameters m, J, E, k, b;
+                constants L = {l}, I = {i}, c = {c}, d = {d}, e = {e}, g = 9.81, one = 1;
+                let px = x + L*sin(th);
+                let pz = -L*cos(th);
+                kinetic = m/2*(dot(px)^2 + dot(pz)^2) + {s0}*J/2*dot(th)^2 + c*J*dot(th)*dot(x) + b/2*dot(x)^2;
+                potential = m*g*pz + 3*E*I/2*x^2 + {s1}*k/2*x^2 + d*E*x^4 + e*k*{s2}*x^4 + one*b*cos(2*th + 0.3);
+            }}",
+            s0 = shares[0],
+            s1 = shares[1],
+            s2 = shares[2],
+        );
+        let model = robot_model_spec::load("random.robot", &text).expect("a spec");
+        let interpreter = Interpreter::new(robot_model_codegen::compile_model(&model));
+        prop_assert!(interpreter.compiled.base.rank.is_clear(), "{}", interpreter.compiled.base.rank);
+        prop_assert!(interpreter.compiled.base.unidentifiable.is_empty(), "{}", text);
+        let mut random = states::generator(5);
+        let samples: Vec<State> = (0..20).map(|_| states::state(&mut random, 2)).collect();
+        let (difference, name) = largest_difference(&interpreter, &samples);
+        prop_assert!(difference <= 1e-10, "{text}: {name} {difference:.1e}");
     }
 }

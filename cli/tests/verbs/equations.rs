@@ -129,11 +129,11 @@ fn emit_refuses_what_it_cannot_write() {
 fn base_parameters_in_doubt_are_told_by_every_verb() {
     let folder = Folder::new();
     let spec = CART.replace("viscous_friction on rail;", "near on rail;")
-        + "effect near(j) { linear a; linear b; torque(j) = a * dq(j) + b * (dq(j) + 0.000000001 * q(j)); }\n";
+        + "effect near(j) { linear a; linear b; torque(j) = a * dq(j) + b * dq(j) * (1 + 0.000000001 * sin(q(j))); }\n";
     folder.write("cart.robot", &spec);
     folder.write("states.json", r#"{"states":[]}"#);
     folder.write("log.csv", &cart_log(10, 0.0, 0.0));
-    let doubt = "cart.robot: rank is not clear between 1e-10 and 1e-7: `rail.near.b` has ";
+    let doubt = "cart.robot: the base parameters are not certain: between 1e-10 and 1e-7, `rail.near.b` has ";
     for verb in ["check", "show"] {
         let run = folder.run(&[verb, "cart.robot"]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);

@@ -42,7 +42,7 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::DeriveInput;
 
-use crate::base::{RankStatus, shape_values};
+use crate::base::shape_values;
 use crate::compiled::compile_model;
 use crate::emit;
 use fields::Robot;
@@ -81,10 +81,10 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
     }
     let places = bind::bind(&robot, &model)?;
     let compiled = compile_model(&model);
-    if let RankStatus::Unclear(_) = compiled.base.rank {
+    if !compiled.base.rank.is_clear() {
         return Err(syn::Error::new(
             robot.name.span(),
-            format!("base parameters are not certain: {}", compiled.base.rank),
+            compiled.base.rank.to_string(),
         ));
     }
     compiled

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 use robot_model_spec::model::Function as SpecFunction;
 use robot_model_spec::polynomial::{Ring, whole};
 
+use crate::rounded::{Rounded, UNIT};
+
 /// One function of a series. Ordered by rates, then powers, then frequency, cosine before sine.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Harmonic {
@@ -23,14 +25,11 @@ pub struct Harmonic {
     pub sine: bool,
 }
 
-/// A sum of harmonics with coefficients; none of them is zero.
-pub type Series = BTreeMap<Harmonic, f64>;
+/// A sum of harmonics with coefficients; none of them is nothing but rounding.
+pub type Series = BTreeMap<Harmonic, Rounded>;
 
 /// A sine of more than this multiple of a coordinate is not expanded.
 const LARGEST_MULTIPLE: i32 = 64;
-
-/// A sum that is this much smaller than its terms is zero with rounding.
-const CANCELED: f64 = 1e-13;
 
 /// Series as coefficients of parameters.
 pub struct SeriesRing {
@@ -67,16 +66,24 @@ impl SeriesRing {
         }
     }
 
-    fn constant(&self, value: f64) -> Series {
+    fn constant(&self, value: Rounded) -> Series {
         let mut series = Series::new();
         accumulate(&mut series, self.harmonic(), value);
         series
     }
 
+    fn as_rounded(&self, x: &Series) -> Option<Rounded> {
+        match x.len() {
+            0 => Some(Rounded::ZERO),
+            1 => x.get(&self.harmonic()).copied(),
+            _ => None,
+        }
+    }
+
     /// `(multiples, offset)` of an argument that is a sum of whole multiples of coordinates.
-    fn argument(&self, x: &Series) -> Option<(Vec<i32>, f64)> {
+    fn argument(&self, x: &Series) -> Option<(Vec<i32>, Rounded)> {
         let mut multiples = vec![0; self.dof];
-        let mut offset = 0.0;
+        let mut offset = Rounded::ZERO;
         for (harmonic, &coefficient) in x {
             if harmonic.rates.iter().any(|k| *k != 0) || harmonic.frequency != 0 {
                 return None;
@@ -85,7 +92,7 @@ impl SeriesRing {
                 0 => offset = coefficient,
                 1 => {
                     let coordinate = harmonic.powers.iter().position(|k| *k == 1)?;
-                    multiples[coordinate] = whole(coefficient, LARGEST_MULTIPLE)?;
+                    multiples[coordinate] = whole(coefficient.value, LARGEST_MULTIPLE)?;
                 }
                 _ => return None,
             }
@@ -98,27 +105,23 @@ impl Ring for SeriesRing {
     type Element = Series;
 
     fn number(&mut self, value: f64) -> Series {
-        self.constant(value)
+        self.constant(Rounded::constant(value))
     }
 
     fn as_number(&self, x: &Series) -> Option<f64> {
-        match x.len() {
-            0 => Some(0.0),
-            1 => x.get(&self.harmonic()).copied(),
-            _ => None,
-        }
+        self.as_rounded(x).map(|number| number.value)
     }
 
     fn coordinate(&mut self, joint: usize) -> Series {
         let mut harmonic = self.harmonic();
         harmonic.powers[joint] = 1;
-        Series::from([(harmonic, 1.0)])
+        Series::from([(harmonic, ONE)])
     }
 
     fn rate(&mut self, joint: usize) -> Series {
         let mut harmonic = self.harmonic();
         harmonic.rates[joint] = 1;
-        Series::from([(harmonic, 1.0)])
+        Series::from([(harmonic, ONE)])
     }
 
     fn add(&mut self, x: &Series, y: &Series) -> Series {
@@ -138,7 +141,7 @@ impl Ring for SeriesRing {
         for (left, a) in x {
             for (right, b) in y {
                 for (harmonic, factor) in left.times(right) {
-                    accumulate(&mut product, harmonic, factor * a * b);
+                    accumulate(&mut product, harmonic, exact(factor) * *a * *b);
                 }
             }
         }
@@ -147,12 +150,12 @@ impl Ring for SeriesRing {
 
     fn power(&mut self, x: &Series, y: &Series) -> Option<Series> {
         let exponent = self.as_number(y)?;
-        if let Some(base) = self.as_number(x) {
-            let value = base.powf(exponent);
-            return value.is_finite().then(|| self.constant(value));
+        if let Some(base) = self.as_rounded(x) {
+            let power = base.power(exponent);
+            return power.value.is_finite().then(|| self.constant(power));
         }
         let exponent = whole(exponent, 16).filter(|k| *k >= 0)?;
-        let mut power = self.constant(1.0);
+        let mut power = self.constant(ONE);
         for _ in 0..exponent {
             power = self.mul(&power, x);
         }
@@ -160,12 +163,14 @@ impl Ring for SeriesRing {
     }
 
     fn call(&mut self, function: SpecFunction, x: &Series) -> Option<Series> {
-        if let Some(number) = self.as_number(x) {
-            let value = function.apply(number);
-            return value.is_finite().then(|| self.constant(value));
+        if let Some(number) = self.as_rounded(x) {
+            let value = Rounded::constant(function.apply(number.value));
+            return value.value.is_finite().then(|| self.constant(value));
         }
         let (multiples, offset) = self.argument(x)?;
-        let (sin, cos) = offset.sin_cos();
+        let (sin, cos) = offset.value.sin_cos();
+        // Quarter turns are exact: what is left beside them is rounding of the angle.
+        let of_angle = |value: f64| Rounded::after(value, offset.error + UNIT).cleaned();
         // sin(x + c) = sin x cos c + cos x sin c, cos(x + c) = cos x cos c - sin x sin c
         let (of_sine, of_cosine) = match function {
             SpecFunction::Sin => (cos, sin),
@@ -175,7 +180,7 @@ impl Ring for SeriesRing {
         let mut series = Series::new();
         for (sine, coefficient) in [(true, of_sine), (false, of_cosine)] {
             let (harmonic, sign) = self.harmonic().turning(multiples.clone(), sine);
-            accumulate(&mut series, harmonic, sign * snap_to_zero(coefficient));
+            accumulate(&mut series, harmonic, exact(sign) * of_angle(coefficient));
         }
         Some(series)
     }
@@ -186,7 +191,7 @@ impl Ring for SeriesRing {
             for (harmonic, &coefficient) in x {
                 for (mut slope, factor) in harmonic.slopes(joint) {
                     slope.rates[joint] += 1;
-                    accumulate(&mut derivative, slope, factor * coefficient);
+                    accumulate(&mut derivative, slope, exact(factor) * coefficient);
                 }
             }
         }
@@ -198,17 +203,23 @@ impl Ring for SeriesRing {
     }
 }
 
-/// Quarter turns are exact.
-fn snap_to_zero(x: f64) -> f64 {
-    if x.abs() < 1e-15 { 0.0 } else { x }
+const ONE: Rounded = Rounded {
+    value: 1.0,
+    error: 0.0,
+};
+
+/// A sign, or a half.
+fn exact(value: f64) -> Rounded {
+    Rounded::relative(value, 0.0)
 }
 
-fn accumulate(series: &mut Series, harmonic: Harmonic, coefficient: f64) {
-    let before = series.get(&harmonic).copied().unwrap_or(0.0);
-    let after = before + coefficient;
+/// A named rounding step: a coefficient that is nothing but rounding of what it was made of is gone.
+fn accumulate(series: &mut Series, harmonic: Harmonic, coefficient: Rounded) {
+    let before = series.get(&harmonic).copied().unwrap_or_default();
+    let after = (before + coefficient).cleaned();
     // The sine of nothing is nothing.
     let nothing = harmonic.sine && harmonic.frequency == 0;
-    if nothing || after.abs() <= CANCELED * before.abs().max(coefficient.abs()) {
+    if nothing || after == Rounded::ZERO {
         series.remove(&harmonic);
     } else {
         series.insert(harmonic, after);
@@ -295,7 +306,7 @@ mod tests {
     use super::*;
 
     fn value(series: &Series, q: [f64; 2], dq: [f64; 2]) -> f64 {
-        let term = |(harmonic, coefficient): (&Harmonic, &f64)| {
+        let term = |(harmonic, coefficient): (&Harmonic, &Rounded)| {
             let power = |x: [f64; 2], k: &[i32]| x[0].powi(k[0]) * x[1].powi(k[1]);
             let m = &harmonic.multiples;
             let angle = f64::from(m[0]) * q[0] + f64::from(m[1]) * q[1];
@@ -304,7 +315,7 @@ mod tests {
             } else {
                 angle.cos()
             };
-            coefficient * power(q, &harmonic.powers) * power(dq, &harmonic.rates) * wave
+            coefficient.value * power(q, &harmonic.powers) * power(dq, &harmonic.rates) * wave
         };
         series.iter().map(term).sum()
     }

@@ -1,6 +1,7 @@
 //! Three-vectors of expressions and products of fixed rotations with them.
 
 use crate::expr::{Dag, ExprId};
+use crate::rounded::OF_A_CONSTANT;
 
 /// Coordinates of a vector in some frame.
 pub type Vector = [ExprId; 3];
@@ -13,9 +14,13 @@ pub fn zero(dag: &mut Dag) -> Vector {
     [dag.zero(); 3]
 }
 
-/// Numbers as expressions.
+/// Numbers as expressions. A named rounding step: an entry that is no more than rounding of the largest is zero, such as
+/// those of an axis or a rotation that was multiplied out.
 pub fn constant(dag: &mut Dag, v: [f64; 3]) -> Vector {
-    v.map(|x| dag.constant(x))
+    let rounding = v
+        .iter()
+        .fold(0.0, |size: f64, x| size.max(OF_A_CONSTANT * x.abs()));
+    v.map(|x| dag.constant(if x.abs() <= rounding { 0.0 } else { x }))
 }
 
 /// `u + v`

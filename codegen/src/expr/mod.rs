@@ -12,6 +12,7 @@ mod diff;
 mod display;
 mod eval;
 mod node;
+mod rounding;
 pub mod rules;
 mod substitute;
 
@@ -64,6 +65,8 @@ pub struct Dag {
     index: HashMap<Node, ExprId>,
     // Looked up only.
     labels: HashMap<ExprId, Label>,
+    // Looked up only: absolute errors of numbers, by the bits of their magnitude, that sums have left with few digits.
+    lost: HashMap<u64, f64>,
 }
 
 impl Dag {

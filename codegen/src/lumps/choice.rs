@@ -1,8 +1,9 @@
 //! Which lumps: coefficients in proportion are one, a lump that contains another whole loses it, dependent ones go.
 
 use super::Row;
-use super::function::{Function, SAME};
-use crate::selection::{Selection, norm, snap};
+use super::function::Function;
+use crate::elimination::{Elimination, SAME};
+use crate::selection::shortest;
 
 /// The chosen lumps.
 pub(super) struct Choice {
@@ -15,18 +16,32 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    /// `None` where lengths are so different that coefficients are neither clearly dependent nor clearly independent.
+    /// `None` where rounding leaves a function that is no combination of the lumps.
     pub(super) fn of(functions: &[Function]) -> Option<Self> {
         let mut candidates = distinct(functions);
         // Stable: among lumps of one size the first written stays first.
         candidates.sort_by_key(size);
         subtract_contained(&mut candidates);
         candidates.sort_by_key(size);
-        let lumps = independent(candidates);
-        let shares = shares(&lumps, functions)?;
+        let mut elimination = Elimination::new(functions.first().map_or(0, |f| f.row.len()));
+        let (mut lumps, mut representatives) = (Vec::new(), Vec::new());
+        for row in candidates {
+            // A standard parameter that the lump itself has, so that papers' names stay.
+            let own = (0..row.len()).filter(|k| row[*k] != 0.0);
+            if let Some(representative) = elimination.keep(&row, own) {
+                representatives.push(representative);
+                lumps.push(row);
+            }
+        }
+        let mut shares = vec![vec![0.0; functions.len()]; lumps.len()];
+        for (k, function) in functions.iter().enumerate() {
+            for (own, share) in shares.iter_mut().zip(elimination.shares(&function.row)?) {
+                own[k] = share;
+            }
+        }
         Some(Self {
-            representatives: representatives(&lumps)?,
             lumps,
+            representatives,
             shares,
         })
     }
@@ -87,16 +102,19 @@ fn scaled(group: &[Row]) -> Row {
         })
         .unwrap_or(first);
     let sign = leading(chosen).signum();
-    chosen.iter().map(|x| snap(sign * x)).collect()
+    // The lump is defined by these digits; the shares are then its exact ones.
+    chosen
+        .iter()
+        .map(|x| shortest(sign * x, SAME * x.abs()))
+        .collect()
 }
 
-/// `y / x` where the rows are in proportion.
+/// `y / x` where the rows are in proportion, entry by entry: each stands in a unit of its own.
 fn ratio(x: &Row, y: &Row) -> Option<f64> {
     let k = x.iter().position(|x| *x != 0.0)?;
     let ratio = y[k] / x[k];
-    let size = y.iter().fold(0.0, |size: f64, y| size.max(y.abs()));
     let mut pairs = x.iter().zip(y);
-    (ratio != 0.0 && pairs.all(|(x, y)| (y - ratio * x).abs() <= SAME * size)).then_some(ratio)
+    (ratio != 0.0 && pairs.all(|(x, y)| (y - ratio * x).abs() <= SAME * y.abs())).then_some(ratio)
 }
 
 /// `I1 + m1*l^2 + I2` beside a lump `I2` is `I1 + m1*l^2`. Smaller lumps come first.
@@ -122,68 +140,4 @@ fn subtract_contained(lumps: &mut [Row]) {
             }
         }
     }
-}
-
-fn independent(candidates: Vec<Row>) -> Vec<Row> {
-    let mut selection = Selection::default();
-    for (k, row) in candidates.iter().enumerate() {
-        selection.take(k, unit(row), "");
-    }
-    let kept = selection.kept;
-    candidates
-        .into_iter()
-        .enumerate()
-        .filter(|(k, _)| kept.contains(k))
-        .map(|(_, row)| row)
-        .collect()
-}
-
-fn unit(row: &Row) -> Row {
-    let length = norm(row);
-    row.iter().map(|x| x / length).collect()
-}
-
-/// Offers the functions' rows after the lumps: all of them are combinations of lumps, but for rounding.
-fn shares(lumps: &[Row], functions: &[Function]) -> Option<Vec<Vec<f64>>> {
-    let mut selection = Selection::default();
-    let rows = || lumps.iter().chain(functions.iter().map(|f| &f.row));
-    for (k, row) in rows().enumerate() {
-        selection.take(k, unit(row), "");
-    }
-    let lengths: Vec<f64> = rows().map(|row| norm(row)).collect();
-    let mut shares = vec![vec![0.0; functions.len()]; lumps.len()];
-    for combination in selection.combinations(&lengths) {
-        let own = shares.get_mut(combination[0].0)?;
-        for &(row, share) in &combination[1..] {
-            *own.get_mut(row.checked_sub(lumps.len())?)? = share;
-        }
-    }
-    Some(shares)
-}
-
-/// A distinct standard parameter per lump, by elimination; the first that the lump itself has.
-fn representatives(lumps: &[Row]) -> Option<Vec<usize>> {
-    let mut reduced: Vec<Row> = lumps.to_vec();
-    let mut representatives = Vec::new();
-    for k in 0..lumps.len() {
-        let largest = reduced[k]
-            .iter()
-            .fold(0.0, |size: f64, x| size.max(x.abs()));
-        let left = |c: &usize| reduced[k][*c].abs() > 1e-9 * largest;
-        let columns = || 0..reduced[k].len();
-        let pivot = columns()
-            .filter(left)
-            .find(|c| lumps[k][*c] != 0.0)
-            .or_else(|| columns().find(left))?;
-        representatives.push(pivot);
-        let row = reduced[k].clone();
-        for other in &mut reduced[k + 1..] {
-            let factor = other[pivot] / row[pivot];
-            for (x, y) in other.iter_mut().zip(&row) {
-                *x -= factor * y;
-            }
-            other[pivot] = 0.0;
-        }
-    }
-    Some(representatives)
 }

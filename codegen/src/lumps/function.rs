@@ -4,10 +4,8 @@ use std::collections::BTreeMap;
 
 use super::{Part, Row};
 use crate::dynamics::fourier::{Harmonic, turned_positive};
+use crate::elimination::SAME;
 use crate::expr::{Dag, ExprId, Function as DagFunction, Symbol};
-
-/// Coefficients that differ by no more than this, relatively, are in proportion; energies are written with fewer digits.
-pub(super) const SAME: f64 = 1e-11;
 
 /// `(sine, multiples)`: the sine, or the cosine, of a sum of multiples of the coordinates.
 type Wave = (bool, Vec<i32>);
@@ -139,11 +137,10 @@ fn product(first: &Harmonic, second: &Harmonic, sign: f64) -> Option<(Vec<Wave>,
     Some((factors, scale))
 }
 
-/// 1 or -1 where one row is the other or its negative.
+/// 1 or -1 where one row is the other or its negative, entry by entry.
 fn same_or_opposite(x: &Row, y: &Row) -> Option<f64> {
-    let size = x.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     [1.0, -1.0].into_iter().find(|sign| {
         let mut pairs = x.iter().zip(y);
-        pairs.all(|(x, y)| (x - sign * y).abs() <= SAME * size)
+        pairs.all(|(x, y)| (x - sign * y).abs() <= SAME * x.abs())
     })
 }

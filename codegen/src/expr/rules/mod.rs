@@ -172,7 +172,8 @@ const fn equal(c: f64, d: f64) -> bool {
 }
 
 fn fold_sum(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
-    let value = dag.as_constant(x)? + dag.as_constant(y)?;
+    let (c, d) = (dag.as_constant(x)?, dag.as_constant(y)?);
+    let value = dag.sum_of_numbers(c, d);
     finite(dag, value)
 }
 
@@ -187,7 +188,10 @@ fn add_zero(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
 fn collect(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
     let (p, q) = (p?, q?);
-    (p == q).then(|| dag.scale(c + d, p))
+    (p == q).then(|| {
+        let sum = dag.sum_of_numbers(c, d);
+        dag.scale(sum, p)
+    })
 }
 
 fn collect_nested(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
@@ -204,9 +208,11 @@ fn collect_into(dag: &mut Dag, sum: ExprId, term: ExprId) -> Option<ExprId> {
     for (here, other) in [(p, q), (q, p)] {
         let (c, s) = dag.coefficient(here);
         if s == t {
+            let product = dag.product_of_numbers(outer, c);
+            let sum = dag.sum_of_numbers(product, d);
             let collected = match t {
-                Some(t) => dag.scale(outer * c + d, t),
-                None => dag.constant(outer * c + d),
+                Some(t) => dag.scale(sum, t),
+                None => dag.constant(sum),
             };
             let other = dag.scale(outer, other);
             return Some(dag.add(other, collected));
@@ -227,7 +233,8 @@ fn common_coefficient(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
 }
 
 fn fold_product(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
-    let value = dag.as_constant(x)? * dag.as_constant(y)?;
+    let (c, d) = (dag.as_constant(x)?, dag.as_constant(y)?);
+    let value = dag.product_of_numbers(c, d);
     finite(dag, value)
 }
 
@@ -245,7 +252,8 @@ fn coefficients_meet(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
         return None;
     };
     let d = dag.as_constant(factor)?;
-    let product = finite(dag, c * d)?;
+    let product = dag.product_of_numbers(c, d);
+    let product = finite(dag, product)?;
     Some(dag.mul(product, rest))
 }
 
@@ -255,7 +263,8 @@ fn coefficient_outside(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     if p == x && q == y {
         return None;
     }
-    let coefficient = finite(dag, c * d)?;
+    let coefficient = dag.product_of_numbers(c, d);
+    let coefficient = finite(dag, coefficient)?;
     let product = dag.mul(p, q);
     Some(dag.mul(coefficient, product))
 }

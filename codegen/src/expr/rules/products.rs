@@ -104,7 +104,8 @@ pub(super) fn collect_reordered(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<E
         return None;
     }
     let (_, product) = dag.coefficient(x);
-    Some(dag.scale(left.coefficient + right.coefficient, product?))
+    let sum = dag.sum_of_numbers(left.coefficient, right.coefficient);
+    Some(dag.scale(sum, product?))
 }
 
 pub(super) fn pythagoras(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
