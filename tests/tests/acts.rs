@@ -214,7 +214,7 @@ fn a_hand_on_the_tip_is_felt() {
     let count = standard.len();
     standard[count - 3..].copy_from_slice(&push);
     let found = identify(touched.clone(), |seed| {
-        log(&touched.model, seed, |state, load| {
+        log(&plant(DOWN, LINKS[2]), seed, |state, load| {
             let held = twin.effect_torque(&standard, state);
             let sum = load.iter().zip(held).map(|(l, h)| l + h);
             (state.q.clone(), sum.collect())
