@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use robot_model_spec::Model;
 use robot_model_spec::model::{Energies, Monomial};
-use robot_model_spec::parameter::{Owner, Status};
+use robot_model_spec::parameter::Status;
 
 /// Where an arm is and how it moves.
 #[derive(Debug, Clone, PartialEq, Default)]

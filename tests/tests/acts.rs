@@ -31,11 +31,12 @@ const LINKS: [&str; 3] = [
 /// A spec of an elbow arm; `status` is that of its links, `tip` replaces the last one.
 fn spec(gravity: [f64; 3], status: &str, tip: &str, effects: &str) -> Compiled {
     let names = ["turn", "lift", "bend"];
-    let links: String = names
+    let links: Vec<String> = names
         .iter()
         .zip([LINKS[0], LINKS[1], tip])
         .map(|(name, inertial)| format!("link {name}: {status} {{ {inertial} }}"))
         .collect();
+    let links = links.concat();
     let text = format!(
         "robot Elbow {{ gravity = {gravity:?}; convention = standard_dh; \
          joint turn: revolute {{ a = 0; alpha = 90 deg; d = 0.4; }} \

@@ -281,7 +281,7 @@ fn names_of_base_parameters_are_unique() {
         if let Some(energies) = compiled.model.energies() {
             let names = energies.parameters.iter().map(|p| p.name.as_str());
             let regrouped = compiled.base.names.iter().zip(&compiled.base.combinations);
-            for (name, combination) in regrouped.filter(|(_, c)| c.len() > 1) {
+            for (name, _) in regrouped.filter(|(_, c)| c.len() > 1) {
                 let last = name.rsplit('*').next().expect("a name");
                 assert!(names.clone().all(|other| other != last), "{name}");
             }

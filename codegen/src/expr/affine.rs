@@ -26,9 +26,8 @@ impl Dag {
         for x in self.reachable(roots) {
             let of = |operand: ExprId| degrees[operand.index()];
             degrees[x.index()] = match self.node(x) {
-                Node::Constant(_) => Degree::Free,
                 Node::Symbol(symbol) if wanted(symbol) => Degree::Affine,
-                Node::Symbol(_) => Degree::Free,
+                Node::Constant(_) | Node::Symbol(_) => Degree::Free,
                 Node::Add(p, q) => of(p).max(of(q)),
                 Node::Mul(p, q) => match (of(p), of(q)) {
                     (Degree::Free, other) | (other, Degree::Free) => other,
