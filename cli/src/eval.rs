@@ -13,7 +13,7 @@ use crate::parameters::{self, Values};
 use crate::spec::{compile_instantaneous, read_text};
 use crate::{Error, output};
 
-/// Mass matrix, Coriolis matrix, gravity, torque and regressors at given states, energies and slopes, and where the links or
+/// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
 /// the spec's points are, with their Jacobians, as JSON.
 #[derive(Debug, Args)]
 pub(crate) struct Eval {
@@ -80,6 +80,8 @@ struct StateValues {
     torque: Vec<f64>,
     regressor: Matrix,
     base_regressor: Matrix,
+    /// Of what the spec fixes: `torque = base_regressor * beta + known_torque`.
+    known_torque: Vec<f64>,
     kinetic_energy: f64,
     /// Up to a constant.
     potential_energy: f64,
@@ -129,7 +131,16 @@ impl Eval {
                 .map(|state| programs.eval(state, &values))
                 .collect(),
         };
-        output::print(&output::json(&evaluation))
+        let written = output::json(&evaluation);
+        match not_finite(&written) {
+            Some((state, form)) => Err(Error::json(
+                &self.states,
+                &format!(
+                    "state {state}: `{form}` is not finite there; write motions that the arm can make, or change the parameters"
+                ),
+            )),
+            None => output::print(&written),
+        }
     }
 
     fn read_states(&self, compiled: &Compiled) -> Result<Vec<State>, Error> {
@@ -169,6 +180,27 @@ impl Eval {
         }
         Ok(states)
     }
+}
+
+/// The first state, from 1, with a value that is not finite, and the name of this value: JSON has `null` there.
+fn not_finite(written: &str) -> Option<(usize, String)> {
+    fn has_null(value: &serde_json::Value) -> bool {
+        match value {
+            serde_json::Value::Null => true,
+            serde_json::Value::Array(items) => items.iter().any(has_null),
+            serde_json::Value::Object(entries) => entries.values().any(has_null),
+            _ => false,
+        }
+    }
+    let evaluation: serde_json::Value = serde_json::from_str(written).ok()?;
+    let states = evaluation["states"].as_array()?;
+    states.iter().enumerate().find_map(|(k, state)| {
+        let (form, _) = state
+            .as_object()?
+            .iter()
+            .find(|(_, value)| has_null(value))?;
+        Some((k + 1, form.clone()))
+    })
 }
 
 /// What names and those that the declared effects have do not have in common.
@@ -223,6 +255,7 @@ struct Programs {
     torque: Program,
     regressor: Block,
     base_regressor: Block,
+    known_torque: Program,
     energies: Program,
     momentum: Block,
     drift: Block,
@@ -249,6 +282,7 @@ impl Programs {
             torque: compiled.inverse_dynamics(),
             regressor: compiled.regressor(),
             base_regressor: compiled.base_regressor(),
+            known_torque: compiled.known_torque(),
             energies: compiled.energies(),
             momentum: compiled.momentum_regressor(),
             drift: compiled.drift_regressor(),
@@ -299,6 +333,7 @@ impl Programs {
             torque: run(&self.torque),
             regressor: columns(&self.regressor, self.standard),
             base_regressor: columns(&self.base_regressor, self.base),
+            known_torque: run(&self.known_torque),
             kinetic_energy: energies[0],
             potential_energy: energies[1],
             momentum_regressor: columns(&self.momentum, self.standard),

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use robot_model::columns::Arm;
 use robot_model::identify::{Errors, Estimate, Form, Identify, IdentifyError, Method};
 use robot_model::log::Log;
-use robot_model::signal::Bands;
+use robot_model::signal::{Bands, SignalError};
 use serde::Serialize;
 
 use crate::Error;
@@ -167,7 +167,9 @@ impl IdentifyArguments {
             method: self.method.into(),
             bands: self.bands,
         };
-        let estimate = form.fit(&identify, &logs)?;
+        let estimate = form
+            .fit(&identify, &logs)
+            .map_err(|error| self.refused(error))?;
         let train = errors_of_all(&estimate, form, &logs)?;
         let validation = validate
             .as_ref()
@@ -182,6 +184,18 @@ impl IdentifyArguments {
             "{estimate}\n{}",
             table(&estimate, &train, validation.as_ref())
         ))
+    }
+}
+
+impl IdentifyArguments {
+    /// A corner that was asked for is named as it was.
+    fn refused(&self, error: IdentifyError) -> Error {
+        match (error, self.corner) {
+            (IdentifyError::Signal(fault @ SignalError::Corner { .. }), Some(_)) => {
+                Error::Argument(format!("--corner: {fault}"))
+            }
+            (error, _) => error.into(),
+        }
     }
 }
 

@@ -155,16 +155,15 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         )));
     }
 
+    let mut missing = Vec::new();
     let beta = if is_base {
         base_names.iter().map(|name| given[*name]).collect()
     } else {
-        compiled
-            .base
-            .beta(&standard(compiled, &products).map_err(fault)?)
+        let standard = standard(compiled, &products, &mut missing).map_err(fault)?;
+        compiled.base.beta(&standard)
     };
     let mut shapes = shape_values(&compiled.model);
     let free = compiled.free_shapes();
-    let mut missing = Vec::new();
     for (k, name) in shape_names.iter().enumerate() {
         match given.get(name) {
             Some(value) if free.contains(&k) => shapes[k] = *value,
@@ -221,10 +220,13 @@ fn products(
     Ok(values)
 }
 
-/// A value for every standard parameter that some torque depends on.
-fn standard(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Vec<f64>, String> {
+/// A value for every standard parameter that some torque depends on; `missing` takes the names of those without.
+fn standard<'a>(
+    compiled: &'a Compiled,
+    given: &BTreeMap<String, f64>,
+    missing: &mut Vec<&'a str>,
+) -> Result<Vec<f64>, String> {
     let mut values = vec![0.0; compiled.standard.len()];
-    let mut missing = Vec::new();
     for (k, parameter) in compiled.standard.iter().enumerate() {
         values[k] = match (given.get(&parameter.name).copied(), parameter.status) {
             (Some(value), Status::Fixed(fixed)) if differ(value, fixed) => {
@@ -242,17 +244,16 @@ fn standard(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Vec<f6
             }
         };
     }
-    if missing.is_empty() {
-        Ok(values)
-    } else {
-        Err(no_value(&missing))
-    }
+    Ok(values)
 }
 
+/// The names, all of them, as a file to be filled in.
 fn no_value(names: &[&str]) -> String {
+    let entries: Vec<String> = names.iter().map(|name| format!("\"{name}\": ..")).collect();
     format!(
-        "no value for {}; give it in a file with `--parameters`",
-        list(names)
+        "no value for {}; give it in a file with `--parameters`: {{{}}}",
+        list(names),
+        entries.join(", ")
     )
 }
 

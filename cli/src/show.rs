@@ -40,11 +40,11 @@ enum WhatArgument {
     Slopes,
     /// `Y` with `tau = Y * standard`
     Regressor,
-    /// `Y_b` with `tau = Y_b * beta`
+    /// `Y_b` with `tau = Y_b * beta`, besides what the spec fixes
     BaseRegressor,
     /// `Y_p` and `Y_h` of `L{tau} = Y_L * standard`, `Y_L = w (Y_p - L{Y_p}) - L{Y_h}`, `L(s) = w / (s + w)`
     FilteredRegressor,
-    /// The same with `L{tau} = Y_L * beta`
+    /// The same with `L{tau} = Y_L * beta`, besides what the spec fixes
     BaseFilteredRegressor,
     /// Kinetic and potential energy of the rigid body
     Energies,
@@ -99,6 +99,15 @@ enum Notation {
 impl Show {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile_to_look_at(&self.spec)?;
+        let has_places = compiled.kinematics.is_some() || !compiled.points.is_empty();
+        if let (Some(WhatArgument::ForwardKinematics | WhatArgument::Jacobian), false) =
+            (self.what, has_places)
+        {
+            return Err(Error::Argument(format!(
+                "{}: the robot names no points, so nothing is known of where it is; write `point tip = [x, y, z];`",
+                compiled.model.source
+            )));
+        }
         let style = match self.notation {
             Notation::Text => Style::Text,
             Notation::Latex => Style::Latex,

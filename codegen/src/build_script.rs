@@ -1,6 +1,7 @@
 //! The `build.rs` route: a spec beside the crate in, `OUT_DIR/<spec>.rs` out.
 
 use std::fmt;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use robot_model_spec::Diagnostics;
@@ -29,7 +30,16 @@ pub enum CompileError {
 impl fmt::Display for CompileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Io(path, error) => write!(f, "cannot use `{}`: {error}", path.display()),
+            Self::Io(path, error) => {
+                let help = match error.kind() {
+                    ErrorKind::NotFound => {
+                        "; the path in `compile(..)` is relative to the folder of Cargo.toml"
+                    }
+                    ErrorKind::InvalidData => "; it is no text in UTF-8: save it as such",
+                    _ => "",
+                };
+                write!(f, "cannot use `{}`: {error}{help}", path.display())
+            }
             Self::NotInBuildScript(variable) => {
                 write!(
                     f,

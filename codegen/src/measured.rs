@@ -6,6 +6,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use robot_model_spec::Model;
+
 use crate::compiled::{Block, Compiled};
 use crate::dynamics::Changes;
 use crate::expr::{Dag, ExprId};
@@ -17,6 +19,17 @@ pub struct NotInstantaneous {
     /// File and line of the declaration.
     place: String,
     effect: String,
+}
+
+impl NotInstantaneous {
+    /// Of a declared effect, by its index.
+    pub(crate) fn new(model: &Model, effect: usize) -> Self {
+        let effect = &model.effects[effect];
+        Self {
+            place: format!("{}:{}", model.source, effect.line),
+            effect: effect.definition.name.clone(),
+        }
+    }
 }
 
 impl fmt::Display for NotInstantaneous {
@@ -82,12 +95,9 @@ impl Compiled {
     /// [`NotInstantaneous`] names the first effect that moves a link along a motion.
     pub fn check_instantaneous(&self) -> Result<(), NotInstantaneous> {
         let mut effects = self.model.effects.iter();
-        match effects.find(|effect| effect.definition.moves_links()) {
+        match effects.position(|effect| effect.definition.moves_links()) {
             None => Ok(()),
-            Some(effect) => Err(NotInstantaneous {
-                place: format!("{}:{}", self.model.source, effect.line),
-                effect: effect.definition.name.clone(),
-            }),
+            Some(effect) => Err(NotInstantaneous::new(&self.model, effect)),
         }
     }
 }

@@ -53,6 +53,8 @@ robots! {
     cart_pole "cart_pole" CartPole;
     emps "emps" Emps;
     every_effect "every_effect" EveryEffect;
+    fixed_arm "fixed_arm" FixedArm;
+    known_springs "known_springs" KnownSprings;
     mounted_arm "mounted_arm" MountedArm;
     panda "panda" Panda;
     phantom "phantom" Phantom;

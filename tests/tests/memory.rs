@@ -249,3 +249,24 @@ fn emitted_functions_of_effects_with_a_memory_agree_with_the_interpreter() {
         close(DMatrix::from_row_slice(4, 1, &found), &rates);
     }
 }
+
+/// Pages as a program includes them that needs nothing of them yet: no warning, in a private module of a binary.
+#[deny(warnings)]
+#[allow(clippy::pedantic, reason = "derived, not written")]
+mod nothing_is_used {
+    mod fixed_arm {
+        robot_model::include_robot!("fixed_arm");
+    }
+    mod known_springs {
+        robot_model::include_robot!("known_springs");
+    }
+    mod lugre_link {
+        robot_model::include_robot!("lugre_link");
+    }
+    mod memory {
+        robot_model::include_robot!("memory");
+    }
+    mod two_link {
+        robot_model::include_robot!("two_link");
+    }
+}

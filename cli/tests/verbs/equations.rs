@@ -156,3 +156,18 @@ fn base_parameters_in_doubt_are_told_by_every_verb() {
         );
     }
 }
+
+#[test]
+fn where_a_robot_is_takes_points() {
+    let folder = Folder::new();
+    folder.write(
+        "disc.robot",
+        "robot Disc { coordinates th; parameters J: kg*m^2; kinetic = J/2*dot(th)^2; potential = 0; }",
+    );
+    for what in ["jacobian", "forward-kinematics"] {
+        assert_eq!(
+            folder.refuse(&["show", "disc.robot", "--what", what]),
+            "error: disc.robot: the robot names no points, so nothing is known of where it is; write `point tip = [x, y, z];`\n"
+        );
+    }
+}

@@ -65,11 +65,11 @@ fn eval_takes_standard_and_base_parameters() {
 
     assert_eq!(
         folder.refuse(&["eval", "cart.robot", "--states", "states.json"]),
-        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file with `--parameters`\n"
+        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file with `--parameters`: {\"cart.m\": .., \"rail.viscous_friction.fv\": ..}\n"
     );
     assert_eq!(
         folder.refuse(&eval(r#"{"cart.m": 3}"#)),
-        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file with `--parameters`\n"
+        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file with `--parameters`: {\"rail.viscous_friction.fv\": ..}\n"
     );
     assert_eq!(
         folder.refuse(&eval(
@@ -164,4 +164,76 @@ fn eval_refuses_states_of_another_arm() {
             .contains("unknown field `v`")
     );
     assert!(said("{").contains("line 1"));
+}
+
+/// A link that is known, and one that is not.
+const HALF_KNOWN: &str = "robot Arm {
+    gravity = [0, -9.81, 0];
+    convention = standard_dh;
+    joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
+    joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
+    link upper: fixed { mass = 2; com = [-0.25, 0, 0]; inertia = [0, 0, 0, 0.05, 0, 0.05]; }
+    link lower: nominal { mass = 1; com = [-0.2, 0, 0]; inertia = [0, 0, 0, 0.02, 0, 0.02]; }
+}";
+
+#[test]
+fn the_known_torque_completes_that_of_the_base_parameters() {
+    let folder = Folder::new();
+    folder.write("arm.robot", HALF_KNOWN);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.3,-0.8],"dq":[1,2],"ddq":[-1,3]}]}"#,
+    );
+    let out = json(&folder.succeed(&["eval", "arm.robot", "--states", "states.json"]));
+    let standard = |name: &str| match name {
+        "lower.m" => 1.0,
+        "lower.mx" => -0.2,
+        "lower.izz" => 0.02 + 0.04,
+        _ => 0.0,
+    };
+    let state = &out["states"][0];
+    let base = out["base_parameters"].as_array().expect("a list");
+    for joint in 0..2 {
+        let row = numbers(&state["base_regressor"][joint]);
+        let known = numbers(&state["known_torque"])[joint];
+        let unknown = row.iter().zip(base).map(|(y, parameter)| {
+            let combination = parameter["combination"].as_object().expect("an object");
+            let beta: f64 = combination
+                .iter()
+                .map(|(name, c)| c.as_f64().expect("a number") * standard(name))
+                .sum();
+            y * beta
+        });
+        close(
+            unknown.sum::<f64>() + known,
+            numbers(&state["torque"])[joint],
+            1e-12,
+        );
+        assert!(joint == 1 || known.abs() > 1.0, "{known}");
+    }
+}
+
+#[test]
+fn what_is_not_finite_is_refused_with_its_state() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]},{"q":[0,0],"dq":[1e200,0],"ddq":[0,0]}]}"#,
+    );
+    let said = folder.refuse(&["eval", "pendulum.robot", "--states", "states.json"]);
+    assert!(
+        said.starts_with("error: states.json: state 2: `") && said.contains("is not finite there"),
+        "{said}"
+    );
+}
+
+#[test]
+fn what_is_no_text_is_refused_with_the_way_out() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("arm.robot"), [0xff, 0xfe, 0x00]).expect("a file in the folder");
+    assert_eq!(
+        folder.refuse(&["check", "arm.robot"]),
+        "error: cannot read `arm.robot`: it is no text in UTF-8; save it as such, or name the file that has the text\n"
+    );
 }

@@ -32,14 +32,9 @@ pub fn bind(robot: &Robot, model: &Model) -> syn::Result<Vec<Held>> {
             (Holds::Link(effects), Some(chain)) => {
                 own.link = errors.keep(link(field, model, chain, effects));
             }
-            (Holds::Link(effects), None) => errors.push(
-                field.span,
-                format!(
-                    "a robot of energies has no links: write `{}: {}`",
-                    field.name,
-                    effect_types(effects)
-                ),
-            ),
+            (Holds::Link(effects), None) => {
+                errors.push(field.span, no_link(field, model, effects));
+            }
             (Holds::Effects(_), _) => {}
         }
         held.push(own);
@@ -90,6 +85,19 @@ fn no_joint(field: &RobotField, model: &Model) -> String {
         field.name,
         names.join(", ")
     )
+}
+
+/// What to write for a link of a robot that says its energies.
+fn no_link(field: &RobotField, model: &Model, effects: &Effects) -> String {
+    let name = field.name;
+    let instead = if parameter(field, model).is_ok() {
+        format!("`{name}` is an unknown constant: write `{name}: f64`")
+    } else if effects.types.is_empty() {
+        format!("delete `{name}`")
+    } else {
+        format!("write `{name}: {}`", effect_types(effects))
+    };
+    format!("a robot of energies has no links: {instead}")
 }
 
 /// Rust's names are in snake case: `ia_yy` holds `Ia_yy`.
@@ -250,6 +258,13 @@ fn check_parameters(robot: &Robot, model: &Model, held: &[Held], errors: &mut Er
         .energies()
         .map_or(&[] as &[_], |energies| &energies.parameters);
     for (k, parameter) in parameters.iter().enumerate() {
+        // A field of this name with another type has its message already.
+        let is_there = robot.fields.iter().any(|field| {
+            is(field.name, &parameter.name) || is(field.name, &parameter.name.to_ascii_lowercase())
+        });
+        if is_there {
+            continue;
+        }
         if !held.iter().any(|held| held.parameter == Some(k)) {
             errors.push(
                 robot.name.span(),

@@ -252,6 +252,11 @@ fn file_name(entry: &TokenStream, key: &'static str) -> Option<(FileName, &'stat
     })
 }
 
+/// Numbers that hold no parameter.
+const PRIMITIVE: [&str; 13] = [
+    "f32", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128", "usize",
+];
+
 fn holds(ty: &Type) -> syn::Result<Holds> {
     let Type::Path(path) = ty else {
         return Ok(Holds::Effects(effects(ty)?));
@@ -259,6 +264,12 @@ fn holds(ty: &Type) -> syn::Result<Holds> {
     let last = path.path.segments.last().expect("a path has segments");
     if last.ident == "f64" {
         return Ok(Holds::Number);
+    }
+    if PRIMITIVE.iter().any(|number| last.ident == number) {
+        return Err(syn::Error::new(
+            ty.span(),
+            format!("an unknown constant is an `f64`, not `{}`", last.ident),
+        ));
     }
     if last.ident != "Link" {
         return Ok(Holds::Effects(effects(ty)?));

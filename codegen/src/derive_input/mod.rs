@@ -40,11 +40,13 @@ use std::io;
 
 use proc_macro2::TokenStream;
 use quote::quote;
+use robot_model_spec::Model;
 use syn::DeriveInput;
 
 use crate::base::shape_values;
 use crate::compiled::compile_model;
 use crate::emit;
+use crate::measured::NotInstantaneous;
 use fields::Robot;
 
 /// Reads a file that an attribute names, relative to the crate's folder.
@@ -74,6 +76,7 @@ pub fn derive(input: TokenStream, read: ReadFile<'_>) -> TokenStream {
 fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenStream> {
     let robot = Robot::new(input)?;
     let mut model = source::model(&robot, read)?;
+    check_reach(&robot, &model)?;
     // The value holds every shape parameter; what the spec says of one is where it starts.
     let nominal = shape_values(&model);
     for effect in &mut model.effects {
@@ -87,20 +90,37 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
             compiled.base.rank.to_string(),
         ));
     }
-    compiled
-        .check_instantaneous()
-        .map_err(|reason| syn::Error::new(robot.name.span(), reason))?;
-    if compiled.reads_more_than_motion() {
-        return Err(syn::Error::new(
-            robot.name.span(),
-            "an effect has a memory or reads the log, and a `RobotModel` knows motions only; write the arm as a `.robot` file and compile it in a build script",
-        ));
-    }
     let parameters = value::parameters(&robot, &compiled, &places);
     let implementation =
         emit::rust::implementation_for(&compiled, robot.name, &parameters, &nominal);
     let tracked = fields::files(input).map(|file| track(&file));
     Ok(quote!(#implementation #(#tracked)*))
+}
+
+/// A `RobotModel` knows motions only. Said before anything about fields, which would be of no use.
+fn check_reach(robot: &Robot, model: &Model) -> syn::Result<()> {
+    let mut effects = model.effects.iter().enumerate();
+    let beyond = effects.find(|(_, effect)| {
+        let definition = &effect.definition;
+        !definition.states.is_empty()
+            || !definition.inputs.is_empty()
+            || definition.reads_measured_torque()
+            || definition.moves_links()
+    });
+    let Some((index, _)) = beyond else {
+        return Ok(());
+    };
+    let refuse = |message: String| Err(syn::Error::new(robot.name.span(), message));
+    let definition = &model.effects[index].definition;
+    if definition.moves_links() {
+        let reason = NotInstantaneous::new(model, index);
+        return refuse(reason.to_string());
+    }
+    refuse(format!(
+        "`{}` has a memory or reads the log, and a `RobotModel` knows motions only: write the arm as a `.robot` file and compile \
+         it in a build script, which makes functions of it",
+        model.effect_name(index)
+    ))
 }
 
 /// Cargo rebuilds when a file changes that the source includes.

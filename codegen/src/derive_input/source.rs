@@ -8,7 +8,7 @@ use syn::Ident;
 use syn::spanned::Spanned;
 
 use super::ReadFile;
-use super::fields::{Errors, FileName, Holds, Robot, RobotField};
+use super::fields::{Errors, FileName, Holds, Robot, RobotField, type_name};
 
 /// The checked model.
 pub fn model(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
@@ -55,12 +55,66 @@ fn in_attributes(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
     }
     robot_model_spec::check(&ast, &robot.name.to_string()).map_err(|mistakes| {
         let mut errors = Errors::default();
-        for mistake in mistakes.iter().map(Diagnostic::to_syn_error) {
-            errors.keep::<()>(Err(mistake));
+        for mistake in &mistakes {
+            errors.keep::<()>(Err(in_rust(mistake)));
         }
         let nothing = || syn::Error::new(robot.name.span(), "the spec has mistakes");
         errors.finish(()).err().unwrap_or_else(nothing)
     })
+}
+
+/// What the language writes as a setting or a declaration, and what attributes write.
+const IN_RUST: [(&str, &str); 5] = [
+    (
+        "`gravity = [0, 0, -9.81];`",
+        "`#[robot(gravity = [0, 0, -9.81])]`",
+    ),
+    (
+        "`convention = standard_dh;`",
+        "`#[robot(convention = standard_dh)]`",
+    ),
+    (
+        "`joint name: revolute { .. }`",
+        "a field `name: Link` with `#[joint(revolute, ..)]`",
+    ),
+    (
+        "beside the robot",
+        "in a file that `#[robot(effects = \"..\")]` names",
+    ),
+    // Settings of joints and links stand between commas.
+    (";`", "`"),
+];
+
+/// A mistake in the words of attributes.
+fn in_rust(mistake: &Diagnostic) -> syn::Error {
+    let mut message = mistake.message().to_owned();
+    let mut help = mistake.help_text().unwrap_or_default().to_owned();
+    for (language, rust) in IN_RUST {
+        help = help.replace(language, rust);
+    }
+    if message.starts_with("unknown effect `") {
+        (message, help) = (with_types(&message), with_types(&help));
+    }
+    let text = if help.is_empty() {
+        message
+    } else {
+        format!("{message}\nhelp: {help}")
+    };
+    syn::Error::new(mistake.span(), text)
+}
+
+/// Names of effects in backticks as their types.
+fn with_types(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    let parts = parts.map(|(k, part)| {
+        let is_name = part.chars().all(|c| c.is_ascii_lowercase() || c == '_');
+        if k % 2 == 1 && is_name {
+            type_name(part)
+        } else {
+            part.to_owned()
+        }
+    });
+    parts.collect::<Vec<_>>().join("`")
 }
 
 /// Effects defined in a file; a robot beside them is not looked at.

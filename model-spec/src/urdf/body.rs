@@ -64,6 +64,22 @@ pub(super) fn carried<'a>(
     })
 }
 
+/// Links that the URDF gives no mass, as it does by leaving `<inertial>` out. It means that they weigh nothing.
+pub(super) fn massless(links: &[String], carried: &[Carried]) -> Vec<String> {
+    let nothing = links.iter().zip(carried).filter(|(_, carried)| {
+        let body = &carried.body;
+        body.mass == 0.0 && body.inertia.iter().flatten().all(|x| *x == 0.0)
+    });
+    nothing
+        .map(|(link, _)| {
+            format!(
+                "link `{link}` has no inertial, which in a URDF means that it weighs nothing: delete its block where its mass is \
+                 unknown"
+            )
+        })
+        .collect()
+}
+
 fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
     let inertial = &link.inertial;
     let what = format!("the inertial of link `{}`", link.name);

@@ -110,6 +110,24 @@ pub(super) fn values(chain: &Chain, names: &Names) -> Vec<String> {
         .collect()
 }
 
+/// Negative coefficients: no friction drives a joint.
+pub(super) fn left_out(chain: &Chain) -> Vec<String> {
+    let joints = chain.joints.iter().map(|joint| joint.joint);
+    joints
+        .filter_map(|joint| Some((&joint.name, joint.dynamics.as_ref()?)))
+        .flat_map(|(name, dynamics)| {
+            let values = [
+                ("damping", dynamics.damping),
+                ("friction", dynamics.friction),
+            ];
+            let negative = values.into_iter().filter(|(_, value)| *value < 0.0);
+            negative.map(move |(what, value)| {
+                format!("joint `{name}` has a negative {what} of {value}: left out")
+            })
+        })
+        .collect()
+}
+
 fn fault<T>(message: String) -> Result<T, ImportError> {
     Err(ImportError::Effects(message))
 }

@@ -134,7 +134,12 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         .collect::<Result<Vec<_>, _>>()?;
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
-    let warnings = held::warnings(&tree, &carried);
+    let mut warnings = held::warnings(&tree, &carried);
+    warnings.extend(effects::left_out(&chain));
+    warnings.extend(write::without_range(&chain));
+    if options.inertials != Inertials::None {
+        warnings.extend(body::massless(&names.links, &carried));
+    }
     let notes = [tree::notes(&robot), warnings.clone()].concat();
     let written = |effects: &[String]| {
         write::spec(

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use urdf_rs::JointType;
+use urdf_rs::{JointLimit, JointType};
 
 use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
@@ -12,7 +12,7 @@ use crate::transform::{quarter_turns, rpy, upper_camel};
 /// Names in the spec, joint by joint.
 pub(super) struct Names {
     pub(super) joints: Vec<String>,
-    links: Vec<String>,
+    pub(super) links: Vec<String>,
 }
 
 impl Names {
@@ -138,6 +138,24 @@ pub(super) fn spec(
     text
 }
 
+fn has_range(limit: &JointLimit) -> bool {
+    limit.lower < limit.upper && limit.lower.is_finite() && limit.upper.is_finite()
+}
+
+/// Joints whose limits leave no way to move, or are no numbers: the spec has none for them.
+pub(super) fn without_range(chain: &Chain) -> Vec<String> {
+    let joints = chain.joints.iter().map(|joint| joint.joint);
+    joints
+        .filter(|joint| joint.joint_type != JointType::Continuous && !has_range(&joint.limit))
+        .map(|joint| {
+            format!(
+                "joint `{}` has limits from {} to {}, which are no range to move in: left out",
+                joint.name, joint.limit.lower, joint.limit.upper
+            )
+        })
+        .collect()
+}
+
 fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     let source = joint.joint;
     let prismatic = source.joint_type == JointType::Prismatic;
@@ -157,8 +175,7 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     }
     let _ = write!(line, " axis = {};", list(&source.axis.xyz.0));
     let limit = &source.limit;
-    let bounded = source.joint_type != JointType::Continuous && limit.lower < limit.upper;
-    if bounded && limit.lower.is_finite() && limit.upper.is_finite() {
+    if source.joint_type != JointType::Continuous && has_range(limit) {
         let written = if prismatic { number } else { radians };
         let (low, high) = (written(limit.lower), written(limit.upper));
         let _ = write!(line, " position = {low} .. {high};");

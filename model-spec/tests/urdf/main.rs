@@ -394,3 +394,49 @@ fn limits_of_many_turns_stay_in_radians() {
     assert!(text.contains("position = -50 .. 2;"), "prismatic: {text}");
     assert_eq!(model.joints[0].limits.position, Some((-50.0, 2.0)));
 }
+
+#[test]
+fn what_is_left_out_is_told() {
+    let mut parts = two_joints();
+    parts.push("<link name='flange'/>".to_owned());
+    parts.push(
+        joint(
+            "last",
+            "revolute",
+            "tool",
+            "flange",
+            "<dynamics damping='-0.5' friction='2'/>",
+        )
+        .replace("lower='-1' upper='2'", "lower='0' upper='0'"),
+    );
+    let imported = import(&urdf(&parts), &ImportOptions::default()).unwrap();
+    assert_eq!(
+        imported.warnings,
+        [
+            "joint `last` has a negative damping of -0.5: left out",
+            "joint `last` has limits from 0 to 0, which are no range to move in: left out",
+            "link `flange` has no inertial, which in a URDF means that it weighs nothing: delete its block where its mass is unknown",
+        ]
+    );
+    for warning in &imported.warnings {
+        assert!(
+            imported.spec.contains(&format!("// {warning}.\n")),
+            "{}",
+            imported.spec
+        );
+    }
+}
+
+#[test]
+fn a_name_of_a_novel_is_refused() {
+    let mut parts = two_joints();
+    let long = "x".repeat(100_000);
+    parts.push(link("flange", 1.0, 0.0));
+    parts.push(joint(&long, "revolute", "tool", "flange", ""));
+    let said = refusal(&parts, &ImportOptions::default());
+    assert!(
+        said.contains("a name of more than 64 characters"),
+        "{}",
+        &said[..200]
+    );
+}

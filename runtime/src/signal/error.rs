@@ -23,6 +23,19 @@ pub enum SignalError {
         /// Sample rate.
         rate_hz: f64,
     },
+    /// A corner of a first-order filter at zero or below, or too fast for the samples.
+    #[error(
+        "a corner of {} rad/s on samples at {} Hz: it must lie between 0 and {} rad/s",
+        short(*.corner), short(*.rate_hz), short(*.largest)
+    )]
+    Corner {
+        /// As asked for, rad/s.
+        corner: f64,
+        /// Sample rate.
+        rate_hz: f64,
+        /// The end of the range, rad/s.
+        largest: f64,
+    },
     /// Bands that are not one inside the other.
     #[error(
         "bands of {} Hz (shared), {} Hz (smooth) and {} Hz (wide): each must be at least the one before it",

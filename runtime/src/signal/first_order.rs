@@ -42,11 +42,15 @@ impl FirstOrder {
     /// The filter with its corner at `corner` rad/s, for samples at `rate_hz`.
     ///
     /// # Errors
-    /// [`SignalError::Cutoff`] where the corner is not between zero and half the rate.
+    /// [`SignalError::Corner`] where the corner is not between zero and half the rate.
     pub fn new(corner: f64, rate_hz: f64) -> Result<Self, SignalError> {
-        let cutoff_hz = corner / std::f64::consts::TAU;
-        if !(cutoff_hz > 0.0 && cutoff_hz < 0.5 * rate_hz && rate_hz.is_finite()) {
-            return Err(SignalError::Cutoff { cutoff_hz, rate_hz });
+        let largest = std::f64::consts::PI * rate_hz;
+        if !(corner > 0.0 && corner < largest && rate_hz.is_finite()) {
+            return Err(SignalError::Corner {
+                corner,
+                rate_hz,
+                largest,
+            });
         }
         let a = corner / rate_hz;
         let weight = |interval: usize, node: usize| {

@@ -165,7 +165,9 @@ impl Context<'_> {
     fn result(&self, task: &Task, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
         let dof = self.compiled.dof();
         let rows = match task.returns {
-            Returns::Matrix(columns) => outputs.len() / columns.max(1),
+            // Without columns there are rows all the same.
+            Returns::Matrix(0) => dof,
+            Returns::Matrix(columns) => outputs.len() / columns,
             _ => dof,
         };
         let rows = Literal::usize_unsuffixed(rows);
@@ -197,11 +199,10 @@ impl Context<'_> {
                 let length = Literal::usize_unsuffixed(outputs.len());
                 (quote!([f64; #length]), quote!([#(#outputs),*]))
             }
+            Returns::Matrix(0) => (quote!([[f64; 0]; #rows]), quote!([[]; #rows])),
             Returns::Matrix(columns) if columns <= WIDEST_ROW => {
                 let width = Literal::usize_unsuffixed(columns);
-                let rows_of_entries = outputs
-                    .chunks(columns.max(1))
-                    .map(|row| quote!([#(#row),*]));
+                let rows_of_entries = outputs.chunks(columns).map(|row| quote!([#(#row),*]));
                 (
                     quote!([[f64; #width]; #rows]),
                     quote!([#(#rows_of_entries),*]),

@@ -308,6 +308,12 @@ fn from_parameters(compiled: &Compiled, name: &Ident, from: &From) -> TokenStrea
         &compiled.base.kept,
         compiled.standard.len(),
     );
+    let beta = if compiled.base.kept.is_empty() {
+        "_beta"
+    } else {
+        "beta"
+    };
+    let beta = Ident::new(beta, Span::call_site());
     let entries = compiled
         .standard
         .iter()
@@ -324,7 +330,7 @@ fn from_parameters(compiled: &Compiled, name: &Ident, from: &From) -> TokenStrea
             }
             __blank!();
             #from_base
-            fn standard_of(beta: &model::Vector<#base>) -> model::Vector<#standard> {
+            fn standard_of(#beta: &model::Vector<#base>) -> model::Vector<#standard> {
                 [#(#entries),*].into()
             }
         }

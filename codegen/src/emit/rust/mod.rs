@@ -10,14 +10,14 @@ pub(crate) mod names;
 mod pretty;
 mod render;
 
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 
 use crate::compiled::Compiled;
 use crate::expr::{Dag, Symbol};
 
 pub use body::Cost;
-use function::{Context, Returns, Task};
+use function::{Context, Function, Returns, Task};
 pub use implementation::{From, Parameters};
 pub use render::number;
 
@@ -44,20 +44,45 @@ pub fn module(compiled: &Compiled) -> String {
 #[must_use]
 pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
     let (functions, _) = functions(compiled, extent);
-    let mut items = vec![match extent {
-        Extent::All => quote!(
-            use ::robot_model::{math, solve};
-        ),
-        Extent::Torque => quote!(
-            use ::robot_model::math;
-        ),
-    }];
-    items.extend(functions.iter().map(|function| function.item.clone()));
     // The trait's methods know motions only.
-    if !compiled.reads_more_than_motion() {
+    let has_implementation = !compiled.reads_more_than_motion();
+    let mut items = vec![imports(&functions)];
+    for Function { item, .. } in &functions {
+        items.push(if has_implementation {
+            item.clone()
+        } else {
+            quote! {
+                #[allow(dead_code, reason = "a program uses what it needs of its arm")]
+                #item
+            }
+        });
+    }
+    if has_implementation {
         items.extend(implementation::items(compiled, &functions, extent));
     }
     pretty::page(&header(compiled), &items)
+}
+
+/// What the functions take from the runtime, and no more.
+fn imports(functions: &[Function]) -> TokenStream {
+    let used: Vec<Ident> = ["math", "solve"]
+        .into_iter()
+        .filter(|module| functions.iter().any(|f| names_word(&f.item, module)))
+        .map(|module| Ident::new(module, proc_macro2::Span::call_site()))
+        .collect();
+    match used.as_slice() {
+        [] => quote!(),
+        [one] => quote!(use ::robot_model::#one;),
+        all => quote!(use ::robot_model::{#(#all),*};),
+    }
+}
+
+fn names_word(tokens: &TokenStream, word: &str) -> bool {
+    tokens.clone().into_iter().any(|token| match token {
+        TokenTree::Group(group) => names_word(&group.stream(), word),
+        TokenTree::Ident(ident) => ident == word,
+        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
+    })
 }
 
 /// The page's functions and the implementation for a type that exists already, hidden in an anonymous constant.
@@ -71,13 +96,14 @@ pub fn implementation_for(
 ) -> TokenStream {
     let (functions, _) = functions(compiled, Extent::All);
     let items = functions.iter().map(|function| &function.item);
+    let imports = imports(&functions);
     let implementation =
         implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
     let mechanics = mechanics::implementations(compiled, &functions, name);
     pretty::without_markers(quote! {
         #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
-            use ::robot_model::{math, solve};
+            #imports
             use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
             #(#items)*
             #implementation
@@ -155,7 +181,7 @@ fn wrapped(text: &str, width: usize) -> Vec<String> {
 }
 
 /// The functions of the page, in order.
-fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, Costs) {
+fn functions(compiled: &Compiled, extent: Extent) -> (Vec<Function>, Costs) {
     let names = compiled.names();
     let free_shapes = compiled.free_shapes();
     let beta = |k: usize| {
@@ -257,7 +283,7 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<function::Function>, C
 }
 
 /// How the effects' states change, where there are some.
-fn state_rates(context: &Context<'_>) -> Option<function::Function> {
+fn state_rates(context: &Context<'_>) -> Option<Function> {
     let rates = &context.compiled.dynamics.state_rates;
     let task = Task {
         name: "state_rates",
@@ -270,7 +296,7 @@ fn state_rates(context: &Context<'_>) -> Option<function::Function> {
 }
 
 /// `beta = map * standard`, as a function of its own.
-fn base_parameters(compiled: &Compiled) -> function::Function {
+fn base_parameters(compiled: &Compiled) -> Function {
     let mut dag = Dag::new();
     let outputs = compiled
         .base

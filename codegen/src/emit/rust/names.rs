@@ -57,7 +57,7 @@ impl<'a> Namer<'a> {
             return name.clone();
         }
         let name = match self.meaning(x, MOST_FACTORS) {
-            Some((name, _)) if name.len() <= LONGEST_NAME => self.unique(name),
+            Some((name, _)) if name.len() <= LONGEST_NAME => self.unique(snake_case(&name)),
             _ => {
                 self.numbered += 1;
                 self.unique(format!("t{}", self.numbered - 1))
@@ -143,6 +143,13 @@ fn label_name(label: Label) -> String {
         }
         Label::Entry { stem, row, column } => format!("{stem}_{}_{}", row + 1, column + 1),
     }
+}
+
+/// Names put together with one underscore between words, as rustc wants them.
+fn snake_case(name: &str) -> String {
+    let words = name.split('_').filter(|word| !word.is_empty());
+    let name = words.collect::<Vec<_>>().join("_");
+    identifier(&name)
 }
 
 /// A user's name as an identifier in snake case.
