@@ -13,8 +13,10 @@ use robot_model_tests::specs::{self, Spec};
 
 /// Shown whole: a planar arm, an arm with a prismatic joint and fixed inertials, the arm of the books, those that say their
 /// energies, those with a memory.
-const WHOLE: [&str; 12] = [
+const WHOLE: [&str; 14] = [
     "cart_pole",
+    "fixed_arm",
+    "known_springs",
     "lugre_link",
     "memory",
     "mounted_arm",
