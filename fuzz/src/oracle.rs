@@ -3,9 +3,9 @@
 
 use rand::{RngExt as _, SeedableRng as _};
 use rand_chacha::ChaCha8Rng;
-use robot_model_codegen::base::shape_values;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::{Block, Compiled};
+use robot_model_spec::Model;
 
 /// Relative to the largest torque of the parameter. The compiler takes a column for a combination of others at 1e-10; a wrong
 /// decision shows in the first digits.
@@ -18,6 +18,17 @@ struct State {
     time: f64,
 }
 
+/// The spec's values of shape parameters, and one without meaning for every other: at a tilt of zero, which is the middle of its
+/// range, columns vanish that do not elsewhere.
+fn generic_shapes(model: &Model) -> Vec<f64> {
+    const PART: f64 = 0.618;
+    let effects = model.effects.iter();
+    effects
+        .flat_map(|effect| effect.shapes.iter().zip(&effect.definition.shapes))
+        .map(|(value, shape)| value.unwrap_or(shape.low + PART * (shape.high - shape.low)))
+        .collect()
+}
+
 /// A message where the equations differ, the same for each such text. States at which some entry is no number, or too large to be compared, are left out.
 pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
     // A delay or a measured position is between the equations and a log.
@@ -28,7 +39,7 @@ pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
     let (standard, base) = (compiled.standard.len(), compiled.base.kept.len());
     let (regressor, base_regressor) = (compiled.regressor(), compiled.base_regressor());
     let (rigid, torque) = (compiled.rigid_torque(), compiled.inverse_dynamics());
-    let shapes = shape_values(&compiled.model);
+    let shapes = generic_shapes(&compiled.model);
     let mut random = ChaCha8Rng::seed_from_u64(7);
     let values: Vec<f64> = (0..standard)
         .map(|_| random.random_range(0.1..1.0))

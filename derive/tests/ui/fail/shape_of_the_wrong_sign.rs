@@ -5,7 +5,7 @@ use robot_model::{Link, RobotModel};
 #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
 struct Arm {
     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
-    #[effects(stribeck(vs = 100))]
+    #[effects(stribeck(vs = -0.1))]
     pivot: Link<Stribeck>,
 }
 
