@@ -265,7 +265,7 @@ fn draw(
     };
     let both_ways = |limit: Option<f64>| limit.map(|limit| (-limit, limit));
     let joints = || model.joints.iter().enumerate();
-    let q = joints().map(|(k, joint)| signal(Symbol::Q(k), 3.0, joint.limits.position));
+    let q = joints().map(|(k, joint)| signal(Symbol::Q(k), 3.0, joint.limits.position.map(near)));
     let q = q.collect();
     let dq = joints().map(|(k, joint)| {
         let speed = signal(Symbol::Dq(k), 2.0, both_ways(joint.limits.velocity));
@@ -303,6 +303,15 @@ fn draw(
         states,
         time,
     }
+}
+
+/// The part of a range that is near zero, where it has one: of a joint that travels a million kilometers, squares of positions
+/// would hide everything else.
+fn near((low, high): (f64, f64)) -> (f64, f64) {
+    /// rad or m.
+    const FAR: f64 = 10.0;
+    let (from, to) = (low.max(-FAR), high.min(FAR));
+    if from < to { (from, to) } else { (low, high) }
 }
 
 /// The spec's values of shape parameters, and a value without meaning inside the range for every other: no law may look like
