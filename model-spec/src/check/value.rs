@@ -135,12 +135,30 @@ fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
         None if expected == Dimension::ANGLE && quantity.value.abs() > LARGEST_BARE_ANGLE => {
             Err(degrees_meant(expr.span, quantity.value))
         }
+        _ if expected == Dimension::LENGTH && quantity.value.abs() > LARGEST_LENGTH => {
+            Err(millimeters_meant(expr.span, quantity.value))
+        }
         _ => Ok(quantity.value),
     }
 }
 
 /// Two turns. A larger number without a unit was meant in degrees.
 const LARGEST_BARE_ANGLE: f64 = 2.0 * std::f64::consts::TAU;
+
+/// In m. Squares of lengths stand beside each other in inertias: a double holds eight digits of both only if they differ by
+/// four at most.
+const LARGEST_LENGTH: f64 = 1000.0;
+
+fn millimeters_meant(span: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        span,
+        format!("a length of {value} m"),
+        "longer than any arm",
+    )
+    .help(format!(
+        "a bare number is in m: write `{value} mm` if that is meant; lengths end at 1000 m"
+    ))
+}
 
 fn degrees_meant(span: Span, value: f64) -> Diagnostic {
     Diagnostic::new(
