@@ -6,6 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::{Block, Compiled};
 use robot_model_spec::Model;
+use robot_model_spec::parameter::Status;
 
 /// Relative to the largest torque of the parameter. The compiler takes a column for a combination of others at 1e-10; a wrong
 /// decision shows in the first digits.
@@ -31,6 +32,29 @@ fn generic_shapes(model: &Model) -> Vec<f64> {
         .collect()
 }
 
+/// What the spec fixes, zero for other parameters.
+fn held(compiled: &Compiled) -> Vec<f64> {
+    let parameters = compiled.standard.iter();
+    parameters
+        .map(|parameter| match parameter.status {
+            Status::Fixed(value) => value,
+            Status::Unknown | Status::Nominal(_) => 0.0,
+        })
+        .collect()
+}
+
+/// What each standard parameter alone makes of the base parameters.
+fn maps(compiled: &Compiled) -> Vec<Vec<f64>> {
+    let standard = compiled.standard.len();
+    (0..standard)
+        .map(|k| {
+            let mut one = vec![0.0; standard];
+            one[k] = 1.0;
+            compiled.base.beta(&one)
+        })
+        .collect()
+}
+
 /// A message where the equations differ, the same for each such text. States at which some entry is no number, or too large to be compared, are left out.
 pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
     // A delay or a measured position is between the equations and a log.
@@ -49,17 +73,12 @@ pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
     let beta = compiled.base.beta(&values);
     let parameters = compiled.parameter_values(&beta);
     let known = compiled.known_torque();
+    let held = held(compiled);
 
     let mut own = vec![0.0f64; standard];
     let mut largest = 0.0f64;
     let mut difference = vec![0.0f64; standard];
-    let maps: Vec<Vec<f64>> = (0..standard)
-        .map(|k| {
-            let mut one = vec![0.0; standard];
-            one[k] = 1.0;
-            compiled.base.beta(&one)
-        })
-        .collect();
+    let maps = maps(compiled);
     for number in 0..STATES {
         let size = 10f64.powi(i32::try_from(number % 4).unwrap_or_default() - 2);
         let state = State {
@@ -106,7 +125,12 @@ pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
         }
         for joint in 0..dof {
             let terms = || reduced[joint].iter().zip(&beta).map(|(y, b)| y * b);
-            let size = terms().map(f64::abs).sum::<f64>() + fixed[joint].abs();
+            // What the spec fixes may cancel: its parts count, not their sum.
+            let parts = full[joint]
+                .iter()
+                .zip(&held)
+                .map(|(y, held)| (y * held).abs());
+            let size = terms().map(f64::abs).sum::<f64>() + parts.sum::<f64>();
             let sum = terms().sum::<f64>() + fixed[joint];
             if (sum - tau[joint]).abs() > TOLERANCE * size {
                 return Err("Y_b * beta is not tau");
