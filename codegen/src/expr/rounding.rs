@@ -36,8 +36,10 @@ impl Dag {
         /// Products and sums of numbers of one sign stay below.
         const MUCH: f64 = 64.0 * UNIT;
         if number.error > MUCH * number.value.abs() && number.value.is_finite() {
-            let error = self.lost.entry(number.value.abs().to_bits()).or_insert(0.0);
-            *error = error.max(number.error);
+            // The smallest bound of those that are known: each way back to a number, such as `2 x - x`, has a larger one.
+            let error = self.lost.entry(number.value.abs().to_bits());
+            let error = error.or_insert(number.error);
+            *error = error.min(number.error);
         }
         number.value
     }
@@ -123,6 +125,21 @@ mod tests {
             let sum = dag.sum(numbers);
             assert!(!dag.is_zero(sum));
         }
+    }
+
+    /// A bound that grew with every way back to a number would make it nothing in the end.
+    #[test]
+    fn a_number_that_comes_back_has_no_larger_error() {
+        let mut dag = Dag::new();
+        let x = dag.sum_of_numbers(100.0175, -100.0);
+        let error = dag.rounded(x).error;
+        assert!(error > 0.0 && error < 1e-12);
+        for _ in 0..100 {
+            let twice = dag.sum_of_numbers(x, x);
+            let back = dag.sum_of_numbers(twice, -x);
+            assert!((back - x).abs() < f64::EPSILON, "{back}");
+        }
+        assert!(dag.rounded(x).error <= error);
     }
 
     #[test]
