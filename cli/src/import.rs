@@ -10,6 +10,10 @@ use crate::output::Files;
 use crate::spec::read_text;
 
 /// Turn a URDF into a spec.
+///
+/// The chain of moving joints from `--base` to `--tip` becomes the robot; fixed joints are folded, and what hangs beside the
+/// chain stands still. A joint of the chain that mimics another becomes a joint of its own: a warning and a comment of the
+/// spec say the tie, and which sum of torques acts on the joint that leads.
 #[derive(Debug, Args)]
 pub(crate) struct Import {
     /// The URDF file.

@@ -1,6 +1,8 @@
 //! `import`.
 
-use crate::common::{Folder, URDF};
+use serde_json::Value;
+
+use crate::common::{Folder, URDF, close, json, numbers};
 
 #[test]
 fn import_writes_a_spec_that_passes_the_check() {
@@ -100,4 +102,64 @@ fn import_tells_faults_of_the_effects_by_the_argument() {
         "--effects",
         "(1,2):gear_coupling",
     ]);
+}
+
+/// Two turning joints of which the second follows the first, `q(elbow) = 2 q(shoulder) + 0.1`; a point of 2 kg at its end,
+/// 0.3 m from the elbow, which is 0.5 m from the shoulder. Gravity is along -y.
+const TIED: &str = r#"<robot name="tied">
+  <link name="base"/>
+  <link name="upper"/>
+  <link name="fore"><inertial><mass value="2"/><origin xyz="0.3 0 0"/>
+    <inertia ixx="0" ixy="0" ixz="0" iyy="0" iyz="0" izz="0"/></inertial></link>
+  <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 0 1"/></joint>
+  <joint name="elbow" type="continuous"><parent link="upper"/><child link="fore"/><origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>
+    <mimic joint="shoulder" multiplier="2" offset="0.1"/></joint>
+</robot>"#;
+
+/// `import` with gravity along -y, then `eval` at one state: what the first says, and the second gives.
+fn import_and_eval(urdf: &str, [q, dq, ddq]: [[f64; 2]; 3]) -> (String, Value) {
+    let folder = Folder::new();
+    folder.write("arm.urdf", urdf);
+    let state = format!(r#"{{"states":[{{"q":{q:?},"dq":{dq:?},"ddq":{ddq:?}}}]}}"#);
+    folder.write("states.json", &state);
+    let import = ["import", "arm.urdf", "-o", "arm.robot"];
+    let run = folder.run(&[import.as_slice(), &["--gravity", "0,-9.81,0"]].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let out = folder.succeed(&["eval", "arm.robot", "--states", "states.json"]);
+    (run.stderr, json(&out))
+}
+
+#[test]
+fn a_chain_with_a_follower_is_the_arm_without_the_tie() {
+    let state = [[0.3, -0.8], [1.0, 2.0], [-1.0, 3.0]];
+    let (said, tied) = import_and_eval(TIED, state);
+    let tie = r#"<mimic joint="shoulder" multiplier="2" offset="0.1"/>"#;
+    let (nothing, free) = import_and_eval(&TIED.replace(tie, ""), state);
+    assert_eq!(tied, free);
+    assert!(
+        said.contains("warning: joint `elbow` follows joint `shoulder` in the URDF, q(elbow) = 2*q(shoulder) + 0.1; "),
+        "{said}"
+    );
+    assert!(!nothing.contains("follows"), "{nothing}");
+}
+
+#[test]
+fn the_torque_of_the_joint_that_leads_is_the_sum_that_import_says() {
+    let [q, dq, ddq] = [0.4_f64, 1.5, -2.0];
+    let motion = [[q, 2.0 * q + 0.1], [dq, 2.0 * dq], [ddq, 2.0 * ddq]];
+    let (said, out) = import_and_eval(TIED, motion);
+    assert!(
+        said.contains("motions that keep this tie take tau(shoulder) + 2*tau(elbow) at `shoulder`"),
+        "{said}"
+    );
+    let torque = numbers(&out["states"][0]["torque"]);
+    // Lagrange's equation of the tied arm, whose only coordinate is q. The fore arm turns by q + (2 q + 0.1), so the point is
+    // at l1 e(q) + l2 e(3 q + 0.1), and its kinetic energy is dq^2 / 2 times J = m (l1^2 + 9 l2^2 + 6 l1 l2 cos(2 q + 0.1)).
+    let (m, l1, l2, g) = (2.0, 0.5, 0.3, 9.81);
+    let (sin, cos) = (2.0 * q + 0.1).sin_cos();
+    let inertia = m * (l1 * l1 + 9.0 * l2 * l2 + 6.0 * l1 * l2 * cos);
+    let slope = -12.0 * m * l1 * l2 * sin;
+    let gravity = m * g * (l1 * q.cos() + 3.0 * l2 * (3.0 * q + 0.1).cos());
+    let wanted = inertia * ddq + 0.5 * slope * dq * dq + gravity;
+    close(torque[0] + 2.0 * torque[1], wanted, 1e-12);
 }

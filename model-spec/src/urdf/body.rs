@@ -38,11 +38,7 @@ pub(super) fn carried<'a>(
             bodies.push(body(link, &pose)?);
         }
         for next in tree.joints_of(name) {
-            if chain
-                .joints
-                .iter()
-                .any(|moving| moving.joint.name == next.name)
-            {
+            if chain.index(next).is_some() {
                 continue;
             }
             let here = origin(

@@ -4,7 +4,8 @@ use urdf_rs::{Joint, JointType};
 
 use super::ImportError;
 use super::body::Carried;
-use super::tree::{Chain, Tree, meant};
+use super::mimic::ties;
+use super::tree::{Chain, Tree};
 use super::write::number;
 use crate::model::Transform;
 use crate::transform::rotation_about;
@@ -26,57 +27,18 @@ impl<'a> Held<'a> {
         chain: &Chain,
         joint: &'a Joint,
     ) -> Result<Self, ImportError> {
-        let refuse = |reason: String| {
-            Err(ImportError::Joint {
-                joint: joint.name.clone(),
-                reason,
-            })
-        };
-        let mut held = Self {
+        let ties = ties(tree, joint)?;
+        let on_chain = ties.iter().find(|tie| chain.index(tie.leader).is_some());
+        let held = Self {
             joint,
-            position: 0.0,
-            follows: None,
+            position: on_chain.or(ties.last()).map_or(0.0, |tie| tie.offset),
+            follows: on_chain.map(|tie| tie.leader.name.as_str()),
         };
-        let mut passed = vec![joint.name.as_str()];
-        let (mut at, mut factor) = (joint, 1.0);
-        while let Some(mimic) = &at.mimic {
-            let Some(leader) = tree.joint(&mimic.joint) else {
-                return refuse(format!(
-                    "mimics joint `{}`, which the URDF does not have: write the name of a joint",
-                    mimic.joint
-                ));
-            };
-            if passed.contains(&leader.name.as_str()) {
-                return refuse(format!(
-                    "mimics itself, by way of joint `{}`: take one `<mimic>` away",
-                    at.name
-                ));
-            }
-            let offset = mimic.offset.unwrap_or(0.0);
-            held.position += factor
-                * match at.joint_type {
-                    JointType::Prismatic => offset,
-                    _ => meant(offset),
-                };
-            factor *= mimic.multiplier.unwrap_or(1.0);
-            if chain
-                .joints
-                .iter()
-                .any(|moving| moving.joint.name == leader.name)
-            {
-                held.follows = Some(&leader.name);
-                break;
-            }
-            passed.push(&leader.name);
-            at = leader;
-        }
-        if !held.position.is_finite() {
-            return Err(ImportError::NotFinite {
-                what: format!("the place where joint `{}` mimics another", joint.name),
-            });
-        }
         if held.position != 0.0 && held.direction().is_none() {
-            return refuse("has an axis without direction: write its `<axis xyz=..>`".to_owned());
+            return Err(ImportError::Joint {
+                joint: joint.name.clone(),
+                reason: "has an axis without direction: write its `<axis xyz=..>`".to_owned(),
+            });
         }
         Ok(held)
     }

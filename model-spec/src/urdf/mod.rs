@@ -3,12 +3,13 @@
 //! The chain from a base link to a tip link becomes a robot with `convention = origin`. Fixed joints are folded: their
 //! transforms into the next joint's frame, the inertials behind them into the link that carries them. Branches that leave
 //! the chain are carried along the same way, with their joints held: at zero, or, where they mimic another joint, where this
-//! puts them. What mimics a joint of the chain is held where that one is zero, with a warning if it has mass; on the chain it
-//! is refused. Damping and friction of a joint become declared effects.
+//! puts them. What mimics a joint of the chain is held where that one is zero, with a warning if it has mass. On the chain itself
+//! it moves freely, with a warning that says the tie. Damping and friction of a joint become declared effects.
 
 mod body;
 mod effects;
 mod held;
+mod mimic;
 mod tree;
 mod write;
 
@@ -134,7 +135,8 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         .collect::<Result<Vec<_>, _>>()?;
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
-    let mut warnings = held::warnings(&tree, &carried);
+    let mut warnings = mimic::warnings(&tree, &chain, &names)?;
+    warnings.extend(held::warnings(&tree, &carried));
     warnings.extend(effects::left_out(&chain));
     warnings.extend(write::without_range(&chain));
     if options.inertials != Inertials::None {

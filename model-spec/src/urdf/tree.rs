@@ -32,6 +32,15 @@ pub(super) struct ChainJoint<'a> {
     pub(super) written: Option<([f64; 3], [f64; 3])>,
 }
 
+impl Chain<'_> {
+    /// Place of a joint on the chain, if it is one of its moving joints.
+    pub(super) fn index(&self, joint: &Joint) -> Option<usize> {
+        self.joints
+            .iter()
+            .position(|moving| moving.joint.name == joint.name)
+    }
+}
+
 impl<'a> Tree<'a> {
     pub(super) fn new(robot: &'a Robot) -> Result<Self, ImportError> {
         let links: BTreeMap<&str, &Link> = robot
@@ -104,6 +113,15 @@ impl<'a> Tree<'a> {
 
     pub(super) fn joint(&self, name: &str) -> Option<&'a Joint> {
         self.joints.get(name).copied()
+    }
+
+    /// Names of the joints that move.
+    pub(super) fn moving(&self) -> impl Iterator<Item = &'a str> + Clone {
+        let moving = |joint: &&&Joint| joint.joint_type != JointType::Fixed;
+        self.joints
+            .values()
+            .filter(moving)
+            .map(|joint| joint.name.as_str())
     }
 
     pub(super) fn joints_of(&self, link: &str) -> &[&'a Joint] {
@@ -264,12 +282,6 @@ fn check_kind(joint: &Joint) -> Result<(), ImportError> {
         JointType::Spherical => {
             return refuse("is spherical: write it as three revolute joints".to_owned());
         }
-    }
-    if let Some(mimic) = &joint.mimic {
-        return refuse(format!(
-            "mimics joint `{}`: joints of a chain move independently, choose --tip before this joint",
-            mimic.joint
-        ));
     }
     if !joint.axis.xyz.iter().all(|x| x.is_finite()) || joint.axis.xyz.iter().all(|x| *x == 0.0) {
         return refuse("has an axis without direction: write its `<axis xyz=..>`".to_owned());

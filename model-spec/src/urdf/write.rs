@@ -237,7 +237,7 @@ fn radians(x: f64) -> String {
 }
 
 /// A computed number without the noise of its last digits: 13 significant ones, and zero below 1e-15.
-fn readable(x: f64) -> f64 {
+pub(super) fn readable(x: f64) -> f64 {
     if x.abs() < 1e-15 {
         0.0
     } else {

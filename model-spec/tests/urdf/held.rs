@@ -4,17 +4,17 @@ use robot_model_spec::Model;
 use robot_model_spec::model::Inertial;
 use robot_model_spec::urdf::{ImportOptions, import};
 
-use super::{imported, joint, link, refusal, two_joints, urdf};
+use super::{imported, joint, link, two_joints, urdf};
 
 /// A link beside the chain, on a joint of its own.
-fn beside(kind: &str, inner: &str) -> Vec<String> {
+pub(super) fn beside(kind: &str, inner: &str) -> Vec<String> {
     let mut parts = two_joints();
     parts.push(link("side", 2.0, 0.0));
     parts.push(joint("arm", kind, "upper", "side", inner));
     parts
 }
 
-fn to_the_tool() -> ImportOptions {
+pub(super) fn to_the_tool() -> ImportOptions {
     ImportOptions {
         tip: Some("tool".to_owned()),
         ..ImportOptions::default()
@@ -112,17 +112,4 @@ fn a_follower_of_the_chain_that_has_mass_is_warned_of() {
     *side = link("side", 0.0, 0.0);
     let imported = import(&urdf(&massless), &to_the_tool()).unwrap();
     assert_eq!(imported.warnings, [""; 0]);
-}
-
-#[test]
-fn a_mimic_of_nothing_or_of_itself_is_refused() {
-    let of = |inner: &str| refusal(&beside("prismatic", inner), &to_the_tool());
-    assert_eq!(
-        of("<mimic joint='lead'/>"),
-        "joint `arm` mimics joint `lead`, which the URDF does not have: write the name of a joint"
-    );
-    assert_eq!(
-        of("<mimic joint='arm'/>"),
-        "joint `arm` mimics itself, by way of joint `arm`: take one `<mimic>` away"
-    );
 }

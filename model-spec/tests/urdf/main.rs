@@ -2,6 +2,7 @@
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
 mod held;
+mod mimic;
 
 use std::fs;
 use std::path::PathBuf;
@@ -227,17 +228,6 @@ fn joints_that_the_language_cannot_say_are_refused_with_a_reason() {
     let of = |joint: String| refusal(&with(joint), &ImportOptions::default());
     assert!(of(joint("j", "floating", "base", "tip", "")).starts_with("joint `j` is floating: "));
     assert!(of(joint("j", "planar", "base", "tip", "")).starts_with("joint `j` is planar: "));
-    let mimic = of(joint(
-        "j",
-        "revolute",
-        "base",
-        "tip",
-        "<mimic joint='other'/>",
-    ));
-    assert!(
-        mimic.starts_with("joint `j` mimics joint `other`: "),
-        "{mimic}"
-    );
     assert_eq!(
         of(joint("j", "fixed", "base", "tip", "")),
         "no joint moves on the way from link `base` to link `base`"
