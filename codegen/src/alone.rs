@@ -5,7 +5,7 @@ use robot_model_spec::model::EffectDefinition;
 use crate::compiled::Block;
 use crate::dynamics::effect;
 use crate::expr::{Dag, ExprId, Symbol};
-use crate::states::States;
+use crate::states::{self, StateProgram};
 
 /// The columns of an effect that is not declared, tried on given joints.
 #[derive(Debug, Clone)]
@@ -13,8 +13,8 @@ pub struct EffectColumns {
     /// Its columns: one per linear parameter of the definition. Shapes, inputs and states are symbols by their index in the
     /// definition.
     pub block: Block,
-    /// Its states.
-    pub states: States,
+    /// Its states; nothing where it has none.
+    pub states: Vec<StateProgram>,
 }
 
 /// Columns of `definition` on `joints` of an arm with `dof` joints.
@@ -51,6 +51,7 @@ pub fn effect_columns(
             .collect(),
     );
     let rates = effect::rates(&mut dag, definition, &scope);
-    let states = States::new(&mut dag, &rates, [definition.states.len()]);
+    let equations = states::equations(&mut dag, &rates, [definition.states.len()]);
+    let states = equations.iter().map(|part| part.program(&dag)).collect();
     EffectColumns { block, states }
 }

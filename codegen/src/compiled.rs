@@ -6,12 +6,12 @@ use robot_model_spec::parameter::{StandardParameter, Status};
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
 use crate::dynamics::{self, Dynamics, Kinematics, Partials, Point, Value, energy};
-use crate::expr::{Dag, ExprId, Names, Symbol};
+use crate::expr::{Dag, ExprId, Names};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
 use crate::lumps;
 use crate::regressor::{self, LinearForm};
-use crate::states::States;
+use crate::states::{self, StateEquations, StateProgram};
 
 /// A model with everything that is derived from it.
 #[derive(Debug, Clone)]
@@ -242,25 +242,20 @@ impl Compiled {
         self.base_block(|column| !self.is_rigid(column))
     }
 
-    /// Whether a declared effect reads more than the arm's motion, its load and time: the log's torque, another channel of
-    /// the log, or its own memory.
-    #[must_use]
-    pub fn reads_more_than_motion(&self) -> bool {
-        let entries = self.linear.regressor.concat();
-        self.dag.symbols(&entries).iter().any(|symbol| {
-            matches!(
-                symbol,
-                Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_)
-            )
-        })
+    /// The internal states of the declared effects, one entry per effect that has some; slopes are added to `dag`, a copy of
+    /// [`Self::dag`].
+    pub fn state_equations(&self, dag: &mut Dag) -> Vec<StateEquations> {
+        let effects = self.model.effects.iter();
+        let counts = effects.map(|effect| effect.definition.states.len());
+        states::equations(dag, &self.dynamics.state_rates, counts)
     }
 
-    /// The states of the declared effects, one part per effect that has some.
+    /// The internal states of the declared effects, to run.
     #[must_use]
-    pub fn states(&self) -> States {
+    pub fn states(&self) -> Vec<StateProgram> {
         let mut dag = self.dag.clone();
-        let counts = self.model.effects.iter().map(|e| e.definition.states.len());
-        States::new(&mut dag, &self.dynamics.state_rates, counts)
+        let equations = self.state_equations(&mut dag);
+        equations.iter().map(|part| part.program(&dag)).collect()
     }
 
     /// The whole base regressor `Y_b`.

@@ -10,18 +10,22 @@ pub mod link;
 pub mod log;
 pub mod math;
 pub mod mechanics;
+pub mod memory;
 pub mod model;
 #[cfg(feature = "std")]
 pub mod motion;
 #[cfg(feature = "std")]
 pub mod signal;
 pub mod solve;
+pub mod state;
 #[cfg(feature = "std")]
 pub mod trace;
 
 pub use link::{Inertial, Link};
 pub use mechanics::{Kinematics, Mechanics, Points};
-pub use model::{FromParameters, Matrix, RobotModel, State, Vector};
+pub use memory::Memory;
+pub use model::{FromParameters, Matrix, RobotModel, Vector};
+pub use state::State;
 
 #[cfg(feature = "derive")]
 pub use robot_model_derive::{RobotModel, effects};

@@ -33,6 +33,8 @@ functions! {
     cos(x) = f64::cos | libm::cos;
     /// `e^x`
     exp(x) = f64::exp | libm::exp;
+    /// `e^x - 1`, exact near 0.
+    exp_m1(x) = f64::exp_m1 | libm::expm1;
     /// Natural logarithm.
     ln(x) = f64::ln | libm::log;
     /// Square root.
@@ -80,6 +82,7 @@ mod tests {
             (super::sin(x), libm::sin(x)),
             (super::cos(x), libm::cos(x)),
             (super::exp(x), libm::exp(x)),
+            (super::exp_m1(x), libm::expm1(x)),
             (super::ln(x), libm::log(x)),
             (super::sqrt(x), libm::sqrt(x)),
             (super::tanh(x), libm::tanh(x)),

@@ -1,6 +1,7 @@
 //! What the same equations give beside torque and its regressor: energies, momentum, forward dynamics, slopes, kinematics.
 
-use crate::model::{Matrix, RobotModel, State, Vector};
+use crate::model::{Matrix, RobotModel, Vector};
+use crate::state::State;
 
 /// Energies, momentum, forward dynamics and slopes of an arm; the compiler writes the implementations.
 ///
@@ -35,7 +36,9 @@ pub trait Mechanics<
     const STANDARD: usize,
     const BASE: usize,
     const SHAPES: usize = 0,
->: RobotModel<DOF, STANDARD, BASE, SHAPES>
+    const STATES: usize = 0,
+    const INPUTS: usize = 0,
+>: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
 {
     /// Kinetic energy `1/2 dq^T M dq`, J.
     fn kinetic_energy(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> f64;
@@ -52,12 +55,23 @@ pub trait Mechanics<
         q: &Vector<DOF>,
         dq: &Vector<DOF>,
         tau: &Vector<DOF>,
-    ) -> Option<Vector<DOF>> {
-        self.forward_dynamics_at(&State::new(*q, *dq, Vector::zeros()), tau)
+    ) -> Option<Vector<DOF>>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::forward_dynamics_at(
+            self,
+            &State::new(*q, *dq, Vector::zeros()),
+            tau,
+        )
     }
 
     /// [`Self::forward_dynamics`] for effects that depend on more than the motion; `state.ddq` is not read.
-    fn forward_dynamics_at(&self, state: &State<DOF>, tau: &Vector<DOF>) -> Option<Vector<DOF>>;
+    fn forward_dynamics_at(
+        &self,
+        state: &State<DOF, STATES, INPUTS>,
+        tau: &Vector<DOF>,
+    ) -> Option<Vector<DOF>>;
 
     /// `[i][j] = d tau_i / d q_j` of the inverse dynamics at time zero, effects included. Jumps, such as that of dry friction at
     /// rest, have no slope here.
@@ -66,12 +80,21 @@ pub trait Mechanics<
         q: &Vector<DOF>,
         dq: &Vector<DOF>,
         ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, DOF> {
-        self.inverse_dynamics_by_position_at(&State::new(*q, *dq, *ddq))
+    ) -> Matrix<DOF, DOF>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::inverse_dynamics_by_position_at(
+            self,
+            &State::new(*q, *dq, *ddq),
+        )
     }
 
     /// [`Self::inverse_dynamics_by_position`] for effects that depend on more than the motion.
-    fn inverse_dynamics_by_position_at(&self, state: &State<DOF>) -> Matrix<DOF, DOF>;
+    fn inverse_dynamics_by_position_at(
+        &self,
+        state: &State<DOF, STATES, INPUTS>,
+    ) -> Matrix<DOF, DOF>;
 
     /// `[i][j] = d tau_i / d dq_j` of the inverse dynamics at time zero, effects included.
     fn inverse_dynamics_by_velocity(
@@ -79,12 +102,21 @@ pub trait Mechanics<
         q: &Vector<DOF>,
         dq: &Vector<DOF>,
         ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, DOF> {
-        self.inverse_dynamics_by_velocity_at(&State::new(*q, *dq, *ddq))
+    ) -> Matrix<DOF, DOF>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::inverse_dynamics_by_velocity_at(
+            self,
+            &State::new(*q, *dq, *ddq),
+        )
     }
 
     /// [`Self::inverse_dynamics_by_velocity`] for effects that depend on more than the motion.
-    fn inverse_dynamics_by_velocity_at(&self, state: &State<DOF>) -> Matrix<DOF, DOF>;
+    fn inverse_dynamics_by_velocity_at(
+        &self,
+        state: &State<DOF, STATES, INPUTS>,
+    ) -> Matrix<DOF, DOF>;
 
     /// Momentum regressor `Y_p`, DOF x STANDARD: `tau = d/dt (Y_p * standard) - Y_h * standard`, with nominal shapes.
     ///
@@ -92,47 +124,82 @@ pub trait Mechanics<
     /// such form: their columns are zero here and in `Y_h`, and the equation holds for the torque without them. The emitted
     /// functions say which they are.
     #[must_use]
-    fn momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
+    fn momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
         let state = State::new(*q, *dq, Vector::zeros());
-        Self::momentum_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::momentum_regressor_at(
+            &state,
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::momentum_regressor`] for effects that depend on time or shape parameters; `state.ddq` is not read.
-    fn momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+    /// [`Self::momentum_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
+    fn momentum_regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, STANDARD>;
 
     /// Drift regressor `Y_h`, DOF x STANDARD: what changes the momentum beside the torque. For the rigid body
     /// `Y_h * standard = C^T dq - G`. Zero columns as in [`Self::momentum_regressor`].
     #[must_use]
-    fn drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
+    fn drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
         let state = State::new(*q, *dq, Vector::zeros());
-        Self::drift_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::drift_regressor_at(
+            &state,
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::drift_regressor`] for effects that depend on time or shape parameters; `state.ddq` is not read.
-    fn drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+    /// [`Self::drift_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
+    fn drift_regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, STANDARD>;
 
     /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
     #[must_use]
-    fn base_momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
+    fn base_momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
         let state = State::new(*q, *dq, Vector::zeros());
-        Self::base_momentum_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::base_momentum_regressor_at(
+            &state,
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::base_momentum_regressor`] for effects that depend on time or shape parameters.
-    fn base_momentum_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>)
-    -> Matrix<DOF, BASE>;
+    /// [`Self::base_momentum_regressor`] for effects that depend on more than the motion.
+    fn base_momentum_regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, BASE>;
 
     /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
     #[must_use]
-    fn base_drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE> {
+    fn base_drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    where
+        Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
+    {
         let state = State::new(*q, *dq, Vector::zeros());
-        Self::base_drift_regressor_at(&state, &Self::NOMINAL_SHAPES.into())
+        <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::base_drift_regressor_at(
+            &state,
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::base_drift_regressor`] for effects that depend on time or shape parameters.
-    fn base_drift_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, BASE>;
+    /// [`Self::base_drift_regressor`] for effects that depend on more than the motion.
+    fn base_drift_regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, BASE>;
 }
 
 /// Where the links of a chain are. Robots that say their energies have [`Points`] instead. Lengths are in the equations; of the

@@ -4,54 +4,13 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use crate::state::State;
+
 /// A column of `N` numbers.
 pub type Vector<const N: usize> = SVector<f64, N>;
 
 /// `R` rows and `C` columns.
 pub type Matrix<const R: usize, const C: usize> = SMatrix<f64, R, C>;
-
-/// Where an arm is and how it moves.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<const DOF: usize> {
-    /// Joint positions, rad or m.
-    pub q: Vector<DOF>,
-    /// Joint velocities, rad/s or m/s.
-    pub dq: Vector<DOF>,
-    /// Joint accelerations, rad/s^2 or m/s^2.
-    pub ddq: Vector<DOF>,
-    /// Torque of the rigid body alone, N m or N: the load of load-dependent effects in a regressor. Others ignore it.
-    pub rigid_torque: Vector<DOF>,
-    /// Seconds since the start of the log; for effects that depend on time.
-    pub time: f64,
-}
-
-impl<const DOF: usize> State<DOF> {
-    /// A motion, with no load and time zero.
-    ///
-    /// # Examples
-    /// ```
-    /// use robot_model::{State, Vector};
-    /// let state = State::new(Vector::from([0.1]), Vector::from([2.0]), Vector::zeros());
-    /// assert_eq!((state.dq[0], state.time), (2.0, 0.0));
-    /// assert_eq!(State::at_rest(state.q), State { dq: Vector::zeros(), ..state });
-    /// ```
-    #[must_use]
-    pub fn new(q: Vector<DOF>, dq: Vector<DOF>, ddq: Vector<DOF>) -> Self {
-        Self {
-            q,
-            dq,
-            ddq,
-            rigid_torque: Vector::zeros(),
-            time: 0.0,
-        }
-    }
-
-    /// A position at rest.
-    #[must_use]
-    pub fn at_rest(q: Vector<DOF>) -> Self {
-        Self::new(q, Vector::zeros(), Vector::zeros())
-    }
-}
 
 /// One arm with its parameters: `tau = M(q) * ddq + C(q, dq) * dq + G(q) + effects`.
 ///
@@ -61,7 +20,9 @@ impl<const DOF: usize> State<DOF> {
 /// compiler write implementations: `#[derive(RobotModel)]` for a struct of links, the build script for a struct of base
 /// parameters. What the spec fixes is inside the functions. Nothing allocates, nothing panics.
 ///
-/// `SHAPES` counts the shape parameters of the declared effects that the spec leaves open; most arms have none.
+/// `SHAPES` counts the shape parameters of the declared effects that the spec leaves open, `STATES` their internal states and
+/// `INPUTS` the channels that they read; most arms have none. Where there are states or channels, a torque is that of a
+/// [`State`] which has them: methods whose name ends in `_at` take one, and those that know a motion only are not there.
 ///
 /// # Examples
 #[cfg_attr(feature = "derive", doc = "```")]
@@ -85,11 +46,17 @@ impl<const DOF: usize> State<DOF> {
 /// assert!((tau - arm.regressor_of(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
 /// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no arm whose torque depends on its motion alone",
+    note = "effects with a memory or with channels of a log need these in a `State`: use the methods whose name ends in `_at`"
+)]
 pub trait RobotModel<
     const DOF: usize,
     const STANDARD: usize,
     const BASE: usize,
     const SHAPES: usize = 0,
+    const STATES: usize = 0,
+    const INPUTS: usize = 0,
 >
 {
     /// Name of the robot.
@@ -102,6 +69,8 @@ pub trait RobotModel<
     const BASE_PARAMETERS: [&'static str; BASE];
     /// Names of the shape parameters.
     const SHAPE_PARAMETERS: [&'static str; SHAPES];
+    /// Names of the channels that effects read, in the order of [`State::inputs`].
+    const INPUTS: [&'static str; INPUTS];
     /// What the spec says of the standard parameters, nominal or fixed; 0 where it is silent.
     const NOMINAL: [f64; STANDARD];
     /// Values of the shape parameters before identification: the spec's, else the middle of the range.
@@ -134,19 +103,20 @@ pub trait RobotModel<
     /// Bias torque `C * dq + G`, N m or N.
     fn bias(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> Vector<DOF>;
 
-    /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero.
-    fn inverse_dynamics(
-        &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        ddq: &Vector<DOF>,
-    ) -> Vector<DOF> {
-        self.inverse_dynamics_at(&State::new(*q, *dq, *ddq))
+    /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero and with no measured torque.
+    fn inverse_dynamics(&self, q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Vector<DOF>
+    where
+        Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::inverse_dynamics_at(
+            self,
+            &State::new(*q, *dq, *ddq),
+        )
     }
 
     /// [`Self::inverse_dynamics`] for effects that depend on more than the motion. `state.rigid_torque` is not read: the
     /// load of load-dependent effects is the arm's own.
-    fn inverse_dynamics_at(&self, state: &State<DOF>) -> Vector<DOF>;
+    fn inverse_dynamics_at(&self, state: &State<DOF, STATES, INPUTS>) -> Vector<DOF>;
 
     /// Regressor `Y` of this arm, DOF x STANDARD: `inverse_dynamics = Y * standard`, at time zero.
     ///
@@ -157,8 +127,20 @@ pub trait RobotModel<
         q: &Vector<DOF>,
         dq: &Vector<DOF>,
         ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, STANDARD> {
-        Self::regressor_at(&self.loaded(q, dq, ddq), &self.shapes())
+    ) -> Matrix<DOF, STANDARD>
+    where
+        Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::regressor_of_at(
+            self,
+            &State::new(*q, *dq, *ddq),
+        )
+    }
+
+    /// [`Self::regressor_of`] for effects that depend on more than the motion.
+    #[must_use]
+    fn regressor_of_at(&self, state: &State<DOF, STATES, INPUTS>) -> Matrix<DOF, STANDARD> {
+        Self::regressor_at(&self.loaded(state), &self.shapes())
     }
 
     /// Base regressor `Y_b` of this arm, DOF x BASE: `inverse_dynamics = Y_b * beta`, besides the torque of what the spec
@@ -169,39 +151,70 @@ pub trait RobotModel<
         q: &Vector<DOF>,
         dq: &Vector<DOF>,
         ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, BASE> {
-        Self::base_regressor_at(&self.loaded(q, dq, ddq), &self.shapes())
+    ) -> Matrix<DOF, BASE>
+    where
+        Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::base_regressor_of_at(
+            self,
+            &State::new(*q, *dq, *ddq),
+        )
     }
 
-    /// The motion with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`, at time zero: what
-    /// [`Self::regressor_at`] reads.
+    /// [`Self::base_regressor_of`] for effects that depend on more than the motion.
     #[must_use]
-    fn loaded(&self, q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> State<DOF> {
+    fn base_regressor_of_at(&self, state: &State<DOF, STATES, INPUTS>) -> Matrix<DOF, BASE> {
+        Self::base_regressor_at(&self.loaded(state), &self.shapes())
+    }
+
+    /// The same instant with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`: what [`Self::regressor_at`]
+    /// reads.
+    #[must_use]
+    fn loaded(&self, state: &State<DOF, STATES, INPUTS>) -> State<DOF, STATES, INPUTS> {
+        let inertial = self.mass_matrix(&state.q) * state.ddq;
         State {
-            rigid_torque: self.mass_matrix(q) * ddq + self.bias(q, dq),
-            ..State::new(*q, *dq, *ddq)
+            rigid_torque: inertial + self.bias(&state.q, &state.dq),
+            ..*state
         }
     }
 
     /// Regressor `Y`, DOF x STANDARD, at time zero, without load, with nominal shapes: `tau = Y * standard` of an arm whose
     /// effects read no load and whose shape parameters are the nominal ones. Of every arm: [`Self::regressor_of`].
     #[must_use]
-    fn regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, STANDARD> {
-        Self::regressor_at(&State::new(*q, *dq, *ddq), &Self::NOMINAL_SHAPES.into())
+    fn regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    where
+        Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::regressor_at(
+            &State::new(*q, *dq, *ddq),
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::regressor`] for effects that depend on load, time or shape parameters.
-    fn regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, STANDARD>;
+    /// [`Self::regressor`] for effects that depend on load, time, memory, channels or shape parameters.
+    fn regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, STANDARD>;
 
     /// Base regressor `Y_b`, DOF x BASE: `tau = Y_b * beta`, besides the torque of what the spec fixes; as
     /// [`Self::regressor`] at time zero, without load, with nominal shapes.
     #[must_use]
-    fn base_regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, BASE> {
-        Self::base_regressor_at(&State::new(*q, *dq, *ddq), &Self::NOMINAL_SHAPES.into())
+    fn base_regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    where
+        Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
+    {
+        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::base_regressor_at(
+            &State::new(*q, *dq, *ddq),
+            &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
+        )
     }
 
-    /// [`Self::base_regressor`] for effects that depend on load, time or shape parameters.
-    fn base_regressor_at(state: &State<DOF>, shapes: &Vector<SHAPES>) -> Matrix<DOF, BASE>;
+    /// [`Self::base_regressor`] for effects that depend on load, time, memory, channels or shape parameters.
+    fn base_regressor_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Matrix<DOF, BASE>;
 }
 
 /// An arm that is made from a vector of parameters: from an estimate, or from CAD values.
@@ -236,7 +249,9 @@ pub trait FromParameters<
     const STANDARD: usize,
     const BASE: usize,
     const SHAPES: usize = 0,
->: RobotModel<DOF, STANDARD, BASE, SHAPES> + Sized
+    const STATES: usize = 0,
+    const INPUTS: usize = 0,
+>: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS> + Sized
 {
     /// An arm with these standard and shape parameters. What the spec fixes stays as it is.
     fn from_parameters(standard: &Vector<STANDARD>, shapes: &Vector<SHAPES>) -> Self;

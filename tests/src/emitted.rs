@@ -1,11 +1,11 @@
 //! Emitted code of every spec, included as users include it, with warnings denied.
 
 use nalgebra::DMatrix;
-use robot_model::{FromParameters, Matrix, Mechanics, State as ArmState, Vector};
+use robot_model::{FromParameters, Matrix, Mechanics, Vector};
 
 use crate::evaluate::Forms;
 use crate::mechanics::{self, MechanicsForms};
-use crate::states::State;
+use crate::states::{State, typed};
 
 /// Accelerations of standard parameters, a state and a torque, where they are determined.
 pub type Accelerations = fn(&[f64], &State, &[f64]) -> Option<Vec<f64>>;
@@ -45,7 +45,7 @@ macro_rules! robots {
         )*
 
         /// Every emitted arm.
-        pub const ROBOTS: &[Robot] = &[$(Robot::of::<$module::$robot, _, _, _, _>($file)),*];
+        pub const ROBOTS: &[Robot] = &[$(Robot::of::<$module::$robot, _, _, _, _, _, _>($file)),*];
     };
 }
 
@@ -55,6 +55,8 @@ robots! {
     every_effect "every_effect" EveryEffect;
     fixed_arm "fixed_arm" FixedArm;
     known_springs "known_springs" KnownSprings;
+    lugre_link "lugre_link" LugreLink;
+    memory "memory" Memory;
     mounted_arm "mounted_arm" MountedArm;
     panda "panda" Panda;
     phantom "phantom" Phantom;
@@ -72,20 +74,6 @@ robots! {
     ur10 "ur10" Ur10;
 }
 
-/// Emitted from `lugre_link.robot`: functions alone, since friction with a memory reads more than a motion.
-#[deny(warnings)]
-#[allow(clippy::pedantic, reason = "derived, not written")]
-pub mod lugre_link {
-    robot_model::include_robot!("lugre_link");
-}
-
-/// Emitted from `memory.robot`: functions alone, since its effects read more than a motion.
-#[deny(warnings)]
-#[allow(clippy::pedantic, reason = "derived, not written")]
-pub mod memory {
-    robot_model::include_robot!("memory");
-}
-
 impl Robot {
     const fn of<
         R,
@@ -93,11 +81,14 @@ impl Robot {
         const STANDARD: usize,
         const BASE: usize,
         const SHAPES: usize,
+        const STATES: usize,
+        const INPUTS: usize,
     >(
         spec: &'static str,
     ) -> Self
     where
-        R: FromParameters<DOF, STANDARD, BASE, SHAPES> + Mechanics<DOF, STANDARD, BASE, SHAPES>,
+        R: FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+            + Mechanics<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
     {
         Self {
             spec,
@@ -105,10 +96,10 @@ impl Robot {
             joints: &R::JOINTS,
             standard_parameters: &R::STANDARD_PARAMETERS,
             base_parameter_names: &R::BASE_PARAMETERS,
-            base_parameters: base_parameters::<R, DOF, STANDARD, BASE, SHAPES>,
-            forms: forms::<R, DOF, STANDARD, BASE, SHAPES>,
-            mechanics: mechanics::emitted::<R, DOF, STANDARD, BASE, SHAPES>,
-            accelerations: mechanics::accelerations::<R, DOF, STANDARD, BASE, SHAPES>,
+            base_parameters: base_parameters::<R, DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
+            forms: forms::<R, DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
+            mechanics: mechanics::emitted::<R, DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
+            accelerations: mechanics::accelerations::<R, DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
         }
     }
 }
@@ -119,38 +110,41 @@ fn base_parameters<
     const STANDARD: usize,
     const BASE: usize,
     const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
 >(
     standard: &[f64],
 ) -> Vec<f64>
 where
-    R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
+    R: FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
 {
     R::base_parameters(&Vector::from_column_slice(standard))
         .as_slice()
         .to_vec()
 }
 
-fn forms<R, const DOF: usize, const STANDARD: usize, const BASE: usize, const SHAPES: usize>(
+fn forms<
+    R,
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
+>(
     standard: &[f64],
     state: &State,
 ) -> Forms
 where
-    R: FromParameters<DOF, STANDARD, BASE, SHAPES>,
+    R: FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
 {
     let arm = R::from_standard(&Vector::from_column_slice(standard));
-    let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
-    let mut state = ArmState {
-        time: state.time,
-        ..ArmState::new(vector(&state.q), vector(&state.dq), vector(&state.ddq))
-    };
-    let mass_matrix = arm.mass_matrix(&state.q);
-    let bias = arm.bias(&state.q, &state.dq);
-    state.rigid_torque = mass_matrix * state.ddq + bias;
+    let state = arm.loaded(&typed::<DOF, STATES, INPUTS>(state));
     Forms {
-        mass_matrix: dense(&mass_matrix),
+        mass_matrix: dense(&arm.mass_matrix(&state.q)),
         coriolis_matrix: dense(&arm.coriolis_matrix(&state.q, &state.dq)),
         gravity: dense(&arm.gravity(&state.q)),
-        bias: dense(&bias),
+        bias: dense(&arm.bias(&state.q, &state.dq)),
         inverse_dynamics: dense(&arm.inverse_dynamics_at(&state)),
         regressor: dense(&R::regressor_at(&state, &arm.shapes())),
         base_regressor: dense(&R::base_regressor_at(&state, &arm.shapes())),

@@ -1,12 +1,12 @@
 //! Energies, momentum, slopes and accelerations of an arm at one state, by the interpreter and by emitted code.
 
 use nalgebra::DMatrix;
-use robot_model::{FromParameters, Matrix, Mechanics, State as ArmState, Vector};
+use robot_model::{FromParameters, Matrix, Mechanics, Vector};
 
 use robot_model_codegen::interpreter::Program;
 
 use crate::evaluate::Interpreter;
-use crate::states::State;
+use crate::states::{State, typed};
 
 /// Every form beside the torque at one state.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,26 +59,26 @@ pub fn interpreted(interpreter: &Interpreter, standard: &[f64], state: &State) -
     }
 }
 
-/// A state in the types of emitted code.
-fn typed<const DOF: usize>(state: &State) -> ArmState<DOF> {
-    let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
-    ArmState {
-        time: state.time,
-        ..ArmState::new(vector(&state.q), vector(&state.dq), vector(&state.ddq))
-    }
-}
-
 /// By emitted code.
 #[must_use]
-pub fn emitted<R, const DOF: usize, const STANDARD: usize, const BASE: usize, const SHAPES: usize>(
+pub fn emitted<
+    R,
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
+>(
     standard: &[f64],
     state: &State,
 ) -> MechanicsForms
 where
-    R: Mechanics<DOF, STANDARD, BASE, SHAPES> + FromParameters<DOF, STANDARD, BASE, SHAPES>,
+    R: Mechanics<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+        + FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
 {
     let arm = R::from_standard(&Vector::from_column_slice(standard));
-    let (state, shapes) = (typed::<DOF>(state), arm.shapes());
+    let (state, shapes) = (typed::<DOF, STATES, INPUTS>(state), arm.shapes());
     MechanicsForms {
         kinetic_energy: arm.kinetic_energy(&state.q, &state.dq),
         potential_energy: arm.potential_energy(&state.q),
@@ -103,17 +103,20 @@ pub fn accelerations<
     const STANDARD: usize,
     const BASE: usize,
     const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
 >(
     standard: &[f64],
     state: &State,
     tau: &[f64],
 ) -> Option<Vec<f64>>
 where
-    R: Mechanics<DOF, STANDARD, BASE, SHAPES> + FromParameters<DOF, STANDARD, BASE, SHAPES>,
+    R: Mechanics<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+        + FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
 {
     let arm = R::from_standard(&Vector::from_column_slice(standard));
     let tau = Vector::from_column_slice(tau);
-    let found = arm.forward_dynamics_at(&typed::<DOF>(state), &tau)?;
+    let found = arm.forward_dynamics_at(&typed::<DOF, STATES, INPUTS>(state), &tau)?;
     Some(found.as_slice().to_vec())
 }
 

@@ -3,6 +3,7 @@
 use rand::RngExt;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
+use robot_model::{State as ArmState, Vector};
 use robot_model_spec::Model;
 use robot_model_spec::model::{Energies, Monomial};
 use robot_model_spec::parameter::Status;
@@ -24,6 +25,25 @@ pub struct State {
     pub inputs: Vec<f64>,
     /// Internal states of effects, more than any spec here has.
     pub states: Vec<f64>,
+}
+
+/// A state in the types of emitted code; no load.
+#[must_use]
+pub fn typed<const DOF: usize, const STATES: usize, const INPUTS: usize>(
+    state: &State,
+) -> ArmState<DOF, STATES, INPUTS> {
+    let vector = |values: &[f64]| Vector::<DOF>::from_column_slice(values);
+    let motion = ArmState {
+        time: state.time,
+        // States written by hand say nothing of it.
+        measured_torque: Vector::from_fn(|k, _| {
+            state.measured_torque.get(k).copied().unwrap_or(0.0)
+        }),
+        ..ArmState::new(vector(&state.q), vector(&state.dq), vector(&state.ddq))
+    };
+    motion
+        .with_memory(Vector::from_column_slice(&state.states[..STATES]))
+        .with_inputs(Vector::from_column_slice(&state.inputs[..INPUTS]))
 }
 
 /// Channels and internal states of a [`State`].

@@ -273,10 +273,6 @@ fn fixed_parameters_are_known_and_never_identified() {
 #[test]
 fn emitted_code_agrees_with_the_interpreter() {
     for_all(|case| {
-        if case.interpreter.compiled.reads_more_than_motion() {
-            // In tests/memory.rs.
-            return;
-        }
         let emitted = emitted::ROBOTS
             .iter()
             .find(|robot| robot.spec == case.name)

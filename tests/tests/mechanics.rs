@@ -29,10 +29,6 @@ struct Case<'a> {
 fn for_all(law: impl Fn(&Case<'_>)) {
     for spec in [specs::folder("pass"), specs::folder("run")].concat() {
         let interpreter = Interpreter::new(spec.compiled());
-        // No typed face: in tests/memory.rs.
-        if interpreter.compiled.reads_more_than_motion() {
-            continue;
-        }
         let robot = emitted::ROBOTS
             .iter()
             .find(|robot| robot.spec == spec.name)

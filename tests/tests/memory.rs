@@ -6,9 +6,10 @@ use robot_model::columns::Columns;
 use robot_model::identify::{Identify, torque_of};
 use robot_model::log::{Channel, Log};
 use robot_model::motion::{Kinematics, Motion};
+use robot_model::{FromParameters, Memory, RobotModel, Vector};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
-use robot_model_tests::emitted::memory;
+use robot_model_tests::emitted;
 use robot_model_tests::evaluate::{Interpreter, relative_difference};
 use robot_model_tests::{specs, states};
 
@@ -209,44 +210,70 @@ fn a_column_that_an_effect_reads_must_be_there() {
     );
 }
 
-/// The free functions of an arm whose effects remember: the interpreter's numbers.
+/// Rates and a step of every emitted arm with internal states: the interpreter's numbers. Its torque and regressors are
+/// compared with those of all arms.
 #[test]
-fn emitted_functions_of_effects_with_a_memory_agree_with_the_interpreter() {
-    let interpreter = Interpreter::new(specs::named("pass/memory").compiled());
+fn emitted_states_agree_with_the_interpreter() {
+    assert_states_agree::<emitted::memory::Memory, _, _, _, _, _, _>("pass/memory");
+    assert_states_agree::<emitted::lugre_link::LugreLink, _, _, _, _, _, _>("pass/lugre_link");
+    assert_eq!(
+        emitted::memory::Memory::INPUTS,
+        ["temperature", "current1", "current2"]
+    );
+}
+
+fn assert_states_agree<
+    R,
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
+>(
+    spec: &str,
+) where
+    R: Memory<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+        + FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
+{
+    let interpreter = Interpreter::new(specs::named(spec).compiled());
     let model = &interpreter.compiled.model;
-    assert_eq!(model.inputs(), ["temperature", "current1", "current2"]);
+    assert_eq!(R::STATES.as_slice(), model.states());
+    assert_eq!(R::INPUTS.as_slice(), model.inputs());
     let mut random = states::generator(7);
     for _ in 0..20 {
         let standard = states::physical(&mut random, model);
-        let state = states::state(&mut random, 2);
-        let forms = interpreter.forms(&standard, &state);
-        let load: Vec<f64> = interpreter
-            .rigid_torque(&standard, &state)
-            .as_slice()
-            .to_vec();
-        let rates = interpreter.state_rates(&standard, &state, &load);
-        let array = |values: &[f64]| -> [f64; 2] { [values[0], values[1]] };
-        let (q, dq, ddq) = (array(&state.q), array(&state.dq), array(&state.ddq));
-        let measured = array(&state.measured_torque);
-        let inputs: [f64; 3] = std::array::from_fn(|k| state.inputs[k]);
-        let memory: [f64; 4] = std::array::from_fn(|k| state.states[k]);
-        let beta = memory::base_parameters(&std::array::from_fn(|k| standard[k]));
-        let tau = memory::inverse_dynamics(&q, &dq, &ddq, &measured, &inputs, &memory, &beta);
-        let regressor = memory::base_regressor(&q, &dq, &ddq, &measured, &inputs, &memory);
-        let close = |found: DMatrix<f64>, wanted: &DMatrix<f64>| {
-            let difference = relative_difference(&found, wanted);
-            assert!(difference < 1e-12, "{difference}");
+        let state = states::state(&mut random, DOF);
+        let load = interpreter.rigid_torque(&standard, &state);
+        let wanted = interpreter.state_rates(&standard, &state, load.as_slice());
+        let arm = R::from_standard(&Vector::from_column_slice(&standard));
+        let typed = states::typed::<DOF, STATES, INPUTS>(&state);
+        let column =
+            |values: Vector<STATES>| DMatrix::from_column_slice(STATES, 1, values.as_slice());
+        let rates = arm.state_rates(&typed);
+        let difference = relative_difference(&column(rates), &wanted);
+        assert!(difference < 1e-12, "{spec}: {difference}");
+        // Against the classical Runge-Kutta method in steps too small for it to err, all else held.
+        let (seconds, steps) = (2e-5, 200);
+        let after = column(arm.memory_after(&typed, seconds));
+        let mut z = column(typed.memory);
+        let rate = |z: DMatrix<f64>| {
+            let mut state = state.clone();
+            state.states[..STATES].copy_from_slice(z.as_slice());
+            interpreter.state_rates(&standard, &state, load.as_slice())
         };
-        close(DMatrix::from_row_slice(2, 1, &tau), &forms.inverse_dynamics);
-        let rows: Vec<f64> = regressor.iter().flatten().copied().collect();
-        close(
-            DMatrix::from_row_slice(2, beta.len(), &rows),
-            &forms.base_regressor,
-        );
-        let free = interpreter.compiled.free_shapes();
-        let shapes: [f64; 2] = std::array::from_fn(|k| interpreter.shapes[free[k]]);
-        let found = memory::state_rates(&q, &dq, &ddq, &memory, &shapes);
-        close(DMatrix::from_row_slice(4, 1, &found), &rates);
+        let h = seconds / f64::from(steps);
+        for _ in 0..steps {
+            let k1 = rate(z.clone());
+            let k2 = rate(&z + &k1 * (0.5 * h));
+            let k3 = rate(&z + &k2 * (0.5 * h));
+            let k4 = rate(&z + &k3 * h);
+            z += (k1 + k2 * 2.0 + k3 * 2.0 + k4) * (h / 6.0);
+        }
+        let change = (&z - column(typed.memory)).amax();
+        let error = (after - z).amax();
+        // Of second order where rates are not affine in the states, so in proportion to `seconds` squared.
+        assert!(error < 1e-6 * change, "{spec}: {error} of {change}");
     }
 }
 

@@ -7,10 +7,11 @@ use robot_model::motion::{Motion, between};
 use robot_model_codegen::Block;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Operand;
-use robot_model_codegen::states::States;
+use robot_model_codegen::states::StateProgram;
 
 use super::program::{run, run_block};
 use super::signals::{Own, Signals};
+use super::states::states;
 
 /// Instants of a sample interval over which columns that jump are averaged.
 const INSTANTS: i32 = 4;
@@ -19,7 +20,7 @@ const INSTANTS: i32 = 4;
 #[derive(Debug, Clone)]
 pub(super) struct EffectBlock {
     block: Block,
-    states: States,
+    states: Vec<StateProgram>,
     /// Channels of the log, by their symbols.
     inputs: Vec<String>,
     /// Joint torque per unit of the logged channel; empty where no column reads the measured torque.
@@ -32,7 +33,7 @@ impl EffectBlock {
     /// `is_rough` tells for a column whether it is rough.
     pub(super) fn new(
         block: Block,
-        states: States,
+        states: Vec<StateProgram>,
         inputs: Vec<String>,
         gain: Vec<f64>,
         is_rough: impl Fn(usize) -> bool,
@@ -71,7 +72,7 @@ impl EffectBlock {
             .program
             .symbols()
             .iter()
-            .chain(self.states.symbols());
+            .chain(self.states.iter().flat_map(|part| part.program.symbols()));
         symbols.any(wanted)
     }
 
@@ -118,11 +119,8 @@ impl EffectBlock {
                 shapes,
                 own: &own,
             };
-            own.states = self
-                .states
-                .integrate(motion.time.len(), second - first, &|symbol| {
-                    signals.bind(&motion.wide, symbol)
-                });
+            let bind = |symbol| signals.bind(&motion.wide, symbol);
+            own.states = states(&self.states, motion.time.len(), second - first, &bind);
         }
         own
     }

@@ -12,6 +12,7 @@ mod program;
 mod rough;
 mod shape;
 mod signals;
+mod states;
 
 pub use candidate::InterpretedCandidate;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};

@@ -1,7 +1,7 @@
 //! `#[derive(RobotModel)]`: a struct whose fields hold the unknowns of a robot.
 //!
-//! In: the struct, and the files that it names. Out: `impl RobotModel` for it, and `impl FromParameters` where a vector of
-//! parameters determines the fields. Attributes are put together to the text of a spec, token by token, so a mistake is told
+//! In: the struct, and the files that it names. Out: `impl RobotModel` for it, `impl FromParameters` where a vector of
+//! parameters determines the fields, `impl Memory` where effects have states. Attributes are put together to the text of a spec, token by token, so a mistake is told
 //! where it was written, in the words of the language. After a mistake the implementation is a stub: rustc has nothing to
 //! add.
 //!
@@ -97,30 +97,16 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
     Ok(quote!(#implementation #(#tracked)*))
 }
 
-/// A `RobotModel` knows motions only. Said before anything about fields, which would be of no use.
+/// What has no equation of one instant has no function. Said before anything about fields, which would be of no use.
 fn check_reach(robot: &Robot, model: &Model) -> syn::Result<()> {
-    let mut effects = model.effects.iter().enumerate();
-    let beyond = effects.find(|(_, effect)| {
-        let definition = &effect.definition;
-        !definition.states.is_empty()
-            || !definition.inputs.is_empty()
-            || definition.reads_measured_torque()
-            || definition.moves_links()
-    });
-    let Some((index, _)) = beyond else {
-        return Ok(());
-    };
-    let refuse = |message: String| Err(syn::Error::new(robot.name.span(), message));
-    let definition = &model.effects[index].definition;
-    if definition.moves_links() {
-        let reason = NotInstantaneous::new(model, index);
-        return refuse(reason.to_string());
+    let mut effects = model.effects.iter();
+    match effects.position(|effect| effect.definition.moves_links()) {
+        Some(index) => {
+            let reason = NotInstantaneous::new(model, index);
+            Err(syn::Error::new(robot.name.span(), reason.to_string()))
+        }
+        None => Ok(()),
     }
-    refuse(format!(
-        "`{}` has a memory or reads the log, and a `RobotModel` knows motions only: write the arm as a `.robot` file and compile \
-         it in a build script, which makes functions of it",
-        model.effect_name(index)
-    ))
 }
 
 /// Cargo rebuilds when a file changes that the source includes.

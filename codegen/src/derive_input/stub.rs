@@ -26,7 +26,7 @@ pub fn implementation(input: &DeriveInput) -> TokenStream {
     let dof = Literal::usize_unsuffixed(data.fields.iter().filter(is_joint).count());
     quote! {
         const _: () = {
-            use ::robot_model::model::{FromParameters, Matrix, RobotModel, State, Vector};
+            use ::robot_model::{FromParameters, Matrix, RobotModel, State, Vector};
             #[automatically_derived]
             impl RobotModel<#dof, 0, 0, 0> for #name {
                 const NAME: &'static str = "";
@@ -34,6 +34,7 @@ pub fn implementation(input: &DeriveInput) -> TokenStream {
                 const STANDARD_PARAMETERS: [&'static str; 0] = [];
                 const BASE_PARAMETERS: [&'static str; 0] = [];
                 const SHAPE_PARAMETERS: [&'static str; 0] = [];
+                const INPUTS: [&'static str; 0] = [];
                 const NOMINAL: [f64; 0] = [];
                 const NOMINAL_SHAPES: [f64; 0] = [];
                 fn base_parameters(_: &Vector<0>) -> Vector<0> { ::core::unreachable!() }

@@ -1,7 +1,7 @@
 //! One emitted function: signature, doc comment with its cost, statements, outputs last.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
 use super::body::{self, Cost};
 use super::render::Binding;
@@ -45,7 +45,7 @@ pub struct Task {
 }
 
 /// Shape of the result.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub enum Returns {
     /// One entry a joint.
     Vector,
@@ -62,6 +62,9 @@ pub enum Returns {
     /// Outputs are the slope of the torque by the accelerations row by row, then the torque: accelerations where these
     /// equations have a solution.
     Accelerations(Equations),
+    /// Outputs are the rates and their slopes, effect by effect: internal states after a step. `[k]` is how many states effect
+    /// `k` has.
+    Memory(Vec<usize>),
 }
 
 /// How accelerations are solved for.
@@ -89,8 +92,12 @@ impl Context<'_> {
         let body = body::body(self.dag, self.names, self.binding, &task.outputs);
         let reads = |argument: &str| {
             let mut symbols = body.symbols.iter();
-            // No expression has the torque in it: it is what the equations are set to.
-            argument == "tau" || symbols.any(|&symbol| argument_of(symbol, task) == argument)
+            let is_read_outside = match task.returns {
+                Returns::Accelerations(_) => argument == "tau",
+                Returns::Memory(_) => matches!(argument, "states" | "seconds"),
+                _ => false,
+            };
+            is_read_outside || symbols.any(|&symbol| argument_of(symbol, task) == argument)
         };
         let optional = |argument: &str| OPTIONAL.contains(&argument);
         let arguments: Vec<&'static str> = task
@@ -120,7 +127,7 @@ impl Context<'_> {
         let cost = format!(" Cost: {}.", body.cost);
         let statements = &body.statements;
         let (kind, result) = self.result(task, &body.outputs);
-        let (statements, result) = match task.returns {
+        let (statements, result) = match &task.returns {
             Returns::Accelerations(Equations::Nonlinear) => {
                 let length = self.length("ddq");
                 let inside = quote!(solve::newton(|ddq: &[f64; #length]| { #statements #result }));
@@ -150,7 +157,7 @@ impl Context<'_> {
     /// Entries of an argument; `None` for a scalar.
     fn length(&self, argument: &str) -> Option<Literal> {
         let length = match argument {
-            "time" => return None,
+            "time" | "seconds" => return None,
             "beta" => self.compiled.base.kept.len(),
             "standard" => self.compiled.standard.len(),
             "shapes" => self.compiled.free_shapes().len(),
@@ -164,17 +171,19 @@ impl Context<'_> {
     /// The return type and the expression that makes the result.
     fn result(&self, task: &Task, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
         let dof = self.compiled.dof();
-        let rows = match task.returns {
+        let rows = match &task.returns {
             // Without columns there are rows all the same.
             Returns::Matrix(0) => dof,
             Returns::Matrix(columns) => outputs.len() / columns,
+            Returns::Memory(counts) => counts.iter().sum(),
             _ => dof,
         };
         let rows = Literal::usize_unsuffixed(rows);
-        match task.returns {
+        match &task.returns {
+            Returns::Memory(counts) => (quote!([f64; #rows]), after_step(counts, outputs)),
             Returns::Scalar => (quote!(f64), quote!(#(#outputs)*)),
             Returns::Poses => stack(outputs, 4, 4),
-            Returns::Stack(rows) => stack(outputs, rows, dof),
+            Returns::Stack(rows) => stack(outputs, *rows, dof),
             Returns::Accelerations(equations) => {
                 let (slope, torque) = outputs.split_at(dof * dof);
                 let slope = slope.chunks(dof.max(1)).map(|row| quote!([#(#row),*]));
@@ -200,16 +209,16 @@ impl Context<'_> {
                 (quote!([f64; #length]), quote!([#(#outputs),*]))
             }
             Returns::Matrix(0) => (quote!([[f64; 0]; #rows]), quote!([[]; #rows])),
-            Returns::Matrix(columns) if columns <= WIDEST_ROW => {
-                let width = Literal::usize_unsuffixed(columns);
-                let rows_of_entries = outputs.chunks(columns).map(|row| quote!([#(#row),*]));
+            Returns::Matrix(columns) if *columns <= WIDEST_ROW => {
+                let width = Literal::usize_unsuffixed(*columns);
+                let rows_of_entries = outputs.chunks(*columns).map(|row| quote!([#(#row),*]));
                 (
                     quote!([[f64; #width]; #rows]),
                     quote!([#(#rows_of_entries),*]),
                 )
             }
             Returns::Matrix(columns) => {
-                let width = Literal::usize_unsuffixed(columns);
+                let width = Literal::usize_unsuffixed(*columns);
                 let entries = (0..)
                     .zip(outputs)
                     .filter(|&(k, _)| !self.dag.is_zero(task.outputs[k]))
@@ -228,6 +237,30 @@ impl Context<'_> {
             }
         }
     }
+}
+
+/// `let [next0] = memory::after(&[states[0]], seconds, &[rate], &[[slope]]); ..; [next0, ..]`
+fn after_step(counts: &[usize], outputs: &[TokenStream]) -> TokenStream {
+    let (mut first, mut outputs) = (0, outputs);
+    let mut steps = TokenStream::new();
+    let mut all = Vec::new();
+    for &count in counts.iter().filter(|&&count| count > 0) {
+        let (rates, rest) = outputs.split_at(count);
+        let (slopes, rest) = rest.split_at(count * count);
+        let slopes = slopes.chunks(count).map(|row| quote!([#(#row),*]));
+        let numbers = first..first + count;
+        let next: Vec<Ident> = numbers.clone().map(|k| format_ident!("next{k}")).collect();
+        let now = numbers.map(|k| {
+            let k = Literal::usize_unsuffixed(k);
+            quote!(states[#k])
+        });
+        steps.extend(quote! {
+            let [#(#next),*] = memory::after(&[#(#now),*], seconds, &[#(#rates),*], &[#(#slopes),*]);
+        });
+        all.extend(next);
+        (first, outputs) = (first + count, rest);
+    }
+    quote!(#steps [#(#all),*])
 }
 
 /// Matrices of the same size: their type, and their entries.

@@ -1,15 +1,18 @@
 //! `RobotModel` over the page's functions, for the page's own type or for a struct of the user's.
 
+mod from_parameters;
+mod memory;
+
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 use robot_model_spec::parameter::Status;
 
 use super::function::Function;
 use super::render::number;
+use super::sizes::Sizes;
 use super::{Extent, mechanics};
 use crate::base;
 use crate::compiled::Compiled;
-use crate::right_inverse::right_inverse;
 
 /// How a value of the robot's type holds its parameters.
 pub struct Parameters {
@@ -111,10 +114,7 @@ pub fn implementation(
     parameters: &Parameters,
     nominal_shapes: &[f64],
 ) -> TokenStream {
-    let dof = Literal::usize_unsuffixed(compiled.dof());
-    let standard = Literal::usize_unsuffixed(compiled.standard.len());
-    let base = Literal::usize_unsuffixed(compiled.base.kept.len());
-    let shapes = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let arguments = Sizes::of(compiled).arguments();
     let constants = constants(compiled, nominal_shapes);
     let methods = [
         holding(compiled, functions, parameters),
@@ -125,23 +125,29 @@ pub fn implementation(
     let from = parameters
         .from
         .as_ref()
-        .map(|from| from_parameters(compiled, name, from));
+        .map(|from| from_parameters::implementation(compiled, name, from));
+    let memory = memory::implementation(compiled, functions, name);
     quote! {
-        impl model::RobotModel<#dof, #standard, #base, #shapes> for #name {
+        impl model::RobotModel #arguments for #name {
             #constants
             #(__blank!(); #methods)*
         }
         #from
+        #memory
     }
 }
 
 fn constants(compiled: &Compiled, nominal_shapes: &[f64]) -> TokenStream {
-    let count = |n: usize| Literal::usize_unsuffixed(n);
-    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
-    let (base, shapes) = (
-        count(compiled.base.kept.len()),
-        count(compiled.free_shapes().len()),
-    );
+    let sizes = Sizes::of(compiled);
+    let Sizes {
+        dof,
+        standard,
+        base,
+        shapes,
+        inputs,
+        ..
+    } = &sizes;
+    let input_names = compiled.model.inputs();
     let robot = &compiled.model.name;
     let joints = compiled.model.joints.iter().map(|joint| &joint.name);
     let standard_names = compiled.standard.iter().map(|parameter| &parameter.name);
@@ -163,6 +169,7 @@ fn constants(compiled: &Compiled, nominal_shapes: &[f64]) -> TokenStream {
         const STANDARD_PARAMETERS: [&'static str; #standard] = [#(#standard_names),*];
         const BASE_PARAMETERS: [&'static str; #base] = [#(#base_names),*];
         const SHAPE_PARAMETERS: [&'static str; #shapes] = [#(#shape_names),*];
+        const INPUTS: [&'static str; #inputs] = [#(#input_names),*];
         const NOMINAL: [f64; #standard] = [#(#nominal),*];
         const NOMINAL_SHAPES: [f64; #shapes] = [#(#shape_values),*];
     }
@@ -174,9 +181,13 @@ fn holding(
     functions: &[Function],
     parameters: &Parameters,
 ) -> Vec<TokenStream> {
-    let standard_count = Literal::usize_unsuffixed(compiled.standard.len());
-    let base = Literal::usize_unsuffixed(compiled.base.kept.len());
-    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let sizes = Sizes::of(compiled);
+    let Sizes {
+        standard: standard_count,
+        base,
+        shapes: shape_count,
+        ..
+    } = &sizes;
     let call = call(functions, "base_parameters", &Reads::default());
     let Parameters {
         standard,
@@ -213,7 +224,8 @@ fn holding(
 
 /// Equations that need values for the parameters.
 fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
-    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let sizes = Sizes::of(compiled);
+    let (dof, state) = (&sizes.dof, sizes.state());
     let plain = [
         ("mass_matrix", &["q"] as &[&str], true),
         ("coriolis_matrix", &["q", "dq"], true),
@@ -249,7 +261,7 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         .collect();
     let call = call(functions, "inverse_dynamics", &Reads::value(quote!(state.)));
     methods.push(quote! {
-        fn inverse_dynamics_at(&self, state: &model::State<#dof>) -> model::Vector<#dof> {
+        fn inverse_dynamics_at(&self, state: &#state) -> model::Vector<#dof> {
             #call.into()
         }
     });
@@ -258,8 +270,8 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
 
 /// Equations that need none.
 fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
-    let dof = Literal::usize_unsuffixed(compiled.dof());
-    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let sizes = Sizes::of(compiled);
+    let (dof, state, shape_count) = (&sizes.dof, sizes.state(), &sizes.shapes);
     let columns = [
         ("regressor", compiled.standard.len()),
         ("base_regressor", compiled.base.kept.len()),
@@ -273,90 +285,12 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
             let shapes = Ident::new(if reads_shapes { "shapes" } else { "_shapes" }, Span::call_site());
             quote! {
-                fn #name(state: &model::State<#dof>, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
+                fn #name(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
                     from_rows(&#call)
                 }
             }
         })
         .collect()
-}
-
-fn from_parameters(compiled: &Compiled, name: &Ident, from: &From) -> TokenStream {
-    let count = |n: usize| Literal::usize_unsuffixed(n);
-    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
-    let base = count(compiled.base.kept.len());
-    let free = compiled.free_shapes().len();
-    let shape_count = count(free);
-    let (from_standard, from_base) = match from {
-        From::Standard(standard) => (standard, None),
-        From::Base(standard, base) => (standard, Some(base)),
-    };
-    let shapes = Ident::new(
-        if free > 0 { "shapes" } else { "_shapes" },
-        Span::call_site(),
-    );
-    let from_base = from_base.map(|body| {
-        quote! {
-            fn from_base(beta: &model::Vector<#base>) -> Self {
-                #body
-            }
-            __blank!();
-        }
-    });
-    let combinations = right_inverse(
-        &compiled.base.combinations,
-        &compiled.base.kept,
-        compiled.standard.len(),
-    );
-    let beta = if compiled.base.kept.is_empty() {
-        "_beta"
-    } else {
-        "beta"
-    };
-    let beta = Ident::new(beta, Span::call_site());
-    let entries = compiled
-        .standard
-        .iter()
-        .zip(&combinations)
-        .map(|(parameter, combination)| match parameter.status {
-            Status::Fixed(value) => number(value),
-            _ => in_beta(combination),
-        });
-    quote! {
-        __blank!();
-        impl model::FromParameters<#dof, #standard, #base, #shape_count> for #name {
-            fn from_parameters(standard: &model::Vector<#standard>, #shapes: &model::Vector<#shape_count>) -> Self {
-                #from_standard
-            }
-            __blank!();
-            #from_base
-            fn standard_of(#beta: &model::Vector<#base>) -> model::Vector<#standard> {
-                [#(#entries),*].into()
-            }
-        }
-    }
-}
-
-/// `beta[0] - 0.5 * beta[3]`
-fn in_beta(combination: &[(usize, f64)]) -> TokenStream {
-    let mut sum = TokenStream::new();
-    for &(j, coefficient) in combination {
-        let j = Literal::usize_unsuffixed(j);
-        let size = number(coefficient.abs());
-        let is_one = coefficient.abs().to_bits() == 1.0f64.to_bits();
-        let term = if is_one {
-            quote!(beta[#j])
-        } else {
-            quote!(#size * beta[#j])
-        };
-        sum = match (sum.is_empty(), coefficient < 0.0) {
-            (true, false) => term,
-            (true, true) => quote!(-#term),
-            (false, false) => quote!(#sum + #term),
-            (false, true) => quote!(#sum - #term),
-        };
-    }
-    if sum.is_empty() { number(0.0) } else { sum }
 }
 
 /// Where the arguments of a free function come from in a method.
@@ -389,6 +323,8 @@ impl Reads {
         let state = &self.state;
         match argument {
             "time" => quote!(state.time),
+            "seconds" => quote!(seconds),
+            "states" => quote!(as_array(&state.memory)),
             "tau" => quote!(as_array(tau)),
             "beta" => quote!(as_array(&self.beta())),
             "shapes" if self.of_self => quote!(as_array(&self.shapes())),

@@ -9,6 +9,7 @@ mod mechanics;
 pub(crate) mod names;
 mod pretty;
 mod render;
+mod sizes;
 
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
@@ -44,28 +45,15 @@ pub fn module(compiled: &Compiled) -> String {
 #[must_use]
 pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
     let (functions, _) = functions(compiled, extent);
-    // The trait's methods know motions only.
-    let has_implementation = !compiled.reads_more_than_motion();
     let mut items = vec![imports(&functions)];
-    for Function { item, .. } in &functions {
-        items.push(if has_implementation {
-            item.clone()
-        } else {
-            quote! {
-                #[allow(dead_code, reason = "a program uses what it needs of its arm")]
-                #item
-            }
-        });
-    }
-    if has_implementation {
-        items.extend(implementation::items(compiled, &functions, extent));
-    }
+    items.extend(functions.iter().map(|function| function.item.clone()));
+    items.extend(implementation::items(compiled, &functions, extent));
     pretty::page(&header(compiled), &items)
 }
 
 /// What the functions take from the runtime, and no more.
 fn imports(functions: &[Function]) -> TokenStream {
-    let used: Vec<Ident> = ["math", "solve"]
+    let used: Vec<Ident> = ["math", "memory", "solve"]
         .into_iter()
         .filter(|module| functions.iter().any(|f| names_word(&f.item, module)))
         .map(|module| Ident::new(module, proc_macro2::Span::call_site()))
@@ -147,11 +135,6 @@ fn header(compiled: &Compiled) -> String {
                 header.push('\n');
             }
         }
-    }
-    if compiled.reads_more_than_motion() {
-        header.push_str(
-            "// An effect has a memory or reads the log: these functions are all there is, without `RobotModel`.\n",
-        );
     }
     header.push_str(
         "// Clippy's pedantic lints speak of hand-written code: include the page in a module with\n\
@@ -274,7 +257,7 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<Function>, Costs) {
     if extent == Extent::All {
         functions.extend(mechanics::functions(&context));
     }
-    functions.extend(state_rates(&context));
+    functions.extend(memory(&context));
     let costs = functions
         .iter()
         .map(|function| (function.name, function.cost))
@@ -282,17 +265,40 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<Function>, Costs) {
     (functions, costs)
 }
 
-/// How the effects' states change, where there are some.
-fn state_rates(context: &Context<'_>) -> Option<Function> {
-    let rates = &context.compiled.dynamics.state_rates;
-    let task = Task {
-        name: "state_rates",
-        doc: "Rates of the effects' internal states, which are 0 at the start. They are stiff: step them exponentially.",
-        arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
-        outputs: rates.clone(),
-        returns: Returns::List,
+/// How the effects' internal states change, where there are some.
+fn memory(context: &Context<'_>) -> Vec<Function> {
+    let mut dag = context.dag.clone();
+    let equations = context.compiled.state_equations(&mut dag);
+    if equations.is_empty() {
+        return Vec::new();
+    }
+    let context = Context {
+        dag: &dag,
+        ..*context
     };
-    (!rates.is_empty()).then(|| context.function(&task))
+    let tasks = [
+        Task {
+            name: "state_rates",
+            doc: "Rates of the effects' internal states, which are 0 at the start. They are stiff: `memory_after` steps them.",
+            arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
+            outputs: equations
+                .iter()
+                .flat_map(|part| part.rates.clone())
+                .collect(),
+            returns: Returns::List,
+        },
+        Task {
+            name: "memory_after",
+            doc: "The effects' internal states after some seconds in which all else stays as it is: an exponential step.",
+            arguments: "q dq ddq rigid_torque measured_torque time inputs states seconds shapes",
+            outputs: equations
+                .iter()
+                .flat_map(|part| [&part.rates[..], &part.jacobian].concat())
+                .collect(),
+            returns: Returns::Memory(equations.iter().map(|part| part.rates.len()).collect()),
+        },
+    ];
+    tasks.iter().map(|task| context.function(task)).collect()
 }
 
 /// `beta = map * standard`, as a function of its own.

@@ -5,22 +5,18 @@ use quote::{format_ident, quote};
 
 use super::super::function::Function;
 use super::super::implementation::{Reads, call, find};
+use super::super::sizes::Sizes;
 use crate::compiled::Compiled;
 
 /// The implementations for a type that implements `RobotModel`, with the runtime's conversions in scope.
 pub fn implementations(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStream {
-    let count = |n: usize| Literal::usize_unsuffixed(n);
-    let (dof, standard) = (count(compiled.dof()), count(compiled.standard.len()));
-    let (base, shapes) = (
-        count(compiled.base.kept.len()),
-        count(compiled.free_shapes().len()),
-    );
+    let arguments = Sizes::of(compiled).arguments();
     let values = values(compiled, functions);
     let regressors = regressors(compiled, functions);
     let place = place(compiled, functions, name);
     quote! {
         __blank!();
-        impl ::robot_model::Mechanics<#dof, #standard, #base, #shapes> for #name {
+        impl ::robot_model::Mechanics #arguments for #name {
             #values
             #(__blank!(); #regressors)*
         }
@@ -30,7 +26,8 @@ pub fn implementations(compiled: &Compiled, functions: &[Function], name: &Ident
 
 /// Equations that need values for the parameters.
 fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
-    let dof = Literal::usize_unsuffixed(compiled.dof());
+    let sizes = Sizes::of(compiled);
+    let (dof, state) = (&sizes.dof, sizes.state());
     let plain = |wanted| call(functions, wanted, &Reads::value(quote!()));
     let at = |wanted| call(functions, wanted, &Reads::value(quote!(state.)));
     let (kinetic, potential) = (plain("kinetic_energy"), plain("potential_energy"));
@@ -46,15 +43,15 @@ fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
             #potential
         }
         __blank!();
-        fn forward_dynamics_at(&self, state: &model::State<#dof>, tau: &model::Vector<#dof>) -> Option<model::Vector<#dof>> {
+        fn forward_dynamics_at(&self, state: &#state, tau: &model::Vector<#dof>) -> Option<model::Vector<#dof>> {
             #forward.map(Into::into)
         }
         __blank!();
-        fn inverse_dynamics_by_position_at(&self, state: &model::State<#dof>) -> model::Matrix<#dof, #dof> {
+        fn inverse_dynamics_by_position_at(&self, state: &#state) -> model::Matrix<#dof, #dof> {
             from_rows(&#by_position)
         }
         __blank!();
-        fn inverse_dynamics_by_velocity_at(&self, state: &model::State<#dof>) -> model::Matrix<#dof, #dof> {
+        fn inverse_dynamics_by_velocity_at(&self, state: &#state) -> model::Matrix<#dof, #dof> {
             from_rows(&#by_velocity)
         }
     }
@@ -62,8 +59,8 @@ fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
 
 /// Equations that need none.
 fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
-    let dof = Literal::usize_unsuffixed(compiled.dof());
-    let shape_count = Literal::usize_unsuffixed(compiled.free_shapes().len());
+    let sizes = Sizes::of(compiled);
+    let (dof, state, shape_count) = (&sizes.dof, sizes.state(), &sizes.shapes);
     let (standard, base) = (compiled.standard.len(), compiled.base.kept.len());
     let wanted = [
         ("momentum_regressor", standard),
@@ -81,7 +78,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let shapes = if reads_shapes { "shapes" } else { "_shapes" };
             let shapes = Ident::new(shapes, Span::call_site());
             quote! {
-                fn #name(state: &model::State<#dof>, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
+                fn #name(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
                     from_rows(&#call)
                 }
             }

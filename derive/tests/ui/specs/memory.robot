@@ -1,6 +1,0 @@
-robot Arm {
-    gravity = [0, 0, -9.81];
-    convention = standard_dh;
-    joint pivot: revolute { a = 0.5; alpha = 0; d = 0; }
-    effects { dahl on pivot; viscous_friction on pivot; }
-}

@@ -1,0 +1,228 @@
+//! Internal states of effects: bristles that bend, hysteresis, anything that remembers how it came here.
+
+use nalgebra::allocator::Allocator;
+use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
+
+use crate::math;
+use crate::model::{RobotModel, Vector, from_rows};
+use crate::state::State;
+
+/// An arm whose effects have internal states `z` with `dz/dt = f(z, q, dq, ..)`; the compiler writes the implementations.
+///
+/// Nothing allocates, nothing panics: a control loop keeps a vector and renews it once a cycle.
+///
+/// # Examples
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// use robot_model::effects::LugrePresliding;
+/// use robot_model::{Link, Memory, RobotModel, State, Vector};
+///
+/// #[derive(RobotModel)]
+/// #[robot(convention = standard_dh, gravity = [0, 0, 0])]
+/// struct Table {
+///     #[joint(revolute, a = 0, alpha = 0, d = 0)]
+///     turn: Link<LugrePresliding>,
+/// }
+///
+/// // 2 N m of friction while sliding, 3 N m to break away; bristles slide when they are bent by 1 mrad.
+/// let friction = LugrePresliding { fc: 2.0, s1: 0.0, d: 1e-3, vs: 0.1, rise: 0.5 };
+/// let arm = Table { turn: Link::default().with(friction) };
+/// let mut state = State::new(Vector::from([0.0]), Vector::from([0.02]), Vector::zeros()).with_memory(Vector::zeros());
+/// let mut torque = Vector::zeros();
+/// for _cycle in 0..1000 {
+///     torque = arm.inverse_dynamics_at(&state);
+///     state.memory = arm.memory_after(&state, 1e-3);
+/// }
+/// // Stribeck's curve: fc (1 + rise exp(-(v / vs)^2))
+/// assert!((torque[0] - 2.0 * (1.0 + 0.5 * (-0.04_f64).exp())).abs() < 1e-6);
+/// ```
+pub trait Memory<
+    const DOF: usize,
+    const STANDARD: usize,
+    const BASE: usize,
+    const SHAPES: usize,
+    const STATES: usize,
+    const INPUTS: usize,
+>: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+{
+    /// Names of the internal states, in the order of [`State::memory`].
+    const STATES: [&'static str; STATES];
+
+    /// Rates `dz/dt` of the internal states; with states and shape parameters given, since they depend on no other
+    /// parameter. Load-dependent ones read `state.rigid_torque`.
+    fn state_rates_at(
+        state: &State<DOF, STATES, INPUTS>,
+        shapes: &Vector<SHAPES>,
+    ) -> Vector<STATES>;
+
+    /// Rates `dz/dt` of this arm's internal states, under its own load.
+    fn state_rates(&self, state: &State<DOF, STATES, INPUTS>) -> Vector<STATES> {
+        Self::state_rates_at(&self.loaded(state), &self.shapes())
+    }
+
+    /// Internal states `seconds` after `state`, if the rest of it stays as it is: one step of [`step`], stable however stiff
+    /// the states are. Of second order where `state` is the motion in the middle of the interval.
+    fn memory_after(&self, state: &State<DOF, STATES, INPUTS>, seconds: f64) -> Vector<STATES>;
+}
+
+/// Largest norm of a matrix whose series is summed directly; others are halved until they are as small.
+const SMALL: f64 = 0.5;
+
+/// Terms of the series: `0.5^14 / 15!` is below rounding.
+const TERMS: u32 = 14;
+
+/// One exponential step of a small system, `z + h phi(h J) f` with `phi(x) = (exp(x) - 1) / x`: `rate` is `f = dz/dt`,
+/// `jacobian` is `J = df/dz`, `h` is in s.
+///
+/// The step of Rosenbrock and Euler: exact where `f` is affine in `z`, stable however stiff, of second order else. Where a rate
+/// is no number the state stays; where only a derivative is none, such as that of `abs(z)^n` at 0, the step is one of Euler.
+///
+/// Source: Hochbruck & Ostermann 2010, Exponential integrators.
+///
+/// # Examples
+/// ```
+/// use nalgebra::{Matrix1, Vector1};
+/// use robot_model::memory::step;
+/// // dz/dt = 2 - 1000 z, over ten thousand time constants.
+/// let mut z = Vector1::new(0.0);
+/// step(&mut z, 10.0, &Vector1::new(2.0), &Matrix1::new(-1000.0));
+/// assert!((z[0] - 0.002).abs() < 1e-18);
+/// ```
+pub fn step<D: Dim>(
+    z: &mut OVector<f64, D>,
+    h: f64,
+    rate: &OVector<f64, D>,
+    jacobian: &OMatrix<f64, D, D>,
+) where
+    DefaultAllocator: Allocator<D> + Allocator<D, D>,
+{
+    if !rate.iter().all(|f| f.is_finite()) {
+        return;
+    }
+    let is_smooth = jacobian.iter().all(|j| j.is_finite());
+    if let ([z], [f], [j]) = (z.as_mut_slice(), rate.as_slice(), jacobian.as_slice()) {
+        let mean = if is_smooth { phi(h * j) } else { 1.0 };
+        add(z, h * mean * f);
+        return;
+    }
+    let increment = if is_smooth {
+        phi_of(jacobian * h) * rate * h
+    } else {
+        rate * h
+    };
+    for (z, increment) in z.iter_mut().zip(&increment) {
+        add(z, *increment);
+    }
+}
+
+/// [`step`] of arrays, for emitted code: the states `z` after `h` seconds; `jacobian` is `[row][column]`.
+///
+/// # Examples
+/// ```
+/// use robot_model::memory::after;
+/// // dz/dt = -z / 0.1 and dz/dt = 3
+/// let [decayed] = after(&[1.0], 0.1, &[-10.0], &[[-10.0]]);
+/// let [grown] = after(&[1.0], 0.1, &[3.0], &[[0.0]]);
+/// assert!((decayed - (-1.0_f64).exp()).abs() < 1e-15 && (grown - 1.3).abs() < 1e-15);
+/// ```
+#[must_use]
+pub fn after<const N: usize>(
+    z: &[f64; N],
+    h: f64,
+    rate: &[f64; N],
+    jacobian: &[[f64; N]; N],
+) -> [f64; N] {
+    let mut z = Vector::from(*z);
+    step(&mut z, h, &Vector::from(*rate), &from_rows(jacobian));
+    z.data.0[0]
+}
+
+fn add(z: &mut f64, increment: f64) {
+    let next = *z + increment;
+    if next.is_finite() {
+        *z = next;
+    }
+}
+
+/// `(exp(x) - 1) / x`
+fn phi(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { math::exp_m1(x) / x }
+}
+
+/// `phi` of a matrix: its series where the matrix is small, and `phi(2 A) = phi(A) + phi(A) A phi(A) / 2` from there.
+fn phi_of<D: Dim>(mut matrix: OMatrix<f64, D, D>) -> OMatrix<f64, D, D>
+where
+    DefaultAllocator: Allocator<D, D>,
+{
+    let rows = matrix
+        .row_iter()
+        .map(|row| row.iter().map(|x| x.abs()).sum());
+    let norm = rows.fold(0.0, f64::max);
+    // More halvings than a double has binary digits say nothing.
+    let (mut halvings, mut scale) = (0, 1.0);
+    while norm * scale > SMALL && halvings < 60 {
+        scale *= 0.5;
+        halvings += 1;
+    }
+    matrix *= scale;
+    // Horner: 1 + A/2 (1 + A/3 (1 + ..))
+    let (rows, columns) = matrix.shape_generic();
+    let one = OMatrix::<f64, D, D>::identity_generic(rows, columns);
+    let mut phi = one.clone();
+    for k in (2..=TERMS + 1).rev() {
+        phi = &one + &matrix * phi / f64::from(k);
+    }
+    for _ in 0..halvings {
+        phi = &phi + &phi * &matrix * &phi * 0.5;
+        matrix *= 2.0;
+    }
+    phi
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Matrix1, Matrix2, Vector1, Vector2};
+
+    use super::step;
+
+    #[test]
+    fn a_pair_that_does_not_couple_is_two_single_states() {
+        let mut both = Vector2::new(0.3, -0.2);
+        let (mut first, mut second) = (Vector1::new(0.3), Vector1::new(-0.2));
+        let slopes = Matrix2::new(-30.0, 0.0, 0.0, 0.5);
+        step(&mut both, 0.1, &Vector2::new(2.0, -1.0), &slopes);
+        step(&mut first, 0.1, &Vector1::new(2.0), &Matrix1::new(-30.0));
+        step(&mut second, 0.1, &Vector1::new(-1.0), &Matrix1::new(0.5));
+        // A few roundings of numbers near one.
+        assert!((both[0] - first[0]).abs() < 1e-14 && (both[1] - second[0]).abs() < 1e-14);
+    }
+
+    #[test]
+    fn an_oscillator_turns_by_its_angle() {
+        // x'' = -w^2 x from x = 1.
+        let (w, h) = (40.0_f64, 0.07);
+        let mut z = Vector2::new(1.0, 0.0);
+        let slopes = Matrix2::new(0.0, 1.0, -w * w, 0.0);
+        step(&mut z, h, &(slopes * z), &slopes);
+        assert!((z[0] - (w * h).cos()).abs() < 1e-12, "{z}");
+        assert!((z[1] + w * (w * h).sin()).abs() < 1e-11, "{z}");
+    }
+
+    #[test]
+    fn a_stiff_pair_comes_to_rest() {
+        // Time constants of 1 us and 1 s, coupled, over 1000 s.
+        let slopes = Matrix2::new(-1e6, 1e6, 0.0, -1.0);
+        let mut z = Vector2::new(5.0, 2.0);
+        step(&mut z, 1e3, &(slopes * z), &slopes);
+        assert!(z.amax() < 1e-9, "{z}");
+    }
+
+    #[test]
+    fn what_is_no_number_changes_nothing() {
+        let mut z = Vector1::new(0.3);
+        step(&mut z, 0.1, &Vector1::new(f64::NAN), &Matrix1::new(1.0));
+        assert_eq!(z[0].to_bits(), 0.3_f64.to_bits());
+        step(&mut z, 0.1, &Vector1::new(2.0), &Matrix1::new(f64::NAN));
+        assert!((z[0] - 0.5).abs() < 1e-15);
+    }
+}
