@@ -135,11 +135,16 @@ impl Context<'_> {
             }
             _ => (quote!(#statements), result),
         };
+        // Clippy counts to seven; what a torque depends on is not fewer things for that.
+        let many = (arguments.len() > 7).then(
+            || quote!(#[allow(clippy::too_many_arguments, reason = "all that the equations read")]),
+        );
         let item = quote! {
             #[doc = #doc]
             #[doc = ""]
             #note
             #[doc = #cost]
+            #many
             #[must_use]
             pub fn #name(#(#parameters),*) -> #kind {
                 #statements
