@@ -29,7 +29,7 @@ use crate::state::State;
 /// let arm = Table { turn: Link::default().with(friction) };
 /// let mut state = State::new(Vector::from([0.0]), Vector::from([0.02]), Vector::zeros()).with_memory(Vector::zeros());
 /// let mut torque = Vector::zeros();
-/// for _cycle in 0..1000 {
+/// for _cycle in 0..2000 {
 ///     torque = arm.inverse_dynamics_at(&state);
 ///     state.memory = arm.memory_after(&state, 1e-3);
 /// }
@@ -203,7 +203,8 @@ mod tests {
         let (w, h) = (40.0_f64, 0.07);
         let mut z = Vector2::new(1.0, 0.0);
         let slopes = Matrix2::new(0.0, 1.0, -w * w, 0.0);
-        step(&mut z, h, &(slopes * z), &slopes);
+        let rate = slopes * z;
+        step(&mut z, h, &rate, &slopes);
         assert!((z[0] - (w * h).cos()).abs() < 1e-12, "{z}");
         assert!((z[1] + w * (w * h).sin()).abs() < 1e-11, "{z}");
     }
@@ -213,7 +214,8 @@ mod tests {
         // Time constants of 1 us and 1 s, coupled, over 1000 s.
         let slopes = Matrix2::new(-1e6, 1e6, 0.0, -1.0);
         let mut z = Vector2::new(5.0, 2.0);
-        step(&mut z, 1e3, &(slopes * z), &slopes);
+        let rate = slopes * z;
+        step(&mut z, 1e3, &rate, &slopes);
         assert!(z.amax() < 1e-9, "{z}");
     }
 
