@@ -99,7 +99,8 @@ impl std::fmt::Display for RankStatus {
                     write!(f, " `{}` has {:.1e} left", column.name, column.residual)?;
                 }
                 f.write_str(
-                    "; write exact values where lengths or angles are nearly equal or nearly zero",
+                    "; write exact values where lengths or angles are nearly equal or nearly zero, and one effect where two are nearly \
+                     alike",
                 )
             }
             Self::NoNumber(no_number) => write!(f, "{no_number}"),

@@ -4,7 +4,7 @@
 //! the text and byte ranges: it renders the way rustc does and may cross threads.
 
 #[cfg(test)]
-pub(crate) mod goldens;
+mod goldens;
 
 use std::fmt;
 use std::ops::Range;
@@ -82,7 +82,7 @@ impl Diagnostic {
     #[track_caller]
     fn at(place: Place, message: String, label: String) -> Self {
         #[cfg(test)]
-        goldens::note(&message);
+        robot_model_goldens::note(&message);
         Self {
             message,
             labels: vec![Label { place, text: label }],
@@ -171,7 +171,7 @@ fn remedy(message: &str) -> String {
 #[track_caller]
 pub(crate) fn syn_error(span: Span, message: &str, help: Option<&str>) -> syn::Error {
     #[cfg(test)]
-    goldens::note(message);
+    robot_model_goldens::note(message);
     match help {
         Some(help) => syn::Error::new(span, format!("{message}{HELP_MARK}{help}")),
         None => syn::Error::new(span, message),

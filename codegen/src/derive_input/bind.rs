@@ -5,7 +5,8 @@ use robot_model_spec::model::{Chain, Inertial};
 use syn::Ident;
 use syn::ext::IdentExt as _;
 
-use super::fields::{Effects, Errors, Holds, Robot, RobotField, type_name};
+use super::fields::{Effects, Holds, Robot, RobotField, type_name};
+use super::mistake::{Errors, mistake};
 
 /// What a field holds.
 #[derive(Default)]
@@ -33,7 +34,7 @@ pub fn bind(robot: &Robot, model: &Model) -> syn::Result<Vec<Held>> {
                 own.link = errors.keep(link(field, model, chain, effects));
             }
             (Holds::Link(effects), None) => {
-                errors.push(field.span, no_link(field, model, effects));
+                errors.mistake(field.span, no_link(field, model, effects));
             }
             (Holds::Effects(_), _) => {}
         }
@@ -58,10 +59,10 @@ fn joint_of(field: &RobotField, model: &Model) -> Option<usize> {
 
 fn link(field: &RobotField, model: &Model, chain: &Chain, effects: &Effects) -> syn::Result<usize> {
     let Some(joint) = joint_of(field, model) else {
-        return Err(syn::Error::new(field.name.span(), no_joint(field, model)));
+        return Err(mistake(field.name.span(), no_joint(field, model)));
     };
     if matches!(chain.links[joint].inertial, Inertial::Fixed(_)) {
-        return Err(syn::Error::new(
+        return Err(mistake(
             field.span,
             format!(
                 "the inertial of link `{}` is fixed, so there is nothing to hold but effects: write `{}: {}`",
@@ -114,11 +115,26 @@ fn parameter(field: &RobotField, model: &Model) -> syn::Result<usize> {
                 .position(|parameter| is(field.name, &parameter.name.to_ascii_lowercase()))
         });
     found.ok_or_else(|| {
-        syn::Error::new(
+        mistake(
             field.name.span(),
-            format!("the robot has no unknown constant `{}`", field.name),
+            format!(
+                "the robot has no unknown constant `{}`: {}",
+                field.name,
+                constants(model)
+            ),
         )
     })
+}
+
+/// What there is instead of a constant that is not there.
+fn constants(model: &Model) -> String {
+    let parameters = model.energies().map(|energies| &energies.parameters);
+    let names = parameters.into_iter().flatten();
+    let names: Vec<String> = names.map(|one| format!("`{}`", one.name)).collect();
+    match names.as_slice() {
+        [] => "it has none, only links and effects".to_owned(),
+        names => format!("it has {}", names.join(", ")),
+    }
 }
 
 /// Joints that the effects of a field act on.
@@ -149,16 +165,16 @@ fn bind_effects(robot: &Robot, model: &Model, held: &mut [Held], errors: &mut Er
         });
         match free {
             Some((k, slot)) => held[k].effects[slot] = Some(index),
-            None => errors.push(robot.name.span(), not_held(model, index)),
+            None => errors.mistake(robot.name.span(), not_held(model, index)),
         }
     }
     for (field, held) in robot.fields.iter().zip(held) {
         for (one, effect) in field.holds.effects().iter().zip(&held.effects) {
             if effect.is_none() {
-                errors.push(
+                errors.mistake(
                     one.effect.span(),
                     format!(
-                        "`{}` declares no `{}` on {}",
+                        "`{}` declares no `{}` on {}: declare it there, or take the type away",
                         model.source,
                         one.effect,
                         on_text(field)
@@ -234,7 +250,7 @@ fn check_links(robot: &Robot, model: &Model, held: &[Held], errors: &mut Errors)
                     [] => "Link".to_owned(),
                     _ => format!("Link<{}>", effect_types(effects)),
                 };
-                errors.push(
+                errors.mistake(
                     *span,
                     format!(
                         "the inertial of link `{}` is unknown: write `{name}: {ty}`",
@@ -242,7 +258,7 @@ fn check_links(robot: &Robot, model: &Model, held: &[Held], errors: &mut Errors)
                     ),
                 );
             }
-            None => errors.push(
+            None => errors.mistake(
                 robot.name.span(),
                 format!(
                     "no field holds the inertial of link `{}`: write `{}: Link`",
@@ -266,7 +282,7 @@ fn check_parameters(robot: &Robot, model: &Model, held: &[Held], errors: &mut Er
             continue;
         }
         if !held.iter().any(|held| held.parameter == Some(k)) {
-            errors.push(
+            errors.mistake(
                 robot.name.span(),
                 format!(
                     "no field holds `{}`: write `{}: f64`",

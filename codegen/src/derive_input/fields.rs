@@ -7,6 +7,8 @@ use syn::{
     Attribute, Data, DeriveInput, Field, Fields, GenericArgument, Meta, Path, PathArguments,
 };
 
+use super::mistake::{Errors, mistake};
+
 /// The struct.
 pub struct Robot<'a> {
     /// Its name.
@@ -87,28 +89,27 @@ pub struct EffectType {
 impl<'a> Robot<'a> {
     /// Reads the struct; all of its mistakes at once.
     pub fn new(input: &'a DeriveInput) -> syn::Result<Self> {
-        let refuse = |span, message| Err(syn::Error::new(span, message));
         let name = &input.ident;
         let Data::Struct(data) = &input.data else {
-            return refuse(
+            return Err(mistake(
                 name.span(),
                 "a robot is a struct: its fields hold its unknowns",
-            );
+            ));
         };
         if !input.generics.params.is_empty() {
-            return refuse(
+            return Err(mistake(
                 input.generics.span(),
-                "a robot's struct has no generic parameters",
-            );
+                "a robot's struct has no generic parameters: write the types themselves",
+            ));
         }
         let fields: Vec<&Field> = match &data.fields {
             Fields::Named(fields) => fields.named.iter().collect(),
             Fields::Unit => Vec::new(),
             Fields::Unnamed(_) => {
-                return refuse(
+                return Err(mistake(
                     name.span(),
                     "what a robot holds has names: write a struct with named fields",
-                );
+                ));
             }
         };
         let mut errors = Errors::default();
@@ -123,9 +124,11 @@ impl<'a> Robot<'a> {
         }
         for name in ["joint", "inertial", "effects", "on"] {
             for attribute in named(&input.attrs, name) {
-                errors.push(
-                    attribute.span(),
-                    format!("`#[{name}(..)]` stands at a field"),
+                errors.mistake(
+                    attribute.path().span(),
+                    format!(
+                        "`#[{name}(..)]` stands at a field: move it to the one that it is about"
+                    ),
                 );
             }
         }
@@ -159,21 +162,21 @@ impl<'a> RobotField<'a> {
                 .collect()
         });
         if let (None, Some(attribute)) = (&joint, named(&field.attrs, "inertial").next()) {
-            errors.push(
-                attribute.span(),
-                format!("`{name}` has an inertial but no `#[joint(..)]` that moves it"),
+            errors.mistake(
+                attribute.path().span(),
+                format!("`{name}` has an inertial but no joint that moves it: write `#[joint(..)]`, or take `#[inertial(..)]` away"),
             );
         }
         if let (Some(_), Some(attribute)) = (&joint, named(&field.attrs, "on").next()) {
-            errors.push(
-                attribute.span(),
+            errors.mistake(
+                attribute.path().span(),
                 format!("the effects of joint `{name}` act on `{name}`: give `#[on(..)]` a field of its own"),
             );
         }
         for attribute in named(&field.attrs, "robot") {
-            errors.push(
-                attribute.span(),
-                "`#[robot(..)]` stands at the struct".to_owned(),
+            errors.mistake(
+                attribute.path().span(),
+                "`#[robot(..)]` stands at the struct: move it there",
             );
         }
         let effects = match &mut holds {
@@ -200,7 +203,7 @@ fn give_shapes(effects: &mut [EffectType], entry: &TokenStream) -> syn::Result<(
     let (Some(TokenTree::Ident(name)), Some(TokenTree::Group(given)), None) =
         (tokens.next(), tokens.next(), tokens.next())
     else {
-        return Err(syn::Error::new(
+        return Err(mistake(
             entry.span(),
             "effects are declared by the field's type; here stand values of their shape parameters: write \
              `#[effects(stribeck(vs = 0.1))]`",
@@ -214,7 +217,7 @@ fn give_shapes(effects: &mut [EffectType], entry: &TokenStream) -> syn::Result<(
             effect.shapes = Some(given.stream());
             Ok(())
         }
-        None => Err(syn::Error::new(
+        None => Err(mistake(
             name.span(),
             format!(
                 "the field's type declares no effect `{name}`: write `{}` in it",
@@ -266,7 +269,7 @@ fn holds(ty: &Type) -> syn::Result<Holds> {
         return Ok(Holds::Number);
     }
     if PRIMITIVE.iter().any(|number| last.ident == number) {
-        return Err(syn::Error::new(
+        return Err(mistake(
             ty.span(),
             format!("an unknown constant is an `f64`, not `{}`", last.ident),
         ));
@@ -281,7 +284,7 @@ fn holds(ty: &Type) -> syn::Result<Holds> {
         Some(GenericArgument::Type(ty)) if arguments.args.len() == 1 => {
             Ok(Holds::Link(effects(ty)?))
         }
-        _ => Err(syn::Error::new(
+        _ => Err(mistake(
             arguments.span(),
             "a link holds effects: write `Link`, `Link<ViscousFriction>` or `Link<(ViscousFriction, CoulombFriction)>`",
         )),
@@ -319,7 +322,7 @@ fn effect_type(ty: &Type) -> syn::Result<EffectType> {
             shapes: None,
         });
     }
-    Err(syn::Error::new(
+    Err(mistake(
         ty.span(),
         "a field holds `Link<..>`, effects such as `ViscousFriction` or `(ViscousFriction, Stribeck)`, or `f64`",
     ))
@@ -368,15 +371,15 @@ fn entries(attributes: &[Attribute], name: &str) -> syn::Result<Option<Vec<Token
         return Ok(None);
     };
     if let Some(second) = found.next() {
-        return Err(syn::Error::new(
-            second.span(),
+        return Err(mistake(
+            second.path().span(),
             format!("`#[{name}(..)]` is there twice: write its entries into the first"),
         ));
     }
     let Meta::List(list) = &attribute.meta else {
-        return Err(syn::Error::new(
-            attribute.span(),
-            format!("write `#[{name}(..)]`"),
+        return Err(mistake(
+            attribute.path().span(),
+            format!("the entries of `{name}` stand in parentheses: write `#[{name}(..)]`"),
         ));
     };
     let (mut entries, mut entry) = (Vec::new(), TokenStream::new());
@@ -391,34 +394,4 @@ fn entries(attributes: &[Attribute], name: &str) -> syn::Result<Option<Vec<Token
         entries.push(entry);
     }
     Ok(Some(entries))
-}
-
-/// Mistakes, collected.
-#[derive(Default)]
-pub struct Errors(Option<syn::Error>);
-
-impl Errors {
-    /// One more.
-    pub fn push(&mut self, span: Span, message: String) {
-        self.keep::<()>(Err(syn::Error::new(span, message)));
-    }
-
-    /// The value, or the mistake kept.
-    pub fn keep<T>(&mut self, result: syn::Result<T>) -> Option<T> {
-        match result {
-            Ok(value) => Some(value),
-            Err(error) => {
-                match &mut self.0 {
-                    Some(all) => all.combine(error),
-                    None => self.0 = Some(error),
-                }
-                None
-            }
-        }
-    }
-
-    /// All of them, if there are any.
-    pub fn finish<T>(self, value: T) -> syn::Result<T> {
-        self.0.map_or(Ok(value), Err)
-    }
 }

@@ -29,6 +29,9 @@
 
 mod bind;
 mod fields;
+#[cfg(test)]
+mod goldens;
+mod mistake;
 mod source;
 mod stub;
 #[cfg(test)]
@@ -48,6 +51,7 @@ use crate::compiled::compile_model;
 use crate::emit;
 use crate::measured::NotInstantaneous;
 use fields::Robot;
+use mistake::mistake;
 
 /// Reads a file that an attribute names, relative to the crate's folder.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<String>;
@@ -85,10 +89,7 @@ fn implementation(input: &DeriveInput, read: ReadFile<'_>) -> syn::Result<TokenS
     let places = bind::bind(&robot, &model)?;
     let compiled = compile_model(&model);
     if !compiled.base.rank.is_clear() {
-        return Err(syn::Error::new(
-            robot.name.span(),
-            compiled.base.rank.to_string(),
-        ));
+        return Err(mistake(robot.name.span(), &compiled.base.rank));
     }
     let parameters = value::parameters(&robot, &compiled, &places);
     let implementation =
@@ -103,7 +104,7 @@ fn check_reach(robot: &Robot, model: &Model) -> syn::Result<()> {
     match effects.position(|effect| effect.definition.moves_links()) {
         Some(index) => {
             let reason = NotInstantaneous::new(model, index);
-            Err(syn::Error::new(robot.name.span(), reason.to_string()))
+            Err(mistake(robot.name.span(), reason))
         }
         None => Ok(()),
     }

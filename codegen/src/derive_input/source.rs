@@ -8,7 +8,8 @@ use syn::Ident;
 use syn::spanned::Spanned;
 
 use super::ReadFile;
-use super::fields::{Errors, FileName, Holds, Robot, RobotField, type_name};
+use super::fields::{FileName, Holds, Robot, RobotField, type_name};
+use super::mistake::{Errors, mistake};
 
 /// The checked model.
 pub fn model(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
@@ -20,25 +21,31 @@ pub fn model(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
 
 fn in_file(robot: &Robot, file: &FileName, read: ReadFile<'_>) -> syn::Result<Model> {
     let mut errors = Errors::default();
-    let elsewhere = |what: &str| format!("{what} stands in `{}`", file.name);
+    let elsewhere = |what: &str, here: &str| {
+        let file = &file.name;
+        format!("{what} stands in `{file}`: take {here} away")
+    };
     for entry in &robot.settings {
-        errors.push(entry.span(), elsewhere("the robot's description"));
+        let what = elsewhere("the robot's description", "this entry");
+        errors.mistake(entry.span(), what);
     }
     if let Some(effects) = &robot.effects {
-        errors.push(effects.span, elsewhere("the definition of effects"));
+        let what = elsewhere("the definition of effects", "`effects = ..`");
+        errors.mistake(effects.span, what);
     }
     for field in &robot.fields {
-        for (attribute, what) in [
-            (&field.joint, "the description of joints"),
-            (&field.inertial, "what is known of links"),
-        ] {
-            if attribute.is_some() {
-                errors.push(field.name.span(), elsewhere(what));
-            }
+        if field.joint.is_some() {
+            let what = elsewhere("the description of joints", "`#[joint(..)]`");
+            errors.mistake(field.name.span(), what);
+        }
+        if field.inertial.is_some() {
+            let what = elsewhere("what is known of links", "`#[inertial(..)]`");
+            errors.mistake(field.name.span(), what);
         }
         for effect in field.holds.effects() {
             if let Some(shapes) = &effect.shapes {
-                errors.push(shapes.span(), elsewhere("a value of a shape parameter"));
+                let what = elsewhere("a value of a shape parameter", "`#[effects(..)]`");
+                errors.mistake(shapes.span(), what);
             }
         }
     }
@@ -55,10 +62,10 @@ fn in_attributes(robot: &Robot, read: ReadFile<'_>) -> syn::Result<Model> {
     }
     robot_model_spec::check(&ast, &robot.name.to_string()).map_err(|mistakes| {
         let mut errors = Errors::default();
-        for mistake in &mistakes {
-            errors.keep::<()>(Err(in_rust(mistake)));
+        for one in &mistakes {
+            errors.keep::<()>(Err(in_rust(one)));
         }
-        let nothing = || syn::Error::new(robot.name.span(), "the spec has mistakes");
+        let nothing = || mistake(robot.name.span(), "the spec has mistakes");
         errors.finish(()).err().unwrap_or_else(nothing)
     })
 }
@@ -86,9 +93,9 @@ const IN_RUST: [(&str, &str); 5] = [
 ];
 
 /// A mistake in the words of attributes.
-fn in_rust(mistake: &Diagnostic) -> syn::Error {
-    let mut message = mistake.message().to_owned();
-    let mut help = mistake.help_text().unwrap_or_default().to_owned();
+fn in_rust(said: &Diagnostic) -> syn::Error {
+    let mut message = said.message().to_owned();
+    let mut help = said.help_text().unwrap_or_default().to_owned();
     for (language, rust) in IN_RUST {
         help = help.replace(language, rust);
     }
@@ -100,7 +107,7 @@ fn in_rust(mistake: &Diagnostic) -> syn::Error {
     } else {
         format!("{message}\nhelp: {help}")
     };
-    syn::Error::new(mistake.span(), text)
+    mistake(said.span(), text)
 }
 
 /// Names of effects in backticks as their types.
@@ -123,16 +130,15 @@ fn own_effects(file: &FileName, read: ReadFile<'_>) -> syn::Result<Ast> {
     // First with places in the file, then as tokens of this compilation.
     with_places(|| effect_definitions(&file.name, &text))
         .map_err(|mistakes| mistaken(file, &mistakes))?;
-    let unreadable = |error: &dyn std::fmt::Display| {
-        syn::Error::new(file.span, format!("`{}`: {error}", file.name))
-    };
+    let unreadable =
+        |error: &dyn std::fmt::Display| mistake(file.span, format!("`{}`: {error}", file.name));
     let tokens: TokenStream = text.parse().map_err(|error| unreadable(&error))?;
     robot_model_spec::parse_tokens(tokens).map_err(|error| unreadable(&error))
 }
 
 pub(super) fn read_file(file: &FileName, read: ReadFile<'_>) -> syn::Result<String> {
     read(&file.name).map_err(|error| {
-        syn::Error::new(
+        mistake(
             file.span,
             format!(
                 "cannot read `{}`: {error}; the path is relative to the folder of Cargo.toml",
@@ -156,7 +162,7 @@ pub(super) fn mistaken(file: &FileName, mistakes: &Diagnostics) -> syn::Error {
         1 => "a mistake".to_owned(),
         n => format!("{n} mistakes"),
     };
-    syn::Error::new(
+    mistake(
         file.span,
         format!("`{}` has {count}\n\n{mistakes}\n", file.name),
     )
@@ -197,35 +203,44 @@ fn spec(robot: &Robot) -> syn::Result<TokenStream> {
 /// `joint name: kind { .. }` and its link; nothing for a field of effects.
 fn joint(field: &RobotField) -> syn::Result<TokenStream> {
     let name = field.name;
-    let wrong = |message: String| Err(syn::Error::new(field.span, message));
     match (&field.joint, &field.holds, &field.on) {
         (None, Holds::Effects(_), Some(_)) => return Ok(TokenStream::new()),
         (_, Holds::Number, _) => {
-            return wrong(format!(
-                "`{name}` is an unknown constant, and a chain has none beside its links: describe the robot by its \
+            return Err(mistake(
+                field.span,
+                format!(
+                    "`{name}` is an unknown constant, and a chain has none beside its links: describe the robot by its \
                  energies with `#[robot(file = \"..\")]`, or hold `Link<..>` or effects"
+                ),
             ));
         }
         (None, Holds::Link(_), Some(_)) => {
-            return wrong(format!(
-                "`{name}` has `#[on(..)]` and a link: write the type of the effect alone"
+            return Err(mistake(
+                field.span,
+                format!("`{name}` has `#[on(..)]` and a link: write the type of the effect alone"),
             ));
         }
         (None, Holds::Link(_), None) => {
-            return wrong(format!(
-                "joint `{name}` has no frame: write `#[joint(revolute, a = .., alpha = .., d = ..)]`"
+            return Err(mistake(
+                field.span,
+                format!(
+                    "joint `{name}` has no frame: write `#[joint(revolute, a = .., alpha = .., d = ..)]`"
+                ),
             ));
         }
         (None, Holds::Effects(_), None) => {
-            return wrong(format!(
-                "`{name}` acts on no joint: write `#[joint(..)]` where it is one, `#[on(joint, joint)]`, or `#[on()]` for the arm as a whole"
+            return Err(mistake(
+                field.span,
+                format!(
+                    "`{name}` acts on no joint: write `#[joint(..)]` where it is one, `#[on(joint, joint)]`, or `#[on()]` for the arm as a whole"
+                ),
             ));
         }
         (Some(_), _, _) => {}
     }
     let mut settings = field.joint.iter().flatten();
     let Some(kind) = settings.next() else {
-        return Err(syn::Error::new(
+        return Err(mistake(
             name.span(),
             format!(
                 "joint `{name}` does not say what it is: write `#[joint(revolute, ..)]` or `#[joint(prismatic, ..)]`"

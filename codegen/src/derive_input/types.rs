@@ -27,7 +27,7 @@ pub fn of_file(input: TokenStream, read: ReadFile<'_>) -> TokenStream {
     tokens_of_file(input, read).unwrap_or_else(|error| error.to_compile_error())
 }
 
-fn tokens_of_file(input: TokenStream, read: ReadFile<'_>) -> syn::Result<TokenStream> {
+pub(super) fn tokens_of_file(input: TokenStream, read: ReadFile<'_>) -> syn::Result<TokenStream> {
     let name: syn::LitStr = syn::parse2(input)?;
     let file = FileName {
         name: name.value(),

@@ -44,7 +44,7 @@ impl Fault {
     ) -> Box<Self> {
         let message = message.into();
         #[cfg(test)]
-        crate::diagnostic::goldens::note(&message);
+        robot_model_goldens::note(&message);
         Box::new(Self {
             statement,
             path,

@@ -1,0 +1,15 @@
+use robot_model::effects::GearCoupling;
+use robot_model::{Link, RobotModel};
+
+#[derive(RobotModel)]
+#[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+struct Arm {
+    #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+    pivot: Link,
+    #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+    tip: Link,
+    #[on(pivot, tip)]
+    coupling: Link<GearCoupling>,
+}
+
+fn main() {}
