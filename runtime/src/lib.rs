@@ -14,6 +14,7 @@ pub mod memory;
 pub mod model;
 #[cfg(feature = "std")]
 pub mod motion;
+pub mod scalar;
 #[cfg(feature = "std")]
 pub mod signal;
 pub mod solve;
@@ -25,6 +26,7 @@ pub use link::{Inertial, Link};
 pub use mechanics::{Kinematics, Mechanics, Points};
 pub use memory::Memory;
 pub use model::{FromParameters, Matrix, RobotModel, Vector};
+pub use scalar::Scalar;
 pub use state::State;
 
 #[cfg(feature = "derive")]

@@ -1,0 +1,196 @@
+//! Numbers that emitted code computes with: `f64`, `f32`, lanes of several states at once, dual numbers.
+//!
+//! Emitted functions are generic over [`Scalar`]: `inverse_dynamics(&q, &dq, &ddq, &beta)` is whatever its arguments are. Nothing
+//! allocates, nothing panics.
+
+mod dual;
+mod float;
+mod lanes;
+mod sin_cos;
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use num_traits::{One, Zero};
+
+pub use dual::Dual;
+pub use lanes::{Lanes4, Lanes8};
+
+/// A real number, or several side by side.
+///
+/// What emitted code needs and no more; the constants of an arm come in by [`Self::of`]. nalgebra's vectors and matrices take
+/// every such number.
+///
+/// # Examples
+/// ```
+/// use robot_model::scalar::{Dual, Lanes4, Scalar};
+/// /// Height of a pendulum's tip, m.
+/// fn height<S: Scalar>(angle: S) -> S {
+///     let [[sin], [_]] = S::sin_cos([angle]);
+///     S::of(0.5) * sin
+/// }
+/// assert!((height(0.3_f64) - 0.5 * 0.3_f64.sin()).abs() < 1e-15);
+/// // Four pendulums at once.
+/// let heights = height(Lanes4::from([0.0, 0.1, 0.2, 0.3])).to_array();
+/// assert_eq!(heights, [0.0, 0.1, 0.2, 0.3].map(height::<f64>));
+/// // The height and its slope by the angle.
+/// let at = height(Dual { value: 0.3, slope: 1.0 });
+/// assert!((at.slope - 0.5 * 0.3_f64.cos()).abs() < 1e-15);
+/// ```
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// This number, in every lane; rounded to the scalar's precision.
+    fn of(value: f64) -> Self;
+
+    /// Sines and cosines of angles in rad, all at once: `let [[sin_a, sin_b], [cos_a, cos_b]] = S::sin_cos([a, b])`.
+    ///
+    /// Within 2 units in the last place.
+    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2];
+
+    /// Sine of an angle in rad.
+    #[must_use]
+    fn sin(self) -> Self {
+        let [[sin], _] = Self::sin_cos([self]);
+        sin
+    }
+
+    /// Cosine of an angle in rad.
+    #[must_use]
+    fn cos(self) -> Self {
+        let [_, [cos]] = Self::sin_cos([self]);
+        cos
+    }
+
+    /// `e^x`
+    #[must_use]
+    fn exp(self) -> Self;
+
+    /// `e^x - 1`, exact near 0.
+    #[must_use]
+    fn exp_m1(self) -> Self;
+
+    /// Natural logarithm.
+    #[must_use]
+    fn ln(self) -> Self;
+
+    /// Square root.
+    #[must_use]
+    fn sqrt(self) -> Self;
+
+    /// Hyperbolic tangent.
+    #[must_use]
+    fn tanh(self) -> Self;
+
+    /// `x^exponent`
+    #[must_use]
+    fn pow(self, exponent: Self) -> Self;
+
+    /// Absolute value.
+    #[must_use]
+    fn abs(self) -> Self;
+
+    /// -1, 0 or 1; 0 at 0.
+    #[must_use]
+    fn sign(self) -> Self;
+
+    /// `positive` where the condition is greater than 0, `otherwise` elsewhere.
+    #[must_use]
+    fn choose(condition: Self, positive: Self, otherwise: Self) -> Self;
+
+    /// The smallest value over the lanes; of a dual number that of its value. NaN where one is NaN.
+    #[must_use]
+    fn least(self) -> f64;
+
+    /// The largest value over the lanes; of a dual number that of its value. NaN where one is NaN.
+    #[must_use]
+    fn most(self) -> f64 {
+        -(-self).least()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every function once, where all of them have a value and a slope.
+    fn everything<S: Scalar>(x: S) -> S {
+        let [[sin, sin_twice], [cos, _]] = S::sin_cos([x, x + x]);
+        let mut sum = sin * cos + sin_twice / x;
+        sum += x.exp() - x.exp_m1();
+        sum -= x.ln() * x.sqrt();
+        sum *= x.tanh() + (-x).abs();
+        sum /= x.pow(S::of(1.5)) + S::of(2.0).pow(x);
+        sum + x.sin() * x.cos() + S::choose(x - S::of(1.0), x, -x) + (-x).sign()
+    }
+
+    const POINTS: [f64; 8] = [0.1, 0.4, 0.7, 0.95, 1.1, 1.7, 2.9, 7.3];
+
+    #[test]
+    fn lanes_are_numbers_side_by_side() {
+        let wanted = POINTS.map(|x| everything(x).to_bits());
+        let eight = everything(Lanes8::from(POINTS)).to_array();
+        let four = [[0, 1, 2, 3], [4, 5, 6, 7]]
+            .map(|part| everything(Lanes4::from(part.map(|k| POINTS[k]))).to_array());
+        assert_eq!(eight.map(f64::to_bits), wanted);
+        assert_eq!(four.concat().as_slice(), eight);
+    }
+
+    #[test]
+    fn single_precision_has_seven_digits() {
+        for x in POINTS {
+            let (found, wanted) = (
+                everything(f32::of(x)).least(),
+                everything(f32::of(x).least()),
+            );
+            assert!(
+                (found - wanted).abs() < 1e-5 * (1.0 + wanted.abs()),
+                "{x}: {found} {wanted}"
+            );
+        }
+    }
+
+    #[test]
+    fn slopes_are_those_of_differences() {
+        for x in POINTS {
+            let dual = everything(Dual {
+                value: x,
+                slope: 1.0,
+            });
+            let h = 1e-6;
+            let slope = (everything(x + h) - everything(x - h)) / (2.0 * h);
+            assert_eq!(dual.value.to_bits(), everything(x).to_bits());
+            // Of second order in `h`, and its rounding over `h`.
+            assert!(
+                (dual.slope - slope).abs() < 1e-8 * (1.0 + slope.abs()),
+                "{x}: {dual:?} {slope}"
+            );
+        }
+        let by_exponent = Dual::of(2.0).pow(Dual {
+            value: 3.0,
+            slope: 1.0,
+        });
+        assert!((by_exponent.slope - 8.0 * 2.0_f64.ln()).abs() < 1e-14);
+        assert_eq!(Dual::<f64>::of(-2.0).pow(Dual::of(2.0)), Dual::of(4.0));
+    }
+
+    #[test]
+    fn lanes_are_bounded_by_their_extremes() {
+        let lanes = Lanes4::from([3.0, -2.0, 5.0, 0.0]);
+        assert_eq!((lanes.least(), lanes.most()), (-2.0, 5.0));
+        let broken = Lanes4::from([3.0, f64::NAN, 5.0, 0.0]);
+        assert!(broken.least().is_nan() && broken.most().is_nan());
+        assert_eq!(lanes.sign().to_array(), [1.0, -1.0, 1.0, 0.0]);
+    }
+}

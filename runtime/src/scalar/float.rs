@@ -1,0 +1,135 @@
+//! `f64` and `f32`.
+
+use super::{Scalar, sin_cos};
+use crate::math;
+
+impl Scalar for f64 {
+    #[inline]
+    fn of(value: f64) -> Self {
+        value
+    }
+
+    #[inline]
+    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+        sin_cos::of(angles)
+    }
+
+    #[inline]
+    fn exp(self) -> Self {
+        math::exp(self)
+    }
+
+    #[inline]
+    fn exp_m1(self) -> Self {
+        math::exp_m1(self)
+    }
+
+    #[inline]
+    fn ln(self) -> Self {
+        math::ln(self)
+    }
+
+    #[inline]
+    fn sqrt(self) -> Self {
+        math::sqrt(self)
+    }
+
+    #[inline]
+    fn tanh(self) -> Self {
+        math::tanh(self)
+    }
+
+    #[inline]
+    fn pow(self, exponent: Self) -> Self {
+        math::pow(self, exponent)
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        math::abs(self)
+    }
+
+    #[inline]
+    fn sign(self) -> Self {
+        math::sign(self)
+    }
+
+    #[inline]
+    fn choose(condition: Self, positive: Self, otherwise: Self) -> Self {
+        if condition > 0.0 { positive } else { otherwise }
+    }
+
+    #[inline]
+    fn least(self) -> f64 {
+        self
+    }
+}
+
+macro_rules! functions_of_f32 {
+    ($($name:ident($($x:ident),*) = $std:path | $libm:path;)+) => {
+        $(
+            #[inline]
+            fn $name(self $(, $x: Self)*) -> Self {
+                #[cfg(feature = "std")]
+                return $std(self $(, $x)*);
+                #[cfg(not(feature = "std"))]
+                return $libm(self $(, $x)*);
+            }
+        )+
+    };
+}
+
+/// In its own precision throughout: for controllers without `f64` in hardware.
+impl Scalar for f32 {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "rounded to the precision that is wanted"
+    )]
+    #[inline]
+    fn of(value: f64) -> Self {
+        value as Self
+    }
+
+    #[inline]
+    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+        let mut out = [[0.0; N]; 2];
+        for (k, angle) in angles.into_iter().enumerate() {
+            #[cfg(feature = "std")]
+            let (sin, cos) = Self::sin_cos(angle);
+            #[cfg(not(feature = "std"))]
+            let (sin, cos) = libm::sincosf(angle);
+            (out[0][k], out[1][k]) = (sin, cos);
+        }
+        out
+    }
+
+    functions_of_f32! {
+        exp() = f32::exp | libm::expf;
+        exp_m1() = f32::exp_m1 | libm::expm1f;
+        ln() = f32::ln | libm::logf;
+        sqrt() = f32::sqrt | libm::sqrtf;
+        tanh() = f32::tanh | libm::tanhf;
+        pow(exponent) = f32::powf | libm::powf;
+    }
+
+    #[inline]
+    fn abs(self) -> Self {
+        Self::abs(self)
+    }
+
+    #[inline]
+    fn sign(self) -> Self {
+        // Exact in either precision.
+        Self::of(math::sign(f64::from(self)))
+    }
+
+    #[inline]
+    fn choose(condition: Self, positive: Self, otherwise: Self) -> Self {
+        if condition > 0.0 { positive } else { otherwise }
+    }
+
+    #[inline]
+    fn least(self) -> f64 {
+        f64::from(self)
+    }
+}

@@ -1,0 +1,179 @@
+//! Sine and cosine of several angles at once, without branches.
+//!
+//! `x = k pi/2 + r` by the three-part reduction of Cody and Waite, with the rounding of its second part carried along; sine and
+//! cosine of `r` by the polynomials of fdlibm (Sun Microsystems 1993), whose errors are below half a unit in the last place; the
+//! two lowest bits of `k` say which is which and their signs. Where an angle is beyond [`LIMIT`], or no number, all of them are
+//! computed by the general functions.
+
+use wide::{f64x4, f64x8, u64x4, u64x8};
+
+use crate::math;
+
+/// Up to here `k` has so few digits that its product with the first two parts of `pi/2` is exact, rad.
+const LIMIT: f64 = 1e6;
+
+/// `1.5 * 2^52`: a small number added to it is rounded to an integer, which stands in the lowest bits.
+const TO_INTEGER: f64 = 6_755_399_441_055_744.0;
+
+/// `pi/2` in parts of 33 bits, and the rest.
+const HALF_TURN: [f64; 3] = [
+    1.570_796_326_734_125_6,
+    6.077_100_506_303_966e-11,
+    2.022_266_248_795_950_6e-21,
+];
+
+/// `sin r = r + r^3 (S0 + S1 r^2 + ..)`, highest power first.
+const SIN: [f64; 6] = [
+    1.589_690_995_211_55e-10,
+    -2.505_076_025_340_686_3e-8,
+    2.755_731_370_707_006_8e-6,
+    -1.984_126_982_985_795e-4,
+    8.333_333_333_322_49e-3,
+    -1.666_666_666_666_663_2e-1,
+];
+
+/// `cos r = 1 - r^2/2 + r^4 (C0 + C1 r^2 + ..)`, highest power first.
+const COS: [f64; 6] = [
+    -1.135_964_755_778_819_5e-11,
+    2.087_572_321_298_175e-9,
+    -2.755_731_435_139_066_3e-7,
+    2.480_158_728_947_673e-5,
+    -1.388_888_888_887_411e-3,
+    4.166_666_666_666_66e-2,
+];
+
+macro_rules! kernel {
+    ($(#[$doc:meta])* $name:ident($floats:ident, $bits:ident)) => {
+        $(#[$doc])*
+        #[inline]
+        pub fn $name(x: $floats) -> [$floats; 2] {
+            let c = $floats::splat;
+            if !(x.abs().simd_le(c(LIMIT))).all() {
+                return [math::sin as fn(f64) -> f64, math::cos].map(|f| x.to_array().map(f).into());
+            }
+            let shifted = x * c(core::f64::consts::FRAC_2_PI) + c(TO_INTEGER);
+            let k = shifted - c(TO_INTEGER);
+            let bits: $bits = bytemuck::cast(shifted);
+
+            let t = x - k * c(HALF_TURN[0]);
+            let second = k * c(HALF_TURN[1]);
+            let u = t - second;
+            let lost = (t - u) - second;
+            let r = u - (k * c(HALF_TURN[2]) - lost);
+
+            let z = r * r;
+            let series = |terms: &[f64; 6]| {
+                let (first, rest) = (terms[0], &terms[1..]);
+                rest.iter().fold(c(first), |sum, &term| sum * z + c(term))
+            };
+            let sin = r + r * z * series(&SIN);
+            let half = z * c(0.5);
+            let one = c(1.0) - half;
+            let cos = one + (((c(1.0) - one) - half) + z * z * series(&COS));
+
+            // All bits where `k` is odd.
+            let odd: $floats = bytemuck::cast($bits::splat(0) - (bits & $bits::splat(1)));
+            let sign = |quadrants: $bits| -> $floats { bytemuck::cast((quadrants & $bits::splat(2)) << 62) };
+            [
+                odd.bitselect(cos, sin) ^ sign(bits),
+                odd.bitselect(sin, cos) ^ sign(bits + $bits::splat(1)),
+            ]
+        }
+    };
+}
+
+kernel! {
+    /// Sines, cosines.
+    of4(f64x4, u64x4)
+}
+kernel! {
+    /// Sines, cosines.
+    of8(f64x8, u64x8)
+}
+
+/// Sines and cosines of any number of angles.
+#[inline]
+pub fn of<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
+    let mut out = [[0.0; N]; 2];
+    let mut first = 0;
+    while first < N {
+        let count = (N - first).min(8);
+        if count > 4 {
+            let mut pack = [0.0; 8];
+            pack[..count].copy_from_slice(&angles[first..first + count]);
+            for (out, values) in out.iter_mut().zip(of8(pack.into())) {
+                out[first..first + count].copy_from_slice(&values.to_array()[..count]);
+            }
+        } else {
+            let mut pack = [0.0; 4];
+            pack[..count].copy_from_slice(&angles[first..first + count]);
+            for (out, values) in out.iter_mut().zip(of4(pack.into())) {
+                out[first..first + count].copy_from_slice(&values.to_array()[..count]);
+            }
+        }
+        first += count;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_chacha::ChaCha8Rng;
+
+    use super::of;
+
+    /// Difference in units in the last place of `wanted`.
+    fn ulps(found: f64, wanted: f64) -> f64 {
+        let size = wanted.abs();
+        let unit = f64::from_bits(size.to_bits() + 1) - size;
+        (found - wanted).abs() / unit
+    }
+
+    #[track_caller]
+    fn assert_close(angles: [f64; 7]) {
+        let [sines, cosines] = of(angles);
+        for ((angle, sin), cos) in angles.into_iter().zip(sines).zip(cosines) {
+            let worst = ulps(sin, libm::sin(angle)).max(ulps(cos, libm::cos(angle)));
+            // libm itself is within one.
+            assert!(worst <= 2.0, "{angle:e}: {worst} ulp");
+        }
+    }
+
+    #[test]
+    fn within_two_units_in_the_last_place() {
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for size in [1e-300, 1e-8, 0.5, 4.0, 100.0, 1e6] {
+            for _ in 0..20_000 {
+                assert_close(std::array::from_fn(|_| random.random_range(-size..size)));
+            }
+        }
+    }
+
+    /// Where a sine or a cosine is next to nothing, all of its digits come from the reduction.
+    #[test]
+    fn near_multiples_of_a_quarter_turn() {
+        for k in 0..600_000 {
+            let angle = f64::from(k) * core::f64::consts::FRAC_PI_2;
+            let near = |steps: i64| f64::from_bits(angle.to_bits().saturating_add_signed(steps));
+            assert_close([
+                near(-1),
+                near(0),
+                near(1),
+                near(2),
+                -near(0),
+                near(-2),
+                near(3),
+            ]);
+        }
+    }
+
+    #[test]
+    fn beyond_all_arms_and_at_no_number() {
+        assert_close([1e7, -3e15, 1e22, 2.0, 1e300, -1e6, 0.1]);
+        let [[nan, infinite, sound], [zero, ..]] = of([f64::NAN, f64::INFINITY, 0.5]);
+        assert!(nan.is_nan() && infinite.is_nan() && zero.is_nan());
+        assert!((sound - 0.5_f64.sin()).abs() < 1e-15);
+        assert_eq!(of([]), [[0.0; 0]; 2]);
+    }
+}
