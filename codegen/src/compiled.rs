@@ -173,7 +173,7 @@ impl Compiled {
         }
     }
 
-    /// Names of all shape parameters of the declared effects, `JOINT.EFFECT.SHAPE`, in the order of [`Symbol::Shape`].
+    /// Names of all shape parameters of the declared effects, `JOINT.EFFECT.SHAPE`, in the order of [`Symbol::Shape`](crate::expr::Symbol::Shape).
     #[must_use]
     pub fn shape_names(&self) -> Vec<String> {
         self.model
@@ -191,7 +191,7 @@ impl Compiled {
             .collect()
     }
 
-    /// Shape parameters that the spec leaves to identification, as indices of [`Symbol::Shape`].
+    /// Shape parameters that the spec leaves to identification, as indices of [`Symbol::Shape`](crate::expr::Symbol::Shape).
     #[must_use]
     pub fn free_shapes(&self) -> Vec<usize> {
         let given = self.model.effects.iter().flat_map(|effect| &effect.shapes);
@@ -208,7 +208,7 @@ impl Compiled {
         self.model.is_rigid(&self.standard[self.base.kept[column]])
     }
 
-    /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`].
+    /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`](crate::expr::Symbol::Parameter).
     /// Parameters that are not kept have 0.
     #[must_use]
     pub fn parameter_values(&self, beta: &[f64]) -> Vec<f64> {
@@ -277,7 +277,7 @@ impl Compiled {
         Block::new(&self.dag, entries)
     }
 
-    /// `M ddq + C dq + G`, one output a joint; reads base parameters as [`Symbol::Parameter`], see
+    /// `M ddq + C dq + G`, one output a joint; reads base parameters as [`Symbol::Parameter`](crate::expr::Symbol::Parameter), see
     /// [`Self::parameter_values`]. Includes what the spec fixes.
     #[must_use]
     pub fn rigid_torque(&self) -> Program {
