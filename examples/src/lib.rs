@@ -1,7 +1,7 @@
 //! What a controller's firmware would hold: the compiled arm and a control law. No `std`, no allocator.
 #![no_std]
 
-use robot_model::{FromParameters, RobotModel, State, Vector};
+use robot_model::{FromParameters, RobotModel, Scalar, State, Vector};
 
 /// The page of `arm.robot`.
 #[allow(clippy::pedantic, reason = "derived, not written")]
@@ -42,7 +42,7 @@ pub fn computed_torque(
     reference: &State<2>,
     kp: f64,
 ) -> Vector<2> {
-    let kd = 2.0 * robot_model::math::sqrt(kp);
+    let kd = 2.0 * Scalar::sqrt(kp);
     let ddq = reference.ddq + kd * (reference.dq - now.dq) + kp * (reference.q - now.q);
     arm.inverse_dynamics(&now.q, &now.dq, &ddq)
 }

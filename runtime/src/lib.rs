@@ -8,7 +8,7 @@ pub mod identify;
 pub mod link;
 #[cfg(feature = "std")]
 pub mod log;
-pub mod math;
+mod math;
 pub mod mechanics;
 pub mod memory;
 pub mod model;

@@ -1,14 +1,6 @@
-//! Elementary functions for emitted code, with and without `std`.
+//! Elementary functions of `f64` with and without `std`.
 //!
 //! `core` has no `sin` or `sqrt` for `f64`; without the `std` feature they come from `libm`.
-//!
-//! # Examples
-//! ```
-//! use robot_model::math;
-//! assert_eq!(math::sqrt(9.0), 3.0);
-//! assert!((math::sin(0.5).powi(2) + math::cos(0.5).powi(2) - 1.0).abs() < 1e-15);
-//! assert_eq!((math::sign(-0.1), math::sign(0.0)), (-1.0, 0.0)); // rest has no direction
-//! ```
 
 macro_rules! functions {
     ($($(#[$doc:meta])* $name:ident($($x:ident),+) = $std:path | $libm:path;)+) => {

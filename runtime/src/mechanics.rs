@@ -1,6 +1,7 @@
 //! What the same equations give beside torque and its regressor: energies, momentum, forward dynamics, slopes, kinematics.
 
-use crate::model::{Matrix, RobotModel, Vector};
+use crate::model::{RobotModel, SMatrix, SVector, Vector};
+use crate::scalar::Scalar;
 use crate::state::State;
 
 /// Energies, momentum, forward dynamics and slopes of an arm; the compiler writes the implementations.
@@ -41,46 +42,46 @@ pub trait Mechanics<
 >: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
 {
     /// Kinetic energy `1/2 dq^T M dq`, J.
-    fn kinetic_energy(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> f64;
+    fn kinetic_energy<S: Scalar>(&self, q: &SVector<S, DOF>, dq: &SVector<S, DOF>) -> S;
 
     /// Potential energy, J, up to a constant; `gravity` is its gradient.
-    fn potential_energy(&self, q: &Vector<DOF>) -> f64;
+    fn potential_energy<S: Scalar>(&self, q: &SVector<S, DOF>) -> S;
 
     /// Accelerations that the torque `tau` (N m or N) gives at time zero: the solution of `inverse_dynamics = tau`.
     ///
     /// `None` where the inertia is singular, or not positive definite: no arm that could be built has such parameters. With
     /// friction that depends on the load, `None` too where that holds the arm in a way that Newton's method does not resolve.
-    fn forward_dynamics(
+    fn forward_dynamics<S: Scalar>(
         &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        tau: &Vector<DOF>,
-    ) -> Option<Vector<DOF>>
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        tau: &SVector<S, DOF>,
+    ) -> Option<SVector<S, DOF>>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
         <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::forward_dynamics_at(
             self,
-            &State::new(*q, *dq, Vector::zeros()),
+            &State::new(*q, *dq, SVector::zeros()),
             tau,
         )
     }
 
     /// [`Self::forward_dynamics`] for effects that depend on more than the motion; `state.ddq` is not read.
-    fn forward_dynamics_at(
+    fn forward_dynamics_at<S: Scalar>(
         &self,
-        state: &State<DOF, STATES, INPUTS>,
-        tau: &Vector<DOF>,
-    ) -> Option<Vector<DOF>>;
+        state: &State<DOF, STATES, INPUTS, S>,
+        tau: &SVector<S, DOF>,
+    ) -> Option<SVector<S, DOF>>;
 
     /// `[i][j] = d tau_i / d q_j` of the inverse dynamics at time zero, effects included. Jumps, such as that of dry friction at
     /// rest, have no slope here.
-    fn inverse_dynamics_by_position(
+    fn inverse_dynamics_by_position<S: Scalar>(
         &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, DOF>
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, DOF>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -91,18 +92,18 @@ pub trait Mechanics<
     }
 
     /// [`Self::inverse_dynamics_by_position`] for effects that depend on more than the motion.
-    fn inverse_dynamics_by_position_at(
+    fn inverse_dynamics_by_position_at<S: Scalar>(
         &self,
-        state: &State<DOF, STATES, INPUTS>,
-    ) -> Matrix<DOF, DOF>;
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> SMatrix<S, DOF, DOF>;
 
     /// `[i][j] = d tau_i / d dq_j` of the inverse dynamics at time zero, effects included.
-    fn inverse_dynamics_by_velocity(
+    fn inverse_dynamics_by_velocity<S: Scalar>(
         &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, DOF>
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, DOF>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -113,10 +114,10 @@ pub trait Mechanics<
     }
 
     /// [`Self::inverse_dynamics_by_velocity`] for effects that depend on more than the motion.
-    fn inverse_dynamics_by_velocity_at(
+    fn inverse_dynamics_by_velocity_at<S: Scalar>(
         &self,
-        state: &State<DOF, STATES, INPUTS>,
-    ) -> Matrix<DOF, DOF>;
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> SMatrix<S, DOF, DOF>;
 
     /// Momentum regressor `Y_p`, DOF x STANDARD: `tau = d/dt (Y_p * standard) - Y_h * standard`, with nominal shapes.
     ///
@@ -124,11 +125,14 @@ pub trait Mechanics<
     /// such form: their columns are zero here and in `Y_h`, and the equation holds for the torque without them. The emitted
     /// functions say which they are.
     #[must_use]
-    fn momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    fn momentum_regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, STANDARD>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
-        let state = State::new(*q, *dq, Vector::zeros());
+        let state = State::new(*q, *dq, SVector::zeros());
         <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::momentum_regressor_at(
             &state,
             &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
@@ -136,19 +140,22 @@ pub trait Mechanics<
     }
 
     /// [`Self::momentum_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
-    fn momentum_regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn momentum_regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, STANDARD>;
+    ) -> SMatrix<S, DOF, STANDARD>;
 
     /// Drift regressor `Y_h`, DOF x STANDARD: what changes the momentum beside the torque. For the rigid body
     /// `Y_h * standard = C^T dq - G`. Zero columns as in [`Self::momentum_regressor`].
     #[must_use]
-    fn drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    fn drift_regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, STANDARD>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
-        let state = State::new(*q, *dq, Vector::zeros());
+        let state = State::new(*q, *dq, SVector::zeros());
         <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::drift_regressor_at(
             &state,
             &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
@@ -156,19 +163,22 @@ pub trait Mechanics<
     }
 
     /// [`Self::drift_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
-    fn drift_regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn drift_regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, STANDARD>;
+    ) -> SMatrix<S, DOF, STANDARD>;
 
     /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
     #[must_use]
-    fn base_momentum_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    fn base_momentum_regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, BASE>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
-        let state = State::new(*q, *dq, Vector::zeros());
+        let state = State::new(*q, *dq, SVector::zeros());
         <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::base_momentum_regressor_at(
             &state,
             &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
@@ -176,19 +186,22 @@ pub trait Mechanics<
     }
 
     /// [`Self::base_momentum_regressor`] for effects that depend on more than the motion.
-    fn base_momentum_regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn base_momentum_regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, BASE>;
+    ) -> SMatrix<S, DOF, BASE>;
 
     /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
     #[must_use]
-    fn base_drift_regressor(q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    fn base_drift_regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, BASE>
     where
         Self: Mechanics<DOF, STANDARD, BASE, SHAPES>,
     {
-        let state = State::new(*q, *dq, Vector::zeros());
+        let state = State::new(*q, *dq, SVector::zeros());
         <Self as Mechanics<DOF, STANDARD, BASE, SHAPES>>::base_drift_regressor_at(
             &state,
             &<Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::NOMINAL_SHAPES.into(),
@@ -196,22 +209,22 @@ pub trait Mechanics<
     }
 
     /// [`Self::base_drift_regressor`] for effects that depend on more than the motion.
-    fn base_drift_regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn base_drift_regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, BASE>;
+    ) -> SMatrix<S, DOF, BASE>;
 }
 
 /// Where the links of a chain are. Robots that say their energies have [`Points`] instead. Lengths are in the equations; of the
 /// value only shape parameters count, such as the offset of an encoder.
 pub trait Kinematics<const DOF: usize> {
     /// Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.
-    fn forward_kinematics(&self, q: &Vector<DOF>) -> [Matrix<4, 4>; DOF];
+    fn forward_kinematics<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 4, 4>; DOF];
 
     /// Geometric Jacobian, 6 x DOF: `jacobian * dq` is the velocity of the origin of the last link's frame, m/s, then the
     /// link's angular velocity, rad/s, both in the axes of the base frame. A force and a moment at the tip, stacked alike,
     /// load the joints with `jacobian^T * wrench`.
-    fn jacobian(&self, q: &Vector<DOF>) -> Matrix<6, DOF>;
+    fn jacobian<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, 6, DOF>;
 }
 
 /// Where the points are that a robot which says its energies names.
@@ -220,8 +233,8 @@ pub trait Points<const DOF: usize, const POINTS: usize> {
     const POINTS: [&'static str; POINTS];
 
     /// Positions in the base frame, m.
-    fn points(&self, q: &Vector<DOF>) -> [Vector<3>; POINTS];
+    fn points<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SVector<S, 3>; POINTS];
 
     /// `[k] * dq` is the velocity of point `k`, m/s; a force there loads the joints with `[k]^T * force`.
-    fn point_jacobians(&self, q: &Vector<DOF>) -> [Matrix<3, DOF>; POINTS];
+    fn point_jacobians<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 3, DOF>; POINTS];
 }

@@ -1,10 +1,10 @@
 //! Internal states of effects: bristles that bend, hysteresis, anything that remembers how it came here.
 
 use nalgebra::allocator::Allocator;
-use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector};
+use nalgebra::{DefaultAllocator, Dim, OMatrix, OVector, SVector};
 
-use crate::math;
 use crate::model::{RobotModel, Vector, from_rows};
+use crate::scalar::Scalar;
 use crate::state::State;
 
 /// An arm whose effects have internal states `z` with `dz/dt = f(z, q, dq, ..)`; the compiler writes the implementations.
@@ -50,19 +50,23 @@ pub trait Memory<
 
     /// Rates `dz/dt` of the internal states; with states and shape parameters given, since they depend on no other
     /// parameter. Load-dependent ones read `state.rigid_torque`.
-    fn state_rates_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn state_rates_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Vector<STATES>;
+    ) -> SVector<S, STATES>;
 
     /// Rates `dz/dt` of this arm's internal states, under its own load.
-    fn state_rates(&self, state: &State<DOF, STATES, INPUTS>) -> Vector<STATES> {
+    fn state_rates<S: Scalar>(&self, state: &State<DOF, STATES, INPUTS, S>) -> SVector<S, STATES> {
         Self::state_rates_at(&self.loaded(state), &self.shapes())
     }
 
     /// Internal states `seconds` after `state`, if the rest of it stays as it is: one step of [`step`], stable however stiff
     /// the states are. Of second order where `state` is the motion in the middle of the interval.
-    fn memory_after(&self, state: &State<DOF, STATES, INPUTS>, seconds: f64) -> Vector<STATES>;
+    fn memory_after<S: Scalar>(
+        &self,
+        state: &State<DOF, STATES, INPUTS, S>,
+        seconds: f64,
+    ) -> SVector<S, STATES>;
 }
 
 /// Largest norm of a matrix whose series is summed directly; others are halved until they are as small.
@@ -84,34 +88,33 @@ const TERMS: u32 = 14;
 /// use nalgebra::{Matrix1, Vector1};
 /// use robot_model::memory::step;
 /// // dz/dt = 2 - 1000 z, over ten thousand time constants.
-/// let mut z = Vector1::new(0.0);
+/// let mut z = Vector1::new(0.0_f64);
 /// step(&mut z, 10.0, &Vector1::new(2.0), &Matrix1::new(-1000.0));
 /// assert!((z[0] - 0.002).abs() < 1e-18);
 /// ```
-pub fn step<D: Dim>(
-    z: &mut OVector<f64, D>,
+pub fn step<S: Scalar, D: Dim>(
+    z: &mut OVector<S, D>,
     h: f64,
-    rate: &OVector<f64, D>,
-    jacobian: &OMatrix<f64, D, D>,
+    rate: &OVector<S, D>,
+    jacobian: &OMatrix<S, D, D>,
 ) where
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
 {
-    if !rate.iter().all(|f| f.is_finite()) {
-        return;
-    }
-    let is_smooth = jacobian.iter().all(|j| j.is_finite());
-    if let ([z], [f], [j]) = (z.as_mut_slice(), rate.as_slice(), jacobian.as_slice()) {
-        let mean = if is_smooth { phi(h * j) } else { 1.0 };
-        add(z, h * mean * f);
-        return;
-    }
-    let increment = if is_smooth {
-        phi_of(jacobian * h) * rate * h
+    // Zero, or no number where an entry is none: lane by lane.
+    let flaw = |entries: &mut dyn Iterator<Item = S>| {
+        entries.fold(S::zero(), |sum, x| sum + x * S::zero())
+    };
+    let stays = flaw(&mut rate.iter().copied());
+    let is_rough = flaw(&mut jacobian.iter().copied());
+    let h = S::of(h);
+    let smooth = jacobian.map(|slope| (slope + is_rough).finite_or(S::zero()) * h);
+    let increment = if let [exponent] = smooth.as_slice() {
+        rate * (phi(*exponent) * h)
     } else {
-        rate * h
+        phi_of(smooth) * rate * h
     };
     for (z, increment) in z.iter_mut().zip(&increment) {
-        add(z, *increment);
+        *z = (*z + *increment + stays).finite_or(*z);
     }
 }
 
@@ -121,60 +124,54 @@ pub fn step<D: Dim>(
 /// ```
 /// use robot_model::memory::after;
 /// // dz/dt = -z / 0.1 and dz/dt = 3
-/// let [decayed] = after(&[1.0], 0.1, &[-10.0], &[[-10.0]]);
-/// let [grown] = after(&[1.0], 0.1, &[3.0], &[[0.0]]);
+/// let [decayed] = after(&[1.0_f64], 0.1, &[-10.0], &[[-10.0]]);
+/// let [grown] = after(&[1.0_f64], 0.1, &[3.0], &[[0.0]]);
 /// assert!((decayed - (-1.0_f64).exp()).abs() < 1e-15 && (grown - 1.3).abs() < 1e-15);
 /// ```
 #[must_use]
-pub fn after<const N: usize>(
-    z: &[f64; N],
+pub fn after<S: Scalar, const N: usize>(
+    z: &[S; N],
     h: f64,
-    rate: &[f64; N],
-    jacobian: &[[f64; N]; N],
-) -> [f64; N] {
-    let mut z = Vector::from(*z);
-    step(&mut z, h, &Vector::from(*rate), &from_rows(jacobian));
+    rate: &[S; N],
+    jacobian: &[[S; N]; N],
+) -> [S; N] {
+    let mut z = SVector::from(*z);
+    step(&mut z, h, &SVector::from(*rate), &from_rows(jacobian));
     z.data.0[0]
 }
 
-fn add(z: &mut f64, increment: f64) {
-    let next = *z + increment;
-    if next.is_finite() {
-        *z = next;
-    }
-}
-
 /// `(exp(x) - 1) / x`
-fn phi(x: f64) -> f64 {
-    if x == 0.0 { 1.0 } else { math::exp_m1(x) / x }
+fn phi<S: Scalar>(x: S) -> S {
+    let series = S::one() + S::of(0.5) * x;
+    S::choose(x.abs(), x.exp_m1() / x, series)
 }
 
 /// `phi` of a matrix: its series where the matrix is small, and `phi(2 A) = phi(A) + phi(A) A phi(A) / 2` from there.
-fn phi_of<D: Dim>(mut matrix: OMatrix<f64, D, D>) -> OMatrix<f64, D, D>
+fn phi_of<S: Scalar, D: Dim>(mut matrix: OMatrix<S, D, D>) -> OMatrix<S, D, D>
 where
     DefaultAllocator: Allocator<D, D>,
 {
     let rows = matrix
         .row_iter()
-        .map(|row| row.iter().map(|x| x.abs()).sum());
-    let norm = rows.fold(0.0, f64::max);
+        .map(|row| row.iter().fold(S::zero(), |sum, x| sum + x.abs()));
+    let norm = rows.map(S::most).fold(0.0, f64::max);
     // More halvings than a double has binary digits say nothing.
     let (mut halvings, mut scale) = (0, 1.0);
     while norm * scale > SMALL && halvings < 60 {
         scale *= 0.5;
         halvings += 1;
     }
-    matrix *= scale;
+    matrix *= S::of(scale);
     // Horner: 1 + A/2 (1 + A/3 (1 + ..))
     let (rows, columns) = matrix.shape_generic();
-    let one = OMatrix::<f64, D, D>::identity_generic(rows, columns);
+    let one = OMatrix::<S, D, D>::identity_generic(rows, columns);
     let mut phi = one.clone();
     for k in (2..=TERMS + 1).rev() {
-        phi = &one + &matrix * phi / f64::from(k);
+        phi = &one + &matrix * phi / S::of(f64::from(k));
     }
     for _ in 0..halvings {
-        phi = &phi + &phi * &matrix * &phi * 0.5;
-        matrix *= 2.0;
+        phi = &phi + &phi * &matrix * &phi * S::of(0.5);
+        matrix *= S::of(2.0);
     }
     phi
 }
@@ -187,8 +184,8 @@ mod tests {
 
     #[test]
     fn a_pair_that_does_not_couple_is_two_single_states() {
-        let mut both = Vector2::new(0.3, -0.2);
-        let (mut first, mut second) = (Vector1::new(0.3), Vector1::new(-0.2));
+        let mut both = Vector2::new(0.3_f64, -0.2);
+        let (mut first, mut second) = (Vector1::new(0.3_f64), Vector1::new(-0.2_f64));
         let slopes = Matrix2::new(-30.0, 0.0, 0.0, 0.5);
         step(&mut both, 0.1, &Vector2::new(2.0, -1.0), &slopes);
         step(&mut first, 0.1, &Vector1::new(2.0), &Matrix1::new(-30.0));

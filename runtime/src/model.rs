@@ -1,9 +1,11 @@
 //! The typed face of an arm: sizes in the type, no allocation, no panics. The compiler writes its implementations.
 //!
-//! A value is a parameter set; equations that need none are associated functions.
+//! A value is a parameter set; equations that need none are associated functions. Motions and results are in any
+//! [`Scalar`], parameters in `f64`.
 
-use nalgebra::{SMatrix, SVector};
+pub use nalgebra::{SMatrix, SVector};
 
+use crate::scalar::Scalar;
 use crate::state::State;
 
 /// A column of `N` numbers.
@@ -92,19 +94,28 @@ pub trait RobotModel<
     fn shapes(&self) -> Vector<SHAPES>;
 
     /// Mass matrix `M(q)`, DOF x DOF, kg m^2 (kg for prismatic joints); symmetric.
-    fn mass_matrix(&self, q: &Vector<DOF>) -> Matrix<DOF, DOF>;
+    fn mass_matrix<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, DOF, DOF>;
 
     /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew.
-    fn coriolis_matrix(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> Matrix<DOF, DOF>;
+    fn coriolis_matrix<S: Scalar>(
+        &self,
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, DOF>;
 
     /// Gravity torque `G(q)`, N m or N.
-    fn gravity(&self, q: &Vector<DOF>) -> Vector<DOF>;
+    fn gravity<S: Scalar>(&self, q: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Bias torque `C * dq + G`, N m or N.
-    fn bias(&self, q: &Vector<DOF>, dq: &Vector<DOF>) -> Vector<DOF>;
+    fn bias<S: Scalar>(&self, q: &SVector<S, DOF>, dq: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero and with no measured torque.
-    fn inverse_dynamics(&self, q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Vector<DOF>
+    fn inverse_dynamics<S: Scalar>(
+        &self,
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SVector<S, DOF>
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -116,18 +127,21 @@ pub trait RobotModel<
 
     /// [`Self::inverse_dynamics`] for effects that depend on more than the motion. `state.rigid_torque` is not read: the
     /// load of load-dependent effects is the arm's own.
-    fn inverse_dynamics_at(&self, state: &State<DOF, STATES, INPUTS>) -> Vector<DOF>;
+    fn inverse_dynamics_at<S: Scalar>(
+        &self,
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> SVector<S, DOF>;
 
     /// Regressor `Y` of this arm, DOF x STANDARD: `inverse_dynamics = Y * standard`, at time zero.
     ///
     /// Columns of load-dependent effects are those of the arm's own load `M ddq + C dq + G`, and shape parameters are its own.
     #[must_use]
-    fn regressor_of(
+    fn regressor_of<S: Scalar>(
         &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, STANDARD>
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, STANDARD>
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -139,19 +153,22 @@ pub trait RobotModel<
 
     /// [`Self::regressor_of`] for effects that depend on more than the motion.
     #[must_use]
-    fn regressor_of_at(&self, state: &State<DOF, STATES, INPUTS>) -> Matrix<DOF, STANDARD> {
+    fn regressor_of_at<S: Scalar>(
+        &self,
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> SMatrix<S, DOF, STANDARD> {
         Self::regressor_at(&self.loaded(state), &self.shapes())
     }
 
     /// Base regressor `Y_b` of this arm, DOF x BASE: `inverse_dynamics = Y_b * beta`, besides the torque of what the spec
     /// fixes; as [`Self::regressor_of`].
     #[must_use]
-    fn base_regressor_of(
+    fn base_regressor_of<S: Scalar>(
         &self,
-        q: &Vector<DOF>,
-        dq: &Vector<DOF>,
-        ddq: &Vector<DOF>,
-    ) -> Matrix<DOF, BASE>
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, BASE>
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -163,14 +180,20 @@ pub trait RobotModel<
 
     /// [`Self::base_regressor_of`] for effects that depend on more than the motion.
     #[must_use]
-    fn base_regressor_of_at(&self, state: &State<DOF, STATES, INPUTS>) -> Matrix<DOF, BASE> {
+    fn base_regressor_of_at<S: Scalar>(
+        &self,
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> SMatrix<S, DOF, BASE> {
         Self::base_regressor_at(&self.loaded(state), &self.shapes())
     }
 
     /// The same instant with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`: what [`Self::regressor_at`]
     /// reads.
     #[must_use]
-    fn loaded(&self, state: &State<DOF, STATES, INPUTS>) -> State<DOF, STATES, INPUTS> {
+    fn loaded<S: Scalar>(
+        &self,
+        state: &State<DOF, STATES, INPUTS, S>,
+    ) -> State<DOF, STATES, INPUTS, S> {
         let inertial = self.mass_matrix(&state.q) * state.ddq;
         State {
             rigid_torque: inertial + self.bias(&state.q, &state.dq),
@@ -181,7 +204,11 @@ pub trait RobotModel<
     /// Regressor `Y`, DOF x STANDARD, at time zero, without load, with nominal shapes: `tau = Y * standard` of an arm whose
     /// effects read no load and whose shape parameters are the nominal ones. Of every arm: [`Self::regressor_of`].
     #[must_use]
-    fn regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, STANDARD>
+    fn regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, STANDARD>
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -192,15 +219,19 @@ pub trait RobotModel<
     }
 
     /// [`Self::regressor`] for effects that depend on load, time, memory, channels or shape parameters.
-    fn regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, STANDARD>;
+    ) -> SMatrix<S, DOF, STANDARD>;
 
     /// Base regressor `Y_b`, DOF x BASE: `tau = Y_b * beta`, besides the torque of what the spec fixes; as
     /// [`Self::regressor`] at time zero, without load, with nominal shapes.
     #[must_use]
-    fn base_regressor(q: &Vector<DOF>, dq: &Vector<DOF>, ddq: &Vector<DOF>) -> Matrix<DOF, BASE>
+    fn base_regressor<S: Scalar>(
+        q: &SVector<S, DOF>,
+        dq: &SVector<S, DOF>,
+        ddq: &SVector<S, DOF>,
+    ) -> SMatrix<S, DOF, BASE>
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
@@ -211,10 +242,10 @@ pub trait RobotModel<
     }
 
     /// [`Self::base_regressor`] for effects that depend on load, time, memory, channels or shape parameters.
-    fn base_regressor_at(
-        state: &State<DOF, STATES, INPUTS>,
+    fn base_regressor_at<S: Scalar>(
+        state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
-    ) -> Matrix<DOF, BASE>;
+    ) -> SMatrix<S, DOF, BASE>;
 }
 
 /// An arm that is made from a vector of parameters: from an estimate, or from CAD values.
@@ -281,8 +312,20 @@ pub trait FromParameters<
 /// assert_eq!(as_array(&Vector::from([1.0, 2.0])), &[1.0, 2.0]);
 /// ```
 #[must_use]
-pub fn as_array<const N: usize>(vector: &Vector<N>) -> &[f64; N] {
+pub fn as_array<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> &[S; N] {
     &vector.data.0[0]
+}
+
+/// An arm's numbers in the scalar of its motion.
+///
+/// # Examples
+/// ```
+/// use robot_model::{Vector, model::in_scalar};
+/// assert_eq!(in_scalar::<f32, 2>(&Vector::from([1.0, 0.5])), [1.0_f32, 0.5]);
+/// ```
+#[must_use]
+pub fn in_scalar<S: Scalar, const N: usize>(vector: &Vector<N>) -> [S; N] {
+    as_array(vector).map(S::of)
 }
 
 /// A matrix from `[row][column]`.
@@ -293,8 +336,10 @@ pub fn as_array<const N: usize>(vector: &Vector<N>) -> &[f64; N] {
 /// assert_eq!(from_rows(&[[1.0, 2.0], [3.0, 4.0]])[(1, 0)], 3.0);
 /// ```
 #[must_use]
-pub fn from_rows<const R: usize, const C: usize>(rows: &[[f64; C]; R]) -> Matrix<R, C> {
-    Matrix::from_fn(|row, column| rows[row][column])
+pub fn from_rows<S: Scalar, const R: usize, const C: usize>(
+    rows: &[[S; C]; R],
+) -> SMatrix<S, R, C> {
+    SMatrix::from_fn(|row, column| rows[row][column])
 }
 
 #[cfg(test)]
@@ -303,7 +348,7 @@ mod tests {
 
     #[test]
     fn rows_stay_rows() {
-        let matrix = from_rows(&[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]);
+        let matrix = from_rows(&[[1.0_f64, 2.0, 3.0], [4.0, 5.0, 6.0]]);
         assert_eq!(
             (matrix[(0, 2)].to_bits(), matrix[(1, 0)].to_bits()),
             (3f64.to_bits(), 4f64.to_bits())

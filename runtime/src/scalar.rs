@@ -109,6 +109,10 @@ pub trait Scalar:
     #[must_use]
     fn choose(condition: Self, positive: Self, otherwise: Self) -> Self;
 
+    /// Itself, and `fallback` where it is infinite or no number.
+    #[must_use]
+    fn finite_or(self, fallback: Self) -> Self;
+
     /// The smallest value over the lanes; of a dual number that of its value. NaN where one is NaN.
     #[must_use]
     fn least(self) -> f64;
@@ -191,6 +195,7 @@ mod tests {
         assert_eq!((lanes.least(), lanes.most()), (-2.0, 5.0));
         let broken = Lanes4::from([3.0, f64::NAN, 5.0, 0.0]);
         assert!(broken.least().is_nan() && broken.most().is_nan());
-        assert_eq!(lanes.sign().to_array(), [1.0, -1.0, 1.0, 0.0]);
+        let signs = Lanes4::from([1.0, -1.0, 1.0, 0.0]);
+        assert_eq!(lanes.sign(), signs);
     }
 }

@@ -1,6 +1,8 @@
 //! Small systems of linear equations in fixed memory, for emitted code: no allocation, no panic, `no_std`.
 //!
-//! Matrices are `[row][column]`. What cannot be solved is `None`, a status that the caller must look at.
+//! Matrices are `[row][column]`. What cannot be solved, in one lane or in all, is `None`, a status that the caller must look at.
+
+use crate::scalar::Scalar;
 
 /// What is left of a pivot, relative to the diagonal entry or column that it came from, below which it counts as zero: the
 /// rounding of a hundred operations.
@@ -19,14 +21,14 @@ const SETTLED: f64 = 1e-12;
 /// # Examples
 /// ```
 /// use robot_model::solve::positive_definite;
-/// let x = positive_definite(&[[4.0, 2.0], [2.0, 3.0]], &[10.0, 9.0]).expect("positive definite");
+/// let x = positive_definite(&[[4.0_f64, 2.0], [2.0, 3.0]], &[10.0, 9.0]).expect("positive definite");
 /// assert!((x[0] - 1.5).abs() < 1e-15 && (x[1] - 2.0).abs() < 1e-15);
 /// assert_eq!(positive_definite(&[[1.0, 2.0], [2.0, 1.0]], &[1.0, 1.0]), None);
 /// ```
 #[must_use]
-pub fn positive_definite<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
-    let mut lower = [[0.0; N]; N];
-    let mut diagonal = [0.0; N];
+pub fn positive_definite<S: Scalar, const N: usize>(a: &[[S; N]; N], b: &[S; N]) -> Option<[S; N]> {
+    let mut lower = [[S::zero(); N]; N];
+    let mut diagonal = [S::zero(); N];
     let mut x = *b;
     for i in 0..N {
         for j in 0..i {
@@ -40,10 +42,12 @@ pub fn positive_definite<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Opt
         let mut pivot = a[i][i];
         for j in 0..i {
             pivot -= lower[i][j] * lower[i][j] * diagonal[j];
-            x[i] -= lower[i][j] * x[j];
+            let change = lower[i][j] * x[j];
+            x[i] -= change;
         }
         // A comparison with NaN is false too.
-        if !(pivot > SINGULAR * a[i][i] && pivot.is_finite()) {
+        let spare = pivot - S::of(SINGULAR) * a[i][i];
+        if !(spare.least() > 0.0 && pivot.most().is_finite()) {
             return None;
         }
         diagonal[i] = pivot;
@@ -51,7 +55,8 @@ pub fn positive_definite<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Opt
     for i in (0..N).rev() {
         x[i] /= diagonal[i];
         for j in i + 1..N {
-            x[i] -= lower[j][i] * x[j];
+            let change = lower[j][i] * x[j];
+            x[i] -= change;
         }
     }
     Some(x)
@@ -68,36 +73,39 @@ pub fn positive_definite<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Opt
 /// assert_eq!(general(&[[1.0, 2.0], [2.0, 4.0]], &[1.0, 1.0]), None);
 /// ```
 #[must_use]
-pub fn general<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; N]> {
+pub fn general<S: Scalar, const N: usize>(a: &[[S; N]; N], b: &[S; N]) -> Option<[S; N]> {
     let (mut a, mut x) = (*a, *b);
     let scale = a
         .iter()
         .flatten()
-        .fold(0.0, |most: f64, v| most.max(v.abs()));
+        .fold(0.0, |most: f64, v| most.max(v.abs().most()));
     for column in 0..N {
         let mut pivot = column;
         for row in column + 1..N {
-            if a[row][column].abs() > a[pivot][column].abs() {
+            if a[row][column].abs().least() > a[pivot][column].abs().least() {
                 pivot = row;
             }
         }
         a.swap(column, pivot);
         x.swap(column, pivot);
         let size = a[column][column].abs();
-        if !(size > SINGULAR * scale && size.is_finite()) {
+        if !(size.least() > SINGULAR * scale && size.most().is_finite()) {
             return None;
         }
         for row in column + 1..N {
             let factor = a[row][column] / a[column][column];
             for k in column..N {
-                a[row][k] -= factor * a[column][k];
+                let change = factor * a[column][k];
+                a[row][k] -= change;
             }
-            x[row] -= factor * x[column];
+            let change = factor * x[column];
+            x[row] -= change;
         }
     }
     for row in (0..N).rev() {
         for k in row + 1..N {
-            x[row] -= a[row][k] * x[k];
+            let change = a[row][k] * x[k];
+            x[row] -= change;
         }
         x[row] /= a[row][row];
     }
@@ -117,18 +125,18 @@ pub fn general<const N: usize>(a: &[[f64; N]; N], b: &[f64; N]) -> Option<[f64; 
 /// assert_eq!(newton(step), Some([2.0]));
 /// ```
 #[must_use]
-pub fn newton<const N: usize>(
-    step: impl Fn(&[f64; N]) -> ([[f64; N]; N], [f64; N]),
-) -> Option<[f64; N]> {
-    let mut x = [0.0; N];
+pub fn newton<S: Scalar, const N: usize>(
+    step: impl Fn(&[S; N]) -> ([[S; N]; N], [S; N]),
+) -> Option<[S; N]> {
+    let mut x = [S::zero(); N];
     for _ in 0..STEPS {
         let (slope, rest) = step(&x);
         let change = general(&slope, &rest)?;
         let (mut largest, mut moved) = (0.0_f64, 0.0_f64);
         for (x, change) in x.iter_mut().zip(change) {
             *x += change;
-            largest = largest.max(x.abs());
-            moved = moved.max(change.abs());
+            largest = largest.max(x.abs().most());
+            moved = moved.max(change.abs().most());
         }
         if moved <= SETTLED * largest {
             return Some(x);

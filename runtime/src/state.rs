@@ -1,10 +1,13 @@
 //! What the equations of an arm read at one instant.
 
-use crate::model::Vector;
+use nalgebra::SVector;
+
+use crate::scalar::Scalar;
 
 /// Where an arm is, how it moves, and what its effects read beside: memory, channels of a log.
 ///
-/// `STATES` counts the internal states of the declared effects and `INPUTS` the channels that they read; most arms have none.
+/// `STATES` counts the internal states of the declared effects and `INPUTS` the channels that they read; most arms have none. `S` is the
+/// scalar of the numbers.
 ///
 /// # Examples
 /// ```
@@ -17,66 +20,68 @@ use crate::model::Vector;
 /// assert_eq!((state.memory[0], state.inputs[0], state.q), (1e-3, 35.0, motion.q));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct State<const DOF: usize, const STATES: usize = 0, const INPUTS: usize = 0> {
+pub struct State<const DOF: usize, const STATES: usize = 0, const INPUTS: usize = 0, S = f64> {
     /// Joint positions, rad or m.
-    pub q: Vector<DOF>,
+    pub q: SVector<S, DOF>,
     /// Joint velocities, rad/s or m/s.
-    pub dq: Vector<DOF>,
+    pub dq: SVector<S, DOF>,
     /// Joint accelerations, rad/s^2 or m/s^2.
-    pub ddq: Vector<DOF>,
+    pub ddq: SVector<S, DOF>,
     /// Torque of the rigid body alone, N m or N: the load of load-dependent effects in a regressor. Others ignore it.
-    pub rigid_torque: Vector<DOF>,
+    pub rigid_torque: SVector<S, DOF>,
     /// Torque as the log or the drive has it, N m or N: for effects such as saturation. Others ignore it.
-    pub measured_torque: Vector<DOF>,
+    pub measured_torque: SVector<S, DOF>,
     /// Seconds since the start of the log; for effects that depend on time.
-    pub time: f64,
+    pub time: S,
     /// Internal states of effects, in the order of [`Memory::STATES`](crate::Memory::STATES); 0 at the start of a log.
-    pub memory: Vector<STATES>,
+    pub memory: SVector<S, STATES>,
     /// Channels that effects read, such as a temperature, in the order of [`RobotModel::INPUTS`](crate::RobotModel::INPUTS).
-    pub inputs: Vector<INPUTS>,
+    pub inputs: SVector<S, INPUTS>,
 }
 
-impl<const DOF: usize> State<DOF> {
+impl<const DOF: usize, S: Scalar> State<DOF, 0, 0, S> {
     /// A motion, with no load, no measured torque and time zero.
     #[must_use]
-    pub fn new(q: Vector<DOF>, dq: Vector<DOF>, ddq: Vector<DOF>) -> Self {
+    pub fn new(q: SVector<S, DOF>, dq: SVector<S, DOF>, ddq: SVector<S, DOF>) -> Self {
         Self {
             q,
             dq,
             ddq,
-            rigid_torque: Vector::zeros(),
-            measured_torque: Vector::zeros(),
-            time: 0.0,
-            memory: Vector::zeros(),
-            inputs: Vector::zeros(),
+            rigid_torque: SVector::zeros(),
+            measured_torque: SVector::zeros(),
+            time: S::zero(),
+            memory: SVector::zeros(),
+            inputs: SVector::zeros(),
         }
     }
 
     /// A position at rest.
     #[must_use]
-    pub fn at_rest(q: Vector<DOF>) -> Self {
-        Self::new(q, Vector::zeros(), Vector::zeros())
+    pub fn at_rest(q: SVector<S, DOF>) -> Self {
+        Self::new(q, SVector::zeros(), SVector::zeros())
     }
 }
 
-impl<const DOF: usize, const STATES: usize, const INPUTS: usize> State<DOF, STATES, INPUTS> {
+impl<const DOF: usize, const STATES: usize, const INPUTS: usize, S: Scalar>
+    State<DOF, STATES, INPUTS, S>
+{
     /// The same instant with these internal states of effects.
     #[must_use]
-    pub fn with_memory<const N: usize>(self, memory: Vector<N>) -> State<DOF, N, INPUTS> {
+    pub fn with_memory<const N: usize>(self, memory: SVector<S, N>) -> State<DOF, N, INPUTS, S> {
         self.with(memory, self.inputs)
     }
 
     /// The same instant with these channels.
     #[must_use]
-    pub fn with_inputs<const N: usize>(self, inputs: Vector<N>) -> State<DOF, STATES, N> {
+    pub fn with_inputs<const N: usize>(self, inputs: SVector<S, N>) -> State<DOF, STATES, N, S> {
         self.with(self.memory, inputs)
     }
 
-    fn with<const S: usize, const I: usize>(
+    fn with<const M: usize, const N: usize>(
         self,
-        memory: Vector<S>,
-        inputs: Vector<I>,
-    ) -> State<DOF, S, I> {
+        memory: SVector<S, M>,
+        inputs: SVector<S, N>,
+    ) -> State<DOF, M, N, S> {
         State {
             q: self.q,
             dq: self.dq,

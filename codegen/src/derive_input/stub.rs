@@ -26,7 +26,8 @@ pub fn implementation(input: &DeriveInput) -> TokenStream {
     let dof = Literal::usize_unsuffixed(data.fields.iter().filter(is_joint).count());
     quote! {
         const _: () = {
-            use ::robot_model::{FromParameters, Matrix, RobotModel, State, Vector};
+            use ::robot_model::model::{SMatrix, SVector};
+            use ::robot_model::{FromParameters, RobotModel, Scalar, State, Vector};
             #[automatically_derived]
             impl RobotModel<#dof, 0, 0, 0> for #name {
                 const NAME: &'static str = "";
@@ -40,13 +41,13 @@ pub fn implementation(input: &DeriveInput) -> TokenStream {
                 fn base_parameters(_: &Vector<0>) -> Vector<0> { ::core::unreachable!() }
                 fn standard(&self) -> Vector<0> { ::core::unreachable!() }
                 fn shapes(&self) -> Vector<0> { ::core::unreachable!() }
-                fn mass_matrix(&self, _: &Vector<#dof>) -> Matrix<#dof, #dof> { ::core::unreachable!() }
-                fn coriolis_matrix(&self, _: &Vector<#dof>, _: &Vector<#dof>) -> Matrix<#dof, #dof> { ::core::unreachable!() }
-                fn gravity(&self, _: &Vector<#dof>) -> Vector<#dof> { ::core::unreachable!() }
-                fn bias(&self, _: &Vector<#dof>, _: &Vector<#dof>) -> Vector<#dof> { ::core::unreachable!() }
-                fn inverse_dynamics_at(&self, _: &State<#dof>) -> Vector<#dof> { ::core::unreachable!() }
-                fn regressor_at(_: &State<#dof>, _: &Vector<0>) -> Matrix<#dof, 0> { ::core::unreachable!() }
-                fn base_regressor_at(_: &State<#dof>, _: &Vector<0>) -> Matrix<#dof, 0> { ::core::unreachable!() }
+                fn mass_matrix<S: Scalar>(&self, _: &SVector<S, #dof>) -> SMatrix<S, #dof, #dof> { ::core::unreachable!() }
+                fn coriolis_matrix<S: Scalar>(&self, _: &SVector<S, #dof>, _: &SVector<S, #dof>) -> SMatrix<S, #dof, #dof> { ::core::unreachable!() }
+                fn gravity<S: Scalar>(&self, _: &SVector<S, #dof>) -> SVector<S, #dof> { ::core::unreachable!() }
+                fn bias<S: Scalar>(&self, _: &SVector<S, #dof>, _: &SVector<S, #dof>) -> SVector<S, #dof> { ::core::unreachable!() }
+                fn inverse_dynamics_at<S: Scalar>(&self, _: &State<#dof, 0, 0, S>) -> SVector<S, #dof> { ::core::unreachable!() }
+                fn regressor_at<S: Scalar>(_: &State<#dof, 0, 0, S>, _: &Vector<0>) -> SMatrix<S, #dof, 0> { ::core::unreachable!() }
+                fn base_regressor_at<S: Scalar>(_: &State<#dof, 0, 0, S>, _: &Vector<0>) -> SMatrix<S, #dof, 0> { ::core::unreachable!() }
             }
             #[automatically_derived]
             impl FromParameters<#dof, 0, 0, 0> for #name {

@@ -214,6 +214,16 @@ impl<S: Scalar> Scalar for Dual<S> {
         }
     }
 
+    /// A number is one with its slope.
+    #[inline]
+    fn finite_or(self, fallback: Self) -> Self {
+        let zero = S::zero();
+        Self {
+            value: (self.value + self.slope * zero).finite_or(fallback.value),
+            slope: (self.slope + self.value * zero).finite_or(fallback.slope),
+        }
+    }
+
     #[inline]
     fn least(self) -> f64 {
         self.value.least()

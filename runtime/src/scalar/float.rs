@@ -60,6 +60,11 @@ impl Scalar for f64 {
     }
 
     #[inline]
+    fn finite_or(self, fallback: Self) -> Self {
+        if self.is_finite() { self } else { fallback }
+    }
+
+    #[inline]
     fn least(self) -> f64 {
         self
     }
@@ -126,6 +131,11 @@ impl Scalar for f32 {
     #[inline]
     fn choose(condition: Self, positive: Self, otherwise: Self) -> Self {
         if condition > 0.0 { positive } else { otherwise }
+    }
+
+    #[inline]
+    fn finite_or(self, fallback: Self) -> Self {
+        if self.is_finite() { self } else { fallback }
     }
 
     #[inline]

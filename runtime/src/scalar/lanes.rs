@@ -128,6 +128,11 @@ macro_rules! lanes {
             }
 
             #[inline]
+            fn finite_or(self, fallback: Self) -> Self {
+                Self(self.0.is_finite().bitselect(self.0, fallback.0))
+            }
+
+            #[inline]
             fn least(self) -> f64 {
                 // `f64::min` would pass over what is no number.
                 let smaller = |least: f64, x: f64| if x < least || x.is_nan() { x } else { least };

@@ -55,7 +55,7 @@ pub fn measure(fc: f64) -> Log {
         );
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let noise = 0.1 * (f64::from(random) / f64::from(u32::MAX) - 0.5);
-        2.0 * ddq + 9.0 * q.sin() + dq + fc * robot_model::math::sign(dq) + noise
+        2.0 * ddq + 9.0 * q.sin() + dq + fc * robot_model::Scalar::sign(dq) + noise
     });
     let tau = vec![tau.collect()];
     let q = vec![time.iter().map(|&t| wave(t, 0, 0.0)).collect()];
@@ -128,7 +128,7 @@ impl Columns for DryFriction {
             0,
             motion.wide.dq[0]
                 .iter()
-                .map(|&dq| robot_model::math::sign(dq)),
+                .map(|&dq| robot_model::Scalar::sign(dq)),
         )]
     }
 }

@@ -56,17 +56,22 @@ pub fn body(dag: &Dag, names: &Names, binding: &Binding<'_>, outputs: &[ExprId])
     let mut namer = Namer::new(dag, names);
     let mut renderer = Renderer::new(dag, binding);
     let (mut trigonometry, mut shared) = (Vec::new(), Vec::new());
+    let mut angles = Angles::default();
     for &x in order.iter().filter(|x| named[x.index()]) {
         let value = renderer.definition(x);
         let name = Ident::new(&namer.name(x), Span::call_site());
-        let statement = quote!(let #name = #value;);
-        if is_trigonometry_of_positions(dag, x) {
-            trigonometry.push(statement);
-        } else {
-            shared.push(statement);
+        match dag.node(x) {
+            Node::Call(function @ (Function::Sin | Function::Cos), angle)
+                if is_sum_of_positions(dag, angle) =>
+            {
+                angles.add(function, angle, renderer.value(angle), name.clone());
+            }
+            _ if is_sum_of_positions(dag, x) => trigonometry.push(quote!(let #name = #value;)),
+            _ => shared.push(quote!(let #name = #value;)),
         }
         renderer.set_name(x, name);
     }
+    trigonometry.extend(angles.statement());
     let outputs: Vec<TokenStream> = outputs.iter().map(|&x| renderer.value(x)).collect();
     let section = |title: &str, statements: &[TokenStream]| {
         let title = Literal::string(title);
@@ -86,13 +91,57 @@ pub fn body(dag: &Dag, names: &Names, binding: &Binding<'_>, outputs: &[ExprId])
     }
 }
 
+/// Angles whose sines and cosines are computed at once.
+#[derive(Default)]
+struct Angles {
+    of: Vec<ExprId>,
+    written: Vec<TokenStream>,
+    /// Names of the sines, and of the cosines; nothing where one is not used.
+    names: [Vec<Option<Ident>>; 2],
+}
+
+impl Angles {
+    fn add(&mut self, function: Function, angle: ExprId, written: TokenStream, name: Ident) {
+        let place = self.of.iter().position(|&known| known == angle);
+        let place = place.unwrap_or_else(|| {
+            self.of.push(angle);
+            self.written.push(written);
+            for names in &mut self.names {
+                names.push(None);
+            }
+            self.of.len() - 1
+        });
+        let row = usize::from(function == Function::Cos);
+        self.names[row][place] = Some(name);
+    }
+
+    /// `let [sines, cosines] = S::sin_cos([q[0], q[1]]); let [sin_q1, sin_q2] = sines; let [cos_q1, _] = cosines;`
+    fn statement(&self) -> Option<TokenStream> {
+        let angles = &self.written;
+        if angles.is_empty() {
+            return None;
+        }
+        let (mut rows, mut entries) = (Vec::new(), TokenStream::new());
+        for (row, names) in ["sines", "cosines"].iter().zip(&self.names) {
+            if names.iter().all(Option::is_none) {
+                rows.push(quote!(_));
+                continue;
+            }
+            let row = Ident::new(row, Span::call_site());
+            let names = names.iter().map(|name| {
+                name.as_ref()
+                    .map_or_else(|| quote!(_), |name| quote!(#name))
+            });
+            entries.extend(quote!(let [#(#names),*] = #row;));
+            rows.push(quote!(#row));
+        }
+        Some(quote!(let [#(#rows),*] = S::sin_cos([#(#angles),*]); #entries))
+    }
+}
+
 /// Sines and cosines of sums of positions can be computed first, and so can these sums.
-fn is_trigonometry_of_positions(dag: &Dag, x: ExprId) -> bool {
-    let argument = match dag.node(x) {
-        Node::Call(Function::Sin | Function::Cos, argument) => argument,
-        _ => x,
-    };
-    dag.reachable(&[argument])
+fn is_sum_of_positions(dag: &Dag, x: ExprId) -> bool {
+    dag.reachable(&[x])
         .iter()
         .all(|&part| match dag.node(part) {
             Node::Constant(_) | Node::Symbol(Symbol::Q(_)) | Node::Add(..) => true,

@@ -113,9 +113,15 @@ impl Context<'_> {
             };
             let name = Ident::new(&name, Span::call_site());
             if let Some(length) = self.length(argument) {
-                quote!(#name: &[f64; #length])
+                quote!(#name: &[S; #length])
             } else {
-                quote!(#name: f64)
+                // Seconds are those of a clock, whatever the arm computes with.
+                let kind = if argument == "seconds" {
+                    quote!(f64)
+                } else {
+                    quote!(S)
+                };
+                quote!(#name: #kind)
             }
         });
         let name = Ident::new(task.name, Span::call_site());
@@ -130,7 +136,7 @@ impl Context<'_> {
         let (statements, result) = match &task.returns {
             Returns::Accelerations(Equations::Nonlinear) => {
                 let length = self.length("ddq");
-                let inside = quote!(solve::newton(|ddq: &[f64; #length]| { #statements #result }));
+                let inside = quote!(solve::newton(|ddq: &[S; #length]| { #statements #result }));
                 (quote!(), inside)
             }
             _ => (quote!(#statements), result),
@@ -146,7 +152,7 @@ impl Context<'_> {
             #[doc = #cost]
             #many
             #[must_use]
-            pub fn #name(#(#parameters),*) -> #kind {
+            pub fn #name<S: Scalar>(#(#parameters),*) -> #kind {
                 #statements
                 #result
             }
@@ -185,8 +191,8 @@ impl Context<'_> {
         };
         let rows = Literal::usize_unsuffixed(rows);
         match &task.returns {
-            Returns::Memory(counts) => (quote!([f64; #rows]), after_step(counts, outputs)),
-            Returns::Scalar => (quote!(f64), quote!(#(#outputs)*)),
+            Returns::Memory(counts) => (quote!([S; #rows]), after_step(counts, outputs)),
+            Returns::Scalar => (quote!(S), quote!(#(#outputs)*)),
             Returns::Poses => stack(outputs, 4, 4),
             Returns::Stack(rows) => stack(outputs, *rows, dof),
             Returns::Accelerations(equations) => {
@@ -206,19 +212,19 @@ impl Context<'_> {
                     Equations::General => quote!(solve::general(&#slope, &#rest)),
                     Equations::Nonlinear => quote!((#slope, #rest)),
                 };
-                (quote!(Option<[f64; #rows]>), result)
+                (quote!(Option<[S; #rows]>), result)
             }
-            Returns::Vector => (quote!([f64; #rows]), quote!([#(#outputs),*])),
+            Returns::Vector => (quote!([S; #rows]), quote!([#(#outputs),*])),
             Returns::List => {
                 let length = Literal::usize_unsuffixed(outputs.len());
-                (quote!([f64; #length]), quote!([#(#outputs),*]))
+                (quote!([S; #length]), quote!([#(#outputs),*]))
             }
-            Returns::Matrix(0) => (quote!([[f64; 0]; #rows]), quote!([[]; #rows])),
+            Returns::Matrix(0) => (quote!([[S; 0]; #rows]), quote!([[]; #rows])),
             Returns::Matrix(columns) if *columns <= WIDEST_ROW => {
                 let width = Literal::usize_unsuffixed(*columns);
                 let rows_of_entries = outputs.chunks(*columns).map(|row| quote!([#(#row),*]));
                 (
-                    quote!([[f64; #width]; #rows]),
+                    quote!([[S; #width]; #rows]),
                     quote!([#(#rows_of_entries),*]),
                 )
             }
@@ -236,8 +242,8 @@ impl Context<'_> {
                         quote!(y[#row][#column] = #entry;)
                     });
                 (
-                    quote!([[f64; #width]; #rows]),
-                    quote!(let mut y = [[0.0; #width]; #rows]; #(#entries)* y),
+                    quote!([[S; #width]; #rows]),
+                    quote!(let mut y = [[S::of(0.0); #width]; #rows]; #(#entries)* y),
                 )
             }
         }
@@ -278,7 +284,7 @@ fn stack(outputs: &[TokenStream], rows: usize, columns: usize) -> (TokenStream, 
     let number = count(matrices.len());
     let (rows, columns) = (count(rows), count(columns));
     (
-        quote!([[[f64; #columns]; #rows]; #number]),
+        quote!([[[S; #columns]; #rows]; #number]),
         quote!([#(#matrices),*]),
     )
 }

@@ -71,7 +71,7 @@ pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
         const _: () = {
-            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
+            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows, in_scalar};
             __blank!();
             #implementation
             #mechanics
@@ -242,17 +242,17 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
                 let ident = Ident::new(argument, Span::call_site());
                 // The free function has every argument of its motion, read or not.
                 debug_assert!(function.arguments.contains(argument));
-                quote!(#ident: &model::Vector<#dof>)
+                quote!(#ident: &model::SVector<S, #dof>)
             });
             if is_matrix {
                 quote! {
-                    fn #name(&self, #(#motion),*) -> model::Matrix<#dof, #dof> {
+                    fn #name<S: Scalar>(&self, #(#motion),*) -> model::SMatrix<S, #dof, #dof> {
                         from_rows(&#call)
                     }
                 }
             } else {
                 quote! {
-                    fn #name(&self, #(#motion),*) -> model::Vector<#dof> {
+                    fn #name<S: Scalar>(&self, #(#motion),*) -> model::SVector<S, #dof> {
                         #call.into()
                     }
                 }
@@ -261,7 +261,7 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         .collect();
     let call = call(functions, "inverse_dynamics", &Reads::value(quote!(state.)));
     methods.push(quote! {
-        fn inverse_dynamics_at(&self, state: &#state) -> model::Vector<#dof> {
+        fn inverse_dynamics_at<S: Scalar>(&self, state: &#state) -> model::SVector<S, #dof> {
             #call.into()
         }
     });
@@ -285,7 +285,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
             let shapes = Ident::new(if reads_shapes { "shapes" } else { "_shapes" }, Span::call_site());
             quote! {
-                fn #name(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::Matrix<#dof, #columns> {
+                fn #name<S: Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
                     from_rows(&#call)
                 }
             }
@@ -326,9 +326,9 @@ impl Reads {
             "seconds" => quote!(seconds),
             "states" => quote!(as_array(&state.memory)),
             "tau" => quote!(as_array(tau)),
-            "beta" => quote!(as_array(&self.beta())),
-            "shapes" if self.of_self => quote!(as_array(&self.shapes())),
-            "shapes" => quote!(as_array(shapes)),
+            "beta" => quote!(&in_scalar(&self.beta())),
+            "shapes" if self.of_self => quote!(&in_scalar(&self.shapes())),
+            "shapes" => quote!(&in_scalar(shapes)),
             "standard" => quote!(as_array(standard)),
             _ => {
                 let name = Ident::new(argument, Span::call_site());

@@ -53,7 +53,7 @@ pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
 
 /// What the functions take from the runtime, and no more.
 fn imports(functions: &[Function]) -> TokenStream {
-    let used: Vec<Ident> = ["math", "memory", "solve"]
+    let used: Vec<Ident> = ["Scalar", "memory", "solve"]
         .into_iter()
         .filter(|module| functions.iter().any(|f| names_word(&f.item, module)))
         .map(|module| Ident::new(module, proc_macro2::Span::call_site()))
@@ -92,7 +92,7 @@ pub fn implementation_for(
         #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
             #imports
-            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows};
+            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows, in_scalar};
             #(#items)*
             #implementation
             #mechanics

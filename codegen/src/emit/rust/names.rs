@@ -9,7 +9,7 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 13] = [
+const RESERVED: [&str; 16] = [
     "q",
     "dq",
     "ddq",
@@ -23,6 +23,9 @@ const RESERVED: [&str; 13] = [
     "inputs",
     "states",
     "out",
+    "seconds",
+    "sines",
+    "cosines",
 ];
 
 /// Gives identifiers to the temporaries of one function.

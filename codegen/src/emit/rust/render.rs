@@ -106,27 +106,20 @@ impl<'a> Renderer<'a> {
 
     fn write_node(&mut self, x: ExprId) -> (TokenStream, Strength) {
         match self.dag.node(x) {
-            Node::Constant(value) => (
-                number(value.get()),
-                if value.get() < 0.0 {
-                    Strength::Product
-                } else {
-                    Strength::Atom
-                },
-            ),
+            Node::Constant(value) => (constant(value.get()), Strength::Atom),
             Node::Symbol(symbol) => (self.binding.symbol(symbol), Strength::Atom),
             Node::Add(p, q) => self.write_sum(p, q),
             Node::Mul(p, q) => self.write_product(p, q),
             Node::Power(p, q) => {
                 self.cost.call += 1;
                 let (p, q) = (self.value(p), self.value(q));
-                (quote!(math::pow(#p, #q)), Strength::Atom)
+                (quote!(S::pow(#p, #q)), Strength::Atom)
             }
             Node::Select(condition, p, q) => self.write_choice(condition, p, q),
             Node::Call(Function::Recip, p) => {
                 self.cost.div += 1;
                 let p = self.at_least(p, Strength::Atom);
-                (quote!(1.0 / #p), Strength::Product)
+                (quote!(S::of(1.0) / #p), Strength::Product)
             }
             Node::Call(function, p) => {
                 if matches!(function, Function::Sin | Function::Cos) {
@@ -136,20 +129,17 @@ impl<'a> Renderer<'a> {
                 }
                 let name = Ident::new(function.name(), Span::call_site());
                 let p = self.value(p);
-                (quote!(math::#name(#p)), Strength::Atom)
+                (quote!(S::#name(#p)), Strength::Atom)
             }
         }
     }
 
-    /// `if condition > 0.0 { x } else { y }`; always the whole right-hand side of a temporary.
+    /// `x` where the condition is positive, else `y`.
     fn write_choice(&mut self, condition: ExprId, x: ExprId, y: ExprId) -> (TokenStream, Strength) {
         self.cost.call += 1;
         let condition = self.value(condition);
         let (x, y) = (self.value(x), self.value(y));
-        (
-            quote!(if #condition > 0.0 { #x } else { #y }),
-            Strength::Sum,
-        )
+        (quote!(S::choose(#condition, #x, #y)), Strength::Atom)
     }
 
     /// Whether the written form starts with a minus that a subtraction can take.
@@ -171,7 +161,7 @@ impl<'a> Renderer<'a> {
             return (quote!(#left + #right), Strength::Sum);
         }
         let right = match self.dag.coefficient(q) {
-            (c, None) => number(-c),
+            (c, None) => constant(-c),
             (c, Some(rest)) => self.scaled(-c, rest),
         };
         (quote!(#left - #right), Strength::Sum)
@@ -184,7 +174,7 @@ impl<'a> Renderer<'a> {
             return rest;
         }
         self.cost.mul += 1;
-        let c = number(c);
+        let c = constant(c);
         quote!(#c * #rest)
     }
 
@@ -210,6 +200,12 @@ impl<'a> Renderer<'a> {
         let right = self.at_least(q, Strength::Product);
         (quote!(#left * #right), Strength::Product)
     }
+}
+
+/// A number in the scalar of the function.
+pub fn constant(value: f64) -> TokenStream {
+    let number = number(value);
+    quote!(S::of(#number))
 }
 
 /// A number as a literal that reads back to the same bits.

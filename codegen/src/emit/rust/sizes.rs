@@ -50,7 +50,7 @@ impl Sizes {
         quote!(<#dof, #standard, #base, #shapes #more>)
     }
 
-    /// `robot_model::State<2>`
+    /// `robot_model::State<2, 0, 0, S>`
     pub fn state(&self) -> TokenStream {
         let Self {
             dof,
@@ -58,9 +58,6 @@ impl Sizes {
             inputs,
             ..
         } = self;
-        let more = self
-            .has_more_than_motion
-            .then(|| quote!(, #states, #inputs));
-        quote!(::robot_model::State<#dof #more>)
+        quote!(::robot_model::State<#dof, #states, #inputs, S>)
     }
 }

@@ -35,11 +35,11 @@ pub fn implementation(
         impl ::robot_model::Memory #arguments for #name {
             const STATES: [&'static str; #states] = [#(#names),*];
             __blank!();
-            fn state_rates_at(state: &#state, #given_shapes: &model::Vector<#shapes>) -> model::Vector<#states> {
+            fn state_rates_at<S: Scalar>(state: &#state, #given_shapes: &model::Vector<#shapes>) -> model::SVector<S, #states> {
                 #rates.into()
             }
             __blank!();
-            fn memory_after(&self, state: &#state, seconds: f64) -> model::Vector<#states> {
+            fn memory_after<S: Scalar>(&self, state: &#state, seconds: f64) -> model::SVector<S, #states> {
                 #load
                 #after.into()
             }

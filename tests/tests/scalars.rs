@@ -1,0 +1,140 @@
+//! Emitted code in every scalar: lanes are states side by side, single precision is close, dual numbers are slopes.
+
+use robot_model::model::SVector;
+use robot_model::scalar::{Dual, Lanes4, Lanes8};
+use robot_model::{FromParameters, Mechanics, Scalar, State, Vector};
+use robot_model_tests::emitted::{every_effect, memory, panda, phantom, rokae_like, stanford};
+use robot_model_tests::states::{generator, state, typed};
+
+/// The same law for an arm of links, one with a slide, one with every effect, one with a memory, and energies.
+macro_rules! for_arms {
+    ($law:ident) => {
+        $law::<panda::Panda, _, _, _, _, _, _>();
+        $law::<stanford::Stanford, _, _, _, _, _, _>();
+        $law::<rokae_like::RokaeLike, _, _, _, _, _, _>();
+        $law::<every_effect::EveryEffect, _, _, _, _, _, _>();
+        $law::<memory::Memory, _, _, _, _, _, _>();
+        $law::<phantom::Phantom, _, _, _, _, _, _>();
+    };
+}
+
+macro_rules! law {
+    ($(#[$doc:meta])* fn $name:ident($states:ident, $arm:ident) $body:block) => {
+        $(#[$doc])*
+        #[test]
+        fn $name() {
+            fn law<
+                R,
+                const DOF: usize,
+                const STANDARD: usize,
+                const BASE: usize,
+                const SHAPES: usize,
+                const STATES: usize,
+                const INPUTS: usize,
+            >()
+            where
+                R: FromParameters<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
+                    + Mechanics<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>,
+            {
+                let $arm = R::from_standard(&Vector::from_fn(|k, _| 0.3 + 0.01 * (k as f64 * 1.7).sin()));
+                let mut random = generator(17);
+                let $states: [State<DOF, STATES, INPUTS>; 8] =
+                    std::array::from_fn(|_| typed(&state(&mut random, DOF)));
+                $body
+            }
+            for_arms!(law);
+        }
+    };
+}
+
+/// A state whose every number is made by `f` from its place among those of a state.
+fn map<S: Scalar, const DOF: usize, const STATES: usize, const INPUTS: usize>(
+    f: impl Fn(&dyn Fn(&State<DOF, STATES, INPUTS>) -> f64) -> S,
+) -> State<DOF, STATES, INPUTS, S> {
+    let vector = |of: fn(&State<DOF, STATES, INPUTS>) -> &Vector<DOF>| -> SVector<S, DOF> {
+        SVector::from_fn(|k, _| f(&|state| of(state)[k]))
+    };
+    State {
+        q: vector(|state| &state.q),
+        dq: vector(|state| &state.dq),
+        ddq: vector(|state| &state.ddq),
+        rigid_torque: vector(|state| &state.rigid_torque),
+        measured_torque: vector(|state| &state.measured_torque),
+        time: f(&|state| state.time),
+        memory: SVector::from_fn(|k, _| f(&|state| state.memory[k])),
+        inputs: SVector::from_fn(|k, _| f(&|state| state.inputs[k])),
+    }
+}
+
+law! {
+    fn lanes_are_states_side_by_side(states, arm) {
+        let eight = map(|number| Lanes8::from(states.map(|state| number(&state))));
+        let four = map(|number| Lanes4::from(std::array::from_fn(|k| number(&states[k]))));
+        let (torques, regressors) = (arm.inverse_dynamics_at(&eight), R::base_regressor_at(&eight, &arm.shapes()));
+        let torques_of_four = arm.inverse_dynamics_at(&four);
+        let inertias = arm.mass_matrix(&eight.q);
+        for (lane, state) in states.iter().enumerate() {
+            let tau = arm.inverse_dynamics_at(state);
+            assert_eq!(torques.map(|x| x.to_array()[lane]), tau);
+            assert_eq!(regressors.map(|x| x.to_array()[lane]), R::base_regressor_at(state, &arm.shapes()));
+            assert_eq!(inertias.map(|x| x.to_array()[lane]), arm.mass_matrix(&state.q));
+            if lane < Lanes4::COUNT {
+                assert_eq!(torques_of_four.map(|x| x.to_array()[lane]), tau);
+            }
+        }
+    }
+}
+
+law! {
+    fn single_precision_is_close(states, arm) {
+        for state in &states {
+            let single = map(|number| f32::of(number(state)));
+            // The same motion to its last bit.
+            let rounded = map(|number| f64::from(f32::of(number(state))));
+            let found = arm.inverse_dynamics_at(&single).map(f64::from);
+            let wanted = arm.inverse_dynamics_at(&rounded);
+            // Some hundred roundings of 6e-8.
+            assert!((found - wanted).amax() < 1e-4 * wanted.amax(), "{found} {wanted}");
+        }
+    }
+}
+
+law! {
+    /// Along a direction in which positions and velocities change.
+    fn slopes_are_the_partial_derivatives(states, arm) {
+        for [state, direction] in states.as_chunks::<2>().0 {
+            let mut moving = map(|number| Dual::of(number(state)));
+            for k in 0..DOF {
+                moving.q[k].slope = direction.q[k];
+                moving.dq[k].slope = direction.dq[k];
+            }
+            let found = arm.inverse_dynamics_at(&moving);
+            let tau = arm.inverse_dynamics_at(state);
+            assert_eq!(found.map(|x| x.value), tau);
+            let wanted = arm.inverse_dynamics_by_position_at(state) * direction.q
+                + arm.inverse_dynamics_by_velocity_at(state) * direction.dq;
+            let slope = found.map(|x| x.slope);
+            let size = wanted.amax().max(tau.amax());
+            assert!((slope - wanted).amax() < 1e-10 * size, "{slope} {wanted}");
+        }
+    }
+}
+
+law! {
+    fn accelerations_of_lanes_give_their_torque(states, arm) {
+        let eight = map(|number| Lanes8::from(states.map(|state| number(&state))));
+        let tau = arm.inverse_dynamics_at(&eight);
+        // Where friction depends on the load the torque may hold an arm, in one lane or in another.
+        let Some(ddq) = arm.forward_dynamics_at(&eight, &tau) else {
+            let held = states.iter().any(|state| {
+                arm.forward_dynamics_at(state, &arm.inverse_dynamics_at(state)).is_none()
+            });
+            assert!(held);
+            return;
+        };
+        for (found, wanted) in ddq.iter().zip(&eight.ddq) {
+            let error = (*found - *wanted).abs().most();
+            assert!(error < 1e-6 * wanted.abs().most().max(1.0), "{found:?} {wanted:?}");
+        }
+    }
+}
