@@ -5,7 +5,7 @@ use robot_model_spec::parameter::{StandardParameter, Status};
 
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
-use crate::dynamics::{self, Dynamics, Kinematics, Partials, Point, Value, energy};
+use crate::dynamics::{self, Computed, Dynamics, Kinematics, Partials, Point, Value, energy};
 use crate::expr::{Dag, ExprId, Names};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
@@ -31,6 +31,12 @@ pub struct Compiled {
     pub base: BaseForm,
     /// Equations of motion in the kept parameters, whose symbols stand for base parameters. What the spec fixes is numbers.
     pub dynamics: Dynamics,
+    /// The same equations to be computed.
+    pub computed: Computed,
+    /// [`Self::linear`] to be computed.
+    pub computed_linear: LinearForm,
+    /// [`Self::candidates`] to be computed.
+    pub computed_candidates: LinearForm,
     /// Slopes of the inverse dynamics, in the same parameters.
     pub partials: Partials,
     /// `tau = d/dt (Y_p * standard) - Y_h * standard`
@@ -65,6 +71,12 @@ pub fn compile_model(model: &Model) -> Compiled {
     }
     let values = base_values(&standard, &base);
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
+    let computed = dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values);
+    let computed_linear = regressor::computed(&mut dag, model, &linear, &base.kept);
+    let computed_candidates = match form {
+        Some(_) => candidates.clone(),
+        None => computed_linear.clone(),
+    };
     let partials = Partials::new(&mut dag, &dynamics);
     let symbols = vec![Value::Symbol; standard.len()];
     let mut momentum_of = |form: Option<&EnergyForm>, linear: &LinearForm| {
@@ -88,6 +100,9 @@ pub fn compile_model(model: &Model) -> Compiled {
         candidates,
         base,
         dynamics,
+        computed,
+        computed_linear,
+        computed_candidates,
         partials,
         momentum,
         base_momentum,
@@ -97,7 +112,7 @@ pub fn compile_model(model: &Model) -> Compiled {
 }
 
 /// Kept parameters are symbols, fixed ones numbers; what was regrouped into kept ones counts there and vanishes here.
-fn base_values(standard: &[StandardParameter], base: &BaseForm) -> Vec<Value> {
+pub(crate) fn base_values(standard: &[StandardParameter], base: &BaseForm) -> Vec<Value> {
     let mut values: Vec<Value> = standard
         .iter()
         .map(|parameter| Value::Number(fixed_value(parameter)))
@@ -223,7 +238,9 @@ impl Compiled {
         let entries = (0..self.base.kept.len())
             .filter(|&column| wanted(column))
             .flat_map(|column| {
-                let entries = self.candidates.column(&self.dag, self.base.kept[column]);
+                let entries = self
+                    .computed_candidates
+                    .column(&self.dag, self.base.kept[column]);
                 entries.map(move |(joint, entry)| (joint, column, entry))
             })
             .collect();
@@ -269,7 +286,7 @@ impl Compiled {
     pub fn regressor(&self) -> Block {
         let entries = (0..self.standard.len())
             .flat_map(|column| {
-                self.linear
+                self.computed_linear
                     .column(&self.dag, column)
                     .map(move |(joint, entry)| (joint, column, entry))
             })
@@ -281,30 +298,30 @@ impl Compiled {
     /// [`Self::parameter_values`]. Includes what the spec fixes.
     #[must_use]
     pub fn rigid_torque(&self) -> Program {
-        Program::new(&self.dag, &self.dynamics.rigid_torque)
+        Program::new(&self.dag, &self.computed.rigid_torque)
     }
 
     /// `rigid_torque` and the declared effects, one output a joint.
     #[must_use]
     pub fn inverse_dynamics(&self) -> Program {
-        Program::new(&self.dag, &self.dynamics.inverse_dynamics)
+        Program::new(&self.dag, &self.computed.inverse_dynamics)
     }
 
     /// `M`, row by row.
     #[must_use]
     pub fn mass_matrix(&self) -> Program {
-        Program::new(&self.dag, &self.dynamics.mass_matrix.concat())
+        Program::new(&self.dag, &self.computed.mass_matrix.concat())
     }
 
     /// `C`, row by row.
     #[must_use]
     pub fn coriolis_matrix(&self) -> Program {
-        Program::new(&self.dag, &self.dynamics.coriolis_matrix.concat())
+        Program::new(&self.dag, &self.computed.coriolis_matrix.concat())
     }
 
     /// `G`, one output a joint.
     #[must_use]
     pub fn gravity(&self) -> Program {
-        Program::new(&self.dag, &self.dynamics.gravity)
+        Program::new(&self.dag, &self.computed.gravity)
     }
 }

@@ -1,7 +1,8 @@
 //! The robot-model compiler: a checked model in, equations and specialized Rust out.
 //!
 //! ```text
-//! Model -derive-> Dynamics -linearize-> LinearForm -reduce-> BaseForm -> programs (interpreter) | Rust (emit)
+//! Model -derive-> Dynamics -linearize-> LinearForm -reduce-> BaseForm -compute-> Computed
+//!       -optimize-> programs (interpreter) | Rust (emit)
 //! ```
 
 pub mod base;
@@ -13,6 +14,7 @@ pub mod expr;
 pub mod filtered;
 pub mod interpreter;
 pub mod lumps;
+pub mod optimize;
 mod random;
 pub mod regressor;
 mod right_inverse;
@@ -23,12 +25,14 @@ pub mod show;
 pub mod states;
 
 mod alone;
+mod baked;
 mod build_script;
 mod compiled;
 mod forms;
 mod measured;
 
 pub use alone::{EffectColumns, effect_columns};
+pub use baked::Baked;
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use measured::NotInstantaneous;

@@ -80,3 +80,11 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
     );
     LinearForm { regressor }
 }
+
+/// The same form to be computed; `kept` parameters have base parameters.
+pub fn computed(dag: &mut Dag, model: &Model, form: &LinearForm, kept: &[usize]) -> LinearForm {
+    let standard = model.standard_parameters();
+    let is_rigid = |parameter: usize| model.is_rigid(&standard[parameter]);
+    let regressor = dynamics::computed_regressor(dag, model, &form.regressor, &is_rigid, kept);
+    LinearForm { regressor }
+}

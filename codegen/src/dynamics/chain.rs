@@ -8,7 +8,7 @@ use robot_model_spec::model::{self, Joint, JointKind};
 
 use super::changes::Changes;
 use super::frame::{Frame, frame};
-use super::inertia::{self, LinkParameters};
+use super::inertia::LinkParameters;
 use super::rigid::Terms;
 use super::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId, Label};
@@ -110,35 +110,6 @@ impl Chain {
         torque.reverse();
         torque
     }
-
-    /// `M(q)`, `[row][column]`, by composite rigid bodies: when joint `j` alone accelerates, all links from `j` to the tip
-    /// move as one body, and the joints below carry its wrench. Source: Walker and Orin 1982.
-    pub fn mass_matrix(&self, dag: &mut Dag) -> Vec<Vec<ExprId>> {
-        let dof = self.frames.len();
-        let (zero, one) = (dag.zero(), dag.constant(1.0));
-        let still = vector::zero(dag);
-        let mut mass_matrix = vec![vec![zero; dof]; dof];
-        let mut composite: Option<LinkParameters> = None;
-        for j in (0..dof).rev() {
-            let body = match composite {
-                None => self.links[j],
-                Some(outer) => {
-                    let outer = inertia::in_parent(dag, &self.frames[j + 1], &outer);
-                    std::array::from_fn(|k| dag.add(self.links[j][k], outer[k]))
-                }
-            };
-            let motion = self.frames[j].advance(dag, still, still, still, zero, one);
-            let mut carried = motion.wrench(dag, &body);
-            for i in (0..=j).rev() {
-                let along_joint;
-                (along_joint, carried) = self.frames[i].transmit(dag, carried);
-                mass_matrix[i][j] = along_joint;
-                mass_matrix[j][i] = along_joint;
-            }
-            composite = Some(body);
-        }
-        mass_matrix
-    }
 }
 
 fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
@@ -150,7 +121,7 @@ fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
 impl Frame {
     /// What the joint feels of a force on the link and a moment about the link's origin, and both on the parent, the
     /// moment about the parent's origin.
-    fn transmit(
+    pub(super) fn transmit(
         &self,
         dag: &mut Dag,
         (force, moment): (Vector, Vector),
@@ -207,7 +178,7 @@ impl Frame {
 }
 
 /// `U = [dw]x + [w]x [w]x`
-fn acceleration_gradient(dag: &mut Dag, w: Vector, dw: Vector) -> Matrix {
+pub(super) fn acceleration_gradient(dag: &mut Dag, w: Vector, dw: Vector) -> Matrix {
     let square = w.map(|x| dag.mul(x, x));
     let zero = dag.zero();
     let mut u = [[zero; 3]; 3];

@@ -6,6 +6,7 @@ use super::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId, Function};
 
 /// One joint's kinematics. The joint point is the origin of the frame after [`Placement::before`], fixed in the parent.
+#[derive(Clone)]
 pub struct Frame {
     /// What the coordinate is.
     pub kind: JointKind,
@@ -19,6 +20,41 @@ pub struct Frame {
     pub axis: Vector,
     /// The joint's axis in parent coordinates.
     pub axis_in_parent: Vector,
+}
+
+/// The axis of a revolute joint, where it is one of the link's frame and one of the parent's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MainAxis {
+    /// Which of the link's.
+    pub link: usize,
+    /// Which of the parent's.
+    pub parent: usize,
+    /// Direction in the link by direction in the parent.
+    pub turned: f64,
+}
+
+impl Frame {
+    /// The main axis that the joint turns about, if there is one.
+    pub fn main_axis(&self, dag: &Dag) -> Option<MainAxis> {
+        let unit = |v: Vector| -> Option<(usize, f64)> {
+            let k = v.iter().position(|&x| !dag.is_zero(x))?;
+            let value = dag.as_constant(v[k])?;
+            let alone = (0..3).all(|other| other == k || dag.is_zero(v[other]));
+            (alone && value.abs().to_bits() == 1.0f64.to_bits()).then_some((k, value))
+        };
+        if self.kind != JointKind::Revolute {
+            return None;
+        }
+        let ((link, own), (parent, outer)) = (unit(self.axis)?, unit(self.axis_in_parent)?);
+        // The rotation has to leave the axis exactly where it is.
+        let turned = own * outer;
+        let kept = dag.as_constant(self.rotation[parent][link])?;
+        (kept.to_bits() == turned.to_bits()).then_some(MainAxis {
+            link,
+            parent,
+            turned,
+        })
+    }
 }
 
 /// Expressions for the frame of a joint that stands at `q`.

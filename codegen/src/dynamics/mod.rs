@@ -5,6 +5,9 @@
 
 mod chain;
 mod changes;
+mod columns;
+mod composite;
+mod computed;
 mod coriolis;
 pub mod effect;
 mod energies;
@@ -14,6 +17,7 @@ mod frame;
 mod inertia;
 mod kinematics;
 mod lagrange;
+mod lean;
 mod lower;
 mod partial;
 mod point;
@@ -25,6 +29,7 @@ use robot_model_spec::model::{Act, Model};
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
 pub use changes::Changes;
+pub use computed::{Computed, compute, regressor as computed_regressor};
 pub use energies::Energies;
 use energy::EnergyForm;
 pub use kinematics::{Kinematics, Lever, Pose};
@@ -81,7 +86,6 @@ pub fn derive(
     let rigid_torque = body.torque(dag, Terms::All, true);
     let bias = body.torque(dag, Terms::Bias, false);
     let gravity = body.torque(dag, Terms::Gravity, false);
-    let velocity_torque = body.torque(dag, Terms::Velocity, false);
 
     let mass_matrix = body.mass_matrix(dag);
     for (row, entries) in mass_matrix.iter().enumerate() {
@@ -96,6 +100,7 @@ pub fn derive(
             );
         }
     }
+    let velocity_torque = body.torque(dag, Terms::Velocity, false);
     let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
 
     let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque);

@@ -117,6 +117,11 @@ impl Dag {
         id
     }
 
+    /// A node without a look at the rules, for passes that have decided its form. Operands are in canonical order.
+    pub(crate) fn as_it_is(&mut self, node: Node) -> ExprId {
+        self.intern(node)
+    }
+
     /// A number.
     pub fn constant(&mut self, value: f64) -> ExprId {
         self.intern(Node::Constant(Real::new(value)))

@@ -6,6 +6,7 @@
 mod schedule;
 
 use crate::expr::{Dag, ExprId, Function, Symbol};
+use crate::optimize::{Optimized, optimize};
 use schedule::Scheduler;
 
 /// Samples an instruction works on at a time.
@@ -106,10 +107,11 @@ impl Scratch {
 }
 
 impl Program {
-    /// Schedules `outputs` in the order of their construction.
+    /// Schedules `outputs` with as few operations as the emitted code has.
     #[must_use]
     pub fn new(dag: &Dag, outputs: &[ExprId]) -> Self {
-        Scheduler::new(dag, outputs).schedule(outputs)
+        let Optimized { dag, outputs } = optimize(dag, outputs);
+        Scheduler::new(&dag, &outputs).schedule(&outputs)
     }
 
     /// The symbols that the program reads.

@@ -6,36 +6,10 @@ use quote::quote;
 use super::names::Namer;
 use super::render::{Binding, Renderer};
 use crate::expr::{Dag, ExprId, Function, Names, Node, Symbol};
+pub use crate::optimize::Cost;
 
 /// An expression with more operations than this is broken up by a named part.
 const LONGEST_EXPRESSION: usize = 12;
-
-/// Operations of a function, as emitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Cost {
-    /// Multiplications.
-    pub mul: usize,
-    /// Additions and subtractions.
-    pub add: usize,
-    /// Divisions.
-    pub div: usize,
-    /// Sines and cosines.
-    pub trig: usize,
-    /// Other function calls, and choices.
-    pub call: usize,
-}
-
-impl std::fmt::Display for Cost {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{} mul, {} add, {} trig", self.mul, self.add, self.trig)?;
-        for (count, name) in [(self.div, "div"), (self.call, "other")] {
-            if count > 0 {
-                write!(f, ", {count} {name}")?;
-            }
-        }
-        Ok(())
-    }
-}
 
 /// The statements of a function before its outputs are written.
 pub struct Body {

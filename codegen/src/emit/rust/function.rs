@@ -7,6 +7,7 @@ use super::body::{self, Cost};
 use super::render::Binding;
 use crate::compiled::Compiled;
 use crate::expr::{Dag, ExprId, Names, Symbol};
+use crate::optimize::{Optimized, optimize};
 
 /// A matrix with more columns is written entry by entry.
 const WIDEST_ROW: usize = 8;
@@ -89,7 +90,8 @@ pub struct Function {
 
 impl Context<'_> {
     pub fn function(&self, task: &Task) -> Function {
-        let body = body::body(self.dag, self.names, self.binding, &task.outputs);
+        let Optimized { dag, outputs } = optimize(self.dag, &task.outputs);
+        let body = body::body(&dag, self.names, self.binding, &outputs);
         let reads = |argument: &str| {
             let mut symbols = body.symbols.iter();
             let is_read_outside = match task.returns {

@@ -194,7 +194,7 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<Function>, Costs) {
         dag: &compiled.dag,
         note: "",
     };
-    let (dynamics, dof) = (&compiled.dynamics, compiled.dof());
+    let (computed, dof) = (&compiled.computed, compiled.dof());
 
     let mut functions = vec![
         context.function(&Task {
@@ -202,40 +202,40 @@ fn functions(compiled: &Compiled, extent: Extent) -> (Vec<Function>, Costs) {
             doc: "Joint-space mass matrix `M(q)`, kg m^2 (kg for prismatic joints); symmetric, positive definite for \
                   physical `beta`.",
             arguments: "q beta shapes",
-            outputs: dynamics.mass_matrix.concat(),
+            outputs: computed.mass_matrix.concat(),
             returns: Returns::Matrix(dof),
         }),
         context.function(&Task {
             name: "coriolis_matrix",
             doc: "Coriolis matrix `C(q, dq)` in Christoffel form: `dM/dt - 2 C` is skew.",
             arguments: "q dq beta shapes",
-            outputs: dynamics.coriolis_matrix.concat(),
+            outputs: computed.coriolis_matrix.concat(),
             returns: Returns::Matrix(dof),
         }),
         context.function(&Task {
             name: "gravity",
             doc: "Gravity torque `G(q)`, N m (N for prismatic joints).",
             arguments: "q beta shapes",
-            outputs: dynamics.gravity.clone(),
+            outputs: computed.gravity.clone(),
             returns: Returns::Vector,
         }),
         context.function(&Task {
             name: "bias",
             doc: "Bias torque `C(q, dq) * dq + G(q)`, N m (N for prismatic joints).",
             arguments: "q dq beta shapes",
-            outputs: dynamics.bias.clone(),
+            outputs: computed.bias.clone(),
             returns: Returns::Vector,
         }),
         context.function(&Task {
             name: "inverse_dynamics",
             doc: "Joint torque `tau = M * ddq + C * dq + G + effects`, N m (N for prismatic joints).",
             arguments: "q dq ddq measured_torque time inputs states beta shapes",
-            outputs: dynamics.inverse_dynamics.clone(),
+            outputs: computed.inverse_dynamics.clone(),
             returns: Returns::Vector,
         }),
     ];
-    let regressor = compiled.linear.regressor.concat();
-    let rows = compiled.candidates.regressor.iter();
+    let regressor = compiled.computed_linear.regressor.concat();
+    let rows = compiled.computed_candidates.regressor.iter();
     let base_regressor = rows
         .flat_map(|row| compiled.base.kept.iter().map(|&k| row[k]))
         .collect();

@@ -106,12 +106,12 @@ fn forward_dynamics(context: &Context<'_>) -> Function {
         Equations::General
     };
     let torque = match equations {
-        Equations::Nonlinear => compiled.dynamics.inverse_dynamics.clone(),
+        Equations::Nonlinear => compiled.computed.inverse_dynamics.clone(),
         Equations::Symmetric | Equations::General => {
             let zero = dag.zero();
             let still = |symbol| matches!(symbol, Symbol::Ddq(_)).then_some(zero);
             let effects = dag.substitute(&compiled.dynamics.effect_torque, &still);
-            let bias = compiled.dynamics.bias.iter().zip(effects);
+            let bias = compiled.computed.bias.iter().zip(effects);
             bias.map(|(&bias, effect)| dag.add(bias, effect)).collect()
         }
     };

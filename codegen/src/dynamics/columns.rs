@@ -1,0 +1,164 @@
+//! The regressor of a chain, link by link: what a unit of each inertial parameter takes of the joints.
+//!
+//! In: a [`Chain`]. Out: [`Columns`]. Seven columns of a link are carried from joint to joint; the other three fall out, since a
+//! mass on a joint's axis moves with the parent as well as with the link: its columns are those of the parent, and the joint
+//! itself feels nothing of it.
+
+use super::chain::Chain;
+use super::frame::{Frame, MainAxis};
+use super::lean::{Body, Choice, Form, LeanChain, Motion};
+use super::rigid::Terms;
+use super::vector::Vector;
+use crate::expr::{Dag, ExprId};
+
+/// `[element][joint]` of a link: the torque of each joint per unit of each inertial parameter.
+pub type Columns = [Vec<ExprId>; 10];
+
+/// Numbers for the ten parameters, in the order of `InertialElement::ALL`.
+type Numbers = [f64; 10];
+
+const M: usize = 0;
+/// The first moment along each axis.
+const FIRST: [usize; 3] = [1, 2, 3];
+/// The inertia, `[row][column]`.
+const SECOND: [[usize; 3]; 3] = [[4, 5, 6], [5, 7, 8], [6, 8, 9]];
+
+/// `tau = sum over links and elements of columns[link][element] * parameter`. Columns of `wanted` links and elements are
+/// carried rather than put together from others.
+pub fn columns(
+    dag: &mut Dag,
+    chain: &Chain,
+    wanted: &dyn Fn(usize, usize) -> bool,
+) -> Vec<Columns> {
+    let mut lean = LeanChain::new(dag, chain, &Choice::plain(chain.frames.len()));
+    lean.slide_joint_points(dag);
+    let motions = lean.forward(dag, Terms::All);
+    let mut columns: Vec<Columns> = Vec::with_capacity(motions.len());
+    for (link, motion) in motions.iter().enumerate() {
+        let on_axis = OnAxis::of(dag, &chain.frames[link], |element| wanted(link, element));
+        let zero = dag.zero();
+        let mut own: Columns = std::array::from_fn(|_| vec![zero; motions.len()]);
+        let together = columns.last().zip(on_axis);
+        let pivots = together
+            .as_ref()
+            .map_or([usize::MAX; 3], |(_, on_axis)| on_axis.pivots);
+        for element in (0..10).filter(|element| !pivots.contains(element)) {
+            own[element] = carried(dag, &lean.frames, link, motion, element);
+        }
+        if let Some((parent, on_axis)) = &together {
+            on_axis.complete(dag, parent, &mut own, link);
+        }
+        columns.push(own);
+    }
+    columns
+}
+
+/// A column whose wrench is carried down to the base.
+fn carried(
+    dag: &mut Dag,
+    frames: &[Frame],
+    link: usize,
+    motion: &Motion,
+    element: usize,
+) -> Vec<ExprId> {
+    let mut unit = [dag.zero(); 10];
+    unit[element] = dag.constant(1.0);
+    let body = Body::new(dag, &unit, Form::Inertia, 0);
+    let mut column = vec![dag.zero(); frames.len()];
+    let mut wrench = motion.wrench(dag, &body);
+    for joint in (0..=link).rev() {
+        (column[joint], wrench) = frames[joint].transmit(dag, wrench);
+    }
+    column
+}
+
+/// Three bodies on a joint's axis, each as parameters of the link and of its parent, and the parameter of the link whose
+/// column it gives. In the order in which they do.
+struct OnAxis {
+    pivots: [usize; 3],
+    in_link: [Numbers; 3],
+    in_parent: [Numbers; 3],
+}
+
+impl OnAxis {
+    /// `None` where the axis is none of the link's frame, or no axis.
+    fn of(dag: &Dag, frame: &Frame, wanted: impl Fn(usize) -> bool) -> Option<Self> {
+        let MainAxis { link: k, .. } = frame.main_axis(dag)?;
+        let numbers = |v: Vector| -> Option<[f64; 3]> {
+            let [x, y, z] = v.map(|x| dag.as_constant(x));
+            Some([x?, y?, z?])
+        };
+        let (axis, parent_axis) = (numbers(frame.axis)?, numbers(frame.axis_in_parent)?);
+        let to_origin = numbers(frame.to_origin)?;
+        let joint_point = numbers(frame.joint_point)?;
+        // The point of the axis next to the link's origin, from both origins.
+        let along = to_origin[k] * axis[k];
+        let point = std::array::from_fn(|x| if x == k { 0.0 } else { 0.0 - to_origin[x] });
+        let in_parent = std::array::from_fn(|x| joint_point[x] + along * parent_axis[x]);
+        let across = [(k + 2) % 3, (k + 1) % 3].map(|x| SECOND[x][x]);
+        let across = if wanted(across[0]) && !wanted(across[1]) {
+            across[1]
+        } else {
+            across[0]
+        };
+        let reversed = |[first, second, third]: [Numbers; 3]| [third, second, first];
+        Some(Self {
+            pivots: [across, FIRST[k], M],
+            in_link: reversed(masses_on_line(point, axis)),
+            in_parent: reversed(masses_on_line(in_parent, parent_axis)),
+        })
+    }
+
+    /// `sum of in_link * own = sum of in_parent * parent`, solved for the pivots. The row of the joint itself has zeros on the
+    /// right: the parent's columns end before it.
+    fn complete(&self, dag: &mut Dag, parent: &Columns, own: &mut Columns, link: usize) {
+        let bodies = self.in_link.iter().zip(&self.in_parent);
+        for (&pivot, (in_link, in_parent)) in self.pivots.iter().zip(bodies) {
+            for joint in 0..=link {
+                let whole = combined(dag, in_parent, parent, joint, usize::MAX);
+                let others = combined(dag, in_link, own, joint, pivot);
+                let left = dag.sub(whole, others);
+                own[pivot][joint] = dag.scale(in_link[pivot].recip(), left);
+            }
+        }
+    }
+}
+
+/// A unit mass at `p`, and how its parameters change along the direction `u`: `mass(p + s u) = [0] + s [1] + s^2 [2]`.
+fn masses_on_line(p: [f64; 3], u: [f64; 3]) -> [Numbers; 3] {
+    let mut masses = [[0.0; 10]; 3];
+    masses[0][M] = 1.0;
+    for k in 0..3 {
+        masses[0][FIRST[k]] = p[k];
+        masses[1][FIRST[k]] = u[k];
+    }
+    // (r . r) 1 - r r^T with r = p + s u.
+    let dot = |x: [f64; 3], y: [f64; 3]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+    for a in 0..3 {
+        for b in a..3 {
+            let entry = |x: [f64; 3], y: [f64; 3]| {
+                let on_diagonal = if a == b { dot(x, y) } else { 0.0 };
+                on_diagonal - f64::midpoint(x[a] * y[b], x[b] * y[a])
+            };
+            masses[0][SECOND[a][b]] = entry(p, p);
+            masses[1][SECOND[a][b]] = 2.0 * entry(p, u);
+            masses[2][SECOND[a][b]] = entry(u, u);
+        }
+    }
+    masses
+}
+
+/// `sum of factors[element] * columns[element][joint]` without one element.
+fn combined(
+    dag: &mut Dag,
+    factors: &Numbers,
+    columns: &Columns,
+    joint: usize,
+    without: usize,
+) -> ExprId {
+    let elements = (0..10).filter(|&element| element != without);
+    let terms: Vec<ExprId> = elements
+        .map(|element| dag.scale(factors[element], columns[element][joint]))
+        .collect();
+    dag.sum(terms)
+}

@@ -1,0 +1,174 @@
+//! The equations as they are computed: the same values as those of [`Dynamics`](super::Dynamics) and of the linear form, which are
+//! written to be read, from the derivations with the fewest operations.
+
+use robot_model_spec::model::Model;
+
+use super::chain::Chain;
+use super::columns;
+use super::coriolis;
+use super::energy::EnergyForm;
+use super::lean::{Choice, LeanChain};
+use super::rigid::{RigidBody, Terms};
+use super::{Value, effect_torque, parameter_expressions};
+use crate::expr::{Dag, ExprId, Symbol};
+use crate::optimize;
+
+/// Torques and matrices, as of [`Dynamics`](super::Dynamics).
+#[derive(Debug, Clone)]
+pub struct Computed {
+    /// `M ddq + C dq + G`
+    pub rigid_torque: Vec<ExprId>,
+    /// With the torque of the declared effects.
+    pub inverse_dynamics: Vec<ExprId>,
+    /// `C dq + G`
+    pub bias: Vec<ExprId>,
+    /// `G(q)`
+    pub gravity: Vec<ExprId>,
+    /// `M(q)`, `[row][column]`.
+    pub mass_matrix: Vec<Vec<ExprId>>,
+    /// `C(q, dq)` of Christoffel, `[row][column]`.
+    pub coriolis_matrix: Vec<Vec<ExprId>>,
+}
+
+/// Derives what [`derive`](super::derive) derives, to be computed. With numbers for all parameters that is the arm itself:
+/// what its numbers make vanish is gone.
+pub fn compute(
+    dag: &mut Dag,
+    model: &Model,
+    form: Option<&EnergyForm>,
+    values: &[Value],
+) -> Computed {
+    let parameters = parameter_expressions(dag, values);
+    let body = RigidBody::new(dag, model, form, &parameters);
+    let lean = match &body {
+        RigidBody::Chain(chain) => {
+            let choice = choice(model, form, values);
+            Some(LeanChain::new(dag, chain, &choice))
+        }
+        RigidBody::Lagrangian(_) => None,
+    };
+    let torque = |dag: &mut Dag, terms: Terms| {
+        let plain = body.torque(dag, terms, terms == Terms::All);
+        match &lean {
+            Some(lean) => {
+                let lean = lean.torque(dag, terms);
+                cheaper(dag, lean, plain)
+            }
+            None => plain,
+        }
+    };
+    let rigid_torque = torque(dag, Terms::All);
+    let bias = torque(dag, Terms::Bias);
+    let gravity = torque(dag, Terms::Gravity);
+    let effects = effect_torque(dag, model, &parameters, &rigid_torque);
+    Computed {
+        inverse_dynamics: rigid_torque
+            .iter()
+            .zip(effects)
+            .map(|(&rigid, effect)| dag.add(rigid, effect))
+            .collect(),
+        rigid_torque,
+        bias,
+        gravity,
+        mass_matrix: body.mass_matrix(dag),
+        coriolis_matrix: coriolis_matrix(dag, &body),
+    }
+}
+
+/// How the chain is best written; found on a dag of its own, which is small.
+fn choice(model: &Model, form: Option<&EnergyForm>, values: &[Value]) -> Choice {
+    let mut dag = Dag::new();
+    let parameters = parameter_expressions(&mut dag, values);
+    match RigidBody::new(&mut dag, model, form, &parameters) {
+        RigidBody::Chain(chain) => Choice::best(&dag, &chain),
+        RigidBody::Lagrangian(_) => Choice::plain(model.joints.len()),
+    }
+}
+
+/// By derivatives, which few joints and parallel axes simplify, or by composite bodies.
+fn coriolis_matrix(dag: &mut Dag, body: &RigidBody) -> Vec<Vec<ExprId>> {
+    let velocity_torque = body.torque(dag, Terms::Velocity, false);
+    let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
+    let RigidBody::Chain(chain) = body else {
+        return derived;
+    };
+    let dof = derived.len();
+    let mut composite = chain.coriolis_matrix(dag);
+    for (row, known) in composite.iter_mut().zip(&derived) {
+        for (entry, &known) in row.iter_mut().zip(known) {
+            // What is a number needs no bodies.
+            if dag.as_constant(known).is_some() {
+                *entry = known;
+            }
+        }
+    }
+    let flat = cheaper(dag, derived.concat(), composite.concat());
+    flat.chunks(dof.max(1)).map(<[ExprId]>::to_vec).collect()
+}
+
+/// The regressor of the rigid body from the columns of its links, `[joint][parameter]`: the entries of `regressor` are replaced
+/// where `is_rigid`, and none that is zero is computed. `kept` parameters have base parameters.
+pub fn regressor(
+    dag: &mut Dag,
+    model: &Model,
+    regressor: &[Vec<ExprId>],
+    is_rigid: &dyn Fn(usize) -> bool,
+    kept: &[usize],
+) -> Vec<Vec<ExprId>> {
+    let count = regressor.first().map_or(0, Vec::len);
+    let symbols = vec![Value::Symbol; count];
+    let parameters = parameter_expressions(dag, &symbols);
+    if model.chain().is_none() {
+        return regressor.to_vec();
+    }
+    let RigidBody::Chain(chain) = RigidBody::new(dag, model, None, &parameters) else {
+        return regressor.to_vec();
+    };
+    let wanted = |link: usize, element: usize| kept.binary_search(&(10 * link + element)).is_ok();
+    let columns = columns::columns(dag, &chain, &wanted);
+    let mut computed = regressor.to_vec();
+    for parameter in (0..count).filter(|&k| is_rigid(k)) {
+        let shares = shares(dag, &chain, parameter);
+        for (joint, row) in computed.iter_mut().enumerate() {
+            if dag.as_constant(row[parameter]).is_some() {
+                continue;
+            }
+            let terms: Vec<ExprId> = shares
+                .iter()
+                .map(|&(link, element, share)| dag.mul(share, columns[link][element][joint]))
+                .collect();
+            row[parameter] = dag.sum(terms);
+        }
+    }
+    let flat = cheaper(dag, computed.concat(), regressor.concat());
+    flat.chunks(count.max(1)).map(<[ExprId]>::to_vec).collect()
+}
+
+/// `(link, element, d element / d parameter)` where it is not zero.
+fn shares(dag: &mut Dag, chain: &Chain, parameter: usize) -> Vec<(usize, usize, ExprId)> {
+    let mut shares = Vec::new();
+    for (link, elements) in chain.links.iter().enumerate() {
+        let slopes = dag.derivatives(elements, Symbol::Parameter(parameter));
+        for (element, slope) in slopes.into_iter().enumerate() {
+            if !dag.is_zero(slope) {
+                shares.push((link, element, slope));
+            }
+        }
+    }
+    shares
+}
+
+/// The list with fewer operations; the first of equals.
+fn cheaper(dag: &Dag, first: Vec<ExprId>, second: Vec<ExprId>) -> Vec<ExprId> {
+    if operations(dag, &second) < operations(dag, &first) {
+        second
+    } else {
+        first
+    }
+}
+
+/// Multiplications and additions.
+pub(super) fn operations(dag: &Dag, outputs: &[ExprId]) -> usize {
+    let cost = optimize::operations(dag, outputs);
+    cost.mul + cost.add
+}

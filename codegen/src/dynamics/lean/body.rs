@@ -1,0 +1,105 @@
+//! A link's inertial parameters in the form that is computed with.
+
+use crate::dynamics::frame::Frame;
+use crate::dynamics::inertia::{LinkParameters, Turn};
+use crate::dynamics::vector::{self, Matrix, Vector};
+use crate::expr::{Dag, ExprId};
+
+/// What the second moments of a body are written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// `I = int (r . r) 1 - r r^T dm`, as parameters give it.
+    Inertia,
+    /// `S = int r r^T dm = tr(I)/2 1 - I`: fewer products, but an argument of the function has to be rewritten first.
+    SecondMoments,
+}
+
+/// Mass, first moments and second moments about the origin of a link's frame.
+#[derive(Clone, Copy)]
+pub struct Body {
+    pub mass: ExprId,
+    pub first: Vector,
+    /// Symmetric.
+    pub second: Matrix,
+    pub form: Form,
+}
+
+impl Body {
+    /// `along` is the axis whose entry gets the fewest operations.
+    pub fn new(dag: &mut Dag, link: &LinkParameters, form: Form, along: usize) -> Self {
+        let &[mass, mx, my, mz, xx, xy, xz, yy, yz, zz] = link;
+        let second = match form {
+            Form::Inertia => [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
+            Form::SecondMoments => {
+                let [xy, xz, yz] = [xy, xz, yz].map(|x| dag.neg(x));
+                let [xx, yy, zz] = squares(dag, [xx, yy, zz], along);
+                [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+            }
+        };
+        Self {
+            mass,
+            first: [mx, my, mz],
+            second,
+            form,
+        }
+    }
+
+    /// About another point; masses are at `r + t` from it.
+    ///
+    /// With `s` the sum of the old first moments and the new ones, `P = (s t^T + t s^T) / 2`: `S' = S + P` and
+    /// `I' = I + tr(P) 1 - P`.
+    pub fn seen_from(&self, dag: &mut Dag, t: Vector) -> Self {
+        let shift = vector::scale(dag, self.mass, t);
+        let first = vector::add(dag, self.first, shift);
+        let s = vector::add(dag, self.first, first);
+        let halves = t.map(|x| dag.scale(0.5, x));
+        let p: Matrix = std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                let (left, right) = (dag.mul(s[a], halves[b]), dag.mul(halves[a], s[b]));
+                dag.add(left, right)
+            })
+        });
+        let second = std::array::from_fn(|a| {
+            std::array::from_fn(|b| {
+                let more = match self.form {
+                    Form::SecondMoments => p[a][b],
+                    Form::Inertia if a == b => {
+                        dag.add(p[(a + 1) % 3][(a + 1) % 3], p[(a + 2) % 3][(a + 2) % 3])
+                    }
+                    Form::Inertia => dag.neg(p[a][b]),
+                };
+                dag.add(self.second[a][b], more)
+            })
+        });
+        Self {
+            first,
+            second,
+            ..*self
+        }
+    }
+
+    /// In the axes of the parent.
+    pub fn turned(&self, dag: &mut Dag, frame: &Frame, turn: &Turn) -> Self {
+        Self {
+            first: vector::apply(dag, &frame.rotation, self.first),
+            second: turn.matrix(dag, &self.second),
+            ..*self
+        }
+    }
+}
+
+/// The diagonal of `S` from that of `I`: `S_ii + S_kk = I_jj` and so on, around.
+fn squares(dag: &mut Dag, inertia: [ExprId; 3], along: usize) -> [ExprId; 3] {
+    let (mut i, mut j, k) = ((along + 1) % 3, (along + 2) % 3, along);
+    if dag.is_zero(inertia[i]) {
+        // Then S_kk below is -S_ii.
+        (i, j) = (j, i);
+    }
+    let mut squares = inertia;
+    let others = dag.add(inertia[j], inertia[k]);
+    let difference = dag.sub(others, inertia[i]);
+    squares[i] = dag.scale(0.5, difference);
+    squares[j] = dag.sub(inertia[k], squares[i]);
+    squares[k] = dag.sub(inertia[j], squares[i]);
+    squares
+}

@@ -1,0 +1,185 @@
+//! Recursive Newton-Euler with few operations, on a serial chain.
+//!
+//! In: a [`Chain`]. Out: the torque of every joint, as of [`Chain::torque`]. The equations are the same; how they are written is
+//! chosen by the number of operations ([`search`]):
+//!
+//! - the axis of a revolute joint is fixed in the link and in its parent, so a column of `U` is turned over from the parent
+//!   ([`motion`]);
+//! - bodies are written with their inertia or with second moments ([`body`]);
+//! - origins are moved along axes, so that forces at joints that intersect are not needed;
+//! - the last link may be turned back into the axes of its parent: its few parameters instead of all motions and wrenches.
+
+mod body;
+mod motion;
+mod search;
+
+use super::chain::Chain;
+use super::frame::Frame;
+use super::inertia::Turn;
+use super::rigid::Terms;
+use super::vector::{self, Vector};
+use crate::expr::{Dag, ExprId};
+pub use body::{Body, Form};
+pub use motion::Motion;
+pub use search::Choice;
+
+/// A chain as it is computed with.
+#[derive(Clone)]
+pub struct LeanChain {
+    pub(super) frames: Vec<Frame>,
+    bodies: Vec<Body>,
+    /// Acceleration of gravity in the base frame.
+    gravity: Vector,
+}
+
+impl LeanChain {
+    /// The chain, written as chosen.
+    pub fn new(dag: &mut Dag, chain: &Chain, choice: &Choice) -> Self {
+        let links = chain.links.iter().zip(&chain.frames);
+        let bodies = links
+            .map(|(link, frame)| {
+                let along = frame.main_axis(dag).map_or(2, |axis| axis.link);
+                Body::new(dag, link, choice.form, along)
+            })
+            .collect();
+        let mut lean = Self {
+            frames: chain.frames.clone(),
+            bodies,
+            gravity: chain.gravity,
+        };
+        if choice.form == Form::SecondMoments {
+            lean.hand_over(dag);
+        }
+        lean.move_origins(dag, &choice.origins);
+        if choice.turns_last {
+            lean.turn_last(dag);
+        }
+        lean
+    }
+
+    /// A dumbbell along a joint's axis moves with the parent as well as with the link: it goes to the parent, and the base
+    /// does not feel it.
+    fn hand_over(&mut self, dag: &mut Dag) {
+        for link in (0..self.frames.len()).rev() {
+            let Some(axis) = self.frames[link].main_axis(dag) else {
+                continue;
+            };
+            let along = &mut self.bodies[link].second[axis.link][axis.link];
+            let dumbbell = std::mem::replace(along, dag.zero());
+            if link > 0 {
+                let along = &mut self.bodies[link - 1].second[axis.parent][axis.parent];
+                *along = dag.add(*along, dumbbell);
+            }
+        }
+    }
+
+    /// Moves the origin of each link's frame by a vector in link coordinates.
+    fn move_origins(&mut self, dag: &mut Dag, shifts: &[[f64; 3]]) {
+        for (link, shift) in shifts.iter().enumerate() {
+            if shift.iter().any(|&x| x != 0.0) {
+                let shift = vector::constant(dag, *shift);
+                self.move_origin(dag, link, shift);
+            }
+        }
+    }
+
+    fn move_origin(&mut self, dag: &mut Dag, link: usize, shift: Vector) {
+        let back = shift.map(|x| dag.neg(x));
+        let frame = &mut self.frames[link];
+        frame.to_origin = vector::add(dag, frame.to_origin, shift);
+        if let Some(outer) = self.frames.get_mut(link + 1) {
+            outer.joint_point = vector::add(dag, outer.joint_point, back);
+        }
+        self.bodies[link] = self.bodies[link].seen_from(dag, back);
+        self.straighten(dag, link);
+    }
+
+    /// Any point of a joint's axis is a joint point: the one next to the link's origin leaves least to go.
+    fn straighten(&mut self, dag: &mut Dag, link: usize) {
+        let frame = &mut self.frames[link];
+        let Some(axis) = frame.main_axis(dag) else {
+            return;
+        };
+        let along = std::mem::replace(&mut frame.to_origin[axis.link], dag.zero());
+        let in_parent = dag.scale(axis.turned, along);
+        let joint = &mut frame.joint_point[axis.parent];
+        *joint = dag.add(*joint, in_parent);
+    }
+
+    /// Where a joint point is off the parent's origin by no more than a way along its axis, it moves there: then the parent
+    /// needs the moment alone.
+    pub fn slide_joint_points(&mut self, dag: &mut Dag) {
+        for frame in &mut self.frames {
+            let Some(axis) = frame.main_axis(dag) else {
+                continue;
+            };
+            let others = (0..3).filter(|&k| k != axis.parent);
+            if others.map(|k| frame.joint_point[k]).all(|x| dag.is_zero(x)) {
+                let along = std::mem::replace(&mut frame.joint_point[axis.parent], dag.zero());
+                let in_link = dag.scale(axis.turned, along);
+                let to_origin = &mut frame.to_origin[axis.link];
+                *to_origin = dag.add(*to_origin, in_link);
+            }
+        }
+    }
+
+    /// The last link in axes that do not turn with its joint.
+    fn turn_last(&mut self, dag: &mut Dag) {
+        let Some(last) = self.frames.len().checked_sub(1) else {
+            return;
+        };
+        let Some(turn) = Turn::of(dag, &self.frames[last].rotation) else {
+            return;
+        };
+        if self.frames[last].main_axis(dag).is_none() {
+            return;
+        }
+        let back = self.frames[last].to_origin.map(|x| dag.neg(x));
+        self.move_origin(dag, last, back);
+        let frame = &mut self.frames[last];
+        self.bodies[last] = self.bodies[last].turned(dag, frame, &turn);
+        frame.axis = frame.axis_in_parent;
+        let (zero, one) = (dag.zero(), dag.constant(1.0));
+        frame.rotation =
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { one } else { zero }));
+    }
+
+    /// Torque of every joint, N m or N.
+    pub fn torque(&self, dag: &mut Dag, terms: Terms) -> Vec<ExprId> {
+        let motions = self.forward(dag, terms);
+        let mut torque = Vec::with_capacity(motions.len());
+        let mut carried = (vector::zero(dag), vector::zero(dag));
+        for (index, motion) in motions.iter().enumerate().rev() {
+            let (own_force, own_moment) = motion.wrench(dag, &self.bodies[index]);
+            let force = vector::add(dag, own_force, carried.0);
+            let moment = vector::add(dag, own_moment, carried.1);
+            let along_joint;
+            (along_joint, carried) = self.frames[index].transmit(dag, (force, moment));
+            torque.push(along_joint);
+        }
+        torque.reverse();
+        torque
+    }
+
+    /// Motion of every link.
+    pub fn forward(&self, dag: &mut Dag, terms: Terms) -> Vec<Motion> {
+        let up = if terms.gravity() {
+            self.gravity.map(|g| dag.neg(g))
+        } else {
+            vector::zero(dag)
+        };
+        let (dq, ddq) = terms.rates(dag, self.frames.len());
+        let base = Motion::of_base(dag, up);
+        let mut motions: Vec<Motion> = Vec::with_capacity(self.frames.len());
+        for (index, frame) in self.frames.iter().enumerate() {
+            let parent = motions.last().unwrap_or(&base);
+            let next = self.frames.get(index + 1);
+            let asked = next.is_some_and(|next| {
+                let axes = (frame.main_axis(dag), next.main_axis(dag));
+                !matches!(axes, (Some(own), Some(next)) if own.link == next.parent)
+            });
+            motions.push(parent.outward(dag, frame, (dq[index], ddq[index]), asked));
+        }
+        motions
+    }
+}

@@ -1,0 +1,193 @@
+//! How a chain is best written: all ways that are tried have the same values, the one with the fewest operations is taken.
+
+use super::LeanChain;
+use super::body::Form;
+use crate::dynamics::chain::Chain;
+use crate::dynamics::computed::operations;
+use crate::dynamics::frame::Frame;
+use crate::dynamics::rigid::Terms;
+use crate::dynamics::vector::Vector;
+use crate::expr::Dag;
+
+/// One way to write a chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// What second moments are written as.
+    pub form: Form,
+    /// Where the origins of the link frames move, in link coordinates, m.
+    pub origins: Vec<[f64; 3]>,
+    /// Whether the last link is written in axes that do not turn with its joint.
+    pub turns_last: bool,
+}
+
+impl Choice {
+    /// The chain as it is given.
+    pub fn plain(dof: usize) -> Self {
+        Self {
+            form: Form::Inertia,
+            origins: vec![[0.0; 3]; dof],
+            turns_last: false,
+        }
+    }
+
+    /// The way with the fewest operations for the whole torque, one decision after the other. The same chain gives the same
+    /// choice. `dag` is where the chain's expressions are; trials are built on copies of it.
+    pub fn best(dag: &Dag, chain: &Chain) -> Self {
+        let mut search = Search {
+            dag,
+            chain,
+            best: Self::plain(chain.frames.len()),
+            cost: usize::MAX,
+        };
+        search.cost = search.operations(&search.best);
+        let places = places(dag, &chain.frames);
+        let mut before = usize::MAX;
+        while search.cost < before {
+            before = search.cost;
+            for form in [Form::Inertia, Form::SecondMoments] {
+                search.offer(|choice| choice.form = form);
+            }
+            for turns_last in [false, true] {
+                search.offer(|choice| choice.turns_last = turns_last);
+            }
+            for (link, places) in places.iter().enumerate() {
+                for &place in places {
+                    search.offer(|choice| choice.origins[link] = place);
+                }
+            }
+        }
+        search.best
+    }
+}
+
+struct Search<'a> {
+    dag: &'a Dag,
+    chain: &'a Chain,
+    best: Choice,
+    cost: usize,
+}
+
+impl Search<'_> {
+    fn offer(&mut self, change: impl FnOnce(&mut Choice)) {
+        let mut choice = self.best.clone();
+        change(&mut choice);
+        if choice == self.best {
+            return;
+        }
+        let cost = self.operations(&choice);
+        if cost < self.cost {
+            self.best = choice;
+            self.cost = cost;
+        }
+    }
+
+    fn operations(&self, choice: &Choice) -> usize {
+        let mut dag = self.dag.clone();
+        let torque = LeanChain::new(&mut dag, self.chain, choice).torque(&mut dag, Terms::All);
+        operations(&dag, &torque)
+    }
+}
+
+/// Where origins may be worth moving to, per link: on the joint's axis, the next one's, or where these are next to each other.
+fn places(dag: &Dag, frames: &[Frame]) -> Vec<Vec<[f64; 3]>> {
+    let lines: Vec<Option<Lines>> = frames.iter().map(|frame| Lines::of(dag, frame)).collect();
+    (0..frames.len())
+        .map(|link| {
+            let mut places = vec![[0.0; 3]];
+            let Some(own) = lines[link] else {
+                return places;
+            };
+            let mut push = |place: [f64; 3]| {
+                let near =
+                    |other: &[f64; 3]| other.iter().zip(place).all(|(x, y)| (x - y).abs() < NEAR);
+                if !places.iter().any(near) {
+                    places.push(place.map(|x| if x.abs() < NEAR { 0.0 } else { x }));
+                }
+            };
+            push(own.in_link.point);
+            push(own.in_link.foot_of([0.0; 3]));
+            if let Some(parent) = link.checked_sub(1).and_then(|parent| lines[parent]) {
+                // Measured along the axis, which is fixed in both.
+                let along = own.in_parent.next_to(&parent.in_link);
+                push(own.in_link.at(along));
+            }
+            push(own.in_link.at(own.in_parent.along([0.0; 3])));
+            if let Some(next) = lines.get(link + 1).copied().flatten() {
+                push(next.in_parent.point);
+                push(own.in_link.foot_of(next.in_parent.point));
+                push(own.in_link.at(own.in_link.next_to(&next.in_parent)));
+                push(next.in_parent.foot_of(own.in_link.point));
+            }
+            places
+        })
+        .collect()
+}
+
+/// Places nearer than this are one, m.
+const NEAR: f64 = 1e-9;
+
+/// The axis of a joint, in the link and in its parent; both points are the joint point.
+#[derive(Clone, Copy)]
+struct Lines {
+    in_link: Line,
+    in_parent: Line,
+}
+
+#[derive(Clone, Copy)]
+struct Line {
+    point: [f64; 3],
+    direction: [f64; 3],
+}
+
+impl Lines {
+    fn of(dag: &Dag, frame: &Frame) -> Option<Self> {
+        let numbers = |v: Vector| -> Option<[f64; 3]> {
+            let [x, y, z] = v.map(|x| dag.as_constant(x));
+            Some([x?, y?, z?])
+        };
+        Some(Self {
+            in_link: Line {
+                point: numbers(frame.to_origin)?.map(|x| 0.0 - x),
+                direction: numbers(frame.axis)?,
+            },
+            in_parent: Line {
+                point: numbers(frame.joint_point)?,
+                direction: numbers(frame.axis_in_parent)?,
+            },
+        })
+    }
+}
+
+impl Line {
+    fn at(&self, along: f64) -> [f64; 3] {
+        std::array::from_fn(|k| self.point[k] + along * self.direction[k])
+    }
+
+    /// Where the line is next to a point, measured from its own point.
+    fn along(&self, to: [f64; 3]) -> f64 {
+        dot(difference(to, self.point), self.direction)
+    }
+
+    fn foot_of(&self, point: [f64; 3]) -> [f64; 3] {
+        self.at(self.along(point))
+    }
+
+    /// Where the line is next to another, measured from its own point; 0 for parallel lines.
+    fn next_to(&self, other: &Self) -> f64 {
+        let apart = difference(other.point, self.point);
+        let cos = dot(self.direction, other.direction);
+        let square_of_sine = 1.0 - cos * cos;
+        if square_of_sine < NEAR {
+            return 0.0;
+        }
+        (dot(apart, self.direction) - cos * dot(apart, other.direction)) / square_of_sine
+    }
+}
+
+fn dot(x: [f64; 3], y: [f64; 3]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+fn difference(x: [f64; 3], y: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| x[k] - y[k])
+}

@@ -1,0 +1,49 @@
+//! Fewer operations for the same values: what several outputs have in common is computed once.
+//!
+//! In: outputs of one function as expressions of a [`Dag`]. Out: the same outputs in a dag of their own, with fewer
+//! multiplications and additions. Invariants: values change by no more than rounding; the same input gives the same output.
+
+mod cost;
+mod kernels;
+mod network;
+mod products;
+mod rebuild;
+
+use crate::expr::{Dag, ExprId};
+pub use cost::Cost;
+pub(crate) use cost::operations;
+use network::Network;
+
+/// A function's outputs, ready to be scheduled.
+#[derive(Debug, Clone)]
+pub struct Optimized {
+    /// Where the outputs live. Its nodes are made as they are: no rule has been applied to them.
+    pub dag: Dag,
+    /// One per output that was asked for.
+    pub outputs: Vec<ExprId>,
+}
+
+/// Rewrites the outputs of one function.
+#[must_use]
+pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
+    let network = Network::new(dag, outputs);
+    let candidates = [false, true].map(|products_first| {
+        let mut network = network.clone();
+        if products_first {
+            products::share(&mut network);
+        }
+        loop {
+            let before = network.operations();
+            kernels::share(&mut network);
+            products::share(&mut network);
+            if network.operations() >= before {
+                break network;
+            }
+        }
+    });
+    let [mut best, other] = candidates;
+    if other.operations() < best.operations() {
+        best = other;
+    }
+    rebuild::rebuild(dag, &best)
+}
