@@ -8,7 +8,7 @@ use super::chain::Chain;
 use super::frame::{Frame, MainAxis};
 use super::lean::{Body, Choice, Form, LeanChain, Motion};
 use super::rigid::Terms;
-use super::vector::Vector;
+use super::vector::{self, Vector};
 use crate::expr::{Dag, ExprId};
 
 /// `[element][joint]` of a link: the torque of each joint per unit of each inertial parameter.
@@ -33,6 +33,7 @@ pub fn columns(
     let mut lean = LeanChain::new(dag, chain, &Choice::plain(chain.frames.len()));
     lean.slide_joint_points(dag);
     let motions = lean.forward(dag, Terms::All);
+    let center = Center::of(dag, &lean.frames);
     let mut columns: Vec<Columns> = Vec::with_capacity(motions.len());
     for (link, motion) in motions.iter().enumerate() {
         let on_axis = OnAxis::of(dag, &chain.frames[link], |element| wanted(link, element));
@@ -43,7 +44,7 @@ pub fn columns(
             .as_ref()
             .map_or([usize::MAX; 3], |(_, on_axis)| on_axis.pivots);
         for element in (0..10).filter(|element| !pivots.contains(element)) {
-            own[element] = carried(dag, &lean.frames, link, motion, element);
+            own[element] = carried(dag, &lean.frames, &center, link, motion, element);
         }
         if let Some((parent, on_axis)) = &together {
             on_axis.complete(dag, parent, &mut own, link);
@@ -53,10 +54,47 @@ pub fn columns(
     columns
 }
 
+/// Joints with axes through one point, the first of the chain: all of them feel the moment about that point, so it is taken
+/// in the frame of the last of them and not carried on.
+struct Center {
+    /// The last of them.
+    joint: usize,
+    /// Axes of those before, in the frame of the last one's link.
+    axes: Vec<Vector>,
+}
+
+impl Center {
+    fn of(dag: &mut Dag, frames: &[Frame]) -> Self {
+        let turns_about_main_axis = |dag: &Dag, frame: &Frame| frame.main_axis(dag).is_some();
+        let is_zero = |dag: &Dag, v: Vector| v.iter().all(|&x| dag.is_zero(x));
+        let mut center = Self {
+            joint: 0,
+            axes: Vec::new(),
+        };
+        for (joint, pair) in (1..).zip(frames.windows(2)) {
+            let [inner, outer] = pair else { break };
+            if !turns_about_main_axis(dag, inner)
+                || !turns_about_main_axis(dag, outer)
+                || !is_zero(dag, inner.to_origin)
+                || !is_zero(dag, outer.joint_point)
+            {
+                break;
+            }
+            center.joint = joint;
+            center.axes.push(inner.axis);
+            for axis in &mut center.axes {
+                *axis = vector::apply_transposed(dag, &outer.rotation, *axis);
+            }
+        }
+        center
+    }
+}
+
 /// A column whose wrench is carried down to the base.
 fn carried(
     dag: &mut Dag,
     frames: &[Frame],
+    center: &Center,
     link: usize,
     motion: &Motion,
     element: usize,
@@ -67,7 +105,17 @@ fn carried(
     let mut column = vec![dag.zero(); frames.len()];
     let mut wrench = motion.wrench(dag, &body);
     for joint in (0..=link).rev() {
+        if joint == center.joint {
+            let lever = vector::cross(dag, frames[joint].to_origin, wrench.0);
+            let moment = vector::add(dag, wrench.1, lever);
+            for (inner, axis) in center.axes.iter().enumerate() {
+                column[inner] = vector::dot(dag, moment, *axis);
+            }
+        }
         (column[joint], wrench) = frames[joint].transmit(dag, wrench);
+        if joint == center.joint {
+            break;
+        }
     }
     column
 }

@@ -7,7 +7,7 @@ use super::chain::Chain;
 use super::columns;
 use super::coriolis;
 use super::energy::EnergyForm;
-use super::lean::{Choice, LeanChain};
+use super::lean::{Choice, LeanChain, Wanted};
 use super::rigid::{RigidBody, Terms};
 use super::{Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
@@ -42,7 +42,7 @@ pub fn compute(
     let body = RigidBody::new(dag, model, form, &parameters);
     let lean = match &body {
         RigidBody::Chain(chain) => {
-            let choice = choice(model, form, values);
+            let choice = choice(model, values, Wanted::Torque);
             Some(LeanChain::new(dag, chain, &choice))
         }
         RigidBody::Lagrangian(_) => None,
@@ -61,6 +61,17 @@ pub fn compute(
     let bias = torque(dag, Terms::Bias);
     let gravity = torque(dag, Terms::Gravity);
     let effects = effect_torque(dag, model, &parameters, &rigid_torque);
+    let velocity_torque = body.torque(dag, Terms::Velocity, false);
+    let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
+    let (mass_matrix, coriolis_matrix) = match body {
+        RigidBody::Chain(chain) => {
+            let choice = choice(model, values, Wanted::MassMatrix);
+            let chain = LeanChain::new(dag, &chain, &choice).into_chain();
+            let coriolis_matrix = cheaper_coriolis_matrix(dag, &chain, &derived);
+            (chain.mass_matrix(dag), coriolis_matrix)
+        }
+        RigidBody::Lagrangian(lagrangian) => (lagrangian.mass_matrix, derived),
+    };
     Computed {
         inverse_dynamics: rigid_torque
             .iter()
@@ -70,31 +81,30 @@ pub fn compute(
         rigid_torque,
         bias,
         gravity,
-        mass_matrix: body.mass_matrix(dag),
-        coriolis_matrix: coriolis_matrix(dag, &body),
+        mass_matrix,
+        coriolis_matrix,
     }
 }
 
 /// How the chain is best written; found on a dag of its own, which is small.
-fn choice(model: &Model, form: Option<&EnergyForm>, values: &[Value]) -> Choice {
+fn choice(model: &Model, values: &[Value], wanted: Wanted) -> Choice {
     let mut dag = Dag::new();
     let parameters = parameter_expressions(&mut dag, values);
-    match RigidBody::new(&mut dag, model, form, &parameters) {
-        RigidBody::Chain(chain) => Choice::best(&dag, &chain),
+    match RigidBody::new(&mut dag, model, None, &parameters) {
+        RigidBody::Chain(chain) => Choice::best(&dag, &chain, wanted),
         RigidBody::Lagrangian(_) => Choice::plain(model.joints.len()),
     }
 }
 
 /// By derivatives, which few joints and parallel axes simplify, or by composite bodies.
-fn coriolis_matrix(dag: &mut Dag, body: &RigidBody) -> Vec<Vec<ExprId>> {
-    let velocity_torque = body.torque(dag, Terms::Velocity, false);
-    let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
-    let RigidBody::Chain(chain) = body else {
-        return derived;
-    };
+fn cheaper_coriolis_matrix(
+    dag: &mut Dag,
+    chain: &Chain,
+    derived: &[Vec<ExprId>],
+) -> Vec<Vec<ExprId>> {
     let dof = derived.len();
     let mut composite = chain.coriolis_matrix(dag);
-    for (row, known) in composite.iter_mut().zip(&derived) {
+    for (row, known) in composite.iter_mut().zip(derived) {
         for (entry, &known) in row.iter_mut().zip(known) {
             // What is a number needs no bodies.
             if dag.as_constant(known).is_some() {

@@ -8,6 +8,10 @@ mod kernels;
 mod network;
 mod products;
 mod rebuild;
+mod terms;
+
+#[cfg(test)]
+mod tests;
 
 use crate::expr::{Dag, ExprId};
 pub use cost::Cost;

@@ -5,6 +5,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use super::terms;
 use crate::expr::{Dag, ExprId, Node};
 
 /// A cell of a [`Network`].
@@ -61,10 +62,12 @@ impl Network {
             }
         }
         let outputs = outputs.iter().map(|&x| builder.reference(x)).collect();
-        Self {
+        let mut network = Self {
             outputs,
             ..builder.network
-        }
+        };
+        terms::collect(&mut network);
+        network
     }
 
     /// A new cell.
@@ -72,6 +75,14 @@ impl Network {
         self.cells.push(cell);
         self.origins.push(None);
         self.cells.len() - 1
+    }
+
+    /// The cell of a number.
+    pub fn number(&mut self, size: f64) -> Id {
+        let known = self.cells.iter().position(
+            |cell| matches!(cell, Cell::Number(value) if value.to_bits() == size.to_bits()),
+        );
+        known.unwrap_or_else(|| self.push(Cell::Number(size)))
     }
 
     /// Multiplications and additions.

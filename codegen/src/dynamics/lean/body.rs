@@ -1,6 +1,5 @@
 //! A link's inertial parameters in the form that is computed with.
 
-use crate::dynamics::frame::Frame;
 use crate::dynamics::inertia::{LinkParameters, Turn};
 use crate::dynamics::vector::{self, Matrix, Vector};
 use crate::expr::{Dag, ExprId};
@@ -44,6 +43,14 @@ impl Body {
         }
     }
 
+    /// The ten parameters of a body that is written with its inertia.
+    pub fn parameters(&self) -> LinkParameters {
+        debug_assert_eq!(self.form, Form::Inertia);
+        let [mx, my, mz] = self.first;
+        let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = self.second;
+        [self.mass, mx, my, mz, xx, xy, xz, yy, yz, zz]
+    }
+
     /// About another point; masses are at `r + t` from it.
     ///
     /// With `s` the sum of the old first moments and the new ones, `P = (s t^T + t s^T) / 2`: `S' = S + P` and
@@ -79,9 +86,9 @@ impl Body {
     }
 
     /// In the axes of the parent.
-    pub fn turned(&self, dag: &mut Dag, frame: &Frame, turn: &Turn) -> Self {
+    pub fn turned(&self, dag: &mut Dag, rotation: &Matrix, turn: &Turn) -> Self {
         Self {
-            first: vector::apply(dag, &frame.rotation, self.first),
+            first: vector::apply(dag, rotation, self.first),
             second: turn.matrix(dag, &self.second),
             ..*self
         }

@@ -7,21 +7,25 @@
 //!   ([`motion`]);
 //! - bodies are written with their inertia or with second moments ([`body`]);
 //! - origins are moved along axes, so that forces at joints that intersect are not needed;
-//! - the last link may be turned back into the axes of its parent: its few parameters instead of all motions and wrenches.
+//! - the last link, and one before a parallel axis, may be written in axes that do not turn with its joint: then its few
+//!   parameters turn instead of all motions and wrenches;
+//! - lengths are measured in one of the arm's own.
 
 mod body;
 mod motion;
 mod search;
 
+use robot_model_spec::model::JointKind;
+
 use super::chain::Chain;
-use super::frame::Frame;
+use super::frame::{Frame, multiply};
 use super::inertia::Turn;
 use super::rigid::Terms;
 use super::vector::{self, Vector};
 use crate::expr::{Dag, ExprId};
 pub use body::{Body, Form};
 pub use motion::Motion;
-pub use search::Choice;
+pub use search::{Choice, Wanted};
 
 /// A chain as it is computed with.
 #[derive(Clone)]
@@ -51,10 +55,23 @@ impl LeanChain {
             lean.hand_over(dag);
         }
         lean.move_origins(dag, &choice.origins);
-        if choice.turns_last {
-            lean.turn_last(dag);
+        lean.measure_in(dag, choice.unit);
+        for (link, &turned) in choice.turned.iter().enumerate() {
+            if turned {
+                lean.turn(dag, link);
+            }
         }
         lean
+    }
+
+    /// The chain again, for derivations that know no second moments.
+    pub fn into_chain(self) -> Chain {
+        let links = self.bodies.iter().map(Body::parameters).collect();
+        Chain {
+            frames: self.frames,
+            links,
+            gravity: self.gravity,
+        }
     }
 
     /// A dumbbell along a joint's axis moves with the parent as well as with the link: it goes to the parent, and the base
@@ -109,7 +126,8 @@ impl LeanChain {
     /// Where a joint point is off the parent's origin by no more than a way along its axis, it moves there: then the parent
     /// needs the moment alone.
     pub fn slide_joint_points(&mut self, dag: &mut Dag) {
-        for frame in &mut self.frames {
+        // The base does not turn.
+        for frame in self.frames.iter_mut().skip(1) {
             let Some(axis) = frame.main_axis(dag) else {
                 continue;
             };
@@ -123,25 +141,56 @@ impl LeanChain {
         }
     }
 
-    /// The last link in axes that do not turn with its joint.
-    fn turn_last(&mut self, dag: &mut Dag) {
-        let Some(last) = self.frames.len().checked_sub(1) else {
-            return;
-        };
-        let Some(turn) = Turn::of(dag, &self.frames[last].rotation) else {
-            return;
-        };
-        if self.frames[last].main_axis(dag).is_none() {
+    /// Lengths in multiples of `unit` meters, masses so that energies and the torques of revolute joints stay as they are: a
+    /// length that is the unit is no factor. Chains with prismatic joints keep their unit.
+    fn measure_in(&mut self, dag: &mut Dag, unit: f64) {
+        let is_revolute = |frame: &Frame| frame.kind == JointKind::Revolute;
+        if unit.to_bits() == 1.0f64.to_bits() || !self.frames.iter().all(is_revolute) {
             return;
         }
-        let back = self.frames[last].to_origin.map(|x| dag.neg(x));
-        self.move_origin(dag, last, back);
-        let frame = &mut self.frames[last];
-        self.bodies[last] = self.bodies[last].turned(dag, frame, &turn);
+        let mut shorter = |v: Vector| v.map(|x| dag.scale(unit.recip(), x));
+        self.gravity = shorter(self.gravity);
+        for frame in &mut self.frames {
+            frame.joint_point = shorter(frame.joint_point);
+            frame.to_origin = shorter(frame.to_origin);
+        }
+        for body in &mut self.bodies {
+            body.mass = dag.scale(unit * unit, body.mass);
+            body.first = body.first.map(|x| dag.scale(unit, x));
+        }
+    }
+
+    /// Writes a link in axes that do not turn with its joint: its few parameters are turned instead of all that passes it. The
+    /// next joint, if there is one, has to have a parallel axis, so that both turn as one.
+    fn turn(&mut self, dag: &mut Dag, link: usize) {
+        let Some(own) = self.frames[link].main_axis(dag) else {
+            return;
+        };
+        if let Some(next) = self.frames.get(link + 1) {
+            let parallel = next
+                .main_axis(dag)
+                .is_some_and(|next| next.parent == own.link);
+            if !parallel {
+                return;
+            }
+        }
+        let Some(turn) = Turn::of(dag, &self.frames[link].rotation) else {
+            return;
+        };
+        let back = self.frames[link].to_origin.map(|x| dag.neg(x));
+        self.move_origin(dag, link, back);
+        let rotation = self.frames[link].rotation;
+        self.bodies[link] = self.bodies[link].turned(dag, &rotation, &turn);
+        if let Some(next) = self.frames.get_mut(link + 1) {
+            next.joint_point = vector::apply(dag, &rotation, next.joint_point);
+            next.axis_in_parent = vector::apply(dag, &rotation, next.axis_in_parent);
+            next.rotation = multiply(dag, &rotation, &next.rotation);
+        }
+        let frame = &mut self.frames[link];
         frame.axis = frame.axis_in_parent;
         let (zero, one) = (dag.zero(), dag.constant(1.0));
-        frame.rotation =
-            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { one } else { zero }));
+        let unit = |i, j| if i == j { one } else { zero };
+        frame.rotation = std::array::from_fn(|i| std::array::from_fn(|j| unit(i, j)));
     }
 
     /// Torque of every joint, N m or N.

@@ -16,8 +16,19 @@ pub struct Choice {
     pub form: Form,
     /// Where the origins of the link frames move, in link coordinates, m.
     pub origins: Vec<[f64; 3]>,
-    /// Whether the last link is written in axes that do not turn with its joint.
-    pub turns_last: bool,
+    /// Whether a link is written in axes that do not turn with its joint.
+    pub turned: Vec<bool>,
+    /// What lengths are measured in, m.
+    pub unit: f64,
+}
+
+/// What is to be computed with a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// The whole torque; its parts are written in the same way.
+    Torque,
+    /// The mass matrix.
+    MassMatrix,
 }
 
 impl Choice {
@@ -26,16 +37,18 @@ impl Choice {
         Self {
             form: Form::Inertia,
             origins: vec![[0.0; 3]; dof],
-            turns_last: false,
+            turned: vec![false; dof],
+            unit: 1.0,
         }
     }
 
-    /// The way with the fewest operations for the whole torque, one decision after the other. The same chain gives the same
-    /// choice. `dag` is where the chain's expressions are; trials are built on copies of it.
-    pub fn best(dag: &Dag, chain: &Chain) -> Self {
+    /// The way with the fewest operations, one decision after the other. The same chain gives the same choice. `dag` is where
+    /// the chain's expressions are; trials are built on copies of it.
+    pub fn best(dag: &Dag, chain: &Chain, wanted: Wanted) -> Self {
         let mut search = Search {
             dag,
             chain,
+            wanted,
             best: Self::plain(chain.frames.len()),
             cost: usize::MAX,
         };
@@ -44,16 +57,21 @@ impl Choice {
         let mut before = usize::MAX;
         while search.cost < before {
             before = search.cost;
-            for form in [Form::Inertia, Form::SecondMoments] {
-                search.offer(|choice| choice.form = form);
-            }
-            for turns_last in [false, true] {
-                search.offer(|choice| choice.turns_last = turns_last);
+            if wanted == Wanted::Torque {
+                for form in [Form::Inertia, Form::SecondMoments] {
+                    search.offer(|choice| choice.form = form);
+                }
             }
             for (link, places) in places.iter().enumerate() {
                 for &place in places {
                     search.offer(|choice| choice.origins[link] = place);
                 }
+            }
+            for link in (0..places.len()).rev() {
+                search.offer(|choice| choice.turned[link] = !choice.turned[link]);
+            }
+            for unit in search.lengths() {
+                search.offer(|choice| choice.unit = unit);
             }
         }
         search.best
@@ -63,6 +81,7 @@ impl Choice {
 struct Search<'a> {
     dag: &'a Dag,
     chain: &'a Chain,
+    wanted: Wanted,
     best: Choice,
     cost: usize,
 }
@@ -83,8 +102,30 @@ impl Search<'_> {
 
     fn operations(&self, choice: &Choice) -> usize {
         let mut dag = self.dag.clone();
-        let torque = LeanChain::new(&mut dag, self.chain, choice).torque(&mut dag, Terms::All);
-        operations(&dag, &torque)
+        let lean = LeanChain::new(&mut dag, self.chain, choice);
+        let outputs = match self.wanted {
+            Wanted::Torque => lean.torque(&mut dag, Terms::All),
+            Wanted::MassMatrix => lean.into_chain().mass_matrix(&mut dag).concat(),
+        };
+        operations(&dag, &outputs)
+    }
+
+    /// Lengths between joints as they are written now, and one meter.
+    fn lengths(&self) -> Vec<f64> {
+        let mut dag = self.dag.clone();
+        let choice = Choice {
+            unit: 1.0,
+            ..self.best.clone()
+        };
+        let lean = LeanChain::new(&mut dag, self.chain, &choice);
+        let steps = lean.frames.iter();
+        let numbers = steps.flat_map(|frame| [frame.joint_point, frame.to_origin].concat());
+        let lengths = numbers.filter_map(|x| dag.as_constant(x));
+        let mut lengths: Vec<f64> = lengths.map(f64::abs).filter(|&x| x > NEAR).collect();
+        lengths.push(1.0);
+        lengths.sort_by(f64::total_cmp);
+        lengths.dedup();
+        lengths
     }
 }
 

@@ -1,0 +1,67 @@
+//! Terms of a sum that are multiples of one product: `c x + y - c x = y`, `x + y + x = 2 x + y`.
+
+use super::network::{Cell, Id, Network, Term};
+
+/// Collects them in every sum. Parts of a sum that were apart in the dag are next to each other in the network.
+pub fn collect(network: &mut Network) {
+    for id in 0..network.cells.len() {
+        let Cell::Sum(terms) = &network.cells[id] else {
+            continue;
+        };
+        if let Some(terms) = collected(network, terms.clone()) {
+            network.cells[id] = if terms.is_empty() {
+                Cell::Number(0.0)
+            } else {
+                Cell::Sum(terms)
+            };
+        }
+    }
+}
+
+/// `None` where there is nothing to collect.
+fn collected(network: &mut Network, mut terms: Vec<Term>) -> Option<Vec<Term>> {
+    let before = terms.len();
+    let mut j = 1;
+    while j < terms.len() {
+        let (factor, rest) = apart(network, &terms[j]);
+        let same = (0..j).find(|&i| apart(network, &terms[i]).1 == rest);
+        let Some(i) = same else {
+            j += 1;
+            continue;
+        };
+        let sum = apart(network, &terms[i]).0 + factor;
+        terms.remove(j);
+        if sum == 0.0 {
+            terms.remove(i);
+            j -= 1;
+        } else {
+            terms[i] = together(network, sum, rest);
+        }
+    }
+    (terms.len() < before).then_some(terms)
+}
+
+/// A number and the other factors.
+fn apart(network: &Network, term: &Term) -> (f64, Vec<Id>) {
+    let mut number = if term.negative { -1.0 } else { 1.0 };
+    let mut rest = Vec::with_capacity(term.factors.len());
+    for &factor in &term.factors {
+        match network.cells[factor] {
+            Cell::Number(value) => number *= value,
+            _ => rest.push(factor),
+        }
+    }
+    (number, rest)
+}
+
+fn together(network: &mut Network, number: f64, mut factors: Vec<Id>) -> Term {
+    let size = number.abs();
+    if size.to_bits() != 1.0f64.to_bits() || factors.is_empty() {
+        factors.push(network.number(size));
+        factors.sort_unstable();
+    }
+    Term {
+        negative: number < 0.0,
+        factors,
+    }
+}

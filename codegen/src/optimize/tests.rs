@@ -1,0 +1,157 @@
+//! The table of rewrites: one row each, with an example, what it costs before and after.
+
+use super::{Cost, operations, optimize};
+use crate::expr::{Dag, ExprId, Function, Symbol};
+
+/// Builds outputs from `x`, `y`, `a` and `b`.
+type Build = fn(&mut Dag, [ExprId; 4]) -> Vec<ExprId>;
+
+/// Name, outputs, multiplications and additions before and after.
+const TABLE: &[(&str, Build, (usize, usize), (usize, usize))] = &[
+    (
+        "a x + a y = a (x + y)",
+        |d, [x, y, a, _]| {
+            let (left, right) = (d.mul(a, x), d.mul(a, y));
+            vec![d.add(left, right)]
+        },
+        (2, 1),
+        (1, 1),
+    ),
+    (
+        "2 a x - 2 b x = 2 x (a - b)",
+        |d, [x, y, a, b]| {
+            // The sum between hides from the rules of the dag that both have a factor 2.
+            let (left, right) = (d.mul(a, x), d.mul(b, x));
+            let (left, right) = (d.scale(2.0, left), d.scale(2.0, right));
+            let sum = d.add(left, y);
+            vec![d.sub(sum, right)]
+        },
+        (4, 2),
+        (2, 2),
+    ),
+    (
+        "x + a + y, x + b + y: x + y once",
+        |d, [x, y, a, b]| {
+            [a, b]
+                .map(|other| {
+                    let sum = d.add(x, other);
+                    d.add(sum, y)
+                })
+                .to_vec()
+        },
+        (0, 4),
+        (0, 3),
+    ),
+    (
+        "a (x - y), b (y - x): one difference",
+        |d, [x, y, a, b]| {
+            let (one, other) = (d.sub(x, y), d.sub(y, x));
+            vec![d.mul(a, one), d.mul(b, other)]
+        },
+        (2, 2),
+        (2, 1),
+    ),
+    (
+        "(a x) b, (a y) b: a b once",
+        |d, [x, y, a, b]| {
+            [x, y]
+                .map(|other| {
+                    let product = d.mul(a, other);
+                    d.mul(product, b)
+                })
+                .to_vec()
+        },
+        (4, 0),
+        (3, 0),
+    ),
+    (
+        "x + a y - x = a y",
+        |d, [x, y, a, b]| {
+            let product = d.mul(a, y);
+            let one = d.add(x, product);
+            // What is in between keeps the two apart.
+            let between = d.sub(b, x);
+            let sum = d.add(one, between);
+            vec![d.sub(sum, b)]
+        },
+        (1, 4),
+        (1, 0),
+    ),
+    (
+        "-a x - a y, subtracted: signs go outward",
+        |d, [x, y, a, b]| {
+            let product = d.mul(a, x);
+            let (left, right) = (d.neg(product), d.neg(y));
+            let sum = d.add(left, right);
+            let inside = d.call(Function::Abs, b);
+            let product = d.mul(sum, inside);
+            vec![d.sub(b, product)]
+        },
+        (2, 2),
+        (2, 2),
+    ),
+];
+
+fn value(symbol: Symbol) -> f64 {
+    match symbol {
+        Symbol::Q(k) => 0.7 + 1.9 * k as f64,
+        _ => unreachable!("the table has positions"),
+    }
+}
+
+#[test]
+fn every_rewrite_saves_what_it_says_and_changes_no_value() {
+    for (name, build, before, after) in TABLE {
+        let mut dag = Dag::new();
+        let symbols = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+        let outputs = build(&mut dag, symbols);
+        let count = |cost: Cost| (cost.mul, cost.add);
+        assert_eq!(count(operations(&dag, &outputs)), *before, "{name}");
+        let optimized = optimize(&dag, &outputs);
+        assert_eq!(count(optimized.cost()), *after, "{name}");
+        for (&x, &y) in outputs.iter().zip(&optimized.outputs) {
+            let (x, y) = (dag.evaluate(x, &value), optimized.dag.evaluate(y, &value));
+            // A few roundings.
+            assert!(
+                (x - y).abs() <= 8.0 * f64::EPSILON * x.abs(),
+                "{name}: {x} {y}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_outputs_give_the_same_dag() {
+    for (_, build, ..) in TABLE {
+        let mut dag = Dag::new();
+        let symbols = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+        let outputs = build(&mut dag, symbols);
+        let (one, other) = (optimize(&dag, &outputs), optimize(&dag, &outputs));
+        assert_eq!(one.outputs, other.outputs);
+        let nodes = |dag: &Dag, roots: &[ExprId]| {
+            let order = dag.reachable(roots);
+            order.iter().map(|&x| dag.node(x)).collect::<Vec<_>>()
+        };
+        assert_eq!(
+            nodes(&one.dag, &one.outputs),
+            nodes(&other.dag, &other.outputs)
+        );
+    }
+}
+
+#[test]
+fn a_sign_is_taken_by_a_subtraction() {
+    let mut dag = Dag::new();
+    let [x, y, a] = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+    let (minus_x, minus_y) = (dag.neg(x), dag.neg(y));
+    let sum = dag.add(minus_x, minus_y);
+    let product = dag.mul(a, sum);
+    let output = dag.add(x, product);
+    let optimized = optimize(&dag, &[output]);
+    let text = optimized.dag.display(
+        optimized.outputs[0],
+        &crate::expr::Names::default(),
+        crate::expr::Style::Text,
+    );
+    assert_eq!(text, "q1 - q3 (q1 + q2)");
+}
