@@ -111,11 +111,8 @@ fn every_rewrite_saves_what_it_says_and_changes_no_value() {
         assert_eq!(count(optimized.cost()), *after, "{name}");
         for (&x, &y) in outputs.iter().zip(&optimized.outputs) {
             let (x, y) = (dag.evaluate(x, &value), optimized.dag.evaluate(y, &value));
-            // A few roundings.
-            assert!(
-                (x - y).abs() <= 8.0 * f64::EPSILON * x.abs(),
-                "{name}: {x} {y}"
-            );
+            // A few roundings of terms below 100.
+            assert!((x - y).abs() <= 800.0 * f64::EPSILON, "{name}: {x} {y}");
         }
     }
 }
