@@ -1,12 +1,11 @@
 //! `robot-model emit`: an arm's equations as source code.
 
-use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use robot_model_codegen::emit;
 use robot_model_codegen::emit::rust::Extent;
-use robot_model_codegen::{Compiled, emit};
 
 use crate::Error;
 use crate::output::{self, Files};
@@ -27,7 +26,7 @@ pub(crate) struct Emit {
     /// Which functions.
     #[arg(long, value_enum, default_value_t)]
     functions: Functions,
-    /// Values by name, or what `identify --json` writes: they become the constant `BETA`.
+    /// Values by name, or what `identify --json` writes: numbers in the equations, in place of arguments.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
 }
@@ -59,12 +58,18 @@ enum Language {
 impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile_instantaneous(&self.spec)?;
-        let mut code = match self.lang {
+        let compiled = match &self.parameters {
+            Some(file) => {
+                let values = parameters::resolve(&compiled, Some(file))?;
+                let kept = compiled.base.kept.iter();
+                let beta: Vec<f64> = kept.map(|&k| values.parameters[k]).collect();
+                compiled.baked(&beta, &values.shapes)
+            }
+            None => compiled,
+        };
+        let code = match self.lang {
             Language::Rust => emit::rust::module_of(&compiled, self.functions.into()),
         };
-        if let Some(file) = &self.parameters {
-            code.push_str(&constants(&compiled, file)?);
-        }
         let path = self.out.join(file_name(&self.spec));
         fs::create_dir_all(&self.out).map_err(|error| Error::write(&path, &error))?;
         let inputs = std::iter::once(&self.spec).chain(&self.parameters);
@@ -78,32 +83,4 @@ impl Emit {
 /// `arm.rs` for `arm.robot`.
 fn file_name(spec: &Path) -> PathBuf {
     Path::new(spec.file_name().unwrap_or(spec.as_os_str())).with_extension("rs")
-}
-
-/// Identified values, one a line with its name.
-fn constants(compiled: &Compiled, file: &Path) -> Result<String, Error> {
-    let names = compiled.shape_names();
-    let free: Vec<&str> = compiled
-        .free_shapes()
-        .into_iter()
-        .map(|k| names[k].as_str())
-        .collect();
-    if let Some(name) = free.first() {
-        let source = &compiled.model.source;
-        return Err(Error::Argument(format!(
-            "{source}: write the value of `{name}` into the spec: in code it is a constant"
-        )));
-    }
-    let values = parameters::resolve(compiled, Some(file))?;
-    let base = &compiled.base;
-    let mut code = format!(
-        "\n/// Base parameters from {}, SI.\npub const BETA: [f64; {}] = [\n",
-        file.file_name().unwrap_or(file.as_os_str()).display(),
-        base.kept.len()
-    );
-    for (&k, name) in base.kept.iter().zip(&base.names) {
-        writeln!(code, "    {:?}, // {name}", values.parameters[k]).expect("a string takes all");
-    }
-    code.push_str("];\n");
-    Ok(code)
 }

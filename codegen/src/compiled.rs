@@ -47,12 +47,19 @@ pub struct Compiled {
     pub kinematics: Option<Kinematics>,
     /// Points that a robot which says its energies names.
     pub points: Vec<Point>,
+    /// Numbers of the base parameters where these are in the equations, see [`Self::baked`]; else they are symbols.
+    pub baked: Option<Vec<f64>>,
 }
 
 /// Derives everything. A checked model has no errors left; how clear the base parameters are is
 /// [`BaseForm::rank`](base::BaseForm::rank).
 #[must_use]
 pub fn compile_model(model: &Model) -> Compiled {
+    assemble(model, None)
+}
+
+/// `arm` is base parameters that are known already, and numbers for them.
+fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
     let mut dag = Dag::new();
     let standard = model.standard_parameters();
     let dof = model.joints.len();
@@ -65,11 +72,18 @@ pub fn compile_model(model: &Model) -> Compiled {
         Some(form) => regressor::linearize(&mut dag, model, Some(form)),
         None => linear.clone(),
     };
-    let mut base = base::reduce(&dag, model, &candidates);
-    if let Some(lumps) = &lumps {
-        base.spell_out(model, &standard, &lumps.lumps);
-    }
-    let values = base_values(&standard, &base);
+    let base = match arm {
+        Some((base, _)) => base.clone(),
+        None => {
+            let mut base = base::reduce(&dag, model, &candidates);
+            if let Some(lumps) = &lumps {
+                base.spell_out(model, &standard, &lumps.lumps);
+            }
+            base
+        }
+    };
+    let baked = arm.map(|(_, beta)| beta.to_vec());
+    let values = base_values(&standard, &base, baked.as_deref());
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
     let computed = dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values);
     let computed_linear = regressor::computed(&mut dag, model, &linear, &base.kept);
@@ -108,17 +122,23 @@ pub fn compile_model(model: &Model) -> Compiled {
         base_momentum,
         kinematics,
         points,
+        baked,
     }
 }
 
-/// Kept parameters are symbols, fixed ones numbers; what was regrouped into kept ones counts there and vanishes here.
-pub(crate) fn base_values(standard: &[StandardParameter], base: &BaseForm) -> Vec<Value> {
+/// Kept parameters are symbols, or the numbers of an arm; fixed ones are numbers. What was regrouped into kept ones counts there
+/// and vanishes here.
+fn base_values(
+    standard: &[StandardParameter],
+    base: &BaseForm,
+    beta: Option<&[f64]>,
+) -> Vec<Value> {
     let mut values: Vec<Value> = standard
         .iter()
         .map(|parameter| Value::Number(fixed_value(parameter)))
         .collect();
-    for &k in &base.kept {
-        values[k] = Value::Symbol;
+    for (column, &k) in base.kept.iter().enumerate() {
+        values[k] = beta.map_or(Value::Symbol, |beta| Value::Number(beta[column]));
     }
     values
 }
@@ -257,6 +277,21 @@ impl Compiled {
     #[must_use]
     pub fn effect_columns(&self) -> Block {
         self.base_block(|column| !self.is_rigid(column))
+    }
+
+    /// One arm: the same model with numbers for all that an estimate gives, base parameters in their order and all shape
+    /// parameters. Terms of parameters that are zero are gone, products of numbers are numbers, and the derivation chooses its
+    /// ways for them. Regressors, which have no parameters in them, stay.
+    #[must_use]
+    pub fn baked(&self, beta: &[f64], shapes: &[f64]) -> Self {
+        let mut model = self.model.clone();
+        let mut values = shapes.iter();
+        for effect in &mut model.effects {
+            for (shape, value) in effect.shapes.iter_mut().zip(&mut values) {
+                *shape = Some(*value);
+            }
+        }
+        assemble(&model, Some((&self.base, beta)))
     }
 
     /// The internal states of the declared effects, one entry per effect that has some; slopes are added to `dag`, a copy of

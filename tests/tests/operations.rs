@@ -3,6 +3,7 @@
 
 use std::fmt::Write;
 
+use robot_model_codegen::base::shape_values;
 use robot_model_codegen::dynamics::Computed;
 use robot_model_codegen::emit::rust;
 use robot_model_codegen::expr::{Dag, ExprId, Symbol};
@@ -76,7 +77,7 @@ fn counts() {
         for (name, cost) in costs.iter().filter(|(name, _)| FUNCTIONS.contains(name)) {
             line(name, "runtime", *cost);
         }
-        let baked = compiled.baked(&nominal(&compiled));
+        let baked = compiled.baked(&nominal(&compiled), &shape_values(&compiled.model));
         for (name, outputs) in forms(&baked.computed) {
             line(name, "baked", optimize(&baked.dag, &outputs).cost());
         }
@@ -101,7 +102,7 @@ fn baked_equations_have_the_values_of_the_arm() {
         let compiled = bare(robot);
         let beta = nominal(&compiled);
         let parameters = compiled.parameter_values(&beta);
-        let baked = compiled.baked(&beta);
+        let baked = compiled.baked(&beta, &shape_values(&compiled.model));
         let bind = |symbol| match symbol {
             Symbol::Q(k) => 0.4 + 1.3 * k as f64,
             Symbol::Dq(k) => 0.9 - 0.7 * k as f64,

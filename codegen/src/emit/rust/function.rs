@@ -106,6 +106,7 @@ impl Context<'_> {
             .arguments
             .split(' ')
             .filter(|argument| !optional(argument) || reads(argument))
+            .filter(|&argument| argument != "beta" || self.compiled.baked.is_none())
             .collect();
         let parameters = arguments.iter().map(|&argument| {
             let name = if reads(argument) {

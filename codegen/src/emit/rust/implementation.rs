@@ -2,6 +2,7 @@
 
 mod from_parameters;
 mod memory;
+mod parameters;
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
@@ -13,65 +14,37 @@ use super::sizes::Sizes;
 use super::{Extent, mechanics};
 use crate::base;
 use crate::compiled::Compiled;
+pub use parameters::{From, Parameters};
 
-/// How a value of the robot's type holds its parameters.
-pub struct Parameters {
-    /// Body of `fn standard(&self) -> model::Vector<STANDARD>`.
-    pub standard: TokenStream,
-    /// Body of `fn beta(&self) -> model::Vector<BASE>`, where it is more than `base_parameters` of `standard`.
-    pub beta: Option<TokenStream>,
-    /// Body of `fn shapes(&self) -> model::Vector<SHAPES>`.
-    pub shapes: TokenStream,
-    /// How a value is made from parameters, where it can be.
-    pub from: Option<From>,
-}
-
-/// Making a value from parameters.
-pub enum From {
-    /// Body of `fn from_parameters(standard, shapes) -> Self`.
-    Standard(TokenStream),
-    /// Bodies of `from_parameters` and of `from_base`.
-    Base(TokenStream, TokenStream),
-}
-
-/// The page's type, which holds base parameters, and its implementation.
+/// The page's type and its implementation: it holds base parameters, or nothing where the equations have them.
 pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec<TokenStream> {
     let name = Ident::new(&compiled.model.name, Span::call_site());
-    let doc = format!(" `{}` with values for its parameters.", compiled.model.name);
-    let base = Literal::usize_unsuffixed(compiled.base.kept.len());
-    let free_shapes = compiled.free_shapes().len();
-    let shapes = Literal::usize_unsuffixed(free_shapes);
-    let shapes_field = (free_shapes > 0).then(|| {
-        quote! {
-            /// Shape parameters, in the order of `SHAPE_PARAMETERS`.
-            pub shapes: ::robot_model::Vector<#shapes>,
-        }
-    });
-    let item = quote! {
-        #[doc = #doc]
-        #[allow(dead_code, reason = "a program uses what it needs of its arm")]
-        #[derive(Debug, Clone, Copy, PartialEq)]
-        pub struct #name {
-            /// Base parameters, in the order of `BASE_PARAMETERS`.
-            pub beta: ::robot_model::Vector<#base>,
-            #shapes_field
-        }
+    let (item, parameters) = match &compiled.baked {
+        Some(beta) => (
+            parameters::one_arm(&name),
+            parameters::its_own(compiled, beta),
+        ),
+        None => (
+            parameters::any_arm(compiled, &name),
+            parameters::given(compiled.free_shapes().len()),
+        ),
     };
     let implementation = implementation(
         compiled,
         functions,
         &name,
-        &own_parameters(free_shapes),
+        &parameters,
         &base::shape_values(&compiled.model),
     );
     let mechanics = match extent {
         Extent::All => mechanics::implementations(compiled, functions, &name),
         Extent::Torque => quote!(),
     };
+    let conversions = conversions(compiled);
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
         const _: () = {
-            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows, in_scalar};
+            #conversions
             __blank!();
             #implementation
             #mechanics
@@ -80,30 +53,13 @@ pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec
     vec![item, implementation]
 }
 
-fn own_parameters(free_shapes: usize) -> Parameters {
-    let has_shapes = free_shapes > 0;
-    let (given, nominal) = if has_shapes {
-        (
-            quote!(, shapes: *shapes),
-            quote!(, shapes: Self::NOMINAL_SHAPES.into()),
-        )
-    } else {
-        (quote!(), quote!())
-    };
-    let shapes = if has_shapes {
-        quote!(self.shapes)
-    } else {
-        quote!([].into())
-    };
-    Parameters {
-        standard: quote!(Self::standard_of(&self.beta)),
-        beta: Some(quote!(self.beta)),
-        shapes,
-        from: Some(From::Base(
-            quote!(Self { beta: Self::base_parameters(standard) #given }),
-            quote!(Self { beta: *beta #nominal }),
-        )),
-    }
+/// What the implementations take from the runtime's module `model`.
+pub fn conversions(compiled: &Compiled) -> TokenStream {
+    let of_any = compiled
+        .baked
+        .is_none()
+        .then(|| quote!(FromParameters as _, RobotModel as _, in_scalar,));
+    quote!(use ::robot_model::model::{self, #of_any as_array, from_rows};)
 }
 
 /// `impl model::RobotModel<..> for name`, with the runtime's module `model` and its conversions in scope.

@@ -88,11 +88,12 @@ pub fn implementation_for(
     let implementation =
         implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
     let mechanics = mechanics::implementations(compiled, &functions, name);
+    let conversions = implementation::conversions(compiled);
     pretty::without_markers(quote! {
         #[allow(clippy::pedantic, reason = "derived, not written")]
         const _: () = {
             #imports
-            use ::robot_model::model::{self, FromParameters as _, RobotModel as _, as_array, from_rows, in_scalar};
+            #conversions
             #(#items)*
             #implementation
             #mechanics
@@ -112,7 +113,14 @@ fn header(compiled: &Compiled) -> String {
         env!("CARGO_PKG_VERSION"),
         file_name(&compiled.model.source),
     );
-    let beta = compiled.base.names.join(", ");
+    let names = compiled.base.names.iter().enumerate();
+    let beta: Vec<String> = names
+        .map(|(k, name)| match &compiled.baked {
+            Some(beta) => format!("{name} = {}", beta[k]),
+            None => name.clone(),
+        })
+        .collect();
+    let beta = beta.join(", ");
     let list = format!(
         "{} joints, {} standard parameters, {} base parameters: beta = [{beta}]. Units: SI, rad.",
         compiled.dof(),

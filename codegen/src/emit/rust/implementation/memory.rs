@@ -29,7 +29,8 @@ pub fn implementation(
     } else {
         quote!(_shapes)
     };
-    let load = reads("rigid_torque").then(|| quote!(let state = &self.loaded(state);));
+    let load =
+        reads("rigid_torque").then(|| quote!(let state = &model::RobotModel::loaded(self, state);));
     Some(quote! {
         __blank!();
         impl ::robot_model::Memory #arguments for #name {
