@@ -6,13 +6,16 @@
 
 use super::chain::Chain;
 use super::frame::{Frame, MainAxis};
-use super::lean::{Body, Choice, Form, LeanChain, Motion};
+use super::lean::{Body, Choice, Form, LeanChain};
 use super::rigid::Terms;
 use super::vector::{self, Vector};
 use crate::expr::{Dag, ExprId};
 
 /// `[element][joint]` of a link: the torque of each joint per unit of each inertial parameter.
 pub type Columns = [Vec<ExprId>; 10];
+
+/// Force and moment about the origin of a frame.
+type Wrench = (Vector, Vector);
 
 /// Numbers for the ten parameters, in the order of `InertialElement::ALL`.
 type Numbers = [f64; 10];
@@ -44,7 +47,25 @@ pub fn columns(
             .as_ref()
             .map_or([usize::MAX; 3], |(_, on_axis)| on_axis.pivots);
         for element in (0..10).filter(|element| !pivots.contains(element)) {
-            own[element] = carried(dag, &lean.frames, &center, link, motion, element);
+            let body = unit(dag, element);
+            let wrench = motion.wrench(dag, &body);
+            carry(dag, &lean.frames, &center, link, wrench, &mut own[element]);
+        }
+        if let Some((_, on_axis)) = &together
+            && link > center.joint
+        {
+            let [along, across, other] = on_axis.squares;
+            let frame = &lean.frames[link];
+            // The wrench of `along` and that of `across` are together that of a dumbbell, which has fewer terms to turn.
+            let body = dumbbell(dag, other);
+            let wrench = motion.wrench(dag, &body);
+            let (_, dumbbell) = frame.transmit(dag, wrench);
+            let body = unit(dag, SECOND[along][along]);
+            let wrench = motion.wrench(dag, &body);
+            let (_, along) = frame.transmit(dag, wrench);
+            let handed = (dumbbell.0, vector::sub(dag, dumbbell.1, along.1));
+            let column = &mut own[SECOND[across][across]];
+            carry(dag, &lean.frames, &center, link - 1, handed, column);
         }
         if let Some((parent, on_axis)) = &together {
             on_axis.complete(dag, parent, &mut own, link);
@@ -90,21 +111,16 @@ impl Center {
     }
 }
 
-/// A column whose wrench is carried down to the base.
-fn carried(
+/// Carries the wrench of a column from the link of `joint` down to the base.
+fn carry(
     dag: &mut Dag,
     frames: &[Frame],
     center: &Center,
-    link: usize,
-    motion: &Motion,
-    element: usize,
-) -> Vec<ExprId> {
-    let mut unit = [dag.zero(); 10];
-    unit[element] = dag.constant(1.0);
-    let body = Body::new(dag, &unit, Form::Inertia, 0);
-    let mut column = vec![dag.zero(); frames.len()];
-    let mut wrench = motion.wrench(dag, &body);
-    for joint in (0..=link).rev() {
+    joint: usize,
+    mut wrench: Wrench,
+    column: &mut [ExprId],
+) {
+    for joint in (0..=joint).rev() {
         if joint == center.joint {
             let lever = vector::cross(dag, frames[joint].to_origin, wrench.0);
             let moment = vector::add(dag, wrench.1, lever);
@@ -117,12 +133,29 @@ fn carried(
             break;
         }
     }
-    column
+}
+
+/// A body of one parameter.
+fn unit(dag: &mut Dag, element: usize) -> Body {
+    let mut unit = [dag.zero(); 10];
+    unit[element] = dag.constant(1.0);
+    Body::new(dag, &unit, Form::Inertia, 0)
+}
+
+/// Two masses on an axis of the frame, with the second moment 1 about the origin.
+fn dumbbell(dag: &mut Dag, axis: usize) -> Body {
+    let nothing = [dag.zero(); 10];
+    let mut body = Body::new(dag, &nothing, Form::SecondMoments, 0);
+    let one = dag.constant(1.0);
+    body.add_dumbbell(dag, axis, one);
+    body
 }
 
 /// Three bodies on a joint's axis, each as parameters of the link and of its parent, and the parameter of the link whose
 /// column it gives. In the order in which they do.
 struct OnAxis {
+    /// The axis, and across it the one whose inertia is carried and the one whose inertia is a pivot.
+    squares: [usize; 3],
     pivots: [usize; 3],
     in_link: [Numbers; 3],
     in_parent: [Numbers; 3],
@@ -143,15 +176,14 @@ impl OnAxis {
         let along = to_origin[k] * axis[k];
         let point = std::array::from_fn(|x| if x == k { 0.0 } else { 0.0 - to_origin[x] });
         let in_parent = std::array::from_fn(|x| joint_point[x] + along * parent_axis[x]);
-        let across = [(k + 2) % 3, (k + 1) % 3].map(|x| SECOND[x][x]);
-        let across = if wanted(across[0]) && !wanted(across[1]) {
-            across[1]
-        } else {
-            across[0]
-        };
+        let (mut across, mut other) = ((k + 1) % 3, (k + 2) % 3);
+        if wanted(SECOND[other][other]) && !wanted(SECOND[across][across]) {
+            std::mem::swap(&mut across, &mut other);
+        }
         let reversed = |[first, second, third]: [Numbers; 3]| [third, second, first];
         Some(Self {
-            pivots: [across, FIRST[k], M],
+            squares: [k, across, other],
+            pivots: [SECOND[other][other], FIRST[k], M],
             in_link: reversed(masses_on_line(point, axis)),
             in_parent: reversed(masses_on_line(in_parent, parent_axis)),
         })

@@ -28,6 +28,11 @@ pub fn add(dag: &mut Dag, u: Vector, v: Vector) -> Vector {
     std::array::from_fn(|k| dag.add(u[k], v[k]))
 }
 
+/// `u - v`
+pub fn sub(dag: &mut Dag, u: Vector, v: Vector) -> Vector {
+    std::array::from_fn(|k| dag.sub(u[k], v[k]))
+}
+
 /// `s v`
 pub fn scale(dag: &mut Dag, s: ExprId, v: Vector) -> Vector {
     v.map(|x| dag.mul(s, x))

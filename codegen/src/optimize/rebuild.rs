@@ -40,30 +40,47 @@ struct Rebuilder<'a> {
 }
 
 impl Rebuilder<'_> {
-    /// Cells that outputs need, operands before their users.
+    /// Cells that outputs need, operands before their users. What needs most values at a time is computed first, so that
+    /// few are alive at once (Sethi and Ullman 1970, as if the network were a tree).
     fn order(&self) -> Vec<Id> {
+        let mut alive = vec![0; self.network.cells.len()];
+        for id in self.walk(&alive) {
+            let mut operands: Vec<usize> = self.operands(id).iter().map(|&x| alive[x]).collect();
+            operands.sort_unstable_by(|x, y| y.cmp(x));
+            let waiting = operands.into_iter().enumerate();
+            alive[id] = waiting.map(|(k, alive)| k + alive).max().unwrap_or(1);
+        }
+        self.walk(&alive)
+    }
+
+    /// Operands before their users; of several operands those with the larger weight first.
+    fn walk(&self, weight: &[usize]) -> Vec<Id> {
         let mut order = Vec::new();
         let mut seen = vec![false; self.network.cells.len()];
         // A cell is entered, then its operands, then it is left.
         let mut stack: Vec<(Id, bool)> = Vec::new();
         // Sines and cosines first, in the order in which they were made.
-        let calls = self.network.cells.iter().enumerate().filter(|(_, cell)| {
-            matches!(
-                cell,
-                Cell::Atom(Node::Call(Function::Sin | Function::Cos, _), _)
-            )
-        });
-        let calls = calls.map(|(id, _)| id);
+        let is_angle = |cell: &Cell| {
+            let Cell::Atom(node, _) = cell else {
+                return false;
+            };
+            matches!(node, Node::Call(Function::Sin | Function::Cos, _))
+        };
+        let cells = self.network.cells.iter().enumerate();
+        let angles = cells.filter(|(_, cell)| is_angle(cell)).map(|(id, _)| id);
         let outputs = self.network.outputs.iter().map(|output| output.1);
-        for root in calls.chain(outputs) {
+        for root in angles.chain(outputs) {
             stack.push((root, false));
             while let Some((id, left)) = stack.pop() {
                 if left {
                     order.push(id);
                 } else if !std::mem::replace(&mut seen[id], true) {
                     stack.push((id, true));
-                    let operands = self.operands(id);
-                    stack.extend(operands.into_iter().rev().map(|operand| (operand, false)));
+                    let mut operands = self.operands(id);
+                    // The last one is taken first.
+                    operands.reverse();
+                    operands.sort_by_key(|&operand| weight[operand]);
+                    stack.extend(operands.into_iter().map(|operand| (operand, false)));
                 }
             }
         }

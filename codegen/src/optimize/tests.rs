@@ -6,8 +6,11 @@ use crate::expr::{Dag, ExprId, Function, Symbol};
 /// Builds outputs from `x`, `y`, `a` and `b`.
 type Build = fn(&mut Dag, [ExprId; 4]) -> Vec<ExprId>;
 
-/// Name, outputs, multiplications and additions before and after.
-const TABLE: &[(&str, Build, (usize, usize), (usize, usize))] = &[
+/// Multiplications and additions.
+type Operations = (usize, usize);
+
+/// Name, outputs, what they cost before and after.
+const TABLE: &[(&str, Build, Operations, Operations)] = &[
     (
         "a x + a y = a (x + y)",
         |d, [x, y, a, _]| {
@@ -63,6 +66,18 @@ const TABLE: &[(&str, Build, (usize, usize), (usize, usize))] = &[
         },
         (4, 0),
         (3, 0),
+    ),
+    (
+        "a x + b + a y, a - (y + x): the example of the README",
+        |d, [x, y, a, b]| {
+            let (left, right) = (d.mul(a, x), d.mul(a, y));
+            let sum = d.add(left, b);
+            let one = d.add(sum, right);
+            let sum = d.add(y, x);
+            vec![one, d.sub(a, sum)]
+        },
+        (2, 4),
+        (1, 3),
     ),
     (
         "x + a y - x = a y",
@@ -150,5 +165,5 @@ fn a_sign_is_taken_by_a_subtraction() {
         &crate::expr::Names::default(),
         crate::expr::Style::Text,
     );
-    assert_eq!(text, "q1 - q3 (q1 + q2)");
+    assert_eq!(text, "q1 - (q1 + q2) q3");
 }

@@ -51,6 +51,19 @@ impl Body {
         [self.mass, mx, my, mz, xx, xy, xz, yy, yz, zz]
     }
 
+    /// With two more masses on an axis of the frame, whose second moment is `moment`.
+    pub fn add_dumbbell(&mut self, dag: &mut Dag, axis: usize, moment: ExprId) {
+        for k in 0..3 {
+            let feels = match self.form {
+                Form::SecondMoments => k == axis,
+                Form::Inertia => k != axis,
+            };
+            if feels {
+                self.second[k][k] = dag.add(self.second[k][k], moment);
+            }
+        }
+    }
+
     /// About another point; masses are at `r + t` from it.
     ///
     /// With `s` the sum of the old first moments and the new ones, `P = (s t^T + t s^T) / 2`: `S' = S + P` and

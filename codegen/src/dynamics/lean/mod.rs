@@ -39,11 +39,11 @@ pub struct LeanChain {
 impl LeanChain {
     /// The chain, written as chosen.
     pub fn new(dag: &mut Dag, chain: &Chain, choice: &Choice) -> Self {
-        let links = chain.links.iter().zip(&chain.frames);
+        let links = chain.links.iter().zip(&chain.frames).zip(&choice.forms);
         let bodies = links
-            .map(|(link, frame)| {
+            .map(|((link, frame), &form)| {
                 let along = frame.main_axis(dag).map_or(2, |axis| axis.link);
-                Body::new(dag, link, choice.form, along)
+                Body::new(dag, link, form, along)
             })
             .collect();
         let mut lean = Self {
@@ -51,9 +51,7 @@ impl LeanChain {
             bodies,
             gravity: chain.gravity,
         };
-        if choice.form == Form::SecondMoments {
-            lean.hand_over(dag);
-        }
+        lean.hand_over(dag);
         lean.move_origins(dag, &choice.origins);
         lean.measure_in(dag, choice.unit);
         for (link, &turned) in choice.turned.iter().enumerate() {
@@ -74,18 +72,20 @@ impl LeanChain {
         }
     }
 
-    /// A dumbbell along a joint's axis moves with the parent as well as with the link: it goes to the parent, and the base
-    /// does not feel it.
+    /// A dumbbell along a joint's axis moves with the parent as well as with the link: where it is one of the second moments
+    /// that are written, it goes to the parent, and the base does not feel it.
     fn hand_over(&mut self, dag: &mut Dag) {
         for link in (0..self.frames.len()).rev() {
             let Some(axis) = self.frames[link].main_axis(dag) else {
                 continue;
             };
+            if self.bodies[link].form == Form::Inertia {
+                continue;
+            }
             let along = &mut self.bodies[link].second[axis.link][axis.link];
             let dumbbell = std::mem::replace(along, dag.zero());
             if link > 0 {
-                let along = &mut self.bodies[link - 1].second[axis.parent][axis.parent];
-                *along = dag.add(*along, dumbbell);
+                self.bodies[link - 1].add_dumbbell(dag, axis.parent, dumbbell);
             }
         }
     }

@@ -12,8 +12,8 @@ use crate::expr::Dag;
 /// One way to write a chain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choice {
-    /// What second moments are written as.
-    pub form: Form,
+    /// What the second moments of a link are written as.
+    pub forms: Vec<Form>,
     /// Where the origins of the link frames move, in link coordinates, m.
     pub origins: Vec<[f64; 3]>,
     /// Whether a link is written in axes that do not turn with its joint.
@@ -35,7 +35,7 @@ impl Choice {
     /// The chain as it is given.
     pub fn plain(dof: usize) -> Self {
         Self {
-            form: Form::Inertia,
+            forms: vec![Form::Inertia; dof],
             origins: vec![[0.0; 3]; dof],
             turned: vec![false; dof],
             unit: 1.0,
@@ -59,7 +59,10 @@ impl Choice {
             before = search.cost;
             if wanted == Wanted::Torque {
                 for form in [Form::Inertia, Form::SecondMoments] {
-                    search.offer(|choice| choice.form = form);
+                    search.offer(|choice| choice.forms.fill(form));
+                    for link in 0..places.len() {
+                        search.offer(|choice| choice.forms[link] = form);
+                    }
                 }
             }
             for (link, places) in places.iter().enumerate() {
