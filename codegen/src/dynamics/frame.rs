@@ -34,6 +34,11 @@ pub struct MainAxis {
 }
 
 impl Frame {
+    /// Whether the link has the axes of its parent.
+    pub fn is_turned_back(&self, dag: &Dag) -> bool {
+        (0..3).all(|k| dag.as_constant(self.rotation[k][k]) == Some(1.0))
+    }
+
     /// The main axis that the joint turns about, if there is one.
     pub fn main_axis(&self, dag: &Dag) -> Option<MainAxis> {
         let unit = |v: Vector| -> Option<(usize, f64)> {

@@ -30,9 +30,14 @@ pub struct Optimized {
 /// Rewrites the outputs of one function.
 #[must_use]
 pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
-    let network = Network::new(dag, outputs);
-    let candidates = [false, true].map(|products_first| {
+    let mut network = Network::new(dag, outputs);
+    terms::open(&mut network);
+    let orders = [(false, false), (true, false), (false, true), (true, true)];
+    let candidates = orders.map(|(products_first, split)| {
         let mut network = network.clone();
+        if split {
+            terms::split(&mut network);
+        }
         if products_first {
             products::share(&mut network);
         }
@@ -41,13 +46,19 @@ pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
             kernels::share(&mut network);
             products::share(&mut network);
             if network.operations() >= before {
-                break network;
+                break;
             }
         }
+        terms::collect(&mut network);
+        network
     });
-    let [mut best, other] = candidates;
-    if other.operations() < best.operations() {
-        best = other;
-    }
+    let [first, rest @ ..] = candidates;
+    let best = rest.into_iter().fold(first, |best, other| {
+        if other.operations() < best.operations() {
+            other
+        } else {
+            best
+        }
+    });
     rebuild::rebuild(dag, &best)
 }

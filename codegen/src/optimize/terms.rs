@@ -1,4 +1,4 @@
-//! Terms of a sum that are multiples of one product: `c x + y - c x = y`, `x + y + x = 2 x + y`.
+//! Terms of a sum that are multiples of one product: `c x + y - c x = y`, `x + y + x = 2 x + y`, and for a while the other way.
 
 use super::network::{Cell, Id, Network, Term};
 
@@ -14,6 +14,61 @@ pub fn collect(network: &mut Network) {
             } else {
                 Cell::Sum(terms)
             };
+        }
+    }
+}
+
+/// Writes a sum out where another uses it and cancels with it: `x - (x + y) = -y`, although others use `x + y` as well.
+pub fn open(network: &mut Network) {
+    for id in 0..network.cells.len() {
+        while let Some(terms) = opened(network, id) {
+            network.cells[id] = Cell::Sum(terms);
+        }
+    }
+}
+
+/// A sum of no more terms; `None` where there is none.
+fn opened(network: &mut Network, id: Id) -> Option<Vec<Term>> {
+    let Cell::Sum(terms) = &network.cells[id] else {
+        return None;
+    };
+    let terms = terms.clone();
+    for (k, term) in terms.iter().enumerate() {
+        let &[factor] = &term.factors[..] else {
+            continue;
+        };
+        let Cell::Sum(inner) = &network.cells[factor] else {
+            continue;
+        };
+        let mut written = terms.clone();
+        written.remove(k);
+        written.extend(inner.iter().map(|inner| Term {
+            negative: inner.negative != term.negative,
+            factors: inner.factors.clone(),
+        }));
+        match collected(network, written) {
+            Some(collected) if !collected.is_empty() && collected.len() <= terms.len() => {
+                return Some(collected);
+            }
+            _ => {}
+        }
+    }
+    None
+}
+
+/// `2 x` as `x + x`, which costs as much: so `y + 2 x` has `y + x` in it.
+pub fn split(network: &mut Network) {
+    let two = network.number(2.0);
+    for cell in &mut network.cells {
+        let Cell::Sum(terms) = cell else { continue };
+        let doubled = |term: &Term| term.factors.len() == 2 && term.factors.contains(&two);
+        for k in (0..terms.len())
+            .filter(|&k| doubled(&terms[k]))
+            .collect::<Vec<_>>()
+        {
+            terms[k].factors.retain(|&factor| factor != two);
+            let once = terms[k].clone();
+            terms.push(once);
         }
     }
 }

@@ -69,8 +69,14 @@ impl Motion {
                 let column = turned.map(|x| dag.scale(axis.turned, x));
                 let own = dag.scale(axis.turned, self.dw[axis.parent]);
                 let along = dag.add(own, along_ddq[axis.link]);
-                let u;
+                let mut u;
                 (u, dw) = gradient_by_column(dag, w, along, column, axis.link, asked);
+                if frame.is_turned_back(dag) {
+                    // In the parent's axes `U` differs across the joint's axis by its acceleration.
+                    let (i, j) = ((axis.link + 1) % 3, (axis.link + 2) % 3);
+                    u[i][j] = dag.sub(self.u[i][j], along_ddq[axis.link]);
+                    u[j][i] = dag.add(self.u[j][i], along_ddq[axis.link]);
+                }
                 u
             }
         };
