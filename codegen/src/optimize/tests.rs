@@ -93,6 +93,28 @@ const TABLE: &[(&str, Build, Operations, Operations)] = &[
         (1, 0),
     ),
     (
+        "y + x, y + 2 x: y + x once",
+        |d, [x, y, a, b]| {
+            let (sum, twice) = (d.add(y, x), d.scale(2.0, x));
+            let more = d.add(y, twice);
+            vec![d.mul(a, sum), d.mul(b, more)]
+        },
+        (3, 2),
+        (2, 2),
+    ),
+    (
+        "x - (x + y) = -y, although x + y is used",
+        |d, [x, y, a, b]| {
+            let sum = d.add(x, y);
+            let product = d.mul(a, sum);
+            // The sum between hides from the rules of the dag that they cancel.
+            let other = d.add(x, b);
+            vec![product, d.sub(other, sum)]
+        },
+        (1, 3),
+        (1, 2),
+    ),
+    (
         "-a x - a y, subtracted: signs go outward",
         |d, [x, y, a, b]| {
             let product = d.mul(a, x);

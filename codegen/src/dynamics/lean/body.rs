@@ -64,6 +64,38 @@ impl Body {
         }
     }
 
+    /// With a mass more at `r`.
+    pub fn add_mass(&mut self, dag: &mut Dag, mass: ExprId, r: Vector) {
+        let moment = vector::scale(dag, mass, r);
+        self.mass = dag.add(self.mass, mass);
+        self.first = vector::add(dag, self.first, moment);
+        self.add_second(dag, moment, r);
+    }
+
+    /// With two more masses of opposite sign along an axis of the frame, at `r`: their first moment is `moment`.
+    pub fn add_dipole(&mut self, dag: &mut Dag, moment: Vector, r: Vector) {
+        self.first = vector::add(dag, self.first, moment);
+        let twice = r.map(|x| dag.scale(2.0, x));
+        self.add_second(dag, moment, twice);
+    }
+
+    /// Adds the symmetric part of `a b^T` to the second moments.
+    fn add_second(&mut self, dag: &mut Dag, a: Vector, b: Vector) {
+        let p = symmetric_product(dag, a, b);
+        for i in 0..3 {
+            for j in 0..3 {
+                let more = match self.form {
+                    Form::SecondMoments => p[i][j],
+                    Form::Inertia if i == j => {
+                        dag.add(p[(i + 1) % 3][(i + 1) % 3], p[(i + 2) % 3][(i + 2) % 3])
+                    }
+                    Form::Inertia => dag.neg(p[i][j]),
+                };
+                self.second[i][j] = dag.add(self.second[i][j], more);
+            }
+        }
+    }
+
     /// About another point; masses are at `r + t` from it.
     ///
     /// With `s` the sum of the old first moments and the new ones, `P = (s t^T + t s^T) / 2`: `S' = S + P` and
@@ -72,30 +104,9 @@ impl Body {
         let shift = vector::scale(dag, self.mass, t);
         let first = vector::add(dag, self.first, shift);
         let s = vector::add(dag, self.first, first);
-        let halves = t.map(|x| dag.scale(0.5, x));
-        let p: Matrix = std::array::from_fn(|a| {
-            std::array::from_fn(|b| {
-                let (left, right) = (dag.mul(s[a], halves[b]), dag.mul(halves[a], s[b]));
-                dag.add(left, right)
-            })
-        });
-        let second = std::array::from_fn(|a| {
-            std::array::from_fn(|b| {
-                let more = match self.form {
-                    Form::SecondMoments => p[a][b],
-                    Form::Inertia if a == b => {
-                        dag.add(p[(a + 1) % 3][(a + 1) % 3], p[(a + 2) % 3][(a + 2) % 3])
-                    }
-                    Form::Inertia => dag.neg(p[a][b]),
-                };
-                dag.add(self.second[a][b], more)
-            })
-        });
-        Self {
-            first,
-            second,
-            ..*self
-        }
+        let mut moved = Self { first, ..*self };
+        moved.add_second(dag, s, t);
+        moved
     }
 
     /// In the axes of the parent.
@@ -106,6 +117,17 @@ impl Body {
             ..*self
         }
     }
+}
+
+/// `(a b^T + b a^T) / 2`
+fn symmetric_product(dag: &mut Dag, a: Vector, b: Vector) -> Matrix {
+    let halves = b.map(|x| dag.scale(0.5, x));
+    std::array::from_fn(|i| {
+        std::array::from_fn(|j| {
+            let (left, right) = (dag.mul(a[i], halves[j]), dag.mul(halves[i], a[j]));
+            dag.add(left, right)
+        })
+    })
 }
 
 /// The diagonal of `S` from that of `I`: `S_ii + S_kk = I_jj` and so on, around.

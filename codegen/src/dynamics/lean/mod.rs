@@ -9,7 +9,8 @@
 //! - origins are moved along axes, so that forces at joints that intersect are not needed;
 //! - the last link, and one before a parallel axis, may be written in axes that do not turn with its joint: then its few
 //!   parameters turn instead of all motions and wrenches;
-//! - lengths are measured in one of the arm's own.
+//! - lengths are measured in one of the arm's own;
+//! - a mass is lent from link to link, so that a first moment vanishes.
 
 mod body;
 mod motion;
@@ -53,6 +54,7 @@ impl LeanChain {
         };
         lean.hand_over(dag);
         lean.move_origins(dag, &choice.origins);
+        lean.lend(dag, &choice.lent);
         lean.measure_in(dag, choice.unit);
         for (link, &turned) in choice.turned.iter().enumerate() {
             if turned {
@@ -88,6 +90,41 @@ impl LeanChain {
                 self.bodies[link - 1].add_dumbbell(dag, axis.parent, dumbbell);
             }
         }
+    }
+
+    /// Lends a mass to each link, at its joint point, from its parent: one on the joint's axis moves with both. What lies on
+    /// the axes after that goes back down.
+    fn lend(&mut self, dag: &mut Dag, masses: &[f64]) {
+        if masses.iter().all(|&mass| mass == 0.0) {
+            return;
+        }
+        for (link, &mass) in masses.iter().enumerate() {
+            let back = self.frames[link].to_origin.map(|x| dag.neg(x));
+            let joint = self.frames[link].joint_point;
+            let (given, taken) = (dag.constant(mass), dag.constant(-mass));
+            self.bodies[link].add_mass(dag, given, back);
+            if link > 0 {
+                self.bodies[link - 1].add_mass(dag, taken, joint);
+            }
+        }
+        for link in (0..self.frames.len()).rev() {
+            let frame = &self.frames[link];
+            let (axis, joint) = (frame.main_axis(dag), frame.joint_point);
+            let on_axis = frame.to_origin.iter().all(|&x| dag.is_zero(x));
+            let Some(axis) = axis.filter(|_| on_axis) else {
+                continue;
+            };
+            let zero = dag.zero();
+            let along = std::mem::replace(&mut self.bodies[link].first[axis.link], zero);
+            if link > 0 {
+                let mut moment = [zero; 3];
+                moment[axis.parent] = dag.scale(axis.turned, along);
+                self.bodies[link - 1].add_dipole(dag, moment, joint);
+            } else {
+                self.bodies[link].mass = zero;
+            }
+        }
+        self.hand_over(dag);
     }
 
     /// Moves the origin of each link's frame by a vector in link coordinates.

@@ -16,6 +16,8 @@ pub struct Choice {
     pub forms: Vec<Form>,
     /// Where the origins of the link frames move, in link coordinates, m.
     pub origins: Vec<[f64; 3]>,
+    /// Masses that links are lent by their parents, kg.
+    pub lent: Vec<f64>,
     /// Whether a link is written in axes that do not turn with its joint.
     pub turned: Vec<bool>,
     /// What lengths are measured in, m.
@@ -37,6 +39,7 @@ impl Choice {
         Self {
             forms: vec![Form::Inertia; dof],
             origins: vec![[0.0; 3]; dof],
+            lent: vec![0.0; dof],
             turned: vec![false; dof],
             unit: 1.0,
         }
@@ -72,6 +75,16 @@ impl Choice {
             }
             for link in (0..places.len()).rev() {
                 search.offer(|choice| choice.turned[link] = !choice.turned[link]);
+            }
+            for (link, mass) in search.masses() {
+                // Links between carry the mass on, as far down as that makes nothing worse.
+                for first in 1..=link {
+                    search.offer(|choice| {
+                        for lent in &mut choice.lent[first..=link] {
+                            *lent += mass;
+                        }
+                    });
+                }
             }
             for unit in search.lengths() {
                 search.offer(|choice| choice.unit = unit);
@@ -111,6 +124,33 @@ impl Search<'_> {
             Wanted::MassMatrix => lean.into_chain().mass_matrix(&mut dag).concat(),
         };
         operations(&dag, &outputs)
+    }
+
+    /// Masses that make a first moment of a parent vanish when the link is lent them.
+    fn masses(&self) -> Vec<(usize, f64)> {
+        /// A heavier mass would cost digits.
+        const HEAVIEST: f64 = 1e3;
+        let mut dag = self.dag.clone();
+        let choice = Choice {
+            unit: 1.0,
+            turned: vec![false; self.best.turned.len()],
+            ..self.best.clone()
+        };
+        let lean = LeanChain::new(&mut dag, self.chain, &choice);
+        let mut masses = Vec::new();
+        for link in 1..lean.frames.len() {
+            let (step, first) = (lean.frames[link].joint_point, lean.bodies[link - 1].first);
+            for (step, first) in step.into_iter().zip(first) {
+                if let (Some(step), Some(first)) = (dag.as_constant(step), dag.as_constant(first))
+                    && step.abs() > NEAR
+                    && first != 0.0
+                    && (first / step).abs() < HEAVIEST
+                {
+                    masses.push((link, first / step));
+                }
+            }
+        }
+        masses
     }
 
     /// Lengths between joints as they are written now, and one meter.
