@@ -40,22 +40,14 @@ pub fn compute(
 ) -> Computed {
     let parameters = parameter_expressions(dag, values);
     let body = RigidBody::new(dag, model, form, &parameters);
-    let lean = match &body {
-        RigidBody::Chain(chain) => {
-            let choice = choice(model, values, Wanted::Torque);
-            Some(LeanChain::new(dag, chain, &choice))
-        }
-        RigidBody::Lagrangian(_) => None,
-    };
     let torque = |dag: &mut Dag, terms: Terms| {
         let plain = body.torque(dag, terms, terms == Terms::All);
-        match &lean {
-            Some(lean) => {
-                let lean = lean.torque(dag, terms);
-                cheaper(dag, lean, plain)
-            }
-            None => plain,
-        }
+        let RigidBody::Chain(chain) = &body else {
+            return plain;
+        };
+        let choice = choice(model, values, Wanted::Torque(terms));
+        let lean = LeanChain::new(dag, chain, &choice).torque(dag, terms);
+        cheaper(dag, lean, plain)
     };
     let rigid_torque = torque(dag, Terms::All);
     let bias = torque(dag, Terms::Bias);

@@ -27,8 +27,8 @@ pub struct Choice {
 /// What is to be computed with a chain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
-    /// The whole torque; its parts are written in the same way.
-    Torque,
+    /// These terms of the torque.
+    Torque(Terms),
     /// The mass matrix.
     MassMatrix,
 }
@@ -60,7 +60,7 @@ impl Choice {
         let mut before = usize::MAX;
         while search.cost < before {
             before = search.cost;
-            if wanted == Wanted::Torque {
+            if wanted != Wanted::MassMatrix {
                 for form in [Form::Inertia, Form::SecondMoments] {
                     search.offer(|choice| choice.forms.fill(form));
                     for link in 0..places.len() {
@@ -120,7 +120,7 @@ impl Search<'_> {
         let mut dag = self.dag.clone();
         let lean = LeanChain::new(&mut dag, self.chain, choice);
         let outputs = match self.wanted {
-            Wanted::Torque => lean.torque(&mut dag, Terms::All),
+            Wanted::Torque(terms) => lean.torque(&mut dag, terms),
             Wanted::MassMatrix => lean.into_chain().mass_matrix(&mut dag).concat(),
         };
         operations(&dag, &outputs)
