@@ -140,6 +140,16 @@ impl Scope {
     fn resolve_part(&self, expr: &ast::Expr, errors: &mut Errors) -> Option<EffectExpr> {
         match &expr.kind {
             ExprKind::Number(value, None) => Some(Expr::Number(*value)),
+            ExprKind::Number(value, Some(unit)) if let Some(kind) = self.kind_of(&unit.name) => {
+                errors.push(super::value::unit_or_name(
+                    expr,
+                    *value,
+                    unit,
+                    kind,
+                    "for a quantity write its value in SI units, which needs no unit",
+                ));
+                None
+            }
             ExprKind::Number(..) => super::value::constant(expr)
                 .map(|q| Expr::Number(q.value))
                 .map_err(|error| errors.push(error))
@@ -185,6 +195,22 @@ impl Scope {
         } else {
             choice
         })))
+    }
+
+    /// What a name stands for, in words.
+    fn kind_of(&self, name: &Ident) -> Option<&'static str> {
+        let among = |names: &[String]| names.iter().any(|known| name == known);
+        if among(&self.linear) || among(&self.shapes) {
+            Some("parameter")
+        } else if among(&self.states) {
+            Some("state")
+        } else if among(&self.bindings) {
+            Some("`let`")
+        } else if self.inputs.iter().any(|(input, _)| name == input) {
+            Some("input")
+        } else {
+            None
+        }
     }
 
     fn name(&self, name: &Ident, errors: &mut Errors) -> Option<EffectExpr> {

@@ -241,6 +241,34 @@ pub(super) fn find_unit(unit: &Ident) -> Checked<(f64, Dimension)> {
     })
 }
 
+/// A word behind a number where that word is a name that the expression may use: `0.5 m*l^2` with a parameter `m` is half a
+/// meter to the letter, and half of `m` to the reader.
+pub(super) fn unit_or_name(
+    expr: &Expr,
+    literal: f64,
+    unit: &Unit,
+    meant: &str,
+    otherwise: &str,
+) -> Diagnostic {
+    let name = &unit.name;
+    let power = match unit.exponent {
+        1 => String::new(),
+        exponent => format!("^{exponent}"),
+    };
+    let otherwise = match unit::find(&name.to_string()) {
+        Some(_) => format!("; {otherwise}"),
+        None => String::new(),
+    };
+    Diagnostic::new(
+        expr.span,
+        format!("`{name}` is a name here, and behind a number it would be a unit"),
+        format!("a unit, or the {meant}?"),
+    )
+    .help(format!(
+        "write `{literal}*{name}{power}` for the {meant}{otherwise}"
+    ))
+}
+
 /// `pi`, or a unit alone as in `m/s^2`.
 fn constant_name(name: &Ident) -> Checked<Quantity> {
     let text = name.to_string();

@@ -4,7 +4,7 @@ use syn::Ident;
 
 use super::dimension::{Constants, Dimensions};
 use crate::ast::{self, ExprKind};
-use crate::check::{Errors, resolve, value};
+use crate::check::{Errors, resolve, unit, value};
 use crate::diagnostic::Diagnostic;
 use crate::model::{EnergyExpr, EnergyLeaf, Expr};
 use crate::suggest;
@@ -50,6 +50,22 @@ impl Scope {
         })
     }
 
+    /// What a name stands for, in words.
+    fn kind_of(&self, name: &Ident) -> Option<&'static str> {
+        let among = |names: &[String]| names.iter().any(|known| name == known);
+        if among(&self.coordinates) {
+            Some("coordinate")
+        } else if among(&self.parameters) {
+            Some("parameter")
+        } else if self.constants.iter().any(|c| *name == c.name) {
+            Some("constant")
+        } else if among(&self.bindings) || among(&self.later) {
+            Some("`let`")
+        } else {
+            None
+        }
+    }
+
     fn all_names(&self) -> impl Iterator<Item = &str> {
         let constants = self.constants.iter().map(|constant| &constant.name);
         self.coordinates
@@ -72,7 +88,16 @@ impl Resolution<'_> {
     fn resolve(&mut self, expr: &ast::Expr) -> Option<EnergyExpr> {
         match &expr.kind {
             ExprKind::Number(value, None) => Some(Expr::Number(*value)),
-            ExprKind::Number(..) => {
+            ExprKind::Number(value, Some(unit)) => {
+                if let Some(kind) = self.scope.kind_of(&unit.name) {
+                    let quantity = format!(
+                        "for a quantity write `constants c = {value} {};` and its name",
+                        unit.name
+                    );
+                    self.errors
+                        .push(value::unit_or_name(expr, *value, unit, kind, &quantity));
+                    return None;
+                }
                 let quantity = value::constant(expr)
                     .map_err(|error| self.errors.push(error))
                     .ok()?;
@@ -145,6 +170,10 @@ impl Resolution<'_> {
             ))
         } else {
             match suggest::nearest(&text, self.scope.all_names()) {
+                _ if unit::find(&text).is_some() => error.help(format!(
+                    "`{text}` is a unit: of `1 m/s` only the first belongs to the number in an expression, so write `constants v = 1 m/s;` \
+                     and the name of that; otherwise declare it: `parameters {text};` or `constants {text} = ..;`"
+                )),
                 Some(near) => error.help(format!("write `{near}`")),
                 None => error.help(format!(
                     "declare it: `parameters {text};` if it is unknown, `constants {text} = ..;` if it is known, or `let {text} = ..;`"
