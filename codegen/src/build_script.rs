@@ -1,8 +1,10 @@
 //! The `build.rs` route: a spec beside the crate in, `OUT_DIR/<spec>.rs` out.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use robot_model_spec::Diagnostics;
 
@@ -19,6 +21,8 @@ pub enum CompileError {
     NotInBuildScript(&'static str),
     /// The path names no file, so the generated file would have no name.
     NoFileName(PathBuf),
+    /// Two specs of one build script have the same name, and so would their generated files.
+    SameName(PathBuf, PathBuf),
     /// The spec has mistakes.
     Spec(Box<Diagnostics>),
     /// The base parameters could not be decided.
@@ -46,6 +50,13 @@ impl fmt::Display for CompileError {
                     "`{variable}` is not set: `compile` is for build scripts; call `emit::rust::module` elsewhere"
                 )
             }
+            Self::SameName(first, second) => write!(
+                f,
+                "`{}` and `{}` would both be `{}.rs`: rename one of them",
+                first.display(),
+                second.display(),
+                second.file_stem().unwrap_or_default().display()
+            ),
             Self::NoFileName(path) => write!(f, "`{}` names no file", path.display()),
             Self::Spec(diagnostics) => write!(f, "{diagnostics}"),
             Self::NotInstantaneous(reason) => write!(f, "{reason}"),
@@ -78,11 +89,29 @@ pub fn compile(spec: impl AsRef<Path>) -> Result<(), CompileError> {
     let stem = spec
         .file_stem()
         .ok_or_else(|| CompileError::NoFileName(spec.to_owned()))?;
-    let target = Path::new(&out).join(stem).with_extension("rs");
+    let mut file = stem.to_owned();
+    file.push(".rs");
+    let target = Path::new(&out).join(file);
+
+    claim(spec, &target)?;
 
     let text = std::fs::read_to_string(&path).map_err(|error| CompileError::Io(path, error))?;
     let page = compile_text(&spec.to_string_lossy(), &text)?;
     std::fs::write(&target, page).map_err(|error| CompileError::Io(target, error))
+}
+
+/// Each generated file is that of one spec.
+fn claim(spec: &Path, target: &Path) -> Result<(), CompileError> {
+    static WRITTEN: Mutex<BTreeMap<PathBuf, PathBuf>> = Mutex::new(BTreeMap::new());
+    let mut written = WRITTEN.lock().unwrap_or_else(PoisonError::into_inner);
+    let first = written
+        .entry(target.to_owned())
+        .or_insert_with(|| spec.to_owned());
+    if first == spec {
+        Ok(())
+    } else {
+        Err(CompileError::SameName(first.clone(), spec.to_owned()))
+    }
 }
 
 /// A spec's text to a page of Rust.
@@ -110,4 +139,21 @@ pub fn compile_text(source_name: &str, text: &str) -> Result<String, CompileErro
 )]
 fn announce(path: &Path) {
     println!("cargo:rerun-if-changed={}", path.display());
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::claim;
+
+    #[test]
+    fn two_specs_of_one_name_are_told() {
+        let target = Path::new("out/of/this/test.rs");
+        let of = |spec: &str| claim(Path::new(spec), target).map_err(|error| error.to_string());
+        assert_eq!(of("a/test.robot"), Ok(()));
+        assert_eq!(of("a/test.robot"), Ok(()), "the same spec again");
+        let said = "`a/test.robot` and `b/test.robot` would both be `test.rs`: rename one of them";
+        assert_eq!(of("b/test.robot"), Err(said.to_owned()));
+    }
 }

@@ -72,15 +72,14 @@ fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
         Some(form) => regressor::linearize(&mut dag, model, Some(form)),
         None => linear.clone(),
     };
-    let base = match arm {
-        Some((base, _)) => base.clone(),
-        None => {
-            let mut base = base::reduce(&dag, model, &candidates);
-            if let Some(lumps) = &lumps {
-                base.spell_out(model, &standard, &lumps.lumps);
-            }
-            base
+    let base = if let Some((base, _)) = arm {
+        base.clone()
+    } else {
+        let mut base = base::reduce(&dag, model, &candidates);
+        if let Some(lumps) = &lumps {
+            base.spell_out(model, &standard, &lumps.lumps);
         }
+        base
     };
     let baked = arm.map(|(_, beta)| beta.to_vec());
     let values = base_values(&standard, &base, baked.as_deref());

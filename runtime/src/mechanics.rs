@@ -32,6 +32,10 @@ use crate::state::State;
 /// let velocity = arm.jacobian(&q) * dq;
 /// assert!((velocity[1] - 1.5 * 0.3_f64.cos()).abs() < 1e-12 && velocity[5] == 3.0);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no `Mechanics` of these sizes",
+    note = "an arm whose effects have a memory or read channels has no methods of the motion alone: use those whose name ends in `_at`, with `State::new(q, dq, ddq).with_memory(..).with_inputs(..)`"
+)]
 pub trait Mechanics<
     const DOF: usize,
     const STANDARD: usize,

@@ -79,7 +79,8 @@ const TERMS: u32 = 14;
 /// `jacobian` is `J = df/dz`, `h` is in s.
 ///
 /// The step of Rosenbrock and Euler: exact where `f` is affine in `z`, stable however stiff, of second order else. Where a rate
-/// is no number the state stays; where only a derivative is none, such as that of `abs(z)^n` at 0, the step is one of Euler.
+/// is no number, or the step would overflow, the state stays; where only a derivative is none, such as that of `abs(z)^n` at 0,
+/// the step is one of Euler.
 ///
 /// Source: Hochbruck & Ostermann 2010, Exponential integrators.
 ///
@@ -101,9 +102,8 @@ pub fn step<S: Scalar, D: Dim>(
     DefaultAllocator: Allocator<D> + Allocator<D, D>,
 {
     // Zero, or no number where an entry is none: lane by lane.
-    let flaw = |entries: &mut dyn Iterator<Item = S>| {
-        entries.fold(S::zero(), |sum, x| sum + x * S::zero())
-    };
+    let flaw =
+        |entries: &mut dyn Iterator<Item = S>| entries.fold(S::zero(), |sum, x| sum + x.flaw());
     let stays = flaw(&mut rate.iter().copied());
     let is_rough = flaw(&mut jacobian.iter().copied());
     let h = S::of(h);
@@ -140,10 +140,12 @@ pub fn after<S: Scalar, const N: usize>(
     z.data.0[0]
 }
 
-/// `(exp(x) - 1) / x`
+/// `(exp(x) - 1) / x`; by its series where the slope of the quotient would cancel.
 fn phi<S: Scalar>(x: S) -> S {
-    let series = S::one() + S::of(0.5) * x;
-    S::choose(x.abs(), x.exp_m1() / x, series)
+    // Horner: 1 + x/2 (1 + x/3 (1 + ..))
+    let terms = (2..=TERMS + 1).rev().map(|k| S::of(1.0 / f64::from(k)));
+    let series = terms.fold(S::one(), |sum, share| S::one() + x * share * sum);
+    S::choose(x.abs() - S::of(SMALL), x.exp_m1() / x, series)
 }
 
 /// `phi` of a matrix: its series where the matrix is small, and `phi(2 A) = phi(A) + phi(A) A phi(A) / 2` from there.
@@ -155,9 +157,8 @@ where
         .row_iter()
         .map(|row| row.iter().fold(S::zero(), |sum, x| sum + x.abs()));
     let norm = rows.map(S::most).fold(0.0, f64::max);
-    // More halvings than a double has binary digits say nothing.
     let (mut halvings, mut scale) = (0, 1.0);
-    while norm * scale > SMALL && halvings < 60 {
+    while norm * scale > SMALL {
         scale *= 0.5;
         halvings += 1;
     }
@@ -181,6 +182,7 @@ mod tests {
     use nalgebra::{Matrix1, Matrix2, Vector1, Vector2};
 
     use super::step;
+    use crate::scalar::{Dual, Scalar};
 
     #[test]
     fn a_pair_that_does_not_couple_is_two_single_states() {
@@ -223,5 +225,64 @@ mod tests {
         assert_eq!(z[0].to_bits(), 0.3_f64.to_bits());
         step(&mut z, 0.1, &Vector1::new(2.0), &Matrix1::new(f64::NAN));
         assert!((z[0] - 0.5).abs() < 1e-15);
+    }
+
+    /// A slope that is no number leaves the value as it is.
+    #[test]
+    fn the_value_of_a_dual_step_is_that_of_the_step() {
+        let stiff = |z: f64| -1000.0 - z.sqrt();
+        let (mut plain, mut dual) = (Vector1::new(0.0), Vector1::new(Dual::variable(0.0_f64)));
+        step(
+            &mut plain,
+            0.01,
+            &Vector1::new(2.0),
+            &Matrix1::new(stiff(0.0)),
+        );
+        let slope = -(Dual::variable(0.0_f64).sqrt() + 1000.0);
+        assert!(slope.slope.is_infinite());
+        step(
+            &mut dual,
+            0.01,
+            &Vector1::new(Dual::of(2.0)),
+            &Matrix1::new(slope),
+        );
+        assert!((dual[0].value - plain[0]).abs() < 1e-15, "{dual:?} {plain}");
+    }
+
+    /// `d/dJ` of `h phi(h J)` at `J = 0` is `h^2 / 2`.
+    #[test]
+    fn slopes_of_a_step_do_not_cancel() {
+        for exponent in [-1e-17, -1e-12, -1e-3, -0.4, -0.6, -30.0] {
+            let mut z = Vector1::new(Dual::of(0.0));
+            step(
+                &mut z,
+                1.0,
+                &Vector1::new(Dual::of(1.0)),
+                &Matrix1::new(Dual::variable(exponent)),
+            );
+            let x: f64 = exponent;
+            // (x e^x - e^x + 1) / x^2, by its series where that cancels.
+            let wanted = if x.abs() < 0.01 {
+                0.5 + x / 3.0 + x * x / 8.0
+            } else {
+                (x * x.exp() - x.exp_m1()) / (x * x)
+            };
+            assert!(
+                (z[0].slope - wanted).abs() < 1e-9,
+                "{exponent}: {z:?} {wanted}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_slow_moves_beside_what_is_endlessly_stiff() {
+        let slopes = Matrix2::new(-1e19, 0.0, 0.0, -1.0);
+        let mut z = Vector2::new(1.0_f64, 1.0);
+        let rate = slopes * z;
+        step(&mut z, 1.0, &rate, &slopes);
+        assert!(
+            z[0].abs() < 1e-6 && (z[1] - (-1.0_f64).exp()).abs() < 1e-9,
+            "{z}"
+        );
     }
 }

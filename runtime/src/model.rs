@@ -49,8 +49,9 @@ pub type Matrix<const R: usize, const C: usize> = SMatrix<f64, R, C>;
 /// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
 /// ```
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no arm whose torque depends on its motion alone",
-    note = "effects with a memory or with channels of a log need these in a `State`: use the methods whose name ends in `_at`"
+    message = "`{Self}` is no `RobotModel` of these sizes",
+    note = "an arm whose effects have a memory or read channels has no methods of the motion alone: use those whose name ends in `_at`, with `State::new(q, dq, ddq).with_memory(..).with_inputs(..)`",
+    note = "a struct becomes an arm by `#[derive(RobotModel)]`"
 )]
 pub trait RobotModel<
     const DOF: usize,

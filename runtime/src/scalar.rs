@@ -12,20 +12,25 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
+mod sealed {
+    /// Keeps implementations of [`Scalar`](super::Scalar) to this crate.
+    pub trait Sealed {}
+}
+
 pub use dual::Dual;
 pub use lanes::{Lanes4, Lanes8};
 
 /// A real number, or several side by side.
 ///
 /// What emitted code needs and no more; the constants of an arm come in by [`Self::of`]. nalgebra's vectors and matrices take
-/// every such number.
+/// every such number. The trait is implemented here only, as what emitted code needs grows.
 ///
 /// # Examples
 /// ```
 /// use robot_model::scalar::{Dual, Lanes4, Scalar};
 /// /// Height of a pendulum's tip, m.
 /// fn height<S: Scalar>(angle: S) -> S {
-///     let [[sin], [_]] = S::sin_cos([angle]);
+///     let [[sin], [_]] = S::sines_cosines([angle]);
 ///     S::of(0.5) * sin
 /// }
 /// assert!((height(0.3_f64) - 0.5 * 0.3_f64.sin()).abs() < 1e-15);
@@ -37,7 +42,8 @@ pub use lanes::{Lanes4, Lanes8};
 /// assert!((at.slope - 0.5 * 0.3_f64.cos()).abs() < 1e-15);
 /// ```
 pub trait Scalar:
-    nalgebra::Scalar
+    sealed::Sealed
+    + nalgebra::Scalar
     + Copy
     + Zero
     + One
@@ -51,25 +57,28 @@ pub trait Scalar:
     + MulAssign
     + DivAssign
 {
+    /// Relative size of a rounding: half of the distance from 1 to the next number.
+    const ROUNDING: f64;
+
     /// This number, in every lane; rounded to the scalar's precision.
     fn of(value: f64) -> Self;
 
-    /// Sines and cosines of angles in rad, all at once: `let [[sin_a, sin_b], [cos_a, cos_b]] = S::sin_cos([a, b])`.
+    /// Sines and cosines of angles in rad, all at once: `let [[sin_a, sin_b], [cos_a, cos_b]] = S::sines_cosines([a, b])`.
     ///
     /// Within 2 units in the last place.
-    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2];
+    fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2];
 
     /// Sine of an angle in rad.
     #[must_use]
     fn sin(self) -> Self {
-        let [[sin], _] = Self::sin_cos([self]);
+        let [[sin], _] = Self::sines_cosines([self]);
         sin
     }
 
     /// Cosine of an angle in rad.
     #[must_use]
     fn cos(self) -> Self {
-        let [_, [cos]] = Self::sin_cos([self]);
+        let [_, [cos]] = Self::sines_cosines([self]);
         cos
     }
 
@@ -113,6 +122,11 @@ pub trait Scalar:
     #[must_use]
     fn finite_or(self, fallback: Self) -> Self;
 
+    /// Zero where the value is a number, and no number, with a slope of zero, where it is infinite or none: a flaw in one lane
+    /// spreads through what it is added to there, and a flaw of a slope alone does not.
+    #[must_use]
+    fn flaw(self) -> Self;
+
     /// The smallest value over the lanes; of a dual number that of its value. NaN where one is NaN.
     #[must_use]
     fn least(self) -> f64;
@@ -130,7 +144,7 @@ mod tests {
 
     /// Every function once, where all of them have a value and a slope.
     fn everything<S: Scalar>(x: S) -> S {
-        let [[sin, sin_twice], [cos, _]] = S::sin_cos([x, x + x]);
+        let [[sin, sin_twice], [cos, _]] = S::sines_cosines([x, x + x]);
         let mut sum = sin * cos + sin_twice / x;
         sum += x.exp() - x.exp_m1();
         sum -= x.ln() * x.sqrt();

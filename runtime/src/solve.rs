@@ -4,15 +4,15 @@
 
 use crate::scalar::Scalar;
 
-/// What is left of a pivot, relative to the diagonal entry or column that it came from, below which it counts as zero: the
-/// rounding of a hundred operations.
-const SINGULAR: f64 = 1e-14;
+/// What is left of a pivot, relative to the diagonal entry or column that it came from, below which it counts as zero, in
+/// roundings.
+const SINGULAR: f64 = 100.0;
 
 /// Most steps of [`newton`]: each ends in another piece of a piecewise linear torque, and joints have few.
 const STEPS: usize = 20;
 
-/// Newton's method ends where a step is this small, relative to the largest acceleration.
-const SETTLED: f64 = 1e-12;
+/// Newton's method ends where a step is this small, relative to the largest acceleration, in roundings.
+const SETTLED: f64 = 1e4;
 
 /// Solves `a x = b` for a symmetric positive definite `a`, of which the lower triangle is read, by `a = L D L^T`.
 ///
@@ -46,7 +46,7 @@ pub fn positive_definite<S: Scalar, const N: usize>(a: &[[S; N]; N], b: &[S; N])
             x[i] -= change;
         }
         // A comparison with NaN is false too.
-        let spare = pivot - S::of(SINGULAR) * a[i][i];
+        let spare = pivot - S::of(SINGULAR * S::ROUNDING) * a[i][i];
         if !(spare.least() > 0.0 && pivot.most().is_finite()) {
             return None;
         }
@@ -75,21 +75,22 @@ pub fn positive_definite<S: Scalar, const N: usize>(a: &[[S; N]; N], b: &[S; N])
 #[must_use]
 pub fn general<S: Scalar, const N: usize>(a: &[[S; N]; N], b: &[S; N]) -> Option<[S; N]> {
     let (mut a, mut x) = (*a, *b);
-    let scale = a
-        .iter()
-        .flatten()
-        .fold(0.0, |most: f64, v| most.max(v.abs().most()));
+    let larger = |most: S, entry: &S| S::choose(entry.abs() - most, entry.abs(), most);
+    let scale = a.iter().flatten().fold(S::zero(), larger);
     for column in 0..N {
-        let mut pivot = column;
         for row in column + 1..N {
-            if a[row][column].abs().least() > a[pivot][column].abs().least() {
-                pivot = row;
+            // The larger of both goes up, in each lane by itself.
+            let gain = a[row][column].abs() - a[column][column].abs();
+            let exchange =
+                |upper: S, lower: S| (S::choose(gain, lower, upper), S::choose(gain, upper, lower));
+            for k in column..N {
+                (a[column][k], a[row][k]) = exchange(a[column][k], a[row][k]);
             }
+            (x[column], x[row]) = exchange(x[column], x[row]);
         }
-        a.swap(column, pivot);
-        x.swap(column, pivot);
         let size = a[column][column].abs();
-        if !(size.least() > SINGULAR * scale && size.most().is_finite()) {
+        let spare = size - S::of(SINGULAR * S::ROUNDING) * scale;
+        if !(spare.least() > 0.0 && size.most().is_finite()) {
             return None;
         }
         for row in column + 1..N {
@@ -138,7 +139,7 @@ pub fn newton<S: Scalar, const N: usize>(
             largest = largest.max(x.abs().most());
             moved = moved.max(change.abs().most());
         }
-        if moved <= SETTLED * largest {
+        if moved <= SETTLED * S::ROUNDING * largest {
             return Some(x);
         }
     }
@@ -148,6 +149,7 @@ pub fn newton<S: Scalar, const N: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scalar::Lanes4;
 
     /// `a = L L^T` of numbers without meaning.
     fn system() -> ([[f64; 4]; 4], [f64; 4]) {
@@ -193,6 +195,52 @@ mod tests {
         assert_eq!(positive_definite(&a, &b), None);
         assert_eq!(general(&a, &b), None);
         assert_eq!(general(&[[0.0; 2]; 2], &[1.0; 2]), None);
+    }
+
+    /// Each lane has its own pivots and its own scale.
+    #[test]
+    fn lanes_are_solved_each_by_itself() {
+        let crossed = [[0.0, 1.0], [1.0, 0.0]];
+        let straight = [[1.0, 0.0], [0.0, 1.0]];
+        let steep = [[1e-12, 1.0], [1.0, 1.0]];
+        let huge = [[1e20, 0.0], [0.0, 3e20]];
+        let systems = [crossed, straight, steep, huge];
+        let a = core::array::from_fn(|i| {
+            core::array::from_fn(|j| Lanes4::from(systems.map(|system| system[i][j])))
+        });
+        let b = [Lanes4::of(2.0), Lanes4::of(3.0)];
+        let x = general(&a, &b).expect("no lane is singular");
+        for (lane, system) in systems.iter().enumerate() {
+            let alone = general(system, &[2.0, 3.0]).expect("not singular");
+            assert_eq!(
+                x.map(|x| x.to_array()[lane].to_bits()),
+                alone.map(f64::to_bits)
+            );
+        }
+    }
+
+    /// What is singular to the rounding of a scalar is singular, and what is solved to it is solved.
+    #[test]
+    fn single_precision_has_its_own_limits() {
+        let rows: [[f32; 3]; 2] = [[0.3, 1.7, -0.4], [2.2, 0.1, 0.9]];
+        let gram: [[f32; 3]; 3] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| rows.iter().map(|row| row[i] * row[j]).sum())
+        });
+        assert_eq!(positive_definite(&gram, &[1.0, 2.0, 3.0]), None);
+        assert_eq!(general(&gram, &[1.0, 2.0, 3.0]), None);
+        // x + |x| / 3 = 0.7, and x + y / 7 = 0.1.
+        let step = |x: &[f32; 2]| {
+            let slope = [[1.0 + x[0].signum() / 3.0, 0.0], [1.0, 1.0 / 7.0]];
+            (
+                slope,
+                [0.7 - x[0] - x[0].abs() / 3.0, 0.1 - x[0] - x[1] / 7.0],
+            )
+        };
+        let [x, y] = newton(step).expect("linear in pieces");
+        assert!(
+            (x - 0.525).abs() < 1e-6 && (y + 2.975).abs() < 1e-5,
+            "{x} {y}"
+        );
     }
 
     #[test]

@@ -55,9 +55,11 @@ robots! {
     every_effect "every_effect" EveryEffect;
     fixed_arm "fixed_arm" FixedArm;
     known_springs "known_springs" KnownSprings;
+    lone_slide "lone_slide" LoneSlide;
     lugre_link "lugre_link" LugreLink;
     memory "memory" Memory;
     mounted_arm "mounted_arm" MountedArm;
+    odd_angles "odd_angles" Scalar;
     panda "panda" Panda;
     phantom "phantom" Phantom;
     pneumatic_arm "pneumatic_arm" PneumaticArm;

@@ -296,4 +296,13 @@ mod nothing_is_used {
     mod two_link {
         robot_model::include_robot!("two_link");
     }
+    /// Beside the runtime's names, and one that is called as its trait.
+    #[expect(unused_imports, reason = "a page names nothing that users import")]
+    mod odd_angles {
+        use robot_model::{FromParameters, Memory, RobotModel, State, memory, solve};
+        robot_model::include_robot!("odd_angles");
+    }
+    mod lone_slide {
+        robot_model::include_robot!("lone_slide");
+    }
 }

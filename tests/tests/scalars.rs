@@ -2,8 +2,10 @@
 
 use robot_model::model::SVector;
 use robot_model::scalar::{Dual, Lanes4, Lanes8};
-use robot_model::{FromParameters, Mechanics, Scalar, State, Vector};
-use robot_model_tests::emitted::{every_effect, memory, panda, phantom, rokae_like, stanford};
+use robot_model::{FromParameters, Mechanics, Memory, RobotModel, Scalar, State, Vector};
+use robot_model_tests::emitted::{
+    every_effect, memory, odd_angles, panda, phantom, rokae_like, stanford,
+};
 use robot_model_tests::states::{generator, state, typed};
 
 /// The same law for an arm of links, one with a slide, one with every effect, one with a memory, and energies.
@@ -13,6 +15,7 @@ macro_rules! for_arms {
         $law::<stanford::Stanford, _, _, _, _, _, _>();
         $law::<rokae_like::RokaeLike, _, _, _, _, _, _>();
         $law::<every_effect::EveryEffect, _, _, _, _, _, _>();
+        $law::<odd_angles::Scalar, _, _, _, _, _, _>();
         $law::<memory::Memory, _, _, _, _, _, _>();
         $law::<phantom::Phantom, _, _, _, _, _, _>();
     };
@@ -137,4 +140,73 @@ law! {
             assert!(error < 1e-6 * wanted.abs().most().max(1.0), "{found:?} {wanted:?}");
         }
     }
+}
+
+/// Internal states of effects after a step, in lanes, in single precision and with slopes.
+#[test]
+fn memory_in_every_scalar() {
+    let arm = memory::Memory::from_standard(&Vector::from_element(0.3));
+    let mut random = generator(5);
+    let states: [State<2, 4, 3>; 8] = std::array::from_fn(|_| typed(&state(&mut random, 2)));
+    let seconds = 1e-3;
+    let lanes = map(|number| Lanes8::from(states.map(|state| number(&state))));
+    let together = arm.memory_after(&lanes, seconds);
+    for (lane, state) in states.iter().enumerate() {
+        let alone = arm.memory_after(state, seconds);
+        let found = together.map(|z| z.to_array()[lane]);
+        // Halvings are those of the stiffest lane.
+        assert!(
+            (found - alone).amax() < 1e-13 * alone.amax().max(1.0),
+            "{found} {alone}"
+        );
+
+        let single = arm.memory_after(&map(|number| f32::of(number(state))), seconds);
+        let error = (single.map(f64::from) - alone).amax();
+        assert!(error < 1e-4 * alone.amax(), "{single} {alone}");
+
+        // Along the velocity of the first joint.
+        let mut moving = map(|number| Dual::of(number(state)));
+        moving.dq[0] = Dual::variable(state.dq[0]);
+        let slope = arm.memory_after(&moving, seconds);
+        let h = 1e-6 * state.dq[0].abs();
+        let at = |dq: f64| {
+            let mut state = *state;
+            state.dq[0] = dq;
+            arm.memory_after(&state, seconds)
+        };
+        let difference = (at(state.dq[0] + h) - at(state.dq[0] - h)) / (2.0 * h);
+        assert!((slope.map(|z| z.value) - alone).amax() < 1e-14 * alone.amax());
+        let size = difference.amax().max(1e-6);
+        assert!(
+            (slope.map(|z| z.slope) - difference).amax() < 1e-5 * size,
+            "{slope:?} {difference}"
+        );
+    }
+}
+
+/// Friction that depends on the load: accelerations by Newton's method, to the precision of the scalar.
+#[test]
+fn accelerations_in_single_precision() {
+    let arm = odd_angles::Scalar::from_standard(&Vector::from_fn(|k, _| match k % 10 {
+        // A body of 2 kg: mass, first moments, inertia.
+        0 => 2.0,
+        4 | 7 | 9 => 0.3,
+        _ => 0.05,
+    }));
+    let mut random = generator(29);
+    let mut found = 0;
+    for _ in 0..50 {
+        let state: State<3> = typed(&state(&mut random, 3));
+        let tau = arm.inverse_dynamics_at(&state);
+        let single = map(|number| f32::of(number(&state)));
+        let Some(wanted) = arm.forward_dynamics_at(&state, &tau) else {
+            continue;
+        };
+        let ddq = arm.forward_dynamics_at(&single, &tau.map(f32::of));
+        let ddq = ddq.expect("solved in double precision").map(f64::from);
+        let scale = wanted.amax().max(tau.amax());
+        assert!((ddq - wanted).amax() < 1e-3 * scale, "{ddq} {wanted}");
+        found += 1;
+    }
+    assert!(found > 40, "{found}");
 }

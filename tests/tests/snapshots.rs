@@ -13,13 +13,15 @@ use robot_model_tests::specs::{self, Spec};
 
 /// Shown whole: a planar arm, an arm with a prismatic joint and fixed inertials, the arm of the books, those that say their
 /// energies, those with a memory.
-const WHOLE: [&str; 14] = [
+const WHOLE: [&str; 16] = [
     "cart_pole",
     "fixed_arm",
     "known_springs",
+    "lone_slide",
     "lugre_link",
     "memory",
     "mounted_arm",
+    "odd_angles",
     "phantom",
     "pneumatic_arm",
     "puma560",

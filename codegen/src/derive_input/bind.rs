@@ -101,19 +101,35 @@ fn no_link(field: &RobotField, model: &Model, effects: &Effects) -> String {
     format!("a robot of energies has no links: {instead}")
 }
 
-/// Rust's names are in snake case: `ia_yy` holds `Ia_yy`.
+/// The field that holds an unknown constant is called as it is, or in snake case where that is no other name's: `ia_yy` holds
+/// `Ia_yy`.
+fn field_name(model: &Model, parameter: &str) -> String {
+    let snake = parameter.to_ascii_lowercase();
+    let parameters = model.energies().map(|energies| &energies.parameters);
+    let mut others = parameters
+        .into_iter()
+        .flatten()
+        .map(|one| one.name.as_str())
+        .filter(|other| *other != parameter);
+    let is_taken = others.any(|other| other.to_ascii_lowercase() == snake)
+        || model.joints.iter().any(|joint| joint.name == snake);
+    if is_taken {
+        parameter.to_owned()
+    } else {
+        snake
+    }
+}
+
+fn holds_parameter(name: &Ident, model: &Model, parameter: &str) -> bool {
+    is(name, parameter) || is(name, &field_name(model, parameter))
+}
+
 fn parameter(field: &RobotField, model: &Model) -> syn::Result<usize> {
     let parameters = model
         .energies()
         .map_or(&[] as &[_], |energies| &energies.parameters);
-    let found = parameters
-        .iter()
-        .position(|parameter| is(field.name, &parameter.name))
-        .or_else(|| {
-            parameters
-                .iter()
-                .position(|parameter| is(field.name, &parameter.name.to_ascii_lowercase()))
-        });
+    let mut names = parameters.iter().map(|parameter| parameter.name.as_str());
+    let found = names.position(|parameter| holds_parameter(field.name, model, parameter));
     found.ok_or_else(|| {
         mistake(
             field.name.span(),
@@ -275,9 +291,8 @@ fn check_parameters(robot: &Robot, model: &Model, held: &[Held], errors: &mut Er
         .map_or(&[] as &[_], |energies| &energies.parameters);
     for (k, parameter) in parameters.iter().enumerate() {
         // A field of this name with another type has its message already.
-        let is_there = robot.fields.iter().any(|field| {
-            is(field.name, &parameter.name) || is(field.name, &parameter.name.to_ascii_lowercase())
-        });
+        let mut fields = robot.fields.iter();
+        let is_there = fields.any(|field| holds_parameter(field.name, model, &parameter.name));
         if is_there {
             continue;
         }
@@ -287,7 +302,7 @@ fn check_parameters(robot: &Robot, model: &Model, held: &[Held], errors: &mut Er
                 format!(
                     "no field holds `{}`: write `{}: f64`",
                     parameter.name,
-                    parameter.name.to_ascii_lowercase()
+                    field_name(model, &parameter.name)
                 ),
             );
         }

@@ -67,7 +67,7 @@ pub fn derive(input: TokenStream, read: ReadFile<'_>) -> TokenStream {
         Ok(tokens) => tokens,
         Err(error) => {
             let error = error.to_compile_error();
-            let stub = stub::implementation(&input);
+            let stub = stub::implementation(&input, read);
             // rustc would say of a file that is not there what we have said already.
             let tracked = fields::files(&input)
                 .filter(|file| read(file).is_ok())

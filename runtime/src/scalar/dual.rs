@@ -4,15 +4,15 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use num_traits::{One, Zero};
 
-use super::Scalar;
+use super::{Scalar, sealed};
 
 /// `value + slope * e` with `e^2 = 0`: a function of it is its value and its derivative along the slope of its arguments, exact.
 ///
 /// # Examples
 /// ```
-/// use robot_model::scalar::{Dual, Scalar};
-/// let x = Dual { value: 2.0, slope: 1.0 };
-/// let y = x * x * x + Dual::of(1.0) / x;
+/// use robot_model::scalar::Dual;
+/// let x = Dual::variable(2.0);
+/// let y = x * x * x + Dual::from(1.0) / x;
 /// assert_eq!((y.value, y.slope), (8.5, 11.75)); // 3 x^2 - 1 / x^2
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,12 +24,50 @@ pub struct Dual<S = f64> {
 }
 
 impl<S: Scalar> Dual<S> {
+    /// The variable by which derivatives are taken, at this value.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::scalar::{Dual, Scalar};
+    /// assert_eq!((Dual::variable(3.0) * 2.0).slope, 2.0);
+    /// ```
+    #[must_use]
+    pub fn variable(value: S) -> Self {
+        Self {
+            value,
+            slope: S::one(),
+        }
+    }
+
+    /// What does not depend on the variable.
+    #[must_use]
+    pub fn constant(value: S) -> Self {
+        Self {
+            value,
+            slope: S::zero(),
+        }
+    }
+
     /// `f` of it, where the value is `f(value)` and the derivative of `f` is `rise`.
     fn chain(self, value: S, rise: S) -> Self {
         Self {
             value,
-            slope: rise * self.slope,
+            slope: times(rise, self.slope),
         }
+    }
+}
+
+/// `rise * slope`; zero where nothing moves, however steep it would rise.
+fn times<S: Scalar>(rise: S, slope: S) -> S {
+    // No number is neither zero nor larger.
+    S::choose(slope.abs(), rise * slope, slope)
+}
+
+impl<S: Scalar> Add<f64> for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: f64) -> Self {
+        Add::add(self, Self::of(other))
     }
 }
 
@@ -44,11 +82,27 @@ impl<S: Scalar> Add for Dual<S> {
     }
 }
 
+impl<S: Scalar> Sub<f64> for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: f64) -> Self {
+        Sub::sub(self, Self::of(other))
+    }
+}
+
 impl<S: Scalar> Sub for Dual<S> {
     type Output = Self;
     #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
+    }
+}
+
+impl<S: Scalar> Mul<f64> for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, other: f64) -> Self {
+        Mul::mul(self, Self::of(other))
     }
 }
 
@@ -60,6 +114,14 @@ impl<S: Scalar> Mul for Dual<S> {
             value: self.value * other.value,
             slope: self.slope * other.value + self.value * other.slope,
         }
+    }
+}
+
+impl<S: Scalar> Div<f64> for Dual<S> {
+    type Output = Self;
+    #[inline]
+    fn div(self, other: f64) -> Self {
+        Div::div(self, Self::of(other))
     }
 }
 
@@ -114,6 +176,14 @@ impl<S: Scalar> DivAssign for Dual<S> {
     }
 }
 
+/// Does not depend on the variable.
+impl<S: Scalar> From<f64> for Dual<S> {
+    #[inline]
+    fn from(value: f64) -> Self {
+        Self::of(value)
+    }
+}
+
 impl<S: Scalar> Zero for Dual<S> {
     #[inline]
     fn zero() -> Self {
@@ -133,18 +203,19 @@ impl<S: Scalar> One for Dual<S> {
     }
 }
 
+impl<S: Scalar> sealed::Sealed for Dual<S> {}
+
 impl<S: Scalar> Scalar for Dual<S> {
+    const ROUNDING: f64 = S::ROUNDING;
+
     #[inline]
     fn of(value: f64) -> Self {
-        Self {
-            value: S::of(value),
-            slope: S::zero(),
-        }
+        Self::constant(S::of(value))
     }
 
     #[inline]
-    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
-        let [sines, cosines] = S::sin_cos(angles.map(|angle| angle.value));
+    fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+        let [sines, cosines] = S::sines_cosines(angles.map(|angle| angle.value));
         [
             core::array::from_fn(|k| angles[k].chain(sines[k], cosines[k])),
             core::array::from_fn(|k| angles[k].chain(cosines[k], -sines[k])),
@@ -179,19 +250,14 @@ impl<S: Scalar> Scalar for Dual<S> {
         self.chain(value, S::one() - value * value)
     }
 
-    /// The derivative by the exponent counts where the exponent has a slope.
     #[inline]
     fn pow(self, exponent: Self) -> Self {
         let value = self.value.pow(exponent.value);
         let by_base = exponent.value * self.value.pow(exponent.value - S::one());
-        let by_exponent = if exponent.slope.is_zero() {
-            S::zero()
-        } else {
-            value * self.value.ln() * exponent.slope
-        };
+        let by_exponent = S::choose(value.abs(), value * self.value.ln(), value);
         Self {
             value,
-            slope: by_base * self.slope + by_exponent,
+            slope: times(by_base, self.slope) + times(by_exponent, exponent.slope),
         }
     }
 
@@ -214,14 +280,18 @@ impl<S: Scalar> Scalar for Dual<S> {
         }
     }
 
-    /// A number is one with its slope.
+    /// A value that is a number stays, also where its slope is none.
     #[inline]
     fn finite_or(self, fallback: Self) -> Self {
-        let zero = S::zero();
         Self {
-            value: (self.value + self.slope * zero).finite_or(fallback.value),
-            slope: (self.slope + self.value * zero).finite_or(fallback.slope),
+            value: self.value.finite_or(fallback.value),
+            slope: (self.slope + self.value.flaw()).finite_or(fallback.slope),
         }
+    }
+
+    #[inline]
+    fn flaw(self) -> Self {
+        Self::constant(self.value.flaw())
     }
 
     #[inline]

@@ -1,16 +1,21 @@
 //! `f64` and `f32`.
 
-use super::{Scalar, sin_cos};
+use super::{Scalar, sealed, sin_cos};
 use crate::math;
 
+impl sealed::Sealed for f64 {}
+impl sealed::Sealed for f32 {}
+
 impl Scalar for f64 {
+    const ROUNDING: f64 = f64::EPSILON / 2.0;
+
     #[inline]
     fn of(value: f64) -> Self {
         value
     }
 
     #[inline]
-    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+    fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
         sin_cos::of(angles)
     }
 
@@ -65,6 +70,11 @@ impl Scalar for f64 {
     }
 
     #[inline]
+    fn flaw(self) -> Self {
+        self * 0.0
+    }
+
+    #[inline]
     fn least(self) -> f64 {
         self
     }
@@ -84,8 +94,11 @@ macro_rules! functions_of_f32 {
     };
 }
 
-/// In its own precision throughout: for controllers without `f64` in hardware.
+/// In its own precision throughout. Where `f64` is not in hardware, call emitted functions with a `beta` in `f32`: a value of an
+/// arm's type holds its parameters in `f64`, and combines and rounds them at every call.
 impl Scalar for f32 {
+    const ROUNDING: f64 = f32::EPSILON as f64 / 2.0;
+
     #[expect(
         clippy::cast_possible_truncation,
         reason = "rounded to the precision that is wanted"
@@ -96,7 +109,7 @@ impl Scalar for f32 {
     }
 
     #[inline]
-    fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+    fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
         let mut out = [[0.0; N]; 2];
         for (k, angle) in angles.into_iter().enumerate() {
             #[cfg(feature = "std")]
@@ -124,8 +137,14 @@ impl Scalar for f32 {
 
     #[inline]
     fn sign(self) -> Self {
-        // Exact in either precision.
-        Self::of(math::sign(f64::from(self)))
+        if self > 0.0 {
+            1.0
+        } else if self < 0.0 {
+            -1.0
+        } else {
+            // 0 stays 0, NaN stays NaN.
+            self
+        }
     }
 
     #[inline]
@@ -136,6 +155,11 @@ impl Scalar for f32 {
     #[inline]
     fn finite_or(self, fallback: Self) -> Self {
         if self.is_finite() { self } else { fallback }
+    }
+
+    #[inline]
+    fn flaw(self) -> Self {
+        self * 0.0
     }
 
     #[inline]

@@ -5,7 +5,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 use num_traits::{One, Zero};
 use wide::{f64x4, f64x8};
 
-use super::{Scalar, sin_cos};
+use super::{Scalar, sealed, sin_cos};
 use crate::math;
 
 macro_rules! lanes {
@@ -27,6 +27,14 @@ macro_rules! lanes {
 
             fn map(self, f: impl Fn(f64) -> f64) -> Self {
                 self.to_array().map(f).into()
+            }
+        }
+
+        /// The same number in every lane.
+        impl From<f64> for $name {
+            #[inline]
+            fn from(value: f64) -> Self {
+                Self::of(value)
             }
         }
 
@@ -68,14 +76,18 @@ macro_rules! lanes {
             }
         }
 
+        impl sealed::Sealed for $name {}
+
         impl Scalar for $name {
+            const ROUNDING: f64 = f64::EPSILON / 2.0;
+
             #[inline]
             fn of(value: f64) -> Self {
                 Self($floats::splat(value))
             }
 
             #[inline]
-            fn sin_cos<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+            fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
                 let both = angles.map(|angle| sin_cos::$sin_cos(angle.0));
                 [both.map(|[sin, _]| Self(sin)), both.map(|[_, cos]| Self(cos))]
             }
@@ -133,6 +145,11 @@ macro_rules! lanes {
             }
 
             #[inline]
+            fn flaw(self) -> Self {
+                self * Self::zero()
+            }
+
+            #[inline]
             fn least(self) -> f64 {
                 // `f64::min` would pass over what is no number.
                 let smaller = |least: f64, x: f64| if x < least || x.is_nan() { x } else { least };
@@ -141,6 +158,14 @@ macro_rules! lanes {
         }
     };
     (@operators $name:ident, $operator:ident $function:ident $assign:ident $assigning:ident) => {
+        impl $operator<f64> for $name {
+            type Output = Self;
+            #[inline]
+            fn $function(self, other: f64) -> Self {
+                $operator::$function(self, Self::of(other))
+            }
+        }
+
         impl $operator for $name {
             type Output = Self;
             #[inline]

@@ -21,6 +21,8 @@ pub struct Body {
     pub cost: Cost,
     /// Symbols that are read.
     pub symbols: Vec<Symbol>,
+    /// Whether clippy would take a number for an approximation of another.
+    pub has_famous_numbers: bool,
 }
 
 /// Schedules the outputs of one function.
@@ -61,6 +63,7 @@ pub fn body(dag: &Dag, names: &Names, binding: &Binding<'_>, outputs: &[ExprId])
         statements: quote!(#trigonometry #shared),
         outputs,
         cost: renderer.cost(),
+        has_famous_numbers: renderer.has_famous_numbers(),
         symbols: dag.symbols(&order),
     }
 }
@@ -89,7 +92,7 @@ impl Angles {
         self.names[row][place] = Some(name);
     }
 
-    /// `let [sines, cosines] = S::sin_cos([q[0], q[1]]); let [sin_q1, sin_q2] = sines; let [cos_q1, _] = cosines;`
+    /// `let [sines, cosines] = S::sines_cosines([q[0], q[1]]); let [sin_q1, sin_q2] = sines; let [cos_q1, _] = cosines;`
     fn statement(&self) -> Option<TokenStream> {
         let angles = &self.written;
         if angles.is_empty() {
@@ -109,17 +112,17 @@ impl Angles {
             entries.extend(quote!(let [#(#names),*] = #row;));
             rows.push(quote!(#row));
         }
-        Some(quote!(let [#(#rows),*] = S::sin_cos([#(#angles),*]); #entries))
+        Some(quote!(let [#(#rows),*] = S::sines_cosines([#(#angles),*]); #entries))
     }
 }
 
-/// Sines and cosines of sums of positions can be computed first, and so can these sums.
+/// Sines and cosines of sums of multiples of positions can be computed first, and so can these sums.
 fn is_sum_of_positions(dag: &Dag, x: ExprId) -> bool {
     dag.reachable(&[x])
         .iter()
         .all(|&part| match dag.node(part) {
             Node::Constant(_) | Node::Symbol(Symbol::Q(_)) | Node::Add(..) => true,
-            Node::Mul(..) => is_negation(dag, part),
+            Node::Mul(factor, _) => dag.as_constant(factor).is_some(),
             _ => false,
         })
 }

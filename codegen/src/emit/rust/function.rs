@@ -139,7 +139,7 @@ impl Context<'_> {
         let (statements, result) = match &task.returns {
             Returns::Accelerations(Equations::Nonlinear) => {
                 let length = self.length("ddq");
-                let inside = quote!(solve::newton(|ddq: &[S; #length]| { #statements #result }));
+                let inside = quote!(::robot_model::solve::newton(|ddq: &[S; #length]| { #statements #result }));
                 (quote!(), inside)
             }
             _ => (quote!(#statements), result),
@@ -148,14 +148,19 @@ impl Context<'_> {
         let many = (arguments.len() > 7).then(
             || quote!(#[allow(clippy::too_many_arguments, reason = "all that the equations read")]),
         );
+        // The sine of 45 degrees is not what somebody meant by `FRAC_1_SQRT_2`.
+        let exact = body
+            .has_famous_numbers
+            .then(|| quote!(#[allow(clippy::approx_constant, reason = "the spec's numbers")]));
         let item = quote! {
             #[doc = #doc]
             #[doc = ""]
             #note
             #[doc = #cost]
             #many
+            #exact
             #[must_use]
-            pub fn #name<S: Scalar>(#(#parameters),*) -> #kind {
+            pub fn #name<S: ::robot_model::Scalar>(#(#parameters),*) -> #kind {
                 #statements
                 #result
             }
@@ -211,8 +216,10 @@ impl Context<'_> {
                 });
                 let (slope, rest) = (quote!([#(#slope),*]), quote!([#(#rest),*]));
                 let result = match equations {
-                    Equations::Symmetric => quote!(solve::positive_definite(&#slope, &#rest)),
-                    Equations::General => quote!(solve::general(&#slope, &#rest)),
+                    Equations::Symmetric => {
+                        quote!(::robot_model::solve::positive_definite(&#slope, &#rest))
+                    }
+                    Equations::General => quote!(::robot_model::solve::general(&#slope, &#rest)),
                     Equations::Nonlinear => quote!((#slope, #rest)),
                 };
                 (quote!(Option<[S; #rows]>), result)
@@ -244,6 +251,16 @@ impl Context<'_> {
                         );
                         quote!(y[#row][#column] = #entry;)
                     });
+                if outputs
+                    .iter()
+                    .zip(&task.outputs)
+                    .all(|(_, &entry)| self.dag.is_zero(entry))
+                {
+                    return (
+                        quote!([[S; #width]; #rows]),
+                        quote!([[S::of(0.0); #width]; #rows]),
+                    );
+                }
                 (
                     quote!([[S; #width]; #rows]),
                     quote!(let mut y = [[S::of(0.0); #width]; #rows]; #(#entries)* y),
@@ -253,7 +270,7 @@ impl Context<'_> {
     }
 }
 
-/// `let [next0] = memory::after(&[states[0]], seconds, &[rate], &[[slope]]); ..; [next0, ..]`
+/// `let [next0] = ::robot_model::memory::after(&[states[0]], seconds, &[rate], &[[slope]]); ..; [next0, ..]`
 fn after_step(counts: &[usize], outputs: &[TokenStream]) -> TokenStream {
     let (mut first, mut outputs) = (0, outputs);
     let mut steps = TokenStream::new();
@@ -269,7 +286,7 @@ fn after_step(counts: &[usize], outputs: &[TokenStream]) -> TokenStream {
             quote!(states[#k])
         });
         steps.extend(quote! {
-            let [#(#next),*] = memory::after(&[#(#now),*], seconds, &[#(#rates),*], &[#(#slopes),*]);
+            let [#(#next),*] = ::robot_model::memory::after(&[#(#now),*], seconds, &[#(#rates),*], &[#(#slopes),*]);
         });
         all.extend(next);
         (first, outputs) = (first + count, rest);

@@ -43,6 +43,7 @@ pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec
     let conversions = conversions(compiled);
     // The import stays inside: the page may be included beside a module of the same name.
     let implementation = quote! {
+        #[allow(clippy::approx_constant, reason = "the spec's numbers")]
         const _: () = {
             #conversions
             __blank!();
@@ -202,13 +203,13 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             });
             if is_matrix {
                 quote! {
-                    fn #name<S: Scalar>(&self, #(#motion),*) -> model::SMatrix<S, #dof, #dof> {
+                    fn #name<S: ::robot_model::Scalar>(&self, #(#motion),*) -> model::SMatrix<S, #dof, #dof> {
                         from_rows(&#call)
                     }
                 }
             } else {
                 quote! {
-                    fn #name<S: Scalar>(&self, #(#motion),*) -> model::SVector<S, #dof> {
+                    fn #name<S: ::robot_model::Scalar>(&self, #(#motion),*) -> model::SVector<S, #dof> {
                         #call.into()
                     }
                 }
@@ -217,7 +218,7 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
         .collect();
     let call = call(functions, "inverse_dynamics", &Reads::value(quote!(state.)));
     methods.push(quote! {
-        fn inverse_dynamics_at<S: Scalar>(&self, state: &#state) -> model::SVector<S, #dof> {
+        fn inverse_dynamics_at<S: ::robot_model::Scalar>(&self, state: &#state) -> model::SVector<S, #dof> {
             #call.into()
         }
     });
@@ -241,7 +242,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
             let shapes = Ident::new(if reads_shapes { "shapes" } else { "_shapes" }, Span::call_site());
             quote! {
-                fn #name<S: Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
+                fn #name<S: ::robot_model::Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
                     from_rows(&#call)
                 }
             }

@@ -11,7 +11,7 @@ mod pretty;
 mod render;
 mod sizes;
 
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use crate::compiled::Compiled;
@@ -45,32 +45,12 @@ pub fn module(compiled: &Compiled) -> String {
 #[must_use]
 pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
     let (functions, _) = functions(compiled, extent);
-    let mut items = vec![imports(&functions)];
-    items.extend(functions.iter().map(|function| function.item.clone()));
+    let mut items: Vec<TokenStream> = functions
+        .iter()
+        .map(|function| function.item.clone())
+        .collect();
     items.extend(implementation::items(compiled, &functions, extent));
     pretty::page(&header(compiled), &items)
-}
-
-/// What the functions take from the runtime, and no more.
-fn imports(functions: &[Function]) -> TokenStream {
-    let used: Vec<Ident> = ["Scalar", "memory", "solve"]
-        .into_iter()
-        .filter(|module| functions.iter().any(|f| names_word(&f.item, module)))
-        .map(|module| Ident::new(module, proc_macro2::Span::call_site()))
-        .collect();
-    match used.as_slice() {
-        [] => quote!(),
-        [one] => quote!(use ::robot_model::#one;),
-        all => quote!(use ::robot_model::{#(#all),*};),
-    }
-}
-
-fn names_word(tokens: &TokenStream, word: &str) -> bool {
-    tokens.clone().into_iter().any(|token| match token {
-        TokenTree::Group(group) => names_word(&group.stream(), word),
-        TokenTree::Ident(ident) => ident == word,
-        TokenTree::Punct(_) | TokenTree::Literal(_) => false,
-    })
 }
 
 /// The page's functions and the implementation for a type that exists already, hidden in an anonymous constant.
@@ -84,15 +64,13 @@ pub fn implementation_for(
 ) -> TokenStream {
     let (functions, _) = functions(compiled, Extent::All);
     let items = functions.iter().map(|function| &function.item);
-    let imports = imports(&functions);
     let implementation =
         implementation::implementation(compiled, &functions, name, parameters, nominal_shapes);
     let mechanics = mechanics::implementations(compiled, &functions, name);
     let conversions = implementation::conversions(compiled);
     pretty::without_markers(quote! {
-        #[allow(clippy::pedantic, reason = "derived, not written")]
+        #[allow(clippy::all, clippy::pedantic, reason = "derived, not written")]
         const _: () = {
-            #imports
             #conversions
             #(#items)*
             #implementation

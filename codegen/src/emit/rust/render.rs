@@ -55,6 +55,7 @@ pub struct Renderer<'a> {
     // Looked up only.
     names: HashMap<ExprId, Ident>,
     cost: Cost,
+    has_famous_numbers: bool,
 }
 
 impl<'a> Renderer<'a> {
@@ -65,6 +66,7 @@ impl<'a> Renderer<'a> {
             binding,
             names: HashMap::new(),
             cost: Cost::default(),
+            has_famous_numbers: false,
         }
     }
 
@@ -76,6 +78,11 @@ impl<'a> Renderer<'a> {
     /// Operations written so far.
     pub fn cost(&self) -> Cost {
         self.cost
+    }
+
+    /// Whether a number was written that clippy takes for an approximation of pi, of a root of 2 or the like.
+    pub fn has_famous_numbers(&self) -> bool {
+        self.has_famous_numbers
     }
 
     /// The expression, by its temporary if it has one.
@@ -106,7 +113,7 @@ impl<'a> Renderer<'a> {
 
     fn write_node(&mut self, x: ExprId) -> (TokenStream, Strength) {
         match self.dag.node(x) {
-            Node::Constant(value) => (constant(value.get()), Strength::Atom),
+            Node::Constant(value) => (self.constant(value.get()), Strength::Atom),
             Node::Symbol(symbol) => (self.binding.symbol(symbol), Strength::Atom),
             Node::Add(p, q) => self.write_sum(p, q),
             Node::Mul(p, q) => self.write_product(p, q),
@@ -142,6 +149,13 @@ impl<'a> Renderer<'a> {
         (quote!(S::choose(#condition, #x, #y)), Strength::Atom)
     }
 
+    /// A number in the scalar of the function.
+    fn constant(&mut self, value: f64) -> TokenStream {
+        self.has_famous_numbers |= is_famous(value.abs());
+        let number = number(value);
+        quote!(S::of(#number))
+    }
+
     /// Whether the written form starts with a minus that a subtraction can take.
     fn is_negative(&self, x: ExprId) -> bool {
         !self.names.contains_key(&x) && self.dag.coefficient(x).0 < 0.0
@@ -161,7 +175,7 @@ impl<'a> Renderer<'a> {
             return (quote!(#left + #right), Strength::Sum);
         }
         let right = match self.dag.coefficient(q) {
-            (c, None) => constant(-c),
+            (c, None) => self.constant(-c),
             (c, Some(rest)) => self.scaled(-c, rest),
         };
         (quote!(#left - #right), Strength::Sum)
@@ -174,7 +188,7 @@ impl<'a> Renderer<'a> {
             return rest;
         }
         self.cost.mul += 1;
-        let c = constant(c);
+        let c = self.constant(c);
         quote!(#c * #rest)
     }
 
@@ -202,12 +216,6 @@ impl<'a> Renderer<'a> {
     }
 }
 
-/// A number in the scalar of the function.
-pub fn constant(value: f64) -> TokenStream {
-    let number = number(value);
-    quote!(S::of(#number))
-}
-
 /// A number as a literal that reads back to the same bits.
 #[must_use]
 pub fn number(value: f64) -> TokenStream {
@@ -217,4 +225,33 @@ pub fn number(value: f64) -> TokenStream {
     } else {
         quote!(#literal)
     }
+}
+
+/// Near a constant of the standard library. Clippy compares as many digits as there are, three at least.
+fn is_famous(value: f64) -> bool {
+    use std::f64::consts as c;
+    let famous = [
+        c::E,
+        c::FRAC_1_PI,
+        c::FRAC_1_SQRT_2,
+        c::FRAC_2_PI,
+        c::FRAC_2_SQRT_PI,
+        c::FRAC_PI_2,
+        c::FRAC_PI_3,
+        c::FRAC_PI_4,
+        c::FRAC_PI_6,
+        c::FRAC_PI_8,
+        c::LN_2,
+        c::LN_10,
+        c::LOG10_2,
+        c::LOG10_E,
+        c::LOG2_10,
+        c::LOG2_E,
+        c::PI,
+        c::SQRT_2,
+        c::TAU,
+    ];
+    famous
+        .iter()
+        .any(|constant| (value / constant - 1.0).abs() < 1e-2)
 }

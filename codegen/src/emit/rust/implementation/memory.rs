@@ -36,11 +36,11 @@ pub fn implementation(
         impl ::robot_model::Memory #arguments for #name {
             const STATES: [&'static str; #states] = [#(#names),*];
             __blank!();
-            fn state_rates_at<S: Scalar>(state: &#state, #given_shapes: &model::Vector<#shapes>) -> model::SVector<S, #states> {
+            fn state_rates_at<S: ::robot_model::Scalar>(state: &#state, #given_shapes: &model::Vector<#shapes>) -> model::SVector<S, #states> {
                 #rates.into()
             }
             __blank!();
-            fn memory_after<S: Scalar>(&self, state: &#state, seconds: f64) -> model::SVector<S, #states> {
+            fn memory_after<S: ::robot_model::Scalar>(&self, state: &#state, seconds: f64) -> model::SVector<S, #states> {
                 #load
                 #after.into()
             }

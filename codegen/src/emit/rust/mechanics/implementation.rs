@@ -35,23 +35,23 @@ fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
     let by_position = at("inverse_dynamics_by_position");
     let by_velocity = at("inverse_dynamics_by_velocity");
     quote! {
-        fn kinetic_energy<S: Scalar>(&self, q: &model::SVector<S, #dof>, dq: &model::SVector<S, #dof>) -> S {
+        fn kinetic_energy<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>, dq: &model::SVector<S, #dof>) -> S {
             #kinetic
         }
         __blank!();
-        fn potential_energy<S: Scalar>(&self, q: &model::SVector<S, #dof>) -> S {
+        fn potential_energy<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>) -> S {
             #potential
         }
         __blank!();
-        fn forward_dynamics_at<S: Scalar>(&self, state: &#state, tau: &model::SVector<S, #dof>) -> Option<model::SVector<S, #dof>> {
+        fn forward_dynamics_at<S: ::robot_model::Scalar>(&self, state: &#state, tau: &model::SVector<S, #dof>) -> Option<model::SVector<S, #dof>> {
             #forward.map(Into::into)
         }
         __blank!();
-        fn inverse_dynamics_by_position_at<S: Scalar>(&self, state: &#state) -> model::SMatrix<S, #dof, #dof> {
+        fn inverse_dynamics_by_position_at<S: ::robot_model::Scalar>(&self, state: &#state) -> model::SMatrix<S, #dof, #dof> {
             from_rows(&#by_position)
         }
         __blank!();
-        fn inverse_dynamics_by_velocity_at<S: Scalar>(&self, state: &#state) -> model::SMatrix<S, #dof, #dof> {
+        fn inverse_dynamics_by_velocity_at<S: ::robot_model::Scalar>(&self, state: &#state) -> model::SMatrix<S, #dof, #dof> {
             from_rows(&#by_velocity)
         }
     }
@@ -78,7 +78,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let shapes = if reads_shapes { "shapes" } else { "_shapes" };
             let shapes = Ident::new(shapes, Span::call_site());
             quote! {
-                fn #name<S: Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
+                fn #name<S: ::robot_model::Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
                     from_rows(&#call)
                 }
             }
@@ -95,11 +95,11 @@ fn place(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStre
         return quote! {
             __blank!();
             impl ::robot_model::Kinematics<#dof> for #name {
-                fn forward_kinematics<S: Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SMatrix<S, 4, 4>; #dof] {
+                fn forward_kinematics<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SMatrix<S, 4, 4>; #dof] {
                     #poses.map(|pose| from_rows(&pose))
                 }
                 __blank!();
-                fn jacobian<S: Scalar>(&self, q: &model::SVector<S, #dof>) -> model::SMatrix<S, 6, #dof> {
+                fn jacobian<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>) -> model::SMatrix<S, 6, #dof> {
                     from_rows(&#jacobian)
                 }
             }
@@ -116,11 +116,11 @@ fn place(compiled: &Compiled, functions: &[Function], name: &Ident) -> TokenStre
         impl ::robot_model::Points<#dof, #points> for #name {
             const POINTS: [&'static str; #points] = [#(#names),*];
             __blank!();
-            fn points<S: Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SVector<S, 3>; #points] {
+            fn points<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SVector<S, 3>; #points] {
                 #positions.map(Into::into)
             }
             __blank!();
-            fn point_jacobians<S: Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SMatrix<S, 3, #dof>; #points] {
+            fn point_jacobians<S: ::robot_model::Scalar>(&self, q: &model::SVector<S, #dof>) -> [model::SMatrix<S, 3, #dof>; #points] {
                 #jacobians.map(|jacobian| from_rows(&jacobian))
             }
         }
