@@ -131,6 +131,9 @@ impl Rebuilder<'_> {
 
     fn product(&mut self, factors: &[Id]) -> (bool, ExprId) {
         let factors: Vec<(bool, ExprId)> = factors.iter().map(|&x| self.of(x)).collect();
+        if factors.iter().any(|factor| self.dag.is_zero(factor.1)) {
+            return (false, self.dag.zero());
+        }
         let negative = factors.iter().filter(|factor| factor.0).count() % 2 == 1;
         let is_number = |dag: &Dag, x: ExprId| dag.as_constant(x).is_some();
         let (numbers, rest): (Vec<ExprId>, Vec<ExprId>) = factors
@@ -155,6 +158,10 @@ impl Rebuilder<'_> {
                 (negative != term.negative, x)
             })
             .collect();
+        let terms = self.without_cancelling(terms);
+        if terms.is_empty() {
+            return (false, self.dag.zero());
+        }
         let all_negative = terms.iter().all(|term| term.0);
         let (positive, negative): (Vec<_>, Vec<_>) =
             terms.into_iter().partition(|term| term.0 == all_negative);
@@ -167,6 +174,22 @@ impl Rebuilder<'_> {
             .chain(negative)
             .reduce(|x, y| self.dag.as_it_is(Node::Add(x.min(y), x.max(y))));
         (all_negative, sum.expect("a sum has terms"))
+    }
+
+    /// Cells that were apart in the network may be one expression: `x - x` goes, and so does 0.
+    fn without_cancelling(&self, terms: Vec<(bool, ExprId)>) -> Vec<(bool, ExprId)> {
+        let mut kept: Vec<(bool, ExprId)> = Vec::with_capacity(terms.len());
+        for (negative, x) in terms {
+            let opposite = kept.iter().position(|&other| other == (!negative, x));
+            match opposite {
+                Some(k) => {
+                    kept.remove(k);
+                }
+                None if self.dag.is_zero(x) => {}
+                None => kept.push((negative, x)),
+            }
+        }
+        kept
     }
 
     fn signed(&mut self, negative: bool, x: ExprId) -> ExprId {
