@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use crate::scalar::Scalar;
+use crate::scalar::{Lanes4, Lanes8, Scalar};
 
 /// Where an arm is, how it moves, and what its effects read beside: memory, channels of a log.
 ///
@@ -77,6 +77,31 @@ impl<const DOF: usize, const STATES: usize, const INPUTS: usize, S: Scalar>
         self.with(self.memory, inputs)
     }
 
+    /// The same instant in another scalar, number by number.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector, scalar::Dual};
+    /// let state = State::at_rest(Vector::from([0.3, 0.1]));
+    /// // Slopes by the second position.
+    /// let mut moving = state.map(Dual::constant);
+    /// moving.q[1].slope = 1.0;
+    /// assert_eq!((moving.q[0].value, moving.q[0].slope, moving.q[1].slope), (0.3, 0.0, 1.0));
+    /// ```
+    #[must_use]
+    pub fn map<T: Scalar>(&self, f: impl Fn(S) -> T) -> State<DOF, STATES, INPUTS, T> {
+        State {
+            q: self.q.map(&f),
+            dq: self.dq.map(&f),
+            ddq: self.ddq.map(&f),
+            rigid_torque: self.rigid_torque.map(&f),
+            measured_torque: self.measured_torque.map(&f),
+            time: f(self.time),
+            memory: self.memory.map(&f),
+            inputs: self.inputs.map(&f),
+        }
+    }
+
     fn with<const M: usize, const N: usize>(
         self,
         memory: SVector<S, M>,
@@ -94,3 +119,34 @@ impl<const DOF: usize, const STATES: usize, const INPUTS: usize, S: Scalar>
         }
     }
 }
+
+macro_rules! from_states {
+    ($lanes:ident) => {
+        impl<const DOF: usize, const STATES: usize, const INPUTS: usize>
+            From<[State<DOF, STATES, INPUTS>; $lanes::COUNT]>
+            for State<DOF, STATES, INPUTS, $lanes>
+        {
+            /// As many instants side by side.
+            fn from(states: [State<DOF, STATES, INPUTS>; $lanes::COUNT]) -> Self {
+                let lanes = |of: &dyn Fn(&State<DOF, STATES, INPUTS>) -> f64| {
+                    $lanes::from(states.each_ref().map(of))
+                };
+                State {
+                    q: SVector::from_fn(|k, _| lanes(&|state| state.q[k])),
+                    dq: SVector::from_fn(|k, _| lanes(&|state| state.dq[k])),
+                    ddq: SVector::from_fn(|k, _| lanes(&|state| state.ddq[k])),
+                    rigid_torque: SVector::from_fn(|k, _| lanes(&|state| state.rigid_torque[k])),
+                    measured_torque: SVector::from_fn(|k, _| {
+                        lanes(&|state| state.measured_torque[k])
+                    }),
+                    time: lanes(&|state| state.time),
+                    memory: SVector::from_fn(|k, _| lanes(&|state| state.memory[k])),
+                    inputs: SVector::from_fn(|k, _| lanes(&|state| state.inputs[k])),
+                }
+            }
+        }
+    };
+}
+
+from_states!(Lanes4);
+from_states!(Lanes8);

@@ -1,6 +1,5 @@
 //! Emitted code in every scalar: lanes are states side by side, single precision is close, dual numbers are slopes.
 
-use robot_model::model::SVector;
 use robot_model::scalar::{Dual, Lanes4, Lanes8};
 use robot_model::{FromParameters, Mechanics, Memory, RobotModel, Scalar, State, Vector};
 use robot_model_tests::emitted::{
@@ -50,29 +49,10 @@ macro_rules! law {
     };
 }
 
-/// A state whose every number is made by `f` from its place among those of a state.
-fn map<S: Scalar, const DOF: usize, const STATES: usize, const INPUTS: usize>(
-    f: impl Fn(&dyn Fn(&State<DOF, STATES, INPUTS>) -> f64) -> S,
-) -> State<DOF, STATES, INPUTS, S> {
-    let vector = |of: fn(&State<DOF, STATES, INPUTS>) -> &Vector<DOF>| -> SVector<S, DOF> {
-        SVector::from_fn(|k, _| f(&|state| of(state)[k]))
-    };
-    State {
-        q: vector(|state| &state.q),
-        dq: vector(|state| &state.dq),
-        ddq: vector(|state| &state.ddq),
-        rigid_torque: vector(|state| &state.rigid_torque),
-        measured_torque: vector(|state| &state.measured_torque),
-        time: f(&|state| state.time),
-        memory: SVector::from_fn(|k, _| f(&|state| state.memory[k])),
-        inputs: SVector::from_fn(|k, _| f(&|state| state.inputs[k])),
-    }
-}
-
 law! {
     fn lanes_are_states_side_by_side(states, arm) {
-        let eight = map(|number| Lanes8::from(states.map(|state| number(&state))));
-        let four = map(|number| Lanes4::from(std::array::from_fn(|k| number(&states[k]))));
+        let eight: State<DOF, STATES, INPUTS, Lanes8> = State::from(states);
+        let four: State<DOF, STATES, INPUTS, Lanes4> = State::from([states[0], states[1], states[2], states[3]]);
         let (torques, regressors) = (arm.inverse_dynamics_at(&eight), R::base_regressor_at(&eight, &arm.shapes()));
         let torques_of_four = arm.inverse_dynamics_at(&four);
         let inertias = arm.mass_matrix(&eight.q);
@@ -91,9 +71,9 @@ law! {
 law! {
     fn single_precision_is_close(states, arm) {
         for state in &states {
-            let single = map(|number| f32::of(number(state)));
+            let single = state.map(f32::of);
             // The same motion to its last bit.
-            let rounded = map(|number| f64::from(f32::of(number(state))));
+            let rounded = state.map(|x| f64::from(f32::of(x)));
             let found = arm.inverse_dynamics_at(&single).map(f64::from);
             let wanted = arm.inverse_dynamics_at(&rounded);
             // Some hundred roundings of 6e-8.
@@ -106,7 +86,7 @@ law! {
     /// Along a direction in which positions and velocities change.
     fn slopes_are_the_partial_derivatives(states, arm) {
         for [state, direction] in states.as_chunks::<2>().0 {
-            let mut moving = map(|number| Dual::of(number(state)));
+            let mut moving = state.map(Dual::constant);
             for k in 0..DOF {
                 moving.q[k].slope = direction.q[k];
                 moving.dq[k].slope = direction.dq[k];
@@ -125,7 +105,7 @@ law! {
 
 law! {
     fn accelerations_of_lanes_give_their_torque(states, arm) {
-        let eight = map(|number| Lanes8::from(states.map(|state| number(&state))));
+        let eight: State<DOF, STATES, INPUTS, Lanes8> = State::from(states);
         let tau = arm.inverse_dynamics_at(&eight);
         // Where friction depends on the load the torque may hold an arm, in one lane or in another.
         let Some(ddq) = arm.forward_dynamics_at(&eight, &tau) else {
@@ -149,7 +129,7 @@ fn memory_in_every_scalar() {
     let mut random = generator(5);
     let states: [State<2, 4, 3>; 8] = std::array::from_fn(|_| typed(&state(&mut random, 2)));
     let seconds = 1e-3;
-    let lanes = map(|number| Lanes8::from(states.map(|state| number(&state))));
+    let lanes: State<2, 4, 3, Lanes8> = State::from(states);
     let together = arm.memory_after(&lanes, seconds);
     for (lane, state) in states.iter().enumerate() {
         let alone = arm.memory_after(state, seconds);
@@ -160,12 +140,12 @@ fn memory_in_every_scalar() {
             "{found} {alone}"
         );
 
-        let single = arm.memory_after(&map(|number| f32::of(number(state))), seconds);
+        let single = arm.memory_after(&state.map(f32::of), seconds);
         let error = (single.map(f64::from) - alone).amax();
         assert!(error < 1e-4 * alone.amax(), "{single} {alone}");
 
         // Along the velocity of the first joint.
-        let mut moving = map(|number| Dual::of(number(state)));
+        let mut moving = state.map(Dual::constant);
         moving.dq[0] = Dual::variable(state.dq[0]);
         let slope = arm.memory_after(&moving, seconds);
         let h = 1e-6 * state.dq[0].abs();
@@ -198,7 +178,7 @@ fn accelerations_in_single_precision() {
     for _ in 0..50 {
         let state: State<3> = typed(&state(&mut random, 3));
         let tau = arm.inverse_dynamics_at(&state);
-        let single = map(|number| f32::of(number(&state)));
+        let single = state.map(f32::of);
         let Some(wanted) = arm.forward_dynamics_at(&state, &tau) else {
             continue;
         };
