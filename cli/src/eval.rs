@@ -31,7 +31,8 @@ pub(crate) struct Eval {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct States {
-    states: Vec<State>,
+    /// Each is read on its own, so that a mistake has its number.
+    states: Vec<serde_json::Value>,
 }
 
 #[derive(Deserialize)]
@@ -151,8 +152,22 @@ impl Eval {
             .symbols()
             .iter()
             .any(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)));
-        let States { states } =
+        let written: serde_json::Value =
             serde_json::from_str(&read_text(path)?).map_err(|error| Error::json(path, &error))?;
+        if written.is_array() {
+            let reason = "the list of states has a name: write `{\"states\": [..]}`";
+            return Err(Error::json(path, &reason));
+        }
+        let States { states } =
+            serde_json::from_value(written).map_err(|error| Error::json(path, &error))?;
+        let states = states
+            .into_iter()
+            .enumerate()
+            .map(|(k, state)| {
+                serde_json::from_value::<State>(state)
+                    .map_err(|error| Error::json(path, &format!("state {}: {error}", k + 1)))
+            })
+            .collect::<Result<Vec<State>, Error>>()?;
         for (k, state) in states.iter().enumerate() {
             for (name, values) in [("q", &state.q), ("dq", &state.dq), ("ddq", &state.ddq)] {
                 if values.len() != dof {
@@ -176,6 +191,19 @@ impl Eval {
             };
             if let Some(fault) = fault {
                 return Err(Error::json(path, &format!("state {}: {fault}", k + 1)));
+            }
+            let absent: Vec<String> = compiled
+                .model
+                .states()
+                .into_iter()
+                .filter(|name| !state.states.contains_key(name))
+                .collect();
+            if !absent.is_empty() {
+                output::say(&format!(
+                    "note: state {}: `states` has no `{}`: 0, as at the start of a log",
+                    k + 1,
+                    absent.join("`, `")
+                ));
             }
         }
         Ok(states)

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_model_spec::urdf::{ImportError, ImportOptions, Inertials, import};
+use robot_model_spec::urdf::{ASSUMED_GRAVITY, ImportError, ImportOptions, Inertials, import};
 
 use crate::Error;
 use crate::output::Files;
@@ -34,9 +34,9 @@ pub(crate) struct Import {
     /// What to make of the inertials.
     #[arg(long, value_enum, default_value_t)]
     inertials: InertialsArgument,
-    /// Acceleration of gravity in the base link's frame, m/s^2.
-    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, default_value = "0,0,-9.81", allow_hyphen_values = true)]
-    gravity: [f64; 3],
+    /// Acceleration of gravity in the base link's frame, m/s^2; 0,0,-9.81 where it is not given, since a URDF does not say it.
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
+    gravity: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
@@ -77,6 +77,12 @@ impl Import {
         };
         let file = Files::reading([self.urdf.as_path()]).claim(&self.output)?;
         let imported = import(&urdf, &options).map_err(|error| self.refused(error))?;
+        if self.gravity.is_none() {
+            let [x, y, z] = ASSUMED_GRAVITY;
+            eprintln!(
+                "note: gravity is taken to be [{x}, {y}, {z}] m/s^2 in the frame of the base: a URDF does not say it (--gravity X,Y,Z)"
+            );
+        }
         for warning in &imported.warnings {
             eprintln!("warning: {warning}");
         }
@@ -85,7 +91,6 @@ impl Import {
 
     fn refused(&self, error: ImportError) -> Error {
         match error {
-            ImportError::Refused(diagnostics) => Error::Spec(diagnostics),
             // Its message begins with the argument, which is not in the URDF.
             ImportError::Effects(_) => Error::Argument(error.to_string()),
             other => Error::Argument(format!("{}: {other}", self.urdf.display())),

@@ -45,6 +45,15 @@ pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
         RankStatus::Unclear(_) => output::say(&format!("warning: {}", doubt(&compiled))),
         RankStatus::NoNumber(_) => return Err(Error::Argument(doubt(&compiled))),
     }
+    for link in compiled.model.chain().iter().flat_map(|chain| &chain.links) {
+        if !link.inertial.is_possible() {
+            output::say(&format!(
+                "warning: {}: link `{}` has an inertia that no body has: about the center of mass each principal moment is positive \
+                 and at most the sum of the other two",
+                compiled.model.source, link.name
+            ));
+        }
+    }
     for remark in compiled.base.remarks(&compiled.standard) {
         output::say(&format!("warning: {}: {remark}", compiled.model.source));
     }

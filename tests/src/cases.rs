@@ -88,7 +88,7 @@ fn read(folder: &Path) -> Case {
         } else {
             Inertials::Nominal
         },
-        gravity: robot.gravity,
+        gravity: Some(robot.gravity),
         ..ImportOptions::default()
     };
     let imported =

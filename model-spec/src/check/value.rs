@@ -235,6 +235,13 @@ fn in_unit(value: f64, factor: f64, unit: &Unit) -> f64 {
 pub(super) fn find_unit(unit: &Ident) -> Checked<(f64, Dimension)> {
     let name = unit.to_string();
     unit::find(&name).ok_or_else(|| {
+        // Two letters look alike: the sign of micro, and the Greek letter.
+        if let Some(rest) = name.strip_prefix(['\u{b5}', '\u{3bc}'])
+            && unit::find(&format!("u{rest}")).is_some()
+        {
+            return Diagnostic::new(unit.span(), format!("unknown unit `{name}`"), "not a unit")
+                .help(format!("write `u{rest}`"));
+        }
         Diagnostic::new(unit.span(), format!("unknown unit `{name}`"), "not a unit").help(
             suggest::help(&name, unit::UNITS.iter().map(|(unit, ..)| *unit)),
         )

@@ -251,10 +251,18 @@ fn number(input: ParseStream) -> syn::Result<Expr> {
             float.span(),
         ),
         other => {
+            let unquoted = match other {
+                Lit::Str(text) => text.parse::<Ident>().ok(),
+                _ => None,
+            };
+            let help = match unquoted {
+                Some(word) => format!("write `{word}`, without quotes, if that word is meant"),
+                None => "text has no place here".to_owned(),
+            };
             return Err(syn_error(
                 syn::spanned::Spanned::span(other),
                 "expected a number",
-                Some("text has no place here"),
+                Some(&help),
             ));
         }
     };

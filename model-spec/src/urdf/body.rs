@@ -2,11 +2,12 @@
 
 use urdf_rs::{JointType, Link};
 
-use super::ImportError;
 use super::held::Held;
 use super::tree::{Chain, ChainJoint, Tree, origin};
+use super::{ImportError, Inertials};
+use crate::inertia::has_a_body;
 use crate::model::Transform;
-use crate::transform::product;
+use crate::transform::{is_in_range, product};
 
 /// Mass, center of mass and inertia about it, in the frame of the chain's link.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,12 +30,16 @@ pub(super) fn carried<'a>(
     tree: &Tree<'a>,
     chain: &Chain,
     joint: &ChainJoint<'a>,
+    inertials: Inertials,
 ) -> Result<Carried<'a>, ImportError> {
     let mut bodies = Vec::new();
     let mut held = Vec::new();
     let mut open = vec![(joint.joint.child.link.as_str(), Transform::IDENTITY)];
     while let Some((name, pose)) = open.pop() {
         if let Some(link) = tree.links.get(name) {
+            if inertials != Inertials::None {
+                check(link)?;
+            }
             bodies.push(body(link, &pose)?);
         }
         for next in tree.joints_of(name) {
@@ -74,6 +79,53 @@ pub(super) fn massless(links: &[String], carried: &[Carried]) -> Vec<String> {
             )
         })
         .collect()
+}
+
+/// Inertias on the chain that no body has.
+pub(super) fn impossible(links: &[String], carried: &[Carried]) -> Vec<String> {
+    let wrong = links
+        .iter()
+        .zip(carried)
+        .filter(|(_, carried)| !has_a_body(&carried.body.inertia, 0.0));
+    wrong
+        .map(|(link, _)| {
+            format!(
+                "link `{link}` has an inertia that no body has: about the center of mass each principal moment is positive and at \
+                 most the sum of the other two"
+            )
+        })
+        .collect()
+}
+
+/// What the language refuses, in the words of the URDF.
+fn check(link: &Link) -> Result<(), ImportError> {
+    let refuse = |reason: String| {
+        Err(ImportError::Inertial {
+            link: link.name.clone(),
+            reason,
+        })
+    };
+    let (mass, i) = (link.inertial.mass.value, &link.inertial.inertia);
+    let named = [
+        ("mass", mass),
+        ("ixx", i.ixx),
+        ("ixy", i.ixy),
+        ("ixz", i.ixz),
+        ("iyy", i.iyy),
+        ("iyz", i.iyz),
+        ("izz", i.izz),
+    ];
+    for (name, value) in named.into_iter().filter(|(_, value)| value.is_finite()) {
+        if !is_in_range(value) {
+            return refuse(format!(
+                "`{name}` {value:e}, too large or too small to compute with: write zero, or a value between 1e-30 and 1e30"
+            ));
+        }
+        if value < 0.0 && ["mass", "ixx", "iyy", "izz"].contains(&name) {
+            return refuse(format!("a negative `{name}`, {value}: write zero or more"));
+        }
+    }
+    Ok(())
 }
 
 fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {

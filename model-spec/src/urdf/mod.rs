@@ -10,12 +10,16 @@ mod body;
 mod effects;
 mod held;
 mod mimic;
+mod place;
 mod tree;
 mod write;
 
 use thiserror::Error;
 
 use crate::diagnostic::Diagnostics;
+
+/// Gravity of a URDF, which does not say it: m/s^2, the z axis of the base link upward. The spec's comment tells it.
+pub const ASSUMED_GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
 /// What to take from a URDF, and what to add to it.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +33,8 @@ pub struct ImportOptions {
     pub effects: String,
     /// What to make of the inertials.
     pub inertials: Inertials,
-    /// Acceleration of gravity in the base link's frame, m/s^2.
-    pub gravity: [f64; 3],
+    /// Acceleration of gravity in the base link's frame, m/s^2; where it is not given, [`ASSUMED_GRAVITY`].
+    pub gravity: Option<[f64; 3]>,
 }
 
 impl Default for ImportOptions {
@@ -40,7 +44,7 @@ impl Default for ImportOptions {
             tip: None,
             effects: String::new(),
             inertials: Inertials::Nominal,
-            gravity: [0.0, 0.0, -9.81],
+            gravity: None,
         }
     }
 }
@@ -90,6 +94,14 @@ pub enum ImportError {
         /// What it is, and what to do.
         reason: String,
     },
+    /// An inertial that the language refuses.
+    #[error("link `{link}` has {reason}")]
+    Inertial {
+        /// Its name.
+        link: String,
+        /// What it has, and what to do.
+        reason: String,
+    },
     /// A number that is not one.
     #[error("{what} is not finite: write a number")]
     NotFinite {
@@ -100,7 +112,7 @@ pub enum ImportError {
     #[error("--effects: {0}")]
     Effects(String),
     /// The spec that comes out breaks a rule of the language.
-    #[error("the imported spec is refused:\n{0}")]
+    #[error("the spec that it would become is refused, in lines that are not written:\n{0}")]
     Refused(Diagnostics),
 }
 
@@ -119,19 +131,19 @@ pub struct Imported {
 /// # Errors
 /// [`ImportError`], with what to change in the URDF or in the options.
 pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportError> {
-    if !options.gravity.iter().all(|g| g.is_finite()) {
+    if !options.gravity.iter().flatten().all(|g| g.is_finite()) {
         return Err(ImportError::NotFinite {
             what: "--gravity".to_owned(),
         });
     }
-    let robot =
-        urdf_rs::read_from_string(urdf).map_err(|error| ImportError::Parse(error.to_string()))?;
+    let robot = urdf_rs::read_from_string(urdf)
+        .map_err(|error| ImportError::Parse(place::explain(urdf, &error.to_string())))?;
     let tree = tree::Tree::new(&robot)?;
     let chain = tree.chain(options.base.as_deref(), options.tip.as_deref())?;
     let carried = chain
         .joints
         .iter()
-        .map(|joint| body::carried(&tree, &chain, joint))
+        .map(|joint| body::carried(&tree, &chain, joint, options.inertials))
         .collect::<Result<Vec<_>, _>>()?;
     let names = write::Names::new(&chain);
     let effects = effects::declarations(&options.effects, &chain, &names)?;
@@ -141,8 +153,16 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
     warnings.extend(write::without_range(&chain));
     if options.inertials != Inertials::None {
         warnings.extend(body::massless(&names.links, &carried));
+        warnings.extend(body::impossible(&names.links, &carried));
     }
-    let notes = [tree::notes(&robot), warnings.clone()].concat();
+    warnings.extend(names.renamed(&chain));
+    let gravity = options.gravity.is_none().then(write::assumed_gravity);
+    let notes = [
+        gravity.into_iter().collect(),
+        tree::notes(&robot),
+        warnings.clone(),
+    ]
+    .concat();
     let written = |effects: &[String]| {
         write::spec(
             &robot.name,

@@ -6,7 +6,7 @@ use urdf_rs::{JointLimit, JointType};
 
 use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
-use super::{ImportOptions, Inertials};
+use super::{ASSUMED_GRAVITY, ImportOptions, Inertials};
 use crate::transform::{quarter_turns, rpy, upper_camel};
 
 /// Names in the spec, joint by joint.
@@ -27,6 +27,35 @@ impl Names {
             ),
         }
     }
+
+    /// Names of the URDF that are no words of the language, and those that stand for them.
+    pub(super) fn renamed(&self, chain: &Chain) -> Option<String> {
+        let joints = chain.joints.iter().map(|joint| &joint.joint.name);
+        let links = chain.joints.iter().map(|joint| &joint.joint.child.link);
+        let joints = joints
+            .zip(&self.joints)
+            .map(|(old, new)| ("joint", old, new));
+        let links = links.zip(&self.links).map(|(old, new)| ("link", old, new));
+        let renamed: Vec<String> = joints
+            .chain(links)
+            .filter(|(_, old, new)| old != new)
+            .map(|(what, old, new)| format!("{what} `{old}` is `{new}`"))
+            .collect();
+        (!renamed.is_empty()).then(|| {
+            format!(
+                "names that are no words of the language, or there twice, are changed: {}",
+                renamed.join(", ")
+            )
+        })
+    }
+}
+
+/// What a URDF leaves open.
+pub(super) fn assumed_gravity() -> String {
+    format!(
+        "Gravity is taken to be {} m/s^2 in the frame of the base: a URDF does not say it",
+        list(&ASSUMED_GRAVITY)
+    )
 }
 
 /// Names as words of the language; what two names have lost is made up by a number.
@@ -100,7 +129,7 @@ pub(super) fn spec(
     let _ = writeln!(
         text,
         "robot {name} {{\n    gravity = {};\n    convention = origin;\n",
-        list(&options.gravity)
+        list(&options.gravity.unwrap_or(ASSUMED_GRAVITY))
     );
     for (k, joint) in chain.joints.iter().enumerate() {
         let _ = writeln!(

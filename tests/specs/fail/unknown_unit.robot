@@ -1,6 +1,6 @@
 robot Arm {
     gravity = [0, 0, -9.81];
     convention = standard_dh;
-    joint waist: revolute { a = 0; alpha = 90 degrees; d = 0; }
+    joint waist: revolute { a = 0; alpha = 90 degrees; d = 3 µm; }
     joint elbow: revolute { a = 0.4; alpha = 0; d = 0; }
 }

@@ -1,0 +1,130 @@
+//! URDFs that cannot be read: which line, which element, what to do.
+
+use robot_model_spec::urdf::{ImportOptions, Inertials, import};
+
+const SOUND: &str = r#"<robot name="arm">
+  <link name="base"/>
+  <link name="fore">
+    <inertial>
+      <origin xyz="0 0 0.1"/>
+      <mass value="2"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    </inertial>
+  </link>
+  <joint name="joint-1" type="revolute">
+    <parent link="base"/>
+    <child link="fore"/>
+    <axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="5" velocity="2"/>
+  </joint>
+</robot>
+"#;
+
+fn refused(from: &str, to: &str, options: &ImportOptions) -> String {
+    assert!(SOUND.contains(from), "{from}");
+    let broken = SOUND.replacen(from, to, 1);
+    let error = import(&broken, options).expect_err("must be refused");
+    error.to_string()
+}
+
+#[test]
+fn what_does_not_parse_is_told_with_its_line() {
+    for (from, to, said) in [
+        (
+            r#"xyz="0 0 1""#,
+            r#"xyz="0 a 0""#,
+            r#"line 13: `xyz="0 a 0"` in `<axis>` of joint `joint-1` is not 3 numbers: write them with blanks between"#,
+        ),
+        (
+            r#"value="2""#,
+            r#"value="${m}""#,
+            r#"line 6: `value="${m}"` in `<mass>` of link `fore` is of xacro: expand the file first, `xacro arm.urdf.xacro > arm.urdf`"#,
+        ),
+        (
+            r#"value="2""#,
+            r#"value="1 kg""#,
+            r#"line 6: `value="1 kg"` in `<mass>` of link `fore` is no number: write it in SI units, without a unit"#,
+        ),
+        (
+            r#"<mass value="2"/>"#,
+            "",
+            "line 4: `<inertial>` of link `fore` has no `<mass ../>`: write one",
+        ),
+        (
+            r#"<mass value="2"/>"#,
+            r#"<mass value="2"/><mass value="3"/>"#,
+            "line 6: a second `<mass>` in link `fore`: keep one",
+        ),
+        (
+            r#"iyz="0" "#,
+            "",
+            r#"line 7: `<inertia>` of link `fore` has no `iyz`: write `iyz=".."`"#,
+        ),
+        (
+            r#"type="revolute""#,
+            r#"type="hinge""#,
+            r#"line 10: `type="hinge"` in `<joint>` of joint `joint-1` is no type of a joint: write one of revolute, continuous, prismatic, fixed, floating, planar, spherical"#,
+        ),
+        (
+            r#"    <child link="fore"/>
+"#,
+            "",
+            "line 10: `<joint>` of joint `joint-1` has no `<child ../>`: write one",
+        ),
+        (
+            "  </joint>\n</robot>\n",
+            "",
+            "line 15: the file ends inside the `<joint>` of line 10: close it, or read the whole file again",
+        ),
+    ] {
+        assert_eq!(
+            refused(from, to, &ImportOptions::default()),
+            format!("the URDF does not parse: {said}")
+        );
+    }
+}
+
+#[test]
+fn masses_that_the_language_refuses_are_those_of_the_urdf() {
+    let with = |from: &str, to: &str| refused(from, to, &ImportOptions::default());
+    assert_eq!(
+        with(r#"value="2""#, r#"value="-1""#),
+        "link `fore` has a negative `mass`, -1: write zero or more"
+    );
+    assert_eq!(
+        with(r#"izz="1""#, r#"izz="-1""#),
+        "link `fore` has a negative `izz`, -1: write zero or more"
+    );
+    assert_eq!(
+        with(r#"value="2""#, r#"value="1e300""#),
+        "link `fore` has `mass` 1e300, too large or too small to compute with: write zero, or a value between 1e-30 and 1e30"
+    );
+    let options = ImportOptions {
+        inertials: Inertials::None,
+        ..ImportOptions::default()
+    };
+    let without = SOUND.replace(r#"value="2""#, r#"value="-1""#);
+    import(&without, &options).expect("inertials are not asked for");
+}
+
+#[test]
+fn what_is_assumed_changed_or_impossible_is_told() {
+    let odd = SOUND.replace(r#"izz="1""#, r#"izz="3""#);
+    let imported = import(&odd, &ImportOptions::default()).expect("a warning, no mistake");
+    assert_eq!(
+        imported.warnings,
+        [
+            "link `fore` has an inertia that no body has: about the center of mass each principal moment is positive and at most \
+             the sum of the other two",
+            "names that are no words of the language, or there twice, are changed: joint `joint-1` is `joint_1`",
+        ]
+    );
+    let gravity = "// Gravity is taken to be [0, 0, -9.81] m/s^2 in the frame of the base: a URDF does not say it.\n";
+    assert!(imported.spec.contains(gravity), "{}", imported.spec);
+    let said = ImportOptions {
+        gravity: Some([0.0, 0.0, -9.81]),
+        ..ImportOptions::default()
+    };
+    let imported = import(SOUND, &said).expect("a sound URDF");
+    assert!(!imported.spec.contains("Gravity"), "{}", imported.spec);
+}
