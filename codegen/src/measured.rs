@@ -30,16 +30,20 @@ impl NotInstantaneous {
             effect: effect.definition.name.clone(),
         }
     }
+
+    /// Without the place.
+    pub(crate) fn reason(&self) -> String {
+        format!(
+            "`{}` moves a link by what changes along a motion, so the torque of one instant is not known from `q`, `dq` and `ddq`; \
+             identify with it, and take it out where equations or code are wanted",
+            self.effect
+        )
+    }
 }
 
 impl fmt::Display for NotInstantaneous {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "{}: `{}` moves a link by what changes along a motion, so the torque of one instant is not known from `q`, `dq` and `ddq`; \
-             identify with it, and take it out where equations or code are wanted",
-            self.place, self.effect
-        )
+        write!(f, "{}: {}", self.place, self.reason())
     }
 }
 

@@ -1,5 +1,7 @@
 //! A struct as the derive sees it: what is held by which field, judged by the tokens of its type.
 
+use std::path::Path as FilePath;
+
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::Type;
 use syn::spanned::Spanned;
@@ -117,7 +119,12 @@ impl<'a> Robot<'a> {
         let described = errors.keep(entries(&input.attrs, "robot")).flatten();
         for entry in described.into_iter().flatten() {
             match file_name(&entry, "file").or_else(|| file_name(&entry, "effects")) {
-                None => settings.push(entry),
+                None => match names_no_file(&entry) {
+                    Some(mistake) => {
+                        errors.keep::<()>(Err(mistake));
+                    }
+                    None => settings.push(entry),
+                },
                 Some((name, "file")) => file = Some(name),
                 Some((name, _)) => effects = Some(name),
             }
@@ -212,28 +219,35 @@ fn give_shapes(effects: &mut [EffectType], entry: &TokenStream) -> syn::Result<(
     let wanted = effects
         .iter_mut()
         .find(|effect| effect.effect == name && effect.shapes.is_none());
-    match wanted {
-        Some(effect) => {
-            effect.shapes = Some(given.stream());
-            Ok(())
-        }
-        None => Err(mistake(
-            name.span(),
-            format!(
-                "the field's type declares no effect `{name}`: write `{}` in it",
-                type_name(&name.to_string())
-            ),
-        )),
+    if let Some(effect) = wanted {
+        effect.shapes = Some(given.stream());
+        return Ok(());
     }
+    let effect = snake_case(&name.to_string());
+    let is_there = effects.iter().any(|one| one.effect == effect);
+    let remedy = if is_there && name != effect {
+        format!("write `{effect}`, the name of the effect")
+    } else {
+        format!("write `{}` in it", type_name(&effect))
+    };
+    Err(mistake(
+        name.span(),
+        format!("the field's type declares no effect `{name}`: {remedy}"),
+    ))
 }
 
 /// Files that the struct names, also where it has mistakes.
 pub fn files(input: &DeriveInput) -> impl Iterator<Item = String> {
     let entries = entries(&input.attrs, "robot").ok().flatten();
-    entries.into_iter().flatten().filter_map(|entry| {
-        let found = file_name(&entry, "file").or_else(|| file_name(&entry, "effects"));
-        found.map(|(file, _)| file.name)
-    })
+    entries
+        .into_iter()
+        .flatten()
+        .filter_map(|entry| {
+            let found = file_name(&entry, "file").or_else(|| file_name(&entry, "effects"));
+            found.map(|(file, _)| file.name)
+        })
+        // Refused where they are read.
+        .filter(|file| !FilePath::new(file).is_absolute())
 }
 
 /// `key = "name"`
@@ -253,6 +267,19 @@ fn file_name(entry: &TokenStream, key: &'static str) -> Option<(FileName, &'stat
         };
         (file, key)
     })
+}
+
+/// `file = 12`
+fn names_no_file(entry: &TokenStream) -> Option<syn::Error> {
+    let mut tokens = entry.clone().into_iter();
+    let key = match tokens.next() {
+        Some(TokenTree::Ident(key)) if key == "file" || key == "effects" => key,
+        _ => return None,
+    };
+    Some(mistake(
+        entry.span(),
+        format!("`{key}` is the name of a file: write `{key} = \"arm.robot\"`"),
+    ))
 }
 
 /// Numbers that hold no parameter.

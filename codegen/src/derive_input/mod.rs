@@ -103,8 +103,14 @@ fn check_reach(robot: &Robot, model: &Model) -> syn::Result<()> {
     let mut effects = model.effects.iter();
     match effects.position(|effect| effect.definition.moves_links()) {
         Some(index) => {
-            let reason = NotInstantaneous::new(model, index);
-            Err(mistake(robot.name.span(), reason))
+            let effect = &model.effects[index].definition.name;
+            let types = robot.fields.iter().flat_map(|field| field.holds.effects());
+            let place = types
+                .filter(|one| one.effect == effect)
+                .map(|one| one.effect.span())
+                .next();
+            let reason = NotInstantaneous::new(model, index).reason();
+            Err(mistake(place.unwrap_or(robot.name.span()), reason))
         }
         None => Ok(()),
     }

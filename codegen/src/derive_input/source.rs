@@ -1,5 +1,7 @@
 //! Where the robot is described: in the struct's attributes, or in a file.
 
+use std::path::Path;
+
 use proc_macro2::{TokenStream, TokenTree};
 use quote::{quote, quote_spanned};
 use robot_model_spec::library::effect_definitions;
@@ -102,12 +104,28 @@ fn in_rust(said: &Diagnostic) -> syn::Error {
     if message.starts_with("unknown effect `") {
         (message, help) = (with_types(&message), with_types(&help));
     }
+    if let Some(fields) = in_a_field(&message) {
+        (message, help) = (with_types(&message), fields);
+    }
     let text = if help.is_empty() {
         message
     } else {
         format!("{message}\nhelp: {help}")
     };
     mistake(said.span(), text)
+}
+
+/// How a field declares an effect that stands on other joints than it can act on.
+fn in_a_field(message: &str) -> Option<String> {
+    let (effect, count) = message.strip_prefix("effect `")?.split_once("` acts on ")?;
+    let holds = type_name(effect);
+    let own = |on: &str| format!("give it a field of its own: `#[on({on})] {effect}: {holds}`");
+    Some(match count {
+        "the arm as a whole" => own(""),
+        "one joint" => format!("write it into the type of its joint: `Link<{holds}>`"),
+        "two joints together" => own("first_joint, second_joint"),
+        _ => own("first_joint, .."),
+    })
 }
 
 /// Names of effects in backticks as their types.
@@ -137,6 +155,12 @@ fn own_effects(file: &FileName, read: ReadFile<'_>) -> syn::Result<Ast> {
 }
 
 pub(super) fn read_file(file: &FileName, read: ReadFile<'_>) -> syn::Result<String> {
+    if Path::new(&file.name).is_absolute() {
+        return Err(mistake(
+            file.span,
+            "the path of a file is relative to the folder of Cargo.toml: write it without the folders of one machine",
+        ));
+    }
     read(&file.name).map_err(|error| {
         mistake(
             file.span,
@@ -181,7 +205,7 @@ fn spec(robot: &Robot) -> syn::Result<TokenStream> {
             None => quote!(on #name),
             // The arm as a whole.
             Some([]) => quote!(),
-            Some(joints) => quote!(on (#(#joints),*)),
+            Some(joints) => quote_spanned!(field.span=> on (#(#joints),*)),
         };
         for effect in field.holds.effects() {
             let (effect, shapes) = (&effect.effect, &effect.shapes);
@@ -239,9 +263,10 @@ fn joint(field: &RobotField) -> syn::Result<TokenStream> {
         (Some(_), _, _) => {}
     }
     let mut settings = field.joint.iter().flatten();
-    let Some(kind) = settings.next() else {
+    let first = settings.next();
+    let Some(kind) = first.filter(|kind| is_one_word(kind)) else {
         return Err(mistake(
-            name.span(),
+            first.map_or(name.span(), Spanned::span),
             format!(
                 "joint `{name}` does not say what it is: write `#[joint(revolute, ..)]` or `#[joint(prismatic, ..)]`"
             ),

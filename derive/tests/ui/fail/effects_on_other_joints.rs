@@ -1,0 +1,15 @@
+use robot_model::effects::{BaseTilt, GearCoupling};
+use robot_model::{Link, RobotModel};
+
+#[derive(RobotModel)]
+#[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
+struct Arm {
+    #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+    pivot: Link<BaseTilt>,
+    #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
+    tip: Link<GearCoupling>,
+    #[on(pivot)]
+    coupling: GearCoupling,
+}
+
+fn main() {}
