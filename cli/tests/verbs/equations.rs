@@ -78,7 +78,7 @@ fn emit_writes_a_file_named_as_the_spec() {
     folder.succeed(&[arguments.as_slice(), &["--parameters", "parameters.json"]].concat());
     let code = folder.read("code/arms/cart.rs");
     assert!(
-        plain.contains("pub fn gravity<S: Scalar>(_q: &[S; 1], _beta: &[S; 2])"),
+        plain.contains("pub fn gravity<S: ::robot_model::Scalar>("),
         "{plain}"
     );
     assert!(
