@@ -92,7 +92,7 @@ const GAUSS: [(f64, f64); 5] = [
 #[test]
 fn filtered_torque_is_the_filtered_regressor_times_the_parameters() {
     const STEP: f64 = 0.01;
-    const STEPS: u32 = 60;
+    const STEPS: u32 = 6;
     for spec in [specs::folder("pass"), specs::folder("run")].concat() {
         let arm = Arm::new(&spec);
         let dof = arm.interpreter.compiled.dof();
