@@ -4,9 +4,8 @@ use robot_model::identify::{Form, Identify};
 use robot_model::log::Log;
 use robot_model::signal::FirstOrder;
 use robot_model_cli::interpreted::{InterpretedArm, InterpretedMomentum};
-use robot_model_codegen::compile_model;
+use robot_model_codegen::{Block, compile_model};
 use robot_model_tests::evaluate::Interpreter;
-use robot_model_tests::mechanics::{self, MechanicsForms};
 use robot_model_tests::shared;
 use robot_model_tests::specs::{self, Spec};
 use robot_model_tests::states::{self, State};
@@ -46,6 +45,8 @@ fn motion(dof: usize, t: f64) -> State {
 struct Arm {
     interpreter: Interpreter,
     standard: Vec<f64>,
+    /// `Y_p` and `Y_h`.
+    regressors: [Block; 2],
 }
 
 impl Arm {
@@ -56,9 +57,11 @@ impl Arm {
         for refusal in &compiled.momentum.refused {
             standard[refusal.parameter] = 0.0;
         }
+        let regressors = [compiled.momentum_regressor(), compiled.drift_regressor()];
         Self {
             interpreter,
             standard,
+            regressors,
         }
     }
 
@@ -70,10 +73,19 @@ impl Arm {
 
     /// `Y_p * standard` and `Y_h * standard`.
     fn momentum_and_drift(&self, state: &State) -> [Vec<f64>; 2] {
-        let MechanicsForms { standard, .. } =
-            mechanics::interpreted(&self.interpreter, &self.standard, state);
-        let parameters = nalgebra::DVector::from_column_slice(&self.standard);
-        standard.map(|regressor| (regressor * &parameters).as_slice().to_vec())
+        let dof = self.interpreter.compiled.dof();
+        // The parameters that would read a load have no momentum form.
+        let load = vec![0.0; dof];
+        self.regressors.each_ref().map(|block| {
+            let values = self
+                .interpreter
+                .run(&block.program, &self.standard, state, &load);
+            let mut sum = vec![0.0; dof];
+            for (&(joint, column), value) in block.entries.iter().zip(values) {
+                sum[joint] += value * self.standard[column];
+            }
+            sum
+        })
     }
 }
 
@@ -92,7 +104,7 @@ const GAUSS: [(f64, f64); 5] = [
 #[test]
 fn filtered_torque_is_the_filtered_regressor_times_the_parameters() {
     const STEP: f64 = 0.01;
-    const STEPS: u32 = 6;
+    const STEPS: u32 = 60;
     for spec in [specs::folder("pass"), specs::folder("run")].concat() {
         let arm = Arm::new(&spec);
         let dof = arm.interpreter.compiled.dof();
@@ -139,24 +151,10 @@ fn so_it_is_with_the_filter_of_the_runtime() {
     let states: Vec<State> = (0..SAMPLES)
         .map(|k| motion(2, STEP * f64::from(k)))
         .collect();
-    let momentum_and_drift: Vec<[Vec<f64>; 2]> = {
-        let compiled = &arm.interpreter.compiled;
-        let blocks = [compiled.momentum_regressor(), compiled.drift_regressor()];
-        let zero = [0.0; 2];
-        let of = |state: &State| {
-            [&blocks[0], &blocks[1]].map(|block| {
-                let values = arm
-                    .interpreter
-                    .run(&block.program, &arm.standard, state, &zero);
-                let mut sum = vec![0.0; 2];
-                for (&(joint, column), value) in block.entries.iter().zip(values) {
-                    sum[joint] += value * arm.standard[column];
-                }
-                sum
-            })
-        };
-        states.iter().map(of).collect()
-    };
+    let momentum_and_drift: Vec<[Vec<f64>; 2]> = states
+        .iter()
+        .map(|state| arm.momentum_and_drift(state))
+        .collect();
     let filter = FirstOrder::new(CORNER, 1.0 / STEP).expect("a corner far below the rate");
     let (mut tau, mut rate, mut drift) = (Vec::new(), Vec::new(), Vec::new());
     for joint in 0..2 {
