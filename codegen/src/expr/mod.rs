@@ -16,7 +16,7 @@ mod rounding;
 pub mod rules;
 mod substitute;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 pub(crate) use display::number;
 pub use display::{Names, Style};
@@ -67,6 +67,8 @@ pub struct Dag {
     labels: HashMap<ExprId, Label>,
     // Looked up only: absolute errors of numbers, by the bits of their magnitude, that sums have left with few digits.
     lost: HashMap<u64, f64>,
+    // Looked up only: magnitudes that were given. A sum that comes out as one of them has lost digits, they have not.
+    given: HashSet<u64>,
 }
 
 impl Dag {
@@ -122,8 +124,14 @@ impl Dag {
         self.intern(node)
     }
 
-    /// A number.
+    /// A number that is given: by a spec, or by a derivation.
     pub fn constant(&mut self, value: f64) -> ExprId {
+        self.given.insert(value.abs().to_bits());
+        self.folded(value)
+    }
+
+    /// A number that other numbers have been folded into.
+    fn folded(&mut self, value: f64) -> ExprId {
         self.intern(Node::Constant(Real::new(value)))
     }
 
@@ -225,6 +233,12 @@ impl Dag {
     /// `factor * x`
     pub fn scale(&mut self, factor: f64, x: ExprId) -> ExprId {
         let factor = self.constant(factor);
+        self.mul(factor, x)
+    }
+
+    /// `factor * x` with a factor that other numbers have been folded into.
+    fn multiple(&mut self, factor: f64, x: ExprId) -> ExprId {
+        let factor = self.folded(factor);
         self.mul(factor, x)
     }
 

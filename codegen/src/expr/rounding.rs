@@ -4,15 +4,12 @@ use super::{Dag, ExprId, Function, Node, Symbol};
 use crate::rounded::{Rounded, UNIT};
 
 impl Dag {
-    /// A number of this dag with its error: that of a number of a spec, or what the sums that made it have lost.
+    /// A number of this dag with its error: that of a number that was given, or what the sums that made it have lost.
     pub(super) fn rounded(&self, value: f64) -> Rounded {
-        let usual = Rounded::constant(value);
-        if self.lost.is_empty() {
-            return usual;
-        }
-        match self.lost.get(&value.abs().to_bits()) {
-            Some(&error) => Rounded { value, error },
-            None => usual,
+        let magnitude = value.abs().to_bits();
+        match self.lost.get(&magnitude) {
+            Some(&error) if !self.given.contains(&magnitude) => Rounded { value, error },
+            _ => Rounded::constant(value),
         }
     }
 
@@ -140,6 +137,19 @@ mod tests {
             assert!((back - x).abs() < f64::EPSILON, "{back}");
         }
         assert!(dag.rounded(x).error <= error);
+    }
+
+    /// The rounding of one number is not that of another which happens to be equal.
+    #[test]
+    fn a_given_number_keeps_its_digits_whatever_sum_comes_out_as_it() {
+        let mut dag = Dag::new();
+        let large = [1e13 + 1.0, -1e13].map(|x| dag.constant(x));
+        let one = dag.sum(large);
+        assert_eq!(dag.as_constant(one), Some(1.0));
+        assert!(dag.rounded(1.0).error > 1e-4);
+        let given = [1.0, 1e-6 - 1.0].map(|x| dag.constant(x));
+        let small = dag.sum(given);
+        assert!(!dag.is_zero(small));
     }
 
     #[test]

@@ -163,7 +163,7 @@ pub const SELECT: &[SelectRule] = &[
 ];
 
 fn finite(dag: &mut Dag, value: f64) -> Option<ExprId> {
-    value.is_finite().then(|| dag.constant(value))
+    value.is_finite().then(|| dag.folded(value))
 }
 
 /// Bit-equal: a rule holds for identical numbers only.
@@ -190,7 +190,7 @@ fn collect(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     let (p, q) = (p?, q?);
     (p == q).then(|| {
         let sum = dag.sum_of_numbers(c, d);
-        dag.scale(sum, p)
+        dag.multiple(sum, p)
     })
 }
 
@@ -211,10 +211,10 @@ fn collect_into(dag: &mut Dag, sum: ExprId, term: ExprId) -> Option<ExprId> {
             let product = dag.product_of_numbers(outer, c);
             let sum = dag.sum_of_numbers(product, d);
             let collected = match t {
-                Some(t) => dag.scale(sum, t),
-                None => dag.constant(sum),
+                Some(t) => dag.multiple(sum, t),
+                None => dag.folded(sum),
             };
-            let other = dag.scale(outer, other);
+            let other = dag.multiple(outer, other);
             return Some(dag.add(other, collected));
         }
     }
@@ -229,7 +229,7 @@ fn common_coefficient(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     }
     let q = if c * d < 0.0 { dag.neg(q) } else { q };
     let sum = dag.add(p, q);
-    Some(dag.scale(c, sum))
+    Some(dag.multiple(c, sum))
 }
 
 fn fold_product(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
@@ -314,7 +314,7 @@ fn common_factor_of_choices(
         return None;
     }
     let choice = dag.select(condition, p, q);
-    Some(dag.scale(c, choice))
+    Some(dag.multiple(c, choice))
 }
 
 fn square_of_root(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
@@ -334,7 +334,7 @@ fn even(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
     if !matches!(function, Function::Cos | Function::Abs) || c >= 0.0 {
         return None;
     }
-    let positive = dag.scale(-c, rest?);
+    let positive = dag.multiple(-c, rest?);
     Some(dag.call(function, positive))
 }
 
@@ -343,7 +343,7 @@ fn odd(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
     if !matches!(function, Function::Sin | Function::Tanh | Function::Sign) || c >= 0.0 {
         return None;
     }
-    let positive = dag.scale(-c, rest?);
+    let positive = dag.multiple(-c, rest?);
     let value = dag.call(function, positive);
     Some(dag.neg(value))
 }
@@ -354,7 +354,7 @@ fn modulus_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<E
         return None;
     }
     let modulus = dag.call(function, rest?);
-    Some(dag.scale(c.abs(), modulus))
+    Some(dag.multiple(c.abs(), modulus))
 }
 
 fn recip_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {

@@ -89,7 +89,7 @@ fn times_common(dag: &mut Dag, pair: &Pair, coefficient: f64, value: ExprId) -> 
         Some(product) => dag.mul(product, value),
         None => value,
     };
-    dag.scale(coefficient, product)
+    dag.multiple(coefficient, product)
 }
 
 /// Products of the same factors in another order.
@@ -105,7 +105,7 @@ pub(super) fn collect_reordered(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<E
     }
     let (_, product) = dag.coefficient(x);
     let sum = dag.sum_of_numbers(left.coefficient, right.coefficient);
-    Some(dag.scale(sum, product?))
+    Some(dag.multiple(sum, product?))
 }
 
 pub(super) fn pythagoras(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
