@@ -7,6 +7,7 @@ use clap::Args;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::JointKind;
 
+use crate::output::counted;
 use crate::spec::compile_to_look_at;
 use crate::{Error, output};
 
@@ -59,12 +60,4 @@ fn summary(compiled: &Compiled) -> String {
         writeln!(text, "{}", line.trim_end()).expect("a string takes all");
     }
     text
-}
-
-fn counted(count: usize, what: &str) -> String {
-    if count == 1 {
-        format!("1 {what}")
-    } else {
-        format!("{count} {what}s")
-    }
 }

@@ -9,6 +9,7 @@ use robot_model_codegen::interpreter::Program;
 use robot_model_codegen::{Block, Compiled};
 use serde::{Deserialize, Serialize};
 
+use crate::output::counted;
 use crate::parameters::{self, Values};
 use crate::spec::{compile_instantaneous, read_text};
 use crate::{Error, output};
@@ -171,18 +172,20 @@ impl Eval {
         for (k, state) in states.iter().enumerate() {
             for (name, values) in [("q", &state.q), ("dq", &state.dq), ("ddq", &state.ddq)] {
                 if values.len() != dof {
-                    let found = values.len();
                     let reason = format!(
-                        "state {}: `{name}` has {found} values, the arm has {dof} joints",
-                        k + 1
+                        "state {}: `{name}` has {}, the arm has {}",
+                        k + 1,
+                        counted(values.len(), "value"),
+                        counted(dof, "joint")
                     );
                     return Err(Error::json(path, &reason));
                 }
             }
             let fault = if reads_torque && state.measured_torque.len() != dof {
                 Some(format!(
-                    "`measured_torque` has {} values, a declared effect reads that of {dof} joints",
-                    state.measured_torque.len()
+                    "`measured_torque` has {}, a declared effect reads that of {}",
+                    counted(state.measured_torque.len(), "value"),
+                    counted(dof, "joint")
                 ))
             } else {
                 not_as_declared("inputs", &state.inputs, &compiled.model.inputs(), true).or_else(

@@ -237,3 +237,12 @@ pub(crate) fn json(value: &impl Serialize) -> String {
     text.push('\n');
     text
 }
+
+/// "1 joint", "2 joints".
+pub(crate) fn counted(count: usize, what: &str) -> String {
+    if count == 1 {
+        format!("1 {what}")
+    } else {
+        format!("{count} {what}s")
+    }
+}

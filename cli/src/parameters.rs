@@ -8,7 +8,9 @@ use std::path::Path;
 
 use robot_model_codegen::Compiled;
 use robot_model_codegen::base::shape_values;
+use robot_model_spec::model::ShapeParameter;
 use robot_model_spec::parameter::Status;
+use robot_model_spec::suggest::nearest;
 use serde::Deserialize;
 
 use crate::Error;
@@ -143,10 +145,18 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         .collect();
     if !unknown.is_empty() {
         let all_base = unknown.iter().all(|name| base_names.contains(name));
-        let why = if all_base {
-            "; base parameters are accepted only as a whole set, and with no others"
-        } else {
-            ""
+        let why = match unknown.as_slice() {
+            _ if all_base => {
+                "; base parameters are accepted only as a whole set, and with no others".to_owned()
+            }
+            [only] => {
+                let names = standard_names.iter().chain(&base_names).copied();
+                match nearest(only, names.chain(shape_names.iter().map(String::as_str))) {
+                    Some(name) => format!("; is `{name}` meant?"),
+                    None => String::new(),
+                }
+            }
+            _ => String::new(),
         };
         return Err(fault(format!(
             "{} has no parameter {}{why}",
@@ -163,10 +173,17 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
         compiled.base.beta(&standard)
     };
     let mut shapes = shape_values(&compiled.model);
+    let effects = compiled.model.effects.iter();
+    let declared: Vec<&ShapeParameter> = effects.flat_map(|e| &e.definition.shapes).collect();
     let free = compiled.free_shapes();
     for (k, name) in shape_names.iter().enumerate() {
         match given.get(name) {
-            Some(value) if free.contains(&k) => shapes[k] = *value,
+            Some(value) if free.contains(&k) => {
+                if let Some(wanted) = declared[k].misses(*value) {
+                    return Err(fault(format!("`{name}` is {value}; it has to be {wanted}")));
+                }
+                shapes[k] = *value;
+            }
             Some(value) if differ(*value, shapes[k]) => {
                 return Err(fault(format!(
                     "`{name}` is {value} here and {} in the spec",

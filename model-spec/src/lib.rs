@@ -14,7 +14,7 @@ pub mod model;
 pub mod parameter;
 mod parse;
 pub mod polynomial;
-mod suggest;
+pub mod suggest;
 mod transform;
 pub mod urdf;
 

@@ -1,10 +1,8 @@
 //! "Did you mean": the nearest of the names that would have been right.
 
 /// The known name nearest to `wrong`, if it is near enough to be what was meant.
-pub(crate) fn nearest<'a>(
-    wrong: &str,
-    known: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+#[must_use]
+pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let reach = match wrong.chars().count() {
         0 | 1 => 0,
         letters => (letters / 3).max(1),

@@ -12,6 +12,24 @@ fn check_says_what_the_spec_describes() {
     );
 }
 
+/// A rod cannot be harder to turn about its length than about both other axes together.
+#[test]
+fn check_warns_of_an_inertia_that_no_body_has() {
+    let folder = Folder::new();
+    let link = "link upper: nominal { mass = 2; com = [-0.25, 0, 0]; inertia = [1, 0, 0, 0.05, 0, 0.05]; }";
+    let arm = format!(
+        "robot Arm {{ gravity = [0, -9.81, 0]; convention = standard_dh; joint upper: revolute {{ a = 0.5; alpha = 0; d = 0; }} {link} }}"
+    );
+    folder.write("arm.robot", &arm);
+    let run = folder.run(&["check", "arm.robot"]);
+    assert_eq!(run.code, Some(0));
+    assert_eq!(
+        run.stderr,
+        "warning: arm.robot: link `upper` has an inertia that no body has: about the center of mass each principal moment is positive \
+         and at most the sum of the other two\n"
+    );
+}
+
 #[test]
 fn show_writes_equations() {
     let folder = Folder::new();

@@ -75,7 +75,7 @@ fn eval_takes_standard_and_base_parameters() {
         folder.refuse(&eval(
             r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "cart.mass": 3}"#
         )),
-        "error: parameters.json: Cart has no parameter `cart.mass`\n"
+        "error: parameters.json: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
     );
     assert!(
         folder
@@ -156,7 +156,7 @@ fn eval_refuses_states_of_another_arm() {
     };
     assert_eq!(
         said(r#"{"states":[{"q":[0,0],"dq":[0],"ddq":[0,0]}]}"#),
-        "error: states.json: state 1: `dq` has 1 values, the arm has 2 joints\n"
+        "error: states.json: state 1: `dq` has 1 value, the arm has 2 joints\n"
     );
     assert!(said(r#"{"states":[{"q":[0,0],"dq":[0,0]}]}"#).contains("missing field `ddq`"));
     assert!(
@@ -164,6 +164,34 @@ fn eval_refuses_states_of_another_arm() {
             .contains("unknown field `v`")
     );
     assert!(said("{").contains("line 1"));
+}
+
+#[test]
+fn a_shape_is_what_the_law_allows() {
+    let folder = Folder::new();
+    let spec = CART.replace("effects {", "effects { stribeck() on rail;");
+    assert_ne!(spec, CART);
+    folder.write("cart.robot", &spec);
+    folder.write(
+        "parameters.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.stribeck.fs": 1, "rail.stribeck.vs": -0.01}"#,
+    );
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[0]}]}"#,
+    );
+    let said = folder.refuse(&[
+        "eval",
+        "cart.robot",
+        "--states",
+        "states.json",
+        "--parameters",
+        "parameters.json",
+    ]);
+    assert_eq!(
+        said,
+        "error: parameters.json: `rail.stribeck.vs` is -0.01; it has to be a positive number\n"
+    );
 }
 
 /// A link that is known, and one that is not.

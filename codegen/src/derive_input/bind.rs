@@ -40,10 +40,26 @@ pub fn bind(robot: &Robot, model: &Model) -> syn::Result<Vec<Held>> {
         }
         held.push(own);
     }
-    bind_effects(robot, model, &mut held, &mut errors);
-    check_links(robot, model, &held, &mut errors);
-    check_parameters(robot, model, &held, &mut errors);
+    let not_held_effects = bind_effects(robot, model, &mut held, &mut errors);
+    // What a misspelt field does not hold is no second mistake.
+    let mut fields = held.iter().zip(&robot.fields);
+    if fields.all(|(held, field)| is_known(held, field)) {
+        for index in not_held_effects {
+            errors.mistake(robot.name.span(), not_held(model, index));
+        }
+        check_links(robot, model, &held, &mut errors);
+        check_parameters(robot, model, &held, &mut errors);
+    }
     errors.finish(held)
+}
+
+/// Whether the model has what the field is named after.
+fn is_known(held: &Held, field: &RobotField) -> bool {
+    match field.holds {
+        Holds::Number => held.parameter.is_some(),
+        Holds::Link(_) => held.link.is_some(),
+        Holds::Effects(_) => true,
+    }
 }
 
 fn is(name: &Ident, wanted: &str) -> bool {
@@ -163,7 +179,14 @@ fn joints_of(field: &RobotField, model: &Model) -> Option<Vec<usize>> {
         .collect()
 }
 
-fn bind_effects(robot: &Robot, model: &Model, held: &mut [Held], errors: &mut Errors) {
+/// Gives each effect to the field that holds it; those that none holds.
+fn bind_effects(
+    robot: &Robot,
+    model: &Model,
+    held: &mut [Held],
+    errors: &mut Errors,
+) -> Vec<usize> {
+    let mut not_held = Vec::new();
     let targets: Vec<Option<Vec<usize>>> = robot
         .fields
         .iter()
@@ -181,10 +204,11 @@ fn bind_effects(robot: &Robot, model: &Model, held: &mut [Held], errors: &mut Er
         });
         match free {
             Some((k, slot)) => held[k].effects[slot] = Some(index),
-            None => errors.mistake(robot.name.span(), not_held(model, index)),
+            None => not_held.push(index),
         }
     }
-    for (field, held) in robot.fields.iter().zip(held) {
+    let fields = robot.fields.iter().zip(held);
+    for (field, held) in fields.filter(|(field, held)| is_known(held, field)) {
         for (one, effect) in field.holds.effects().iter().zip(&held.effects) {
             if effect.is_none() {
                 errors.mistake(
@@ -199,6 +223,7 @@ fn bind_effects(robot: &Robot, model: &Model, held: &mut [Held], errors: &mut Er
             }
         }
     }
+    not_held
 }
 
 fn on_text(field: &RobotField) -> String {

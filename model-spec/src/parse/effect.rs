@@ -151,9 +151,19 @@ fn read_input(input: ParseStream, doc: String) -> syn::Result<Input> {
 /// `z, w`
 fn states(input: ParseStream, doc: &str, states: &mut Vec<State>) -> syn::Result<()> {
     loop {
+        let name = word(input, "the name of a state")?;
+        if input.peek(Token![=]) {
+            return Err(syn_error(
+                input.span(),
+                &format!("state `{name}` is given a value"),
+                Some(&format!(
+                    "write `state {name};`: a state is 0 when a log starts"
+                )),
+            ));
+        }
         states.push(State {
             doc: doc.to_owned(),
-            name: word(input, "the name of a state")?,
+            name,
         });
         if !input.peek(Token![,]) {
             return Ok(());

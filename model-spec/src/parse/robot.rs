@@ -43,6 +43,15 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
                 energies::statement(input, &keyword.to_string(), &doc, &mut robot.energies)?;
                 semicolon(input)?;
             }
+            "effect" => {
+                return Err(crate::diagnostic::syn_error(
+                    keyword.span(),
+                    "an effect is declared inside a robot",
+                    Some(
+                        "write it behind the robot's last `}`, and in the robot on what it acts: `effects { name() on joint; }`",
+                    ),
+                ));
+            }
             _ => {
                 return Err(crate::diagnostic::syn_error(
                     keyword.span(),
