@@ -1,0 +1,51 @@
+//! What emitted code costs, in operations and nanoseconds, beside other programs that compute the same arm in the same run.
+//!
+//! ```text
+//! spec -compile-> Arm -pages-> a crate of our functions -cargo-> Program (plain, native)
+//!                     -json-> peers' generators -C, C++ compilers-> Program
+//! Programs -rounds of passes-> Times -rows-> table, JSON
+//! ```
+//!
+//! Every contender is a program of its own that holds the states and the clock and answers two questions about a function:
+//! its values at some states, and the nanoseconds of one pass over all blocks. So ours and the peers' are timed in the same
+//! way and in turns, and none is in the address space of another.
+
+pub mod arm;
+pub mod build;
+pub mod docs;
+mod given;
+pub mod options;
+pub mod ours;
+pub mod out_file;
+pub mod peers;
+pub mod program;
+pub mod report;
+pub mod rounds;
+mod run;
+pub mod table;
+
+pub use run::run;
+
+/// What the benchmark says where it cannot go on: what, where and the way out.
+#[derive(Debug)]
+pub struct Error(String);
+
+impl Error {
+    /// This message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self(message.into())
+    }
+}
+
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// A file or folder that the system does not give, in words.
+pub(crate) fn failed(what: &str, path: &std::path::Path, reason: impl std::fmt::Display) -> Error {
+    Error::new(format!("cannot {what} `{}`: {reason}", path.display()))
+}

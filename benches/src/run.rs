@@ -1,0 +1,225 @@
+//! The command: arms, programs, rounds, rows.
+
+use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+use crate::arm::{Arm, FUNCTIONS, workspace};
+use crate::docs;
+use crate::options::Options;
+use crate::ours::{self, case};
+use crate::out_file::OutFile;
+use crate::peers::{self, Contender};
+use crate::program::Program;
+use crate::report::{Form, Report, Row};
+use crate::rounds::{self, Case};
+use crate::table::table;
+use crate::{Error, failed};
+
+/// States at which all programs must agree.
+const COMPARED: usize = 50;
+
+/// How far: products are formed in other orders, by some with contracted products.
+const AGREEMENT: f64 = 1e-9;
+
+/// The first programs are ours: plain, native.
+const OURS_ARE: usize = 2;
+
+/// Forms of a program of ours.
+const OURS: [&str; 4] = ["baked", "runtime", "lanes4", "lanes8"];
+
+/// Reads the command line, measures, and writes table and rows. Programs are built in `folder`.
+#[must_use]
+pub fn run(folder: &Path) -> ExitCode {
+    match bench(&Options::parse(), folder) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            say(&format!("error: {error}"));
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn say(line: &str) {
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
+}
+
+fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
+    // Before the work: whether its result can be written.
+    let target = options.target();
+    let target = target.as_deref().map(OutFile::claim).transpose()?;
+    let page = workspace().join("docs/benchmarks.md");
+    let page = options.docs.then(|| {
+        let text = std::fs::read_to_string(&page).map_err(|error| failed("read", &page, error))?;
+        Ok((OutFile::claim(&page)?, text))
+    });
+    let page = page.transpose()?;
+    std::fs::create_dir_all(folder).map_err(|error| failed("make", folder, error))?;
+    say("deriving the arms ..");
+    let arms = options.arms().into_iter().map(Arm::read);
+    let arms = arms.collect::<Result<Vec<Arm>, Error>>()?;
+    say("building our functions, plain and for this machine ..");
+    let ours = ours::build(folder, &arms)?;
+    let mut rows = Vec::new();
+    let mut missing = Vec::new();
+    for arm in &arms {
+        let mut contenders: Vec<Contender> = Vec::new();
+        for peer in options.peers.iter().filter(|peer| *peer != "none") {
+            say(&format!("building {peer} for {} ..", arm.name));
+            match peers::contenders(peer, folder, arm) {
+                Ok(found) => contenders.extend(found),
+                Err(why) => {
+                    let line = format!("{peer} is not measured: {why}");
+                    // Once, and not for each arm.
+                    if !missing.contains(&line) {
+                        missing.push(line);
+                    }
+                }
+            }
+        }
+        let states = rounds::write_states(folder, arm.dof())?;
+        let own = ours.iter().map(|folder| folder.join(arm.name));
+        let others = contenders
+            .iter()
+            .map(|contender| contender.executable.clone());
+        let programs = own
+            .chain(others)
+            .map(|program| Program::start(&program, &states));
+        let mut programs = programs.collect::<Result<Vec<Program>, Error>>()?;
+        let cases = agreed(arm, &mut programs, &contenders, &mut missing)?;
+        say(&format!("timing {} ..", arm.name));
+        let times = rounds::measure(&mut programs, &cases, options.passes)?;
+        rows.extend(rows_of(arm, &contenders, &times));
+    }
+    let report = Report { rows };
+    let mut out = std::io::stdout().lock();
+    // A reader that has gone away has read what it wanted.
+    let _ = out.write_all(table(&report).as_bytes());
+    for line in missing {
+        say(&line);
+    }
+    if let Some(target) = target {
+        let mut text = serde_json::to_string_pretty(&report).expect("rows are names and numbers");
+        text.push('\n');
+        say(&format!("wrote {}", target.commit(&text)?.display()));
+    }
+    if let Some((page, text)) = page {
+        let path = page.commit(&docs::renewed(&text, &report)?)?;
+        say(&format!("wrote {}", path.display()));
+    }
+    Ok(())
+}
+
+/// Name of a peer's case.
+fn peers_case(function: &str, given: bool) -> String {
+    if given {
+        format!("{function}/given")
+    } else {
+        function.to_owned()
+    }
+}
+
+/// Every case whose values are those of our baked function; what a peer computes otherwise is told, what it does not compute is
+/// not its affair.
+fn agreed(
+    arm: &Arm,
+    programs: &mut [Program],
+    contenders: &[Contender],
+    told: &mut Vec<String>,
+) -> Result<Vec<Case>, Error> {
+    let mut cases = Vec::new();
+    for function in FUNCTIONS {
+        let first = case(function, "baked", false);
+        let wanted = programs[0].values(&first, COMPARED)?.unwrap_or_default();
+        for case in cases_of(function, programs.len()) {
+            let Some(found) = programs[case.program].values(&case.name, COMPARED)? else {
+                continue;
+            };
+            let difference = rounds::difference(&found, &wanted);
+            if difference <= AGREEMENT {
+                cases.push(case);
+                continue;
+            }
+            let what = format!(
+                "{} of {} differs from {first} by {difference:e}",
+                case.name, arm.name
+            );
+            match case.program.checked_sub(OURS_ARE) {
+                Some(peer) => told.push(format!("{}'s {what}: not timed", contenders[peer].name)),
+                None => return Err(Error::new(what)),
+            }
+        }
+    }
+    Ok(cases)
+}
+
+/// Cases of a function that are asked for.
+fn cases_of(function: &str, programs: usize) -> Vec<Case> {
+    let mut cases = Vec::new();
+    for given in [false, true] {
+        for program in 0..programs {
+            let names = if program < OURS_ARE {
+                OURS.map(|form| case(function, form, given)).to_vec()
+            } else {
+                vec![peers_case(function, given)]
+            };
+            cases.extend(names.into_iter().map(|name| Case { program, name }));
+        }
+    }
+    cases
+}
+
+fn rows_of(arm: &Arm, contenders: &[Contender], times: &BTreeMap<Case, f64>) -> Vec<Row> {
+    let time = |program: usize, name: String| times.get(&Case { program, name }).copied();
+    let mut rows = Vec::new();
+    for function in FUNCTIONS {
+        let peers = |given: bool| -> BTreeMap<String, f64> {
+            let found = contenders.iter().enumerate().filter_map(|(k, contender)| {
+                let ns = time(k + OURS_ARE, peers_case(function, given))?;
+                Some((contender.name.clone(), rounded(ns)))
+            });
+            found.collect()
+        };
+        for form in Form::ALL {
+            let names: &[&str] = match form {
+                Form::Baked => &["baked"],
+                Form::Runtime => &["runtime"],
+                Form::Lanes => &["lanes4", "lanes8"],
+            };
+            let least = |program: usize, given: bool| {
+                let times = names
+                    .iter()
+                    .filter_map(|name| time(program, case(function, name, given)));
+                rounded(times.fold(f64::INFINITY, f64::min))
+            };
+            let compiled = if form == Form::Runtime {
+                &arm.runtime
+            } else {
+                &arm.baked
+            };
+            let cost = Arm::cost(compiled, function);
+            rows.push(Row {
+                robot: arm.name.to_owned(),
+                function: function.to_owned(),
+                form,
+                mul: cost.mul,
+                add: cost.add,
+                trig: cost.trig,
+                ns: least(1, false),
+                ns_arithmetic: least(1, true),
+                peers: peers(false),
+                ns_plain: least(0, false),
+                peers_arithmetic: peers(true),
+            });
+        }
+    }
+    rows
+}
+
+/// A clock tells no more than this.
+fn rounded(ns: f64) -> f64 {
+    (ns * 100.0).round() / 100.0
+}
