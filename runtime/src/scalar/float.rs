@@ -14,7 +14,8 @@ impl Scalar for f64 {
         value
     }
 
-    #[inline]
+    #[expect(clippy::inline_always, reason = "see `sin_cos`")]
+    #[inline(always)]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
         sin_cos::of(angles)
     }

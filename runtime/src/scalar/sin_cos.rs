@@ -5,6 +5,11 @@
 //! two lowest bits of `k` say which is which and their signs. An angle beyond [`LIMIT`], or no number, goes to
 //! the general functions.
 
+#![expect(
+    clippy::inline_always,
+    reason = "behind a call the angles are an array in memory, written in parts and read at once, and all that follows waits for it"
+)]
+
 use wide::{f64x4, f64x8, u64x4, u64x8};
 
 use crate::math;
@@ -43,30 +48,32 @@ const COS: [f64; 6] = [
 ];
 
 macro_rules! kernel {
-    ($(#[$doc:meta])* $name:ident($floats:ident, $bits:ident)) => {
+    ($(#[$doc:meta])* $name:ident($floats:ident, $bits:ident, [$($lane:ident)*])) => {
         $(#[$doc])*
-        #[inline]
+        #[inline(always)]
         pub fn $name(x: $floats) -> [$floats; 2] {
             let c = $floats::splat;
-            let shifted = x * c(core::f64::consts::FRAC_2_PI) + c(TO_INTEGER);
+            let shifted = x.mul_add(c(core::f64::consts::FRAC_2_PI), c(TO_INTEGER));
             let k = shifted - c(TO_INTEGER);
             let bits: $bits = bytemuck::cast(shifted);
 
-            let t = x - k * c(HALF_TURN[0]);
+            let t = k.mul_neg_add(c(HALF_TURN[0]), x);
             let second = k * c(HALF_TURN[1]);
             let u = t - second;
             let lost = (t - u) - second;
-            let r = u - (k * c(HALF_TURN[2]) - lost);
+            let r = u - k.mul_sub(c(HALF_TURN[2]), lost);
 
             let z = r * r;
+            let zz = z * z;
+            // Pairs of terms side by side, as Estrin has it: in a plain Horner scheme each step waits for the one before.
             let series = |terms: &[f64; 6]| {
-                let (first, rest) = (terms[0], &terms[1..]);
-                rest.iter().fold(c(first), |sum, &term| sum * z + c(term))
+                let [high, mid, low] = [(0, 1), (2, 3), (4, 5)].map(|(a, b)| c(terms[a]).mul_add(z, c(terms[b])));
+                high.mul_add(zz, mid).mul_add(zz, low)
             };
-            let sin = r + r * z * series(&SIN);
+            let sin = (r * z).mul_add(series(&SIN), r);
             let half = z * c(0.5);
             let one = c(1.0) - half;
-            let cos = one + (((c(1.0) - one) - half) + z * z * series(&COS));
+            let cos = one + zz.mul_add(series(&COS), (c(1.0) - one) - half);
 
             // All bits where `k` is odd.
             let odd: $floats = bytemuck::cast($bits::splat(0) - (bits & $bits::splat(1)));
@@ -79,8 +86,14 @@ macro_rules! kernel {
             if near.all() {
                 return both;
             }
-            let general = [math::sin as fn(f64) -> f64, math::cos];
-            let general = general.map(|f| $floats::from(x.to_array().map(f)));
+            // Numbers as arguments: an array would be in memory, and the fast road would wait for it.
+            #[cold]
+            #[inline(never)]
+            fn general($($lane: f64),*) -> [$floats; 2] {
+                [$floats::from([$(math::sin($lane)),*]), $floats::from([$(math::cos($lane)),*])]
+            }
+            let [$($lane),*] = x.to_array();
+            let general = general($($lane),*);
             [near.bitselect(both[0], general[0]), near.bitselect(both[1], general[1])]
         }
     };
@@ -88,36 +101,45 @@ macro_rules! kernel {
 
 kernel! {
     /// Sines, cosines.
-    of4(f64x4, u64x4)
+    of4(f64x4, u64x4, [a b c d])
 }
 kernel! {
     /// Sines, cosines.
-    of8(f64x8, u64x8)
+    of8(f64x8, u64x8, [a b c d e f g h])
 }
 
 /// Sines and cosines of any number of angles.
-#[inline]
+#[inline(always)]
 pub fn of<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
-    let mut out = [[0.0; N]; 2];
+    let mut both = [[0.0; N]; 2];
     let mut first = 0;
     while first < N {
-        let count = (N - first).min(8);
-        if count > 4 {
-            let mut pack = [0.0; 8];
-            pack[..count].copy_from_slice(&angles[first..first + count]);
-            for (out, values) in out.iter_mut().zip(of8(pack.into())) {
-                out[first..first + count].copy_from_slice(&values.to_array()[..count]);
-            }
+        // Entry by entry: a slice would be copied through memory.
+        let angle = |k: usize| angles.get(first + k).copied().unwrap_or(0.0);
+        if N - first > 4 {
+            let values = of8(core::array::from_fn(angle).into());
+            put(&mut both, first, values.map(f64x8::to_array));
+            first += 8;
         } else {
-            let mut pack = [0.0; 4];
-            pack[..count].copy_from_slice(&angles[first..first + count]);
-            for (out, values) in out.iter_mut().zip(of4(pack.into())) {
-                out[first..first + count].copy_from_slice(&values.to_array()[..count]);
-            }
+            let values = of4(core::array::from_fn(angle).into());
+            put(&mut both, first, values.map(f64x4::to_array));
+            first += 4;
         }
-        first += count;
     }
-    out
+    both
+}
+
+#[inline(always)]
+fn put<const N: usize, const LANES: usize>(
+    both: &mut [[f64; N]; 2],
+    first: usize,
+    values: [[f64; LANES]; 2],
+) {
+    for (both, values) in both.iter_mut().zip(values) {
+        for (out, value) in both[first..].iter_mut().zip(values) {
+            *out = value;
+        }
+    }
 }
 
 #[cfg(test)]
