@@ -52,6 +52,14 @@ macro_rules! kernel {
         $(#[$doc])*
         #[inline(always)]
         pub fn $name(x: $floats) -> [$floats; 2] {
+            // Numbers as arguments: an array would be in memory, and the fast road would wait for it.
+            #[allow(clippy::too_many_arguments, reason = "one a lane")]
+            #[cold]
+            #[inline(never)]
+            fn general($($lane: f64),*) -> [$floats; 2] {
+                [$floats::from([$(math::sin($lane)),*]), $floats::from([$(math::cos($lane)),*])]
+            }
+
             let c = $floats::splat;
             let shifted = x.mul_add(c(core::f64::consts::FRAC_2_PI), c(TO_INTEGER));
             let k = shifted - c(TO_INTEGER);
@@ -85,12 +93,6 @@ macro_rules! kernel {
             let near = x.abs().simd_le(c(LIMIT));
             if near.all() {
                 return both;
-            }
-            // Numbers as arguments: an array would be in memory, and the fast road would wait for it.
-            #[cold]
-            #[inline(never)]
-            fn general($($lane: f64),*) -> [$floats; 2] {
-                [$floats::from([$(math::sin($lane)),*]), $floats::from([$(math::cos($lane)),*])]
             }
             let [$($lane),*] = x.to_array();
             let general = general($($lane),*);
