@@ -9,6 +9,7 @@ use super::coriolis;
 use super::energy::EnergyForm;
 use super::lean::{Choice, LeanChain, Wanted};
 use super::rigid::{RigidBody, Terms};
+use super::vanishing::without_vanishing;
 use super::{Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
 use crate::optimize;
@@ -47,6 +48,7 @@ pub fn compute(
         };
         let choice = choice(model, values, Wanted::Torque(terms));
         let lean = LeanChain::new(dag, chain, &choice).torque(dag, terms);
+        let [lean, plain] = [lean, plain].map(|torque| without_vanishing(dag, torque));
         cheaper(dag, lean, plain)
     };
     let rigid_torque = torque(dag, Terms::All);
@@ -60,7 +62,8 @@ pub fn compute(
             let choice = choice(model, values, Wanted::MassMatrix);
             let chain = LeanChain::new(dag, &chain, &choice).into_chain();
             let coriolis_matrix = cheaper_coriolis_matrix(dag, &chain, &derived);
-            (chain.mass_matrix(dag), coriolis_matrix)
+            let mass_matrix = chain.mass_matrix(dag).concat();
+            (rows(without_vanishing(dag, mass_matrix)), coriolis_matrix)
         }
         RigidBody::Lagrangian(lagrangian) => (lagrangian.mass_matrix, derived),
     };
@@ -94,18 +97,16 @@ fn cheaper_coriolis_matrix(
     chain: &Chain,
     derived: &[Vec<ExprId>],
 ) -> Vec<Vec<ExprId>> {
-    let dof = derived.len();
-    let mut composite = chain.coriolis_matrix(dag);
-    for (row, known) in composite.iter_mut().zip(derived) {
-        for (entry, &known) in row.iter_mut().zip(known) {
-            // What is a number needs no bodies.
-            if dag.as_constant(known).is_some() {
-                *entry = known;
-            }
-        }
-    }
-    let flat = cheaper(dag, derived.concat(), composite.concat());
-    flat.chunks(dof.max(1)).map(<[ExprId]>::to_vec).collect()
+    let composite = chain.coriolis_matrix(dag).concat();
+    let [derived, composite] =
+        [derived.concat(), composite].map(|matrix| without_vanishing(dag, matrix));
+    rows(cheaper(dag, derived, composite))
+}
+
+/// The rows of a square matrix.
+fn rows(matrix: Vec<ExprId>) -> Vec<Vec<ExprId>> {
+    let dof = matrix.len().isqrt().max(1);
+    matrix.chunks(dof).map(<[ExprId]>::to_vec).collect()
 }
 
 /// The regressor of the rigid body from the columns of its links, `[joint][parameter]`: the entries of `regressor` are replaced

@@ -22,6 +22,7 @@ mod lower;
 mod partial;
 mod point;
 mod rigid;
+mod vanishing;
 mod vector;
 
 use robot_model_spec::model::{Act, Model};
