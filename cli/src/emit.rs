@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model_codegen::emit;
-use robot_model_codegen::emit::rust::Extent;
+use robot_model_codegen::emit::{self, Extent};
 
 use crate::Error;
 use crate::output::{self, Files};
@@ -20,7 +19,7 @@ pub(crate) struct Emit {
     /// Language of the code.
     #[arg(long, value_enum)]
     lang: Language,
-    /// Folder to write to, made where it is missing; the file is called as the spec is.
+    /// Folder to write to, made where it is missing. A Rust file is called as the spec is, C files as the robot is.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Which functions.
@@ -53,6 +52,8 @@ impl From<Functions> for Extent {
 enum Language {
     /// Rust without `std`, for `include!`; needs the crate `robot-model`.
     Rust,
+    /// C99, a header and a source, which need nothing but libm; for C++ too.
+    C,
 }
 
 impl Emit {
@@ -67,16 +68,36 @@ impl Emit {
             }
             None => compiled,
         };
+        let extent = self.functions.into();
         let code = match self.lang {
-            Language::Rust => emit::rust::module_of(&compiled, self.functions.into()),
+            Language::Rust => vec![(
+                file_name(&self.spec),
+                emit::rust::module_of(&compiled, extent),
+            )],
+            Language::C => {
+                let code = emit::c::code_of(&compiled, extent);
+                let file = |extension: &str| PathBuf::from(format!("{}.{extension}", code.name));
+                vec![(file("h"), code.header), (file("c"), code.source)]
+            }
         };
-        let path = self.out.join(file_name(&self.spec));
-        fs::create_dir_all(&self.out).map_err(|error| Error::write(&path, &error))?;
+        self.write(&code)
+    }
+
+    /// All files, or none where one of them cannot be written.
+    fn write(&self, code: &[(PathBuf, String)]) -> Result<(), Error> {
         let inputs = std::iter::once(&self.spec).chain(&self.parameters);
-        Files::reading(inputs.map(PathBuf::as_path))
-            .claim(&path)?
-            .commit(code.as_bytes())?;
-        output::print(&format!("{}\n", path.display()))
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let mut claimed = Vec::new();
+        for (name, text) in code {
+            let path = self.out.join(name);
+            fs::create_dir_all(&self.out).map_err(|error| Error::write(&path, &error))?;
+            claimed.push((files.claim(&path)?, text, path));
+        }
+        for (file, text, path) in claimed {
+            file.commit(text.as_bytes())?;
+            output::print(&format!("{}\n", path.display()))?;
+        }
+        Ok(())
     }
 }
 

@@ -1,8 +1,8 @@
-//! The robot-model compiler: a checked model in, equations and specialized Rust out.
+//! The robot-model compiler: a checked model in, equations and specialized Rust or C out.
 //!
 //! ```text
 //! Model -derive-> Dynamics -linearize-> LinearForm -reduce-> BaseForm -compute-> Computed
-//!       -optimize-> programs (interpreter) | Rust (emit)
+//!       -optimize-> programs (interpreter) | Rust or C (emit)
 //! ```
 
 pub mod base;

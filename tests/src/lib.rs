@@ -2,6 +2,7 @@
 
 pub mod base_map;
 pub mod cases;
+pub mod compiler;
 pub mod emitted;
 pub mod evaluate;
 pub mod expression;

@@ -70,7 +70,7 @@ fn usage_is_code_two() {
     for arguments in [
         vec!["identify"],
         vec!["dance"],
-        vec!["emit", "x", "--out", ".", "--lang", "c"],
+        vec!["emit", "x", "--out", ".", "--lang", "fortran"],
         vec!["show", "x", "--what", "love"],
     ] {
         assert_eq!(folder.run(&arguments).code, Some(2), "{arguments:?}");

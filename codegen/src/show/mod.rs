@@ -15,7 +15,7 @@ use entries::{Entry, left};
 use polynomial::SignedTerm;
 
 use crate::compiled::Compiled;
-use crate::emit::rust::{self, body, names::Namer};
+use crate::emit::{self, names::Namer, schedule};
 use crate::expr::{Dag, ExprId, Names, Style};
 
 /// Lines longer than this are broken between terms.
@@ -276,7 +276,7 @@ fn zeros_once(zeros: &[&str], style: Style) -> String {
 fn with_intermediate_names(dag: &Dag, entries: &[Entry], names: &Names, style: Style) -> String {
     let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.value).collect();
     let order = dag.reachable(&outputs);
-    let named = body::named_expressions(dag, &order, &outputs);
+    let named = schedule::named_expressions(dag, &order, &outputs);
     let mut namer = Namer::new(dag, names);
     let mut given: HashMap<ExprId, String> = HashMap::new();
     let mut text = String::new();
@@ -363,7 +363,7 @@ fn base_parameters(compiled: &Compiled, style: Style) -> String {
 fn cost(compiled: &Compiled, style: Style) -> String {
     let comment = if style == Style::Latex { "% " } else { "" };
     let mut text = String::new();
-    for (name, cost) in rust::costs(compiled) {
+    for (name, cost) in emit::costs(compiled) {
         let _ = writeln!(text, "{comment}cost   {name}: {cost}");
     }
     text

@@ -1,272 +1,199 @@
-//! One emitted function: signature, doc comment with its cost, statements, outputs last.
+//! One function in Rust: signature, doc comment with its cost, statements, outputs last.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::body::{self, Cost};
-use super::render::Binding;
-use crate::compiled::Compiled;
-use crate::expr::{Dag, ExprId, Names, Symbol};
-use crate::optimize::{Optimized, optimize};
+use super::super::function::{Equations, Function, Layout, Returns};
+use super::super::schedule::{Schedule, Temporary};
+use super::expression::Printer;
 
-/// A matrix with more columns is written entry by entry.
-const WIDEST_ROW: usize = 8;
-
-/// Arguments that a function has only where it reads them.
-const OPTIONAL: [&str; 6] = [
-    "rigid_torque",
-    "measured_torque",
-    "time",
-    "inputs",
-    "states",
-    "shapes",
-];
-
-/// What functions are made from.
-#[derive(Clone, Copy)]
-pub struct Context<'a> {
-    pub compiled: &'a Compiled,
-    pub names: &'a Names,
-    pub binding: &'a Binding<'a>,
-    pub dag: &'a Dag,
-    /// A paragraph for the doc comments; often none.
-    pub note: &'a str,
-}
-
-/// The function wanted.
-pub struct Task {
-    pub name: &'static str,
-    /// First paragraph of the doc comment.
-    pub doc: &'static str,
-    /// Arguments in order, separated by spaces; those of [`OPTIONAL`] are left out where they are not read.
-    pub arguments: &'static str,
-    /// Row by row.
-    pub outputs: Vec<ExprId>,
-    pub returns: Returns,
-}
-
-/// Shape of the result.
-#[derive(Clone)]
-pub enum Returns {
-    /// One entry a joint.
-    Vector,
-    /// Rows of this many columns.
-    Matrix(usize),
-    /// As many entries as there are outputs.
-    List,
-    /// A number.
-    Scalar,
-    /// Homogeneous matrices, one a joint.
-    Poses,
-    /// Matrices of this many rows and one column a joint.
-    Stack(usize),
-    /// Outputs are the slope of the torque by the accelerations row by row, then the torque: accelerations where these
-    /// equations have a solution.
-    Accelerations(Equations),
-    /// Outputs are the rates and their slopes, effect by effect: internal states after a step. `[k]` is how many states effect
-    /// `k` has.
-    Memory(Vec<usize>),
-}
-
-/// How accelerations are solved for.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub enum Equations {
-    /// The slope is a symmetric matrix, positive definite for physical parameters; the torque is that of `ddq = 0`.
-    Symmetric,
-    /// The slope is any matrix; the torque is that of `ddq = 0`.
-    General,
-    /// Slope and torque depend on `ddq`.
-    Nonlinear,
-}
-
-/// A function on the page.
-pub struct Function {
-    pub name: &'static str,
-    pub item: TokenStream,
-    pub cost: Cost,
-    /// The arguments that it has.
-    pub arguments: Vec<&'static str>,
-}
-
-impl Context<'_> {
-    pub fn function(&self, task: &Task) -> Function {
-        let Optimized { dag, outputs } = optimize(self.dag, &task.outputs);
-        let body = body::body(&dag, self.names, self.binding, &outputs);
-        let reads = |argument: &str| {
-            let mut symbols = body.symbols.iter();
-            let is_read_outside = match task.returns {
-                Returns::Accelerations(_) => argument == "tau",
-                Returns::Memory(_) => matches!(argument, "states" | "seconds"),
-                _ => false,
-            };
-            is_read_outside || symbols.any(|&symbol| argument_of(symbol, task) == argument)
+/// The function.
+pub fn item(function: &Function) -> TokenStream {
+    let printer = Printer::of_scalars();
+    let mut statements = statements(&printer, &function.schedule);
+    let outputs = function.schedule.outputs.iter();
+    let outputs: Vec<TokenStream> = outputs.map(|output| printer.tokens(output)).collect();
+    let (kind, mut result) = result(function, &outputs);
+    if let Returns::Accelerations(Equations::Nonlinear) = function.returns {
+        let dof = count(function.sizes[0]);
+        result = quote!(::robot_model::solve::newton(|ddq: &[S; #dof]| { #statements #result }));
+        statements = quote!();
+    }
+    let parameters = function.arguments.iter().map(|argument| {
+        let name = if argument.is_read {
+            argument.name.to_owned()
+        } else {
+            format!("_{}", argument.name)
         };
-        let optional = |argument: &str| OPTIONAL.contains(&argument);
-        let arguments: Vec<&'static str> = task
-            .arguments
-            .split(' ')
-            .filter(|argument| !optional(argument) || reads(argument))
-            .filter(|&argument| argument != "beta" || self.compiled.baked.is_none())
-            .collect();
-        let parameters = arguments.iter().map(|&argument| {
-            let name = if reads(argument) {
-                argument.to_owned()
-            } else {
-                format!("_{argument}")
-            };
-            let name = Ident::new(&name, Span::call_site());
-            if let Some(length) = self.length(argument) {
-                quote!(#name: &[S; #length])
-            } else {
-                // Seconds are those of a clock, whatever the arm computes with.
-                let kind = if argument == "seconds" {
-                    quote!(f64)
-                } else {
-                    quote!(S)
-                };
-                quote!(#name: #kind)
-            }
-        });
-        let name = Ident::new(task.name, Span::call_site());
-        let doc = format!(" {}", task.doc);
-        let note = (!self.note.is_empty()).then(|| {
-            let note = format!(" {}", self.note);
-            quote!(#[doc = #note] #[doc = ""])
-        });
-        let cost = format!(" Cost: {}.", body.cost);
-        let statements = &body.statements;
-        let (kind, result) = self.result(task, &body.outputs);
-        let (statements, result) = match &task.returns {
-            Returns::Accelerations(Equations::Nonlinear) => {
-                let length = self.length("ddq");
-                let inside = quote!(::robot_model::solve::newton(|ddq: &[S; #length]| { #statements #result }));
-                (quote!(), inside)
-            }
-            _ => (quote!(#statements), result),
-        };
-        // Clippy counts to seven; what a torque depends on is not fewer things for that.
-        let many = (arguments.len() > 7).then(
-            || quote!(#[allow(clippy::too_many_arguments, reason = "all that the equations read")]),
-        );
-        // The sine of 45 degrees is not what somebody meant by `FRAC_1_SQRT_2`.
-        let exact = body
-            .has_famous_numbers
-            .then(|| quote!(#[allow(clippy::approx_constant, reason = "the spec's numbers")]));
-        let item = quote! {
-            #[doc = #doc]
-            #[doc = ""]
-            #note
-            #[doc = #cost]
-            #many
-            #exact
-            #[must_use]
-            pub fn #name<S: ::robot_model::Scalar>(#(#parameters),*) -> #kind {
-                #statements
-                #result
-            }
-        };
-        Function {
-            name: task.name,
-            item,
-            cost: body.cost,
-            arguments,
+        let name = Ident::new(&name, Span::call_site());
+        if let Some(length) = argument.length {
+            let length = count(length);
+            quote!(#name: &[S; #length])
+        } else if argument.name == "seconds" {
+            // Seconds are those of a clock, whatever the arm computes with.
+            quote!(#name: f64)
+        } else {
+            quote!(#name: S)
+        }
+    });
+    let name = Ident::new(function.name, Span::call_site());
+    let doc = function.doc.iter().enumerate().map(|(k, paragraph)| {
+        let before = (k > 0).then(|| quote!(#[doc = ""]));
+        let paragraph = format!(" {}", paragraph.replace("{none}", "`None`"));
+        quote!(#before #[doc = #paragraph])
+    });
+    // Clippy counts to seven; what a torque depends on is not fewer things for that.
+    let many = (function.arguments.len() > 7).then(
+        || quote!(#[allow(clippy::too_many_arguments, reason = "all that the equations read")]),
+    );
+    // The sine of 45 degrees is not what somebody meant by `FRAC_1_SQRT_2`.
+    let exact = printer
+        .has_famous_numbers()
+        .then(|| quote!(#[allow(clippy::approx_constant, reason = "the spec's numbers")]));
+    quote! {
+        #(#doc)*
+        #many
+        #exact
+        #[must_use]
+        pub fn #name<S: ::robot_model::Scalar>(#(#parameters),*) -> #kind {
+            #statements
+            #result
         }
     }
+}
 
-    /// Entries of an argument; `None` for a scalar.
-    fn length(&self, argument: &str) -> Option<Literal> {
-        let length = match argument {
-            "time" | "seconds" => return None,
-            "beta" => self.compiled.base.kept.len(),
-            "standard" => self.compiled.standard.len(),
-            "shapes" => self.compiled.free_shapes().len(),
-            "inputs" => self.compiled.model.inputs().len(),
-            "states" => self.compiled.model.states().len(),
-            _ => self.compiled.dof(),
-        };
-        Some(Literal::usize_unsuffixed(length))
-    }
+fn count(n: usize) -> Literal {
+    Literal::usize_unsuffixed(n)
+}
 
-    /// The return type and the expression that makes the result.
-    fn result(&self, task: &Task, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
-        let dof = self.compiled.dof();
-        let rows = match &task.returns {
-            // Without columns there are rows all the same.
-            Returns::Matrix(0) => dof,
-            Returns::Matrix(columns) => outputs.len() / columns,
-            Returns::Memory(counts) => counts.iter().sum(),
-            _ => dof,
-        };
-        let rows = Literal::usize_unsuffixed(rows);
-        match &task.returns {
-            Returns::Memory(counts) => (quote!([S; #rows]), after_step(counts, outputs)),
-            Returns::Scalar => (quote!(S), quote!(#(#outputs)*)),
-            Returns::Poses => stack(outputs, 4, 4),
-            Returns::Stack(rows) => stack(outputs, *rows, dof),
-            Returns::Accelerations(equations) => {
-                let (slope, torque) = outputs.split_at(dof * dof);
-                let slope = slope.chunks(dof.max(1)).map(|row| quote!([#(#row),*]));
-                let rest = torque.iter().enumerate().map(|(joint, torque)| {
-                    let k = Literal::usize_unsuffixed(joint);
-                    if self.dag.is_zero(task.outputs[dof * dof + joint]) {
-                        quote!(tau[#k])
-                    } else {
-                        quote!(tau[#k] - (#torque))
-                    }
-                });
-                let (slope, rest) = (quote!([#(#slope),*]), quote!([#(#rest),*]));
-                let result = match equations {
-                    Equations::Symmetric => {
-                        quote!(::robot_model::solve::positive_definite(&#slope, &#rest))
-                    }
-                    Equations::General => quote!(::robot_model::solve::general(&#slope, &#rest)),
-                    Equations::Nonlinear => quote!((#slope, #rest)),
-                };
-                (quote!(Option<[S; #rows]>), result)
-            }
-            Returns::Vector => (quote!([S; #rows]), quote!([#(#outputs),*])),
-            Returns::List => {
-                let length = Literal::usize_unsuffixed(outputs.len());
-                (quote!([S; #length]), quote!([#(#outputs),*]))
-            }
-            Returns::Matrix(0) => (quote!([[S; 0]; #rows]), quote!([[]; #rows])),
-            Returns::Matrix(columns) if *columns <= WIDEST_ROW => {
-                let width = Literal::usize_unsuffixed(*columns);
-                let rows_of_entries = outputs.chunks(*columns).map(|row| quote!([#(#row),*]));
-                (
-                    quote!([[S; #width]; #rows]),
-                    quote!([#(#rows_of_entries),*]),
-                )
-            }
-            Returns::Matrix(columns) => {
-                let width = Literal::usize_unsuffixed(*columns);
-                let entries = (0..)
-                    .zip(outputs)
-                    .filter(|&(k, _)| !self.dag.is_zero(task.outputs[k]))
-                    .map(|(k, entry)| {
-                        let (row, column) = (k / columns, k % columns);
-                        let (row, column) = (
-                            Literal::usize_unsuffixed(row),
-                            Literal::usize_unsuffixed(column),
-                        );
-                        quote!(y[#row][#column] = #entry;)
-                    });
-                if outputs
-                    .iter()
-                    .zip(&task.outputs)
-                    .all(|(_, &entry)| self.dag.is_zero(entry))
-                {
-                    return (
-                        quote!([[S; #width]; #rows]),
-                        quote!([[S::of(0.0); #width]; #rows]),
-                    );
-                }
-                (
-                    quote!([[S; #width]; #rows]),
-                    quote!(let mut y = [[S::of(0.0); #width]; #rows]; #(#entries)* y),
-                )
-            }
+/// `let` statements under their section comments.
+fn statements(printer: &Printer, schedule: &Schedule) -> TokenStream {
+    let temporaries = |list: &[Temporary]| -> TokenStream {
+        let list = list.iter().map(|temporary| {
+            let name = Ident::new(&temporary.name, Span::call_site());
+            let value = printer.tokens(&temporary.value);
+            quote!(let #name = #value;)
+        });
+        list.collect()
+    };
+    let section = |title: &str, statements: TokenStream| {
+        if statements.is_empty() {
+            quote!()
+        } else {
+            quote!(__comment!(#title); #statements __blank!();)
         }
+    };
+    let mut trigonometry = temporaries(&schedule.sums);
+    trigonometry.extend(sines_cosines(printer, schedule));
+    let trigonometry = section("Trigonometry.", trigonometry);
+    let shared = section("Shared terms.", temporaries(&schedule.shared));
+    quote!(#trigonometry #shared)
+}
+
+/// `let [sines, cosines] = S::sines_cosines([q[0], q[1]]); let [sin_q1, sin_q2] = sines; let [cos_q1, _] = cosines;`
+fn sines_cosines(printer: &Printer, schedule: &Schedule) -> Option<TokenStream> {
+    let angles = &schedule.angles;
+    if angles.is_empty() {
+        return None;
+    }
+    let (mut rows, mut entries) = (Vec::new(), TokenStream::new());
+    let sines: Vec<_> = angles.iter().map(|angle| angle.sine.as_ref()).collect();
+    let cosines: Vec<_> = angles.iter().map(|angle| angle.cosine.as_ref()).collect();
+    for (row, names) in [("sines", sines), ("cosines", cosines)] {
+        if names.iter().all(Option::is_none) {
+            rows.push(quote!(_));
+            continue;
+        }
+        let row = Ident::new(row, Span::call_site());
+        let names = names.into_iter().map(|name| {
+            name.map_or_else(
+                || quote!(_),
+                |name| {
+                    let name = Ident::new(name, Span::call_site());
+                    quote!(#name)
+                },
+            )
+        });
+        entries.extend(quote!(let [#(#names),*] = #row;));
+        rows.push(quote!(#row));
+    }
+    let values = angles.iter().map(|angle| printer.tokens(&angle.value));
+    Some(quote!(let [#(#rows),*] = S::sines_cosines([#(#values),*]); #entries))
+}
+
+/// The return type and the expression that makes the result.
+fn result(function: &Function, outputs: &[TokenStream]) -> (TokenStream, TokenStream) {
+    let kind = function.sizes.iter().rev().fold(quote!(S), |kind, &size| {
+        let size = count(size);
+        quote!([#kind; #size])
+    });
+    match &function.returns {
+        Returns::Memory(counts) => (kind, after_step(counts, outputs)),
+        Returns::Accelerations(equations) => {
+            let result = accelerations(function, *equations, outputs);
+            (quote!(Option<#kind>), result)
+        }
+        Returns::Matrix(0) => {
+            let rows = count(function.sizes[0]);
+            (kind, quote!([[]; #rows]))
+        }
+        _ if function.layout() == Layout::Sparse => {
+            let entries = sparse(function, outputs);
+            (kind, entries)
+        }
+        _ => (kind, nested(&function.sizes, outputs)),
+    }
+}
+
+/// `[[a, b], [c, d]]`
+fn nested(sizes: &[usize], outputs: &[TokenStream]) -> TokenStream {
+    let [size, inner @ ..] = sizes else {
+        return quote!(#(#outputs)*);
+    };
+    let parts = outputs.chunks((outputs.len() / size.max(&1)).max(1));
+    let parts = parts.map(|part| nested(inner, part));
+    quote!([#(#parts),*])
+}
+
+/// Zeros, and entries one by one.
+fn sparse(function: &Function, outputs: &[TokenStream]) -> TokenStream {
+    let (rows, columns) = (function.sizes[0], function.sizes[1]);
+    let (height, width) = (count(rows), count(columns));
+    let zeros = quote!([[S::of(0.0); #width]; #height]);
+    if function.is_zero.iter().all(|&is_zero| is_zero) {
+        return zeros;
+    }
+    let entries = outputs.iter().zip(&function.is_zero).enumerate();
+    let entries = entries.filter(|(_, (_, is_zero))| !**is_zero);
+    let entries = entries.map(|(k, (entry, _))| {
+        let (row, column) = (count(k / columns), count(k % columns));
+        quote!(y[#row][#column] = #entry;)
+    });
+    quote!(let mut y = #zeros; #(#entries)* y)
+}
+
+/// The equations solved for accelerations.
+fn accelerations(
+    function: &Function,
+    equations: Equations,
+    outputs: &[TokenStream],
+) -> TokenStream {
+    let dof = function.sizes[0];
+    let (slope, torque) = outputs.split_at(dof * dof);
+    let slope = nested(&[dof, dof], slope);
+    let rest = torque.iter().enumerate().map(|(joint, torque)| {
+        let k = count(joint);
+        if function.is_zero[dof * dof + joint] {
+            quote!(tau[#k])
+        } else {
+            quote!(tau[#k] - (#torque))
+        }
+    });
+    let rest = quote!([#(#rest),*]);
+    match equations {
+        Equations::Symmetric => quote!(::robot_model::solve::positive_definite(&#slope, &#rest)),
+        Equations::General => quote!(::robot_model::solve::general(&#slope, &#rest)),
+        Equations::Nonlinear => quote!((#slope, #rest)),
     }
 }
 
@@ -292,36 +219,4 @@ fn after_step(counts: &[usize], outputs: &[TokenStream]) -> TokenStream {
         (first, outputs) = (first + count, rest);
     }
     quote!(#steps [#(#all),*])
-}
-
-/// Matrices of the same size: their type, and their entries.
-fn stack(outputs: &[TokenStream], rows: usize, columns: usize) -> (TokenStream, TokenStream) {
-    let count = |n: usize| Literal::usize_unsuffixed(n);
-    let matrices = outputs.chunks((rows * columns).max(1)).map(|matrix| {
-        let rows = matrix.chunks(columns.max(1)).map(|row| quote!([#(#row),*]));
-        quote!([#(#rows),*])
-    });
-    let number = count(matrices.len());
-    let (rows, columns) = (count(rows), count(columns));
-    (
-        quote!([[[S; #columns]; #rows]; #number]),
-        quote!([#(#matrices),*]),
-    )
-}
-
-/// The argument that a symbol is read from.
-fn argument_of(symbol: Symbol, task: &Task) -> &'static str {
-    match symbol {
-        Symbol::Q(_) => "q",
-        Symbol::Dq(_) => "dq",
-        Symbol::Ddq(_) => "ddq",
-        Symbol::RigidTorque(_) => "rigid_torque",
-        Symbol::MeasuredTorque(_) => "measured_torque",
-        Symbol::Input(_) => "inputs",
-        Symbol::State(_) => "states",
-        Symbol::Time => "time",
-        Symbol::Parameter(_) if task.arguments.contains("standard") => "standard",
-        Symbol::Parameter(_) => "beta",
-        Symbol::Shape(_) => "shapes",
-    }
 }

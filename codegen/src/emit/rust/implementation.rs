@@ -6,12 +6,13 @@ mod parameters;
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use robot_model_spec::parameter::Status;
 
-use super::function::Function;
-use super::render::number;
+use super::super::Extent;
+use super::super::function::Function;
+use super::super::table::Table;
+use super::expression::number;
+use super::mechanics;
 use super::sizes::Sizes;
-use super::{Extent, mechanics};
 use crate::base;
 use crate::compiled::Compiled;
 pub use parameters::{From, Parameters};
@@ -104,22 +105,18 @@ fn constants(compiled: &Compiled, nominal_shapes: &[f64]) -> TokenStream {
         inputs,
         ..
     } = &sizes;
-    let input_names = compiled.model.inputs();
     let robot = &compiled.model.name;
-    let joints = compiled.model.joints.iter().map(|joint| &joint.name);
-    let standard_names = compiled.standard.iter().map(|parameter| &parameter.name);
-    let base_names = &compiled.base.names;
-    let all_shapes = compiled.shape_names();
-    let free = compiled.free_shapes();
-    let shape_names = free.iter().map(|&k| &all_shapes[k]);
-    let shape_values = free.iter().map(|&k| number(nominal_shapes[k]));
-    let nominal = compiled
-        .standard
-        .iter()
-        .map(|parameter| match parameter.status {
-            Status::Unknown => number(0.0),
-            Status::Nominal(value) | Status::Fixed(value) => number(value),
-        });
+    let table = Table::new(compiled, nominal_shapes);
+    let Table {
+        joints,
+        standard: standard_names,
+        base: base_names,
+        shapes: shape_names,
+        inputs: input_names,
+        ..
+    } = &table;
+    let nominal = table.nominal.iter().map(|&value| number(value));
+    let shape_values = table.nominal_shapes.iter().map(|&value| number(value));
     quote! {
         const NAME: &'static str = #robot;
         const JOINTS: [&'static str; #dof] = [#(#joints),*];
@@ -198,7 +195,7 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let motion = motion.iter().map(|argument| {
                 let ident = Ident::new(argument, Span::call_site());
                 // The free function has every argument of its motion, read or not.
-                debug_assert!(function.arguments.contains(argument));
+                debug_assert!(function.takes(argument));
                 quote!(#ident: &model::SVector<S, #dof>)
             });
             if is_matrix {
@@ -239,7 +236,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let call = call(functions, wanted, &Reads::state());
             let name = Ident::new(&format!("{wanted}_at"), Span::call_site());
             let columns = Literal::usize_unsuffixed(columns);
-            let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
+            let reads_shapes = find(functions, wanted).takes("shapes");
             let shapes = Ident::new(if reads_shapes { "shapes" } else { "_shapes" }, Span::call_site());
             quote! {
                 fn #name<S: ::robot_model::Scalar>(state: &#state, #shapes: &model::Vector<#shape_count>) -> model::SMatrix<S, #dof, #columns> {
@@ -314,6 +311,6 @@ pub fn call(functions: &[Function], wanted: &str, reads: &Reads) -> TokenStream 
     let arguments = function
         .arguments
         .iter()
-        .map(|argument| reads.argument(argument));
+        .map(|argument| reads.argument(argument.name));
     quote!(#name(#(#arguments),*))
 }

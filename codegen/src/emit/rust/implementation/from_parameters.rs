@@ -1,14 +1,13 @@
 //! `FromParameters`: an arm made from a vector of parameters.
 
-use proc_macro2::{Ident, Literal, Span, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
-use robot_model_spec::parameter::Status;
 
-use super::super::render::number;
+use super::super::super::functions::standard_of;
+use super::super::expression::Printer;
 use super::super::sizes::Sizes;
 use super::From;
 use crate::compiled::Compiled;
-use crate::right_inverse::right_inverse;
 
 /// The implementation for a type that implements `RobotModel`.
 pub fn implementation(compiled: &Compiled, name: &Ident, from: &From) -> TokenStream {
@@ -37,25 +36,15 @@ pub fn implementation(compiled: &Compiled, name: &Ident, from: &From) -> TokenSt
             __blank!();
         }
     });
-    let combinations = right_inverse(
-        &compiled.base.combinations,
-        &compiled.base.kept,
-        compiled.standard.len(),
-    );
     let beta = if compiled.base.kept.is_empty() {
         "_beta"
     } else {
         "beta"
     };
     let beta = Ident::new(beta, Span::call_site());
-    let entries = compiled
-        .standard
-        .iter()
-        .zip(&combinations)
-        .map(|(parameter, combination)| match parameter.status {
-            Status::Fixed(value) => number(value),
-            _ => in_beta(combination),
-        });
+    let printer = Printer::of_numbers();
+    let entries = standard_of(compiled);
+    let entries = entries.iter().map(|entry| printer.tokens(entry));
     quote! {
         __blank!();
         impl model::FromParameters #arguments for #name {
@@ -69,26 +58,4 @@ pub fn implementation(compiled: &Compiled, name: &Ident, from: &From) -> TokenSt
             }
         }
     }
-}
-
-/// `beta[0] - 0.5 * beta[3]`
-fn in_beta(combination: &[(usize, f64)]) -> TokenStream {
-    let mut sum = TokenStream::new();
-    for &(j, coefficient) in combination {
-        let j = Literal::usize_unsuffixed(j);
-        let size = number(coefficient.abs());
-        let is_one = coefficient.abs().to_bits() == 1.0f64.to_bits();
-        let term = if is_one {
-            quote!(beta[#j])
-        } else {
-            quote!(#size * beta[#j])
-        };
-        sum = match (sum.is_empty(), coefficient < 0.0) {
-            (true, false) => term,
-            (true, true) => quote!(-#term),
-            (false, false) => quote!(#sum + #term),
-            (false, true) => quote!(#sum - #term),
-        };
-    }
-    if sum.is_empty() { number(0.0) } else { sum }
 }

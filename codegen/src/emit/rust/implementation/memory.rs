@@ -3,7 +3,7 @@
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::super::function::Function;
+use super::super::super::function::Function;
 use super::super::sizes::Sizes;
 use super::{Reads, call, find};
 use crate::compiled::Compiled;
@@ -23,7 +23,7 @@ pub fn implementation(
     let (states, shapes) = (&sizes.states, &sizes.shapes);
     let rates = call(functions, "state_rates", &Reads::state());
     let after = call(functions, "memory_after", &Reads::value(quote!(state.)));
-    let reads = |argument| find(functions, "state_rates").arguments.contains(&argument);
+    let reads = |argument| find(functions, "state_rates").takes(argument);
     let given_shapes = if reads("shapes") {
         quote!(shapes)
     } else {

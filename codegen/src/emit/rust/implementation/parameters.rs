@@ -2,12 +2,11 @@
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
-use robot_model_spec::parameter::Status;
 
-use super::super::render::number;
+use super::super::super::functions::its_standard;
+use super::super::expression::number;
 use super::super::sizes::Sizes;
 use crate::compiled::Compiled;
-use crate::right_inverse::right_inverse;
 
 /// How a value of the robot's type holds its parameters.
 pub struct Parameters {
@@ -41,16 +40,7 @@ pub fn one_arm(name: &Ident) -> TokenStream {
 }
 
 pub fn its_own(compiled: &Compiled, beta: &[f64]) -> Parameters {
-    let combinations = right_inverse(
-        &compiled.base.combinations,
-        &compiled.base.kept,
-        compiled.standard.len(),
-    );
-    let standard = compiled.standard.iter().zip(&combinations);
-    let standard = standard.map(|(parameter, combination)| match parameter.status {
-        Status::Fixed(value) => number(value),
-        _ => number(combination.iter().map(|&(k, share)| share * beta[k]).sum()),
-    });
+    let standard = its_standard(compiled, beta).into_iter().map(number);
     let beta = beta.iter().map(|&value| number(value));
     Parameters {
         standard: quote!([#(#standard),*].into()),

@@ -1,4 +1,4 @@
-//! The one owner of identifiers in emitted Rust: a temporary is named by its meaning where it has a short one.
+//! The one owner of identifiers in emitted code: a temporary is named by its meaning where it has a short one.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 16] = [
+const RESERVED: [&str; 25] = [
     "q",
     "dq",
     "ddq",
@@ -22,10 +22,41 @@ const RESERVED: [&str; 16] = [
     "measured_torque",
     "inputs",
     "states",
-    "out",
     "seconds",
+    // What is made on the way to a result, and results that have names.
+    "angles",
     "sines",
     "cosines",
+    "slope",
+    "slopes",
+    "change",
+    "step",
+    "rates",
+    "states_after",
+    "positions",
+    "poses",
+    "out",
+];
+/// Words of C and C++ that a name of several words could be.
+const WORDS: [&str; 18] = [
+    "and_eq",
+    "or_eq",
+    "not_eq",
+    "xor_eq",
+    "char8_t",
+    "char16_t",
+    "char32_t",
+    "wchar_t",
+    "float_t",
+    "double_t",
+    "const_cast",
+    "static_cast",
+    "dynamic_cast",
+    "reinterpret_cast",
+    "static_assert",
+    "thread_local",
+    "co_await",
+    "co_yield",
 ];
 
 /// Gives identifiers to the temporaries of one function.
@@ -41,10 +72,8 @@ pub struct Namer<'a> {
 impl<'a> Namer<'a> {
     /// A namer with nothing but the arguments taken.
     pub fn new(dag: &'a Dag, names: &'a Names) -> Self {
-        let taken = RESERVED
-            .iter()
-            .map(|name| ((*name).to_owned(), 1))
-            .collect();
+        let taken = RESERVED.iter().chain(&WORDS);
+        let taken = taken.map(|name| ((*name).to_owned(), 1)).collect();
         Self {
             dag,
             names,
@@ -173,5 +202,54 @@ pub fn identifier(name: &str) -> String {
         format!("{text}_")
     } else {
         text
+    }
+}
+
+/// A robot's name in snake case, to stand before the names of its functions: `puma560` of `Puma560`, `two_link` of `TwoLink`.
+pub fn robot_prefix(name: &str) -> String {
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = String::new();
+    for (k, c) in letters.iter().enumerate() {
+        let before = k.checked_sub(1).map(|k| letters[k]);
+        let after = letters.get(k + 1);
+        let starts_a_word = c.is_ascii_uppercase()
+            && before.is_some_and(|before| {
+                before.is_ascii_lowercase()
+                    || before.is_ascii_uppercase() && after.is_some_and(char::is_ascii_lowercase)
+            });
+        if starts_a_word || !c.is_ascii_alphanumeric() {
+            words.push('_');
+        }
+        if c.is_ascii_alphanumeric() {
+            words.push(c.to_ascii_lowercase());
+        }
+    }
+    let words: Vec<&str> = words.split('_').filter(|word| !word.is_empty()).collect();
+    let words = words.join("_");
+    if words.starts_with(|c: char| c.is_ascii_lowercase()) {
+        words
+    } else {
+        // Letters of other alphabets are left out.
+        format!("arm{words}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::robot_prefix;
+
+    #[test]
+    fn robots_have_names_in_snake_case() {
+        for (name, wanted) in [
+            ("Puma560", "puma560"),
+            ("TwoLink", "two_link"),
+            ("UR10e", "ur10e"),
+            ("LBRiiwa", "lb_riiwa"),
+            ("Tx40", "tx40"),
+            ("Ärm", "rm"),
+            ("Æ7", "arm7"),
+        ] {
+            assert_eq!(robot_prefix(name), wanted, "{name}");
+        }
     }
 }

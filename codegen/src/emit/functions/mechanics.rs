@@ -1,11 +1,7 @@
 //! The functions beside torque and its regressor: energies, momentum, forward dynamics, slopes, kinematics.
 
-mod implementation;
-
-use super::function::{Context, Equations, Function, Returns, Task};
+use super::super::function::{Context, Equations, Function, Returns, Task};
 use crate::expr::{ExprId, Symbol};
-
-pub use implementation::implementations;
 
 /// These functions, in the order of the page.
 pub fn functions(context: &Context<'_>) -> Vec<Function> {
@@ -24,6 +20,7 @@ fn energies(context: &Context<'_>) -> Vec<Function> {
             name: "kinetic_energy",
             doc: "Kinetic energy of the rigid body, `1/2 dq^T M dq`, J.",
             arguments: "q dq beta shapes",
+            result: "",
             outputs: vec![energies.kinetic],
             returns: Returns::Scalar,
         },
@@ -31,6 +28,7 @@ fn energies(context: &Context<'_>) -> Vec<Function> {
             name: "potential_energy",
             doc: "Potential energy of the rigid body, J, up to a constant: `G` is its gradient.",
             arguments: "q beta shapes",
+            result: "",
             outputs: vec![energies.potential],
             returns: Returns::Scalar,
         },
@@ -52,6 +50,7 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
             name: "momentum_regressor",
             doc: "Momentum regressor `Y_p(q, dq)`: `tau = d/dt (Y_p * standard) - Y_h * standard`.",
             arguments: "q dq measured_torque time inputs states shapes",
+            result: "Y_p",
             outputs: form.momentum.concat(),
             returns: Returns::Matrix(standard),
         },
@@ -59,6 +58,7 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
             name: "drift_regressor",
             doc: "Drift regressor `Y_h(q, dq)`: what changes the momentum beside the torque, `C^T dq - G` less effects.",
             arguments: "q dq measured_torque time inputs states shapes",
+            result: "Y_h",
             outputs: form.drift.concat(),
             returns: Returns::Matrix(standard),
         },
@@ -67,6 +67,7 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
             doc: "Momentum regressor of the base parameters: `tau = d/dt (Y_p * beta) - Y_h * beta`, besides what the spec \
                   fixes.",
             arguments: "q dq measured_torque time inputs states shapes",
+            result: "Y_p",
             outputs: kept(&compiled.base_momentum.momentum),
             returns: Returns::Matrix(base),
         },
@@ -74,6 +75,7 @@ fn momentum(context: &Context<'_>) -> Vec<Function> {
             name: "base_drift_regressor",
             doc: "Drift regressor of the base parameters.",
             arguments: "q dq measured_torque time inputs states shapes",
+            result: "Y_h",
             outputs: kept(&compiled.base_momentum.drift),
             returns: Returns::Matrix(base),
         },
@@ -122,8 +124,9 @@ fn forward_dynamics(context: &Context<'_>) -> Function {
     context.function(&Task {
         name: "forward_dynamics",
         doc: "Accelerations that `tau` gives, rad/s^2 (m/s^2 for prismatic joints): solves the inverse dynamics for `ddq`. \
-              `None` where the inertia is singular, or not positive definite, which no physical `beta` gives.",
+              {none} where the inertia is singular, or not positive definite, which no physical `beta` gives.",
         arguments: "q dq tau measured_torque time inputs states beta shapes",
+        result: "ddq",
         outputs: [slope, torque].concat(),
         returns: Returns::Accelerations(equations),
     })
@@ -136,6 +139,7 @@ fn slopes(context: &Context<'_>) -> Vec<Function> {
             name: "inverse_dynamics_by_position",
             doc: "Slope of the inverse dynamics by positions, `[i][j] = d tau_i / d q_j`, effects included; jumps have none.",
             arguments: "q dq ddq measured_torque time inputs states beta shapes",
+            result: "slope",
             outputs: compiled.partials.by_position.concat(),
             returns: Returns::Matrix(dof),
         },
@@ -143,6 +147,7 @@ fn slopes(context: &Context<'_>) -> Vec<Function> {
             name: "inverse_dynamics_by_velocity",
             doc: "Slope of the inverse dynamics by velocities, `[i][j] = d tau_i / d dq_j`, effects included; jumps have none.",
             arguments: "q dq ddq measured_torque time inputs states beta shapes",
+            result: "slope",
             outputs: compiled.partials.by_velocity.concat(),
             returns: Returns::Matrix(dof),
         },
@@ -170,6 +175,7 @@ fn kinematics(context: &Context<'_>) -> Vec<Function> {
             name: "forward_kinematics",
             doc: "Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.",
             arguments: "q shapes",
+            result: "poses",
             outputs: poses,
             returns: Returns::Poses,
         },
@@ -178,6 +184,7 @@ fn kinematics(context: &Context<'_>) -> Vec<Function> {
             doc: "Geometric Jacobian of the tip, the origin of the last link's frame, in base coordinates: `jacobian * dq` is its \
                   velocity, then its angular velocity.",
             arguments: "q shapes",
+            result: "J",
             outputs: kinematics.jacobian.concat(),
             returns: Returns::Matrix(compiled.dof()),
         },
@@ -196,6 +203,7 @@ fn points(context: &Context<'_>) -> Vec<Function> {
             name: "points",
             doc: "Positions of the points that the spec names, in the base frame, m.",
             arguments: "q shapes",
+            result: "positions",
             outputs: points.iter().flat_map(|point| point.position).collect(),
             returns: Returns::Matrix(3),
         },
@@ -203,6 +211,7 @@ fn points(context: &Context<'_>) -> Vec<Function> {
             name: "point_jacobians",
             doc: "Slopes of the points' positions: `[k] * dq` is the velocity of point `k`.",
             arguments: "q shapes",
+            result: "slopes",
             outputs: points
                 .iter()
                 .flat_map(|point| point.jacobian.concat())

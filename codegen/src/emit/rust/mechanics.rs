@@ -4,8 +4,8 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
 use super::super::function::Function;
-use super::super::implementation::{Reads, call, find};
-use super::super::sizes::Sizes;
+use super::implementation::{Reads, call, find};
+use super::sizes::Sizes;
 use crate::compiled::Compiled;
 
 /// The implementations for a type that implements `RobotModel`, with the runtime's conversions in scope.
@@ -74,7 +74,7 @@ fn regressors(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             let call = call(functions, wanted, &Reads::state());
             let name = format_ident!("{wanted}_at");
             let columns = Literal::usize_unsuffixed(columns);
-            let reads_shapes = find(functions, wanted).arguments.contains(&"shapes");
+            let reads_shapes = find(functions, wanted).takes("shapes");
             let shapes = if reads_shapes { "shapes" } else { "_shapes" };
             let shapes = Ident::new(shapes, Span::call_site());
             quote! {

@@ -1,0 +1,301 @@
+//! One function in C: its declaration under its doc comment, its definition.
+
+use super::super::function::{Argument, Equations, Function, Layout, Returns};
+use super::super::header::{comment, wrapped};
+use super::super::schedule::{Schedule, Temporary};
+use super::expression::{self, TIGHT};
+
+/// Width of the lines.
+const WIDTH: usize = 100;
+/// A level of indentation.
+const INDENT: usize = 4;
+/// Most steps of Newton's method: each ends in another piece of a piecewise linear torque, and joints have few.
+const STEPS: usize = 20;
+
+/// Whether there is something to compute: C knows no empty arrays.
+pub fn has_result(function: &Function) -> bool {
+    !function.sizes.contains(&0)
+}
+
+/// The declaration with its doc comment.
+pub fn declaration(function: &Function, prefix: &str) -> String {
+    let mut text = doc(function.doc.iter().map(String::as_str));
+    if let Returns::Accelerations(_) = function.returns {
+        text.push_str("///\n");
+        text.push_str(&doc([
+            "Returns 1, or 0 where there is no solution; `ddq` is of no use then.",
+        ]));
+    }
+    text + &signature(function, prefix) + ";\n"
+}
+
+/// A doc comment.
+pub fn doc<'a>(paragraphs: impl IntoIterator<Item = &'a str>) -> String {
+    let paragraphs = paragraphs.into_iter().map(|paragraph| {
+        let lines = wrapped(&paragraph.replace("{none}", "0"), WIDTH - 4);
+        comment("/// ", &lines)
+    });
+    paragraphs.collect::<Vec<_>>().join("///\n")
+}
+
+fn signature(function: &Function, prefix: &str) -> String {
+    let kind = match (&function.returns, &function.sizes[..]) {
+        (Returns::Accelerations(_), _) => "int",
+        (_, []) => "double",
+        _ => "void",
+    };
+    let parameter = |argument: &Argument| {
+        let name = argument.name;
+        match argument.length {
+            Some(0) => None,
+            Some(length) => Some(format!("const{TIGHT}double{TIGHT}{name}[{length}]")),
+            None => Some(format!("double{TIGHT}{name}")),
+        }
+    };
+    let mut parameters: Vec<String> = function.arguments.iter().filter_map(parameter).collect();
+    if !function.sizes.is_empty() {
+        let sizes = function.sizes.iter().map(|size| format!("[{size}]"));
+        let sizes = sizes.collect::<String>();
+        parameters.push(format!("double{TIGHT}{}{sizes}", function.result));
+    }
+    if parameters.is_empty() {
+        parameters.push("void".to_owned());
+    }
+    let name = function.name;
+    let text = format!("{kind}{TIGHT}{prefix}_{name}({})", parameters.join(", "));
+    statement(0, &text).trim_end().to_owned()
+}
+
+/// A line of code, broken where it is too long.
+fn statement(level: usize, text: &str) -> String {
+    let indent = INDENT * level;
+    let lines = wrapped(text, WIDTH - indent - INDENT).into_iter();
+    let lines = lines.enumerate().map(|(k, line)| {
+        let indent = if k == 0 { indent } else { indent + INDENT };
+        format!("{:indent$}{line}\n", "")
+    });
+    lines.collect::<String>().replace(TIGHT, " ")
+}
+
+/// The definition.
+pub fn definition(function: &Function, prefix: &str) -> String {
+    let mut lines = Lines {
+        text: signature(function, prefix) + " {\n",
+        level: 1,
+        prefix,
+    };
+    let unread = function.arguments.iter();
+    let unread = unread.filter(|argument| !argument.is_read && argument.length != Some(0));
+    for argument in unread {
+        lines.push(&format!("(void){};", argument.name));
+    }
+    lines.results(function);
+    lines.text + "}\n"
+}
+
+/// The lines of a function.
+struct Lines<'a> {
+    text: String,
+    level: usize,
+    prefix: &'a str,
+}
+
+impl Lines<'_> {
+    fn push(&mut self, line: &str) {
+        self.text.push_str(&statement(self.level, line));
+    }
+
+    /// `for (int k = 0; k < 3; ++k) {`
+    fn open(&mut self, head: &str) {
+        self.push(&format!("{} {{", head.replace(' ', &TIGHT.to_string())));
+        self.level += 1;
+    }
+
+    fn close(&mut self) {
+        self.level -= 1;
+        self.push("}");
+    }
+
+    fn temporaries(&mut self, list: &[Temporary]) {
+        for Temporary { name, value } in list {
+            let value = expression::text(value, self.prefix);
+            self.push(&format!("const{TIGHT}double{TIGHT}{name}{TIGHT}= {value};"));
+        }
+    }
+
+    /// What comes before the outputs, under its section comments.
+    fn statements(&mut self, schedule: &Schedule) {
+        if !(schedule.sums.is_empty() && schedule.angles.is_empty()) {
+            self.push("// Trigonometry.");
+            self.temporaries(&schedule.sums);
+            self.sines_cosines(schedule);
+            self.text.push('\n');
+        }
+        if !schedule.shared.is_empty() {
+            self.push("// Shared terms.");
+            self.temporaries(&schedule.shared);
+            self.text.push('\n');
+        }
+    }
+
+    fn sines_cosines(&mut self, schedule: &Schedule) {
+        let (angles, prefix) = (&schedule.angles, self.prefix);
+        let count = angles.len();
+        if count == 0 {
+            return;
+        }
+        let values = angles.iter();
+        let values = values.map(|angle| expression::text(&angle.value, prefix));
+        let values = values.collect::<Vec<_>>().join(", ");
+        self.push(&format!(
+            "const{TIGHT}double{TIGHT}angles[{count}] = {{{values}}};"
+        ));
+        self.push(&format!("double{TIGHT}sines[{count}];"));
+        self.push(&format!("double{TIGHT}cosines[{count}];"));
+        self.push(&format!(
+            "{prefix}_sines_cosines({count}, angles, sines, cosines);"
+        ));
+        for (k, angle) in angles.iter().enumerate() {
+            for (name, row) in [(&angle.sine, "sines"), (&angle.cosine, "cosines")] {
+                if let Some(name) = name {
+                    self.push(&format!(
+                        "const{TIGHT}double{TIGHT}{name}{TIGHT}= {row}[{k}];"
+                    ));
+                }
+            }
+        }
+    }
+
+    /// Statements, and results written last.
+    fn results(&mut self, function: &Function) {
+        let schedule = &function.schedule;
+        if let Returns::Accelerations(Equations::Nonlinear) = function.returns {
+            return self.newton(function);
+        }
+        self.statements(schedule);
+        match &function.returns {
+            Returns::Accelerations(equations) => {
+                self.equations(function, "ddq");
+                let solver = match equations {
+                    Equations::Symmetric => "positive_definite",
+                    _ => "general",
+                };
+                let prefix = self.prefix;
+                self.push(&format!("return{TIGHT}{prefix}_{solver}(slope, ddq);"));
+            }
+            Returns::Memory(counts) => self.after_step(function, counts),
+            _ => self.entries(function),
+        }
+    }
+
+    /// Every entry, or zeros and then the others.
+    fn entries(&mut self, function: &Function) {
+        let outputs = &function.schedule.outputs;
+        let sizes = &function.sizes[..];
+        if sizes.is_empty() {
+            let value = expression::text(&outputs[0], self.prefix);
+            return self.push(&format!("return{TIGHT}{value};"));
+        }
+        let is_sparse = function.layout() == Layout::Sparse;
+        if let (true, [rows, columns]) = (is_sparse, sizes) {
+            self.open(&format!("for (int i = 0; i < {rows}; ++i)"));
+            self.open(&format!("for (int k = 0; k < {columns}; ++k)"));
+            self.push(&format!("{}[i][k] = 0.0;", function.result));
+            self.close();
+            self.close();
+        }
+        for (k, output) in outputs.iter().enumerate() {
+            if !(is_sparse && function.is_zero[k]) {
+                let place = format!("{}{}", function.result, indices(sizes, k));
+                self.set(&place, &expression::text(output, self.prefix));
+            }
+        }
+    }
+
+    fn set(&mut self, place: &str, value: &str) {
+        self.push(&format!("{place}{TIGHT}= {value};"));
+    }
+
+    /// `slope` and right-hand side of the equations of accelerations.
+    fn equations(&mut self, function: &Function, rest: &str) {
+        let dof = function.sizes[0];
+        let (slope, torque) = function.schedule.outputs.split_at(dof * dof);
+        self.push(&format!("double{TIGHT}slope[{dof}][{dof}];"));
+        for (k, entry) in slope.iter().enumerate() {
+            let entry = expression::text(entry, self.prefix);
+            self.set(&format!("slope{}", indices(&[dof, dof], k)), &entry);
+        }
+        for (k, torque) in torque.iter().enumerate() {
+            let torque = expression::text(torque, self.prefix);
+            let value = if function.is_zero[dof * dof + k] {
+                format!("tau[{k}]")
+            } else {
+                format!("tau[{k}] -{TIGHT}({torque})")
+            };
+            self.set(&format!("{rest}[{k}]"), &value);
+        }
+    }
+
+    /// Newton's method from accelerations of zero.
+    fn newton(&mut self, function: &Function) {
+        let (dof, prefix) = (function.sizes[0], self.prefix);
+        self.open(&format!("for (int k = 0; k < {dof}; ++k)"));
+        self.push("ddq[k] = 0.0;");
+        self.close();
+        self.open(&format!("for (int step = 0; step < {STEPS}; ++step)"));
+        self.statements(&function.schedule);
+        self.push(&format!("double{TIGHT}change[{dof}];"));
+        self.equations(function, "change");
+        self.open(&format!("if (!{prefix}_general(slope, change))"));
+        self.push("return 0;");
+        self.close();
+        self.open(&format!("if ({prefix}_settled(ddq, change))"));
+        self.push("return 1;");
+        self.close();
+        self.close();
+        self.push("return 0;");
+    }
+
+    /// States effect by effect. Those of one effect are read before they are written, and no other reads them: the result may
+    /// take the place of the states before.
+    fn after_step(&mut self, function: &Function, counts: &[usize]) {
+        let (result, prefix) = (function.result, self.prefix);
+        let outputs = function.schedule.outputs.iter();
+        let mut outputs = outputs.map(|output| expression::text(output, prefix));
+        let mut first = 0;
+        for &count in counts.iter().filter(|&&count| count > 0) {
+            let mut take = |n: usize| outputs.by_ref().take(n).collect::<Vec<_>>().join(", ");
+            let (rates, slopes) = (take(count), take(count * count));
+            if count == 1 {
+                self.push(&format!(
+                    "{result}[{first}] = {prefix}_after(states[{first}], seconds, {rates}, {slopes});"
+                ));
+            } else {
+                let all = count * count;
+                self.push(&format!(
+                    "const{TIGHT}double{TIGHT}rates{first}[{count}] = {{{rates}}};"
+                ));
+                self.push(&format!(
+                    "const{TIGHT}double{TIGHT}slopes{first}[{all}] = {{{slopes}}};"
+                ));
+                for k in first..first + count {
+                    self.push(&format!("{result}[{k}] = states[{k}];"));
+                }
+                self.push(&format!(
+                    "{prefix}_after_several({count}, seconds, rates{first}, slopes{first}, &{result}[{first}]);"
+                ));
+            }
+            first += count;
+        }
+    }
+}
+
+/// `[1][0]` of the entry at place `k`.
+fn indices(sizes: &[usize], k: usize) -> String {
+    let (mut rest, mut text) = (k, String::new());
+    for &size in sizes.iter().rev() {
+        text = format!("[{}]{text}", rest % size);
+        rest /= size;
+    }
+    text
+}
