@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use robot_model_codegen::base::shape_values;
-use robot_model_codegen::emit::rust;
+use robot_model_codegen::emit;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::model::{JointKind, Transform};
 use robot_model_spec::parameter::Status;
@@ -98,8 +98,8 @@ impl Arm {
 
     /// Operations of an emitted function.
     #[must_use]
-    pub fn cost(compiled: &Compiled, function: &str) -> rust::Cost {
-        let costs = rust::costs(compiled);
+    pub fn cost(compiled: &Compiled, function: &str) -> emit::Cost {
+        let costs = emit::costs(compiled);
         let found = costs.iter().find(|(name, _)| *name == function);
         found.map(|(_, cost)| *cost).unwrap_or_default()
     }

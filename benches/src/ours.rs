@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use robot_model_codegen::Compiled;
-use robot_model_codegen::emit::rust::{self, Extent};
+use robot_model_codegen::emit::{Extent, rust};
 
 use crate::arm::{Arm, FUNCTIONS, workspace};
 use crate::given;
