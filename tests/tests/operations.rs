@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use robot_model_codegen::base::shape_values;
 use robot_model_codegen::dynamics::Computed;
-use robot_model_codegen::emit;
+use robot_model_codegen::emit::rust;
 use robot_model_codegen::expr::{Dag, ExprId, Symbol};
 use robot_model_codegen::optimize::optimize;
 use robot_model_codegen::{Compiled, compile_model};
@@ -69,8 +69,8 @@ fn counts() {
     let mut table = String::new();
     for robot in ROBOTS {
         let compiled = bare(robot);
-        let costs = emit::costs(&compiled);
-        let mut line = |name: &str, form: &str, cost: emit::Cost| {
+        let costs = rust::costs(&compiled);
+        let mut line = |name: &str, form: &str, cost: rust::Cost| {
             let sum = cost.mul + cost.add;
             writeln!(table, "{robot:8} {name:16} {form:8} {sum:5} = {cost}").expect("a string");
         };
@@ -90,7 +90,7 @@ fn counts() {
 fn the_page_says_what_the_optimizer_counts() {
     let compiled = bare("puma560");
     for (name, outputs) in forms(&compiled.computed) {
-        let costs = emit::costs(&compiled);
+        let costs = rust::costs(&compiled);
         let (_, emitted) = costs.iter().find(|cost| cost.0 == name).expect("emitted");
         assert_eq!(*emitted, optimize(&compiled.dag, &outputs).cost(), "{name}");
     }

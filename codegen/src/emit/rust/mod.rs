@@ -13,9 +13,11 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 use super::functions::functions;
-use super::{Extent, header};
+use super::header;
 use crate::compiled::Compiled;
 
+/// What is the same in every language, for those who write only this one.
+pub use super::{Cost, Costs, Extent, costs};
 pub use expression::number;
 pub use implementation::{From, Parameters};
 
