@@ -124,3 +124,40 @@ fn baked_equations_have_the_values_of_the_arm() {
         }
     }
 }
+
+/// An arm of right angles with some lengths between them.
+fn chain(joints: usize) -> String {
+    let mut text = "robot Chain { gravity = [0, 0, -9.81]; convention = modified_dh;\n".to_owned();
+    for k in 0..joints {
+        let (a, alpha, d) = [
+            ("0", "0", "0.2"),
+            ("0.1", "-90", "0"),
+            ("0.3", "90", "0.15"),
+        ][k % 3];
+        writeln!(
+            text,
+            "joint j{k}: revolute {{ a = {a}; alpha = {alpha} deg; d = {d}; }}"
+        )
+        .expect("a string");
+    }
+    text + "}\n"
+}
+
+/// Recursion pays for each joint once, however many there are.
+#[test]
+fn inverse_dynamics_grows_with_the_number_of_joints() {
+    let counts = [5usize, 10, 20, 40].map(|joints| {
+        let model = robot_model_spec::load("chain", &chain(joints)).expect("a sound spec");
+        let compiled = compile_model(&model);
+        let cost = optimize(&compiled.dag, &compiled.computed.inverse_dynamics).cost();
+        (joints as f64, (cost.mul + cost.add) as f64)
+    });
+    let slopes: Vec<f64> = counts
+        .windows(2)
+        .map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0))
+        .collect();
+    for slope in &slopes {
+        // The pattern of lengths has a period of three joints, which the first interval does not hold evenly.
+        assert!((slope / slopes[0] - 1.0).abs() < 0.05, "{counts:?}");
+    }
+}

@@ -63,7 +63,7 @@ pub fn compute(
             let chain = LeanChain::new(dag, &chain, &choice).into_chain();
             let coriolis_matrix = cheaper_coriolis_matrix(dag, &chain, &derived);
             let mass_matrix = chain.mass_matrix(dag).concat();
-            (rows(without_vanishing(dag, mass_matrix)), coriolis_matrix)
+            (rows(&without_vanishing(dag, mass_matrix)), coriolis_matrix)
         }
         RigidBody::Lagrangian(lagrangian) => (lagrangian.mass_matrix, derived),
     };
@@ -100,11 +100,11 @@ fn cheaper_coriolis_matrix(
     let composite = chain.coriolis_matrix(dag).concat();
     let [derived, composite] =
         [derived.concat(), composite].map(|matrix| without_vanishing(dag, matrix));
-    rows(cheaper(dag, derived, composite))
+    rows(&cheaper(dag, derived, composite))
 }
 
 /// The rows of a square matrix.
-fn rows(matrix: Vec<ExprId>) -> Vec<Vec<ExprId>> {
+fn rows(matrix: &[ExprId]) -> Vec<Vec<ExprId>> {
     let dof = matrix.len().isqrt().max(1);
     matrix.chunks(dof).map(<[ExprId]>::to_vec).collect()
 }

@@ -27,38 +27,47 @@ pub struct Optimized {
     pub outputs: Vec<ExprId>,
 }
 
+/// Beyond so many operations the best of several orders is not worth its time: arms of ten joints and more.
+const LARGE: usize = 10_000;
+
 /// Rewrites the outputs of one function.
 #[must_use]
 pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     let mut network = Network::new(dag, outputs);
     terms::open(&mut network);
     let orders = [(false, false), (true, false), (false, true), (true, true)];
-    let candidates = orders.map(|(products_first, split)| {
-        let mut network = network.clone();
-        if split {
-            terms::split(&mut network);
+    let tried = if network.operations() > LARGE {
+        1
+    } else {
+        orders.len()
+    };
+    let mut best: Option<Network> = None;
+    for &(products_first, split) in &orders[..tried] {
+        let candidate = shared(network.clone(), products_first, split);
+        let fewest = best.as_ref().map_or(usize::MAX, Network::operations);
+        if candidate.operations() < fewest {
+            best = Some(candidate);
         }
-        if products_first {
-            products::share(&mut network);
+    }
+    rebuild::rebuild(dag, &best.unwrap_or(network))
+}
+
+/// What is shared is computed once, in the order that is said.
+fn shared(mut network: Network, products_first: bool, split: bool) -> Network {
+    if split {
+        terms::split(&mut network);
+    }
+    if products_first {
+        products::share(&mut network);
+    }
+    loop {
+        let before = network.operations();
+        kernels::share(&mut network);
+        products::share(&mut network);
+        if network.operations() >= before {
+            break;
         }
-        loop {
-            let before = network.operations();
-            kernels::share(&mut network);
-            products::share(&mut network);
-            if network.operations() >= before {
-                break;
-            }
-        }
-        terms::collect(&mut network);
-        network
-    });
-    let [first, rest @ ..] = candidates;
-    let best = rest.into_iter().fold(first, |best, other| {
-        if other.operations() < best.operations() {
-            other
-        } else {
-            best
-        }
-    });
-    rebuild::rebuild(dag, &best)
+    }
+    terms::collect(&mut network);
+    network
 }

@@ -46,19 +46,20 @@ impl CheckedJoint {
 }
 
 /// Equations grow with the cube of the number of joints: with this many they take a minute, and no arm has as many.
-const MOST_JOINTS: usize = 24;
+const MOST_JOINTS: usize = 40;
 
 /// Joints of a chain, or coordinates of energies.
-pub(super) fn check_number_of_joints<'a>(
+pub(super) fn check_number<'a>(
     mut names: impl Iterator<Item = &'a Ident>,
+    most: usize,
     what: &str,
     errors: &mut Errors,
 ) {
-    if let Some(name) = names.nth(MOST_JOINTS) {
+    if let Some(name) = names.nth(most) {
         errors.push(
             Diagnostic::new(
                 name.span(),
-                format!("the robot has more than {MOST_JOINTS} {what}"),
+                format!("the robot has more than {most} {what}"),
                 "one too many",
             )
             .help("describe the arms of a machine with several of them one by one"),
@@ -79,8 +80,9 @@ pub(super) fn check_joints(
             ),
         );
     }
-    check_number_of_joints(
+    check_number(
         robot.joints.iter().map(|joint| &joint.name),
+        MOST_JOINTS,
         "joints",
         errors,
     );

@@ -27,4 +27,20 @@ robot Snake {
     joint j22_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
     joint j23_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
     joint j24_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j25_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j26_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j27_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j28_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j29_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j30_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j31_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j32_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j33_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j34_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j35_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j36_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j37_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j38_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j39_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
+    joint j40_: revolute { a = 0.1; alpha = 90 deg; d = 0; }
 }

@@ -6,7 +6,7 @@ use syn::Ident;
 use super::dimension::{Dimensions, Inference};
 use super::resolve::Constant;
 use crate::ast::{self, BinaryOp, ExprKind, Robot};
-use crate::check::chain::{check_gain, check_limits, check_number_of_joints};
+use crate::check::chain::{check_gain, check_limits, check_number};
 use crate::check::setting::Settings;
 use crate::check::unit::{self, Dimension};
 use crate::check::value::Quantity;
@@ -14,6 +14,9 @@ use crate::check::{Errors, value};
 use crate::diagnostic::Diagnostic;
 use crate::model::{Joint, JointKind, Limits, Parameter};
 use crate::suggest;
+
+/// Written out, an energy of a chain of so many links has more terms than anybody would write.
+const MOST_COORDINATES: usize = 24;
 
 pub(super) fn check_coordinates(robot: &Robot, errors: &mut Errors) -> Vec<Joint> {
     let energies = &robot.energies;
@@ -24,8 +27,9 @@ pub(super) fn check_coordinates(robot: &Robot, errors: &mut Errors) -> Vec<Joint
             ),
         );
     }
-    check_number_of_joints(
+    check_number(
         energies.coordinates.iter().map(|c| &c.name),
+        MOST_COORDINATES,
         "coordinates",
         errors,
     );
