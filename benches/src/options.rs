@@ -9,7 +9,7 @@ use crate::peers;
 
 /// Operations and nanoseconds of emitted dynamics, beside the peers that are installed.
 #[derive(Debug, Parser)]
-#[command(name = "cargo bench --bench dynamics --")]
+#[command(name = "dynamics", bin_name = "cargo bench --bench dynamics --")]
 pub struct Options {
     /// Write the rows there too; a relative path is taken from the repository's root.
     #[arg(long, value_name = "FILE")]

@@ -66,10 +66,11 @@ macro_rules! kernel {
             let bits: $bits = bytemuck::cast(shifted);
 
             let t = k.mul_neg_add(c(HALF_TURN[0]), x);
-            let second = k * c(HALF_TURN[1]);
-            let u = t - second;
-            let lost = (t - u) - second;
-            let r = u - k.mul_sub(c(HALF_TURN[2]), lost);
+            let r = k.mul_neg_add(c(HALF_TURN[1]), t);
+            let lost = k.mul_neg_add(c(HALF_TURN[1]), t - r);
+            // The angle is `r + tail`, whose first order is enough, and for which the series need not wait:
+            // `sin r + tail cos r`, `cos r - tail sin r`.
+            let tail = k.mul_neg_add(c(HALF_TURN[2]), lost);
 
             let z = r * r;
             let zz = z * z;
@@ -78,10 +79,12 @@ macro_rules! kernel {
                 let [high, mid, low] = [(0, 1), (2, 3), (4, 5)].map(|(a, b)| c(terms[a]).mul_add(z, c(terms[b])));
                 high.mul_add(zz, mid).mul_add(zz, low)
             };
-            let sin = (r * z).mul_add(series(&SIN), r);
             let half = z * c(0.5);
             let one = c(1.0) - half;
-            let cos = one + zz.mul_add(series(&COS), (c(1.0) - one) - half);
+            let sin = r + (r * z).mul_add(series(&SIN), tail * one);
+            let slope = r * z.mul_neg_add(c(1.0 / 6.0), c(1.0));
+            let rest = slope.mul_neg_add(tail, (c(1.0) - one) - half);
+            let cos = one + zz.mul_add(series(&COS), rest);
 
             // All bits where `k` is odd.
             let odd: $floats = bytemuck::cast($bits::splat(0) - (bits & $bits::splat(1)));
@@ -118,7 +121,9 @@ pub fn of<const N: usize>(angles: [f64; N]) -> [[f64; N]; 2] {
     while first < N {
         // Entry by entry: a slice would be copied through memory.
         let angle = |k: usize| angles.get(first + k).copied().unwrap_or(0.0);
-        if N - first > 4 {
+        // Registers of four: eight angles from several places would meet in memory on their way into one register of eight, which
+        // waits for the slowest store; two fours are filled from registers.
+        if N - first > 4 && !cfg!(target_feature = "avx") {
             let values = of8(core::array::from_fn(angle).into());
             put(&mut both, first, values.map(f64x8::to_array));
             first += 8;
