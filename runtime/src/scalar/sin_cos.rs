@@ -180,7 +180,7 @@ mod tests {
         let mut random = ChaCha8Rng::seed_from_u64(1);
         for size in [1e-300, 1e-8, 0.5, 4.0, 100.0, 1e6] {
             for _ in 0..20_000 {
-                assert_close(std::array::from_fn(|_| random.random_range(-size..size)));
+                assert_close(core::array::from_fn(|_| random.random_range(-size..size)));
             }
         }
     }
