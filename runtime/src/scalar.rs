@@ -63,6 +63,15 @@ pub trait Scalar:
     /// This number, in every lane; rounded to the scalar's precision.
     fn of(value: f64) -> Self;
 
+    /// `self * factor + term`: one operation and one rounding where the target has an instruction for it, two where it has not.
+    ///
+    /// On x86 it has one with `-C target-cpu=native` (or `-C target-feature=+fma`), on 64-bit ARM always.
+    #[must_use]
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        self * factor + term
+    }
+
     /// Sines and cosines of angles in rad, all at once: `let [[sin_a, sin_b], [cos_a, cos_b]] = S::sines_cosines([a, b])`.
     ///
     /// Within 2 units in the last place.

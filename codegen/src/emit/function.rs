@@ -1,6 +1,6 @@
 //! One emitted function, before a language spells it: arguments, schedule, shape of the result, doc comment.
 
-use super::schedule::Schedule;
+use super::schedule::{Schedule, Temporary};
 use super::written::{Binding, Place};
 use crate::compiled::Compiled;
 use crate::expr::{Dag, ExprId, Names, Symbol};
@@ -107,8 +107,16 @@ pub struct Argument {
 pub enum Layout {
     /// All of them.
     Full,
-    /// Zeros at once, then the others one by one.
+    /// Zeros at once, then the others one by one, each as soon as it is known.
     Sparse,
+}
+
+/// A statement of a function's body.
+pub enum Step<'a> {
+    /// A temporary is computed.
+    Shared(&'a Temporary),
+    /// Entry `[k]` of the result is set down.
+    Entry(usize),
 }
 
 impl Function {
@@ -121,6 +129,36 @@ impl Function {
     pub fn takes(&self, argument: &str) -> bool {
         let mut arguments = self.arguments.iter();
         arguments.any(|known| known.name == argument)
+    }
+
+    /// Shared terms; in a sparse layout each entry as soon as all that it needs is there, so that this is held no longer.
+    pub fn steps(&self) -> Vec<Step<'_>> {
+        let ready = self.schedule.ready.iter().copied().enumerate();
+        let is_sparse = self.layout() == Layout::Sparse;
+        let mut entries: Vec<(usize, usize)> = ready
+            .filter(|&(k, _)| is_sparse && !self.is_zero[k])
+            .map(|(k, ready)| (ready, k))
+            .collect();
+        entries.sort_unstable();
+        let mut entries = entries.into_iter().peekable();
+        let mut steps = Vec::new();
+        for count in 0..=self.schedule.shared.len() {
+            if let Some(last) = count.checked_sub(1) {
+                steps.push(Step::Shared(&self.schedule.shared[last]));
+            }
+            while let Some((_, k)) = entries.next_if(|&(ready, _)| ready == count) {
+                steps.push(Step::Entry(k));
+            }
+        }
+        steps
+    }
+
+    /// What stands over the steps.
+    pub fn title_of_steps(&self) -> &'static str {
+        match self.layout() {
+            Layout::Full => "Shared terms.",
+            Layout::Sparse => "Shared terms, and entries as soon as they are known.",
+        }
     }
 
     /// Wide matrices are mostly zeros.

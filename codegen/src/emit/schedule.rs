@@ -21,6 +21,8 @@ pub struct Schedule {
     pub shared: Vec<Temporary>,
     /// One expression per output.
     pub outputs: Vec<Written>,
+    /// How many of `shared` each output needs: it may be set down behind them, so that what it is made of is held no longer.
+    pub ready: Vec<usize>,
     /// What all of it costs.
     pub cost: Cost,
     /// The arguments that are read.
@@ -49,6 +51,7 @@ impl Schedule {
             sums: Vec::new(),
             angles: Vec::new(),
             shared: Vec::new(),
+            ready: vec![0; outputs.len()],
             outputs,
             cost: Cost::default(),
             reads: BTreeSet::new(),
@@ -63,7 +66,14 @@ impl Schedule {
         let mut writer = Writer::new(dag, binding);
         let (mut sums, mut shared) = (Vec::new(), Vec::new());
         let (mut angles, mut known) = (Vec::<Angle>::new(), Vec::new());
-        for &x in order.iter().filter(|x| named[x.index()]) {
+        // How many of `shared` an expression needs.
+        let mut needs = vec![0; dag.len()];
+        for &x in &order {
+            let operands = dag.node(x).operands();
+            needs[x.index()] = operands.map(|x| needs[x.index()]).max().unwrap_or(0);
+            if !named[x.index()] {
+                continue;
+            }
             let value = writer.definition(x);
             let name = namer.name(x);
             writer.set_name(x, name.clone());
@@ -88,7 +98,10 @@ impl Schedule {
                     }
                 }
                 _ if is_sum_of_positions(dag, x) => sums.push(Temporary { name, value }),
-                _ => shared.push(Temporary { name, value }),
+                _ => {
+                    shared.push(Temporary { name, value });
+                    needs[x.index()] = shared.len();
+                }
             }
         }
         let symbols = dag.symbols(&order);
@@ -96,6 +109,7 @@ impl Schedule {
             sums,
             angles,
             shared,
+            ready: outputs.iter().map(|x| needs[x.index()]).collect(),
             outputs: outputs.iter().map(|&x| writer.value(x)).collect(),
             cost: writer.cost(),
             reads: symbols.into_iter().map(|x| binding(x).argument()).collect(),
@@ -105,13 +119,14 @@ impl Schedule {
 
 /// Sines and cosines of sums of multiples of positions can be computed first, and so can these sums.
 fn is_sum_of_positions(dag: &Dag, x: ExprId) -> bool {
-    dag.reachable(&[x])
-        .iter()
-        .all(|&part| match dag.node(part) {
-            Node::Constant(_) | Node::Symbol(Symbol::Q(_)) | Node::Add(..) => true,
-            Node::Mul(factor, _) => dag.as_constant(factor).is_some(),
-            _ => false,
-        })
+    match dag.node(x) {
+        Node::Constant(_) | Node::Symbol(Symbol::Q(_)) => true,
+        Node::Add(p, q) => is_sum_of_positions(dag, p) && is_sum_of_positions(dag, q),
+        Node::Mul(factor, rest) => {
+            dag.as_constant(factor).is_some() && is_sum_of_positions(dag, rest)
+        }
+        _ => false,
+    }
 }
 
 /// Which expressions become temporaries: those used more than once, function calls, and parts of long expressions.

@@ -14,6 +14,15 @@ impl Scalar for f64 {
         value
     }
 
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        // Without the instruction a function does it, slower than all the rest.
+        #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+        return Self::mul_add(self, factor, term);
+        #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
+        return self * factor + term;
+    }
+
     #[expect(clippy::inline_always, reason = "see `sin_cos`")]
     #[inline(always)]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
@@ -107,6 +116,14 @@ impl Scalar for f32 {
     #[inline]
     fn of(value: f64) -> Self {
         value as Self
+    }
+
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+        return Self::mul_add(self, factor, term);
+        #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
+        return self * factor + term;
     }
 
     #[inline]

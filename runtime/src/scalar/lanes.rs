@@ -87,6 +87,11 @@ macro_rules! lanes {
             }
 
             #[inline]
+            fn mul_add(self, factor: Self, term: Self) -> Self {
+                Self(self.0.mul_add(factor.0, term.0))
+            }
+
+            #[inline]
             fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
                 let both = angles.map(|angle| sin_cos::$sin_cos(angle.0));
                 [both.map(|[sin, _]| Self(sin)), both.map(|[_, cos]| Self(cos))]

@@ -1,6 +1,6 @@
 //! One function in C: its declaration under its doc comment, its definition.
 
-use super::super::function::{Argument, Equations, Function, Layout, Returns};
+use super::super::function::{Argument, Equations, Function, Layout, Returns, Step};
 use super::super::header::{comment, wrapped};
 use super::super::schedule::{Schedule, Temporary};
 use super::expression::{self, TIGHT};
@@ -116,26 +116,43 @@ impl Lines<'_> {
         self.push("}");
     }
 
-    fn temporaries(&mut self, list: &[Temporary]) {
-        for Temporary { name, value } in list {
-            let value = expression::text(value, self.prefix);
-            self.push(&format!("const{TIGHT}double{TIGHT}{name}{TIGHT}= {value};"));
-        }
+    fn temporary(&mut self, Temporary { name, value }: &Temporary) {
+        let value = expression::text(value, self.prefix);
+        self.push(&format!("const{TIGHT}double{TIGHT}{name}{TIGHT}= {value};"));
     }
 
-    /// What comes before the outputs, under its section comments.
-    fn statements(&mut self, schedule: &Schedule) {
+    /// What comes before the outputs, under its section comments; entries of a sparse layout among it.
+    fn statements(&mut self, function: &Function) {
+        let schedule = &function.schedule;
         if !(schedule.sums.is_empty() && schedule.angles.is_empty()) {
             self.push("// Trigonometry.");
-            self.temporaries(&schedule.sums);
+            for sum in &schedule.sums {
+                self.temporary(sum);
+            }
             self.sines_cosines(schedule);
             self.text.push('\n');
         }
-        if !schedule.shared.is_empty() {
-            self.push("// Shared terms.");
-            self.temporaries(&schedule.shared);
+        let steps = function.steps();
+        if steps.is_empty() {
+            return;
+        }
+        self.push(&format!("// {}", function.title_of_steps()));
+        for step in steps {
+            match step {
+                Step::Shared(shared) => self.temporary(shared),
+                Step::Entry(k) => self.entry(function, k),
+            }
+        }
+        if function.layout() == Layout::Full {
             self.text.push('\n');
         }
+    }
+
+    /// `y[0][1] = x;`
+    fn entry(&mut self, function: &Function, k: usize) {
+        let place = format!("{}{}", function.result, indices(&function.sizes, k));
+        let value = expression::text(&function.schedule.outputs[k], self.prefix);
+        self.set(&place, &value);
     }
 
     fn sines_cosines(&mut self, schedule: &Schedule) {
@@ -168,11 +185,14 @@ impl Lines<'_> {
 
     /// Statements, and results written last.
     fn results(&mut self, function: &Function) {
-        let schedule = &function.schedule;
         if let Returns::Accelerations(Equations::Nonlinear) = function.returns {
             return self.newton(function);
         }
-        self.statements(schedule);
+        let is_sparse = function.layout() == Layout::Sparse;
+        if is_sparse {
+            self.zeros(function);
+        }
+        self.statements(function);
         match &function.returns {
             Returns::Accelerations(equations) => {
                 self.equations(function, "ddq");
@@ -184,32 +204,22 @@ impl Lines<'_> {
                 self.push(&format!("return{TIGHT}{prefix}_{solver}(slope, ddq);"));
             }
             Returns::Memory(counts) => self.after_step(function, counts),
-            _ => self.entries(function),
+            _ if is_sparse => {}
+            Returns::Scalar => {
+                let value = expression::text(&function.schedule.outputs[0], self.prefix);
+                self.push(&format!("return{TIGHT}{value};"));
+            }
+            _ => (0..function.schedule.outputs.len()).for_each(|k| self.entry(function, k)),
         }
     }
 
-    /// Every entry, or zeros and then the others.
-    fn entries(&mut self, function: &Function) {
-        let outputs = &function.schedule.outputs;
-        let sizes = &function.sizes[..];
-        if sizes.is_empty() {
-            let value = expression::text(&outputs[0], self.prefix);
-            return self.push(&format!("return{TIGHT}{value};"));
-        }
-        let is_sparse = function.layout() == Layout::Sparse;
-        if let (true, [rows, columns]) = (is_sparse, sizes) {
-            self.open(&format!("for (int i = 0; i < {rows}; ++i)"));
-            self.open(&format!("for (int k = 0; k < {columns}; ++k)"));
-            self.push(&format!("{}[i][k] = 0.0;", function.result));
-            self.close();
-            self.close();
-        }
-        for (k, output) in outputs.iter().enumerate() {
-            if !(is_sparse && function.is_zero[k]) {
-                let place = format!("{}{}", function.result, indices(sizes, k));
-                self.set(&place, &expression::text(output, self.prefix));
-            }
-        }
+    fn zeros(&mut self, function: &Function) {
+        self.open(&format!("for (int i = 0; i < {}; ++i)", function.sizes[0]));
+        self.open(&format!("for (int k = 0; k < {}; ++k)", function.sizes[1]));
+        self.push(&format!("{}[i][k] = 0.0;", function.result));
+        self.close();
+        self.close();
+        self.text.push('\n');
     }
 
     fn set(&mut self, place: &str, value: &str) {
@@ -243,7 +253,7 @@ impl Lines<'_> {
         self.push("ddq[k] = 0.0;");
         self.close();
         self.open(&format!("for (int step = 0; step < {STEPS}; ++step)"));
-        self.statements(&function.schedule);
+        self.statements(function);
         self.push(&format!("double{TIGHT}change[{dof}];"));
         self.equations(function, "change");
         self.open(&format!("if (!{prefix}_general(slope, change))"));

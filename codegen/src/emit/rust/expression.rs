@@ -10,26 +10,29 @@ use super::super::written::{Operator, Place, Written};
 /// Spells expressions in the scalar `S` of the function, or in `f64`.
 pub struct Printer {
     number: fn(f64) -> TokenStream,
+    is_fused: bool,
     has_famous_numbers: Cell<bool>,
 }
 
 impl Printer {
     /// For a function that is generic over its scalar.
     pub fn of_scalars() -> Self {
-        Self::new(|value| {
+        let number = |value| {
             let number = number(value);
             quote!(S::of(#number))
-        })
+        };
+        Self::new(number, true)
     }
 
     /// For `f64`, without calls.
     pub fn of_numbers() -> Self {
-        Self::new(number)
+        Self::new(number, false)
     }
 
-    fn new(number: fn(f64) -> TokenStream) -> Self {
+    fn new(number: fn(f64) -> TokenStream, is_fused: bool) -> Self {
         Self {
             number,
+            is_fused,
             has_famous_numbers: Cell::new(false),
         }
     }
@@ -52,6 +55,8 @@ impl Printer {
                 let name = Ident::new(name, Span::call_site());
                 quote!(#name)
             }
+            // What a function returns needs none.
+            Written::Parentheses(x) if self.is_call(x) => self.tokens(x),
             Written::Parentheses(x) => {
                 let x = self.tokens(x);
                 quote!((#x))
@@ -61,6 +66,9 @@ impl Printer {
                 quote!(-#x)
             }
             Written::Binary(operator, both) => {
+                if let Some(tokens) = self.fused(*operator, both) {
+                    return tokens;
+                }
                 let [x, y] = [&both[0], &both[1]].map(|x| self.tokens(x));
                 match operator {
                     Operator::Plus => quote!(#x + #y),
@@ -83,6 +91,78 @@ impl Printer {
                 quote!(S::choose(#condition, #x, #y))
             }
         }
+    }
+}
+
+impl Printer {
+    /// A sum with a product in it, `S::mul_add(x, y, z)` for `x * y + z`: of two products the second, which as a rule is known
+    /// later, and then has one operation to go instead of two.
+    fn fused(&self, operator: Operator, [left, right]: &[Written; 2]) -> Option<TokenStream> {
+        let is_minus = match operator {
+            Operator::Plus => false,
+            Operator::Minus => true,
+            Operator::Times | Operator::Over => return None,
+        };
+        if !self.is_fused {
+            return None;
+        }
+        if let Some([x, y]) = factors(right) {
+            let x = if is_minus {
+                self.negative(x)
+            } else {
+                self.tokens(x)
+            };
+            let (y, z) = (self.tokens(y), self.tokens(bare(left)));
+            return Some(quote!(S::mul_add(#x, #y, #z)));
+        }
+        let [x, y] = factors(left)?;
+        let z = if is_minus {
+            self.negative(right)
+        } else {
+            self.tokens(bare(right))
+        };
+        let (x, y) = (self.tokens(x), self.tokens(y));
+        Some(quote!(S::mul_add(#x, #y, #z)))
+    }
+
+    fn negative(&self, x: &Written) -> TokenStream {
+        match x {
+            Written::Number(value) => self.tokens(&Written::Number(-value)),
+            Written::Negative(x) => self.tokens(x),
+            Written::Binary(..) if !self.is_call(x) => {
+                let x = self.tokens(x);
+                quote!(-(#x))
+            }
+            _ => {
+                let x = self.tokens(x);
+                quote!(-#x)
+            }
+        }
+    }
+
+    /// Whether the expression is spelled as a call of `mul_add`.
+    fn is_call(&self, x: &Written) -> bool {
+        let Written::Binary(operator, both) = x else {
+            return false;
+        };
+        let is_sum = matches!(operator, Operator::Plus | Operator::Minus);
+        self.is_fused && is_sum && both.iter().any(|x| factors(x).is_some())
+    }
+}
+
+/// Both factors of a product.
+fn factors(x: &Written) -> Option<[&Written; 2]> {
+    match x {
+        Written::Binary(Operator::Times, both) => Some([&both[0], &both[1]].map(bare)),
+        _ => None,
+    }
+}
+
+/// An argument of a function needs no parentheses.
+fn bare(x: &Written) -> &Written {
+    match x {
+        Written::Parentheses(inner) => inner,
+        other => other,
     }
 }
 

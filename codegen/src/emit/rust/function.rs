@@ -3,17 +3,21 @@
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
-use super::super::function::{Equations, Function, Layout, Returns};
+use super::super::function::{Equations, Function, Layout, Returns, Step};
 use super::super::schedule::{Schedule, Temporary};
 use super::expression::Printer;
 
 /// The function.
 pub fn item(function: &Function) -> TokenStream {
     let printer = Printer::of_scalars();
-    let mut statements = statements(&printer, &function.schedule);
     let outputs = function.schedule.outputs.iter();
     let outputs: Vec<TokenStream> = outputs.map(|output| printer.tokens(output)).collect();
+    let mut statements = statements(&printer, function, &outputs);
     let (kind, mut result) = result(function, &outputs);
+    if function.layout() == Layout::Sparse && !statements.is_empty() {
+        statements = quote!(let mut y = #result; __blank!(); #statements);
+        result = quote!(y);
+    }
     if let Returns::Accelerations(Equations::Nonlinear) = function.returns {
         let dof = count(function.sizes[0]);
         result = quote!(::robot_model::solve::newton(|ddq: &[S; #dof]| { #statements #result }));
@@ -66,15 +70,12 @@ fn count(n: usize) -> Literal {
     Literal::usize_unsuffixed(n)
 }
 
-/// `let` statements under their section comments.
-fn statements(printer: &Printer, schedule: &Schedule) -> TokenStream {
-    let temporaries = |list: &[Temporary]| -> TokenStream {
-        let list = list.iter().map(|temporary| {
-            let name = Ident::new(&temporary.name, Span::call_site());
-            let value = printer.tokens(&temporary.value);
-            quote!(let #name = #value;)
-        });
-        list.collect()
+/// Statements under their section comments.
+fn statements(printer: &Printer, function: &Function, outputs: &[TokenStream]) -> TokenStream {
+    let temporary = |temporary: &Temporary| {
+        let name = Ident::new(&temporary.name, Span::call_site());
+        let value = printer.tokens(&temporary.value);
+        quote!(let #name = #value;)
     };
     let section = |title: &str, statements: TokenStream| {
         if statements.is_empty() {
@@ -83,11 +84,20 @@ fn statements(printer: &Printer, schedule: &Schedule) -> TokenStream {
             quote!(__comment!(#title); #statements __blank!();)
         }
     };
-    let mut trigonometry = temporaries(&schedule.sums);
-    trigonometry.extend(sines_cosines(printer, schedule));
+    let mut trigonometry: TokenStream = function.schedule.sums.iter().map(temporary).collect();
+    trigonometry.extend(sines_cosines(printer, &function.schedule));
     let trigonometry = section("Trigonometry.", trigonometry);
-    let shared = section("Shared terms.", temporaries(&schedule.shared));
-    quote!(#trigonometry #shared)
+    let steps = function.steps().into_iter().map(|step| match step {
+        Step::Shared(shared) => temporary(shared),
+        Step::Entry(k) => {
+            let columns = function.sizes[1];
+            let (row, column) = (count(k / columns), count(k % columns));
+            let entry = &outputs[k];
+            quote!(y[#row][#column] = #entry;)
+        }
+    });
+    let steps = section(function.title_of_steps(), steps.collect());
+    quote!(#trigonometry #steps)
 }
 
 /// `let [sines, cosines] = S::sines_cosines([q[0], q[1]]); let [sin_q1, sin_q2] = sines; let [cos_q1, _] = cosines;`
@@ -138,8 +148,8 @@ fn result(function: &Function, outputs: &[TokenStream]) -> (TokenStream, TokenSt
             (kind, quote!([[]; #rows]))
         }
         _ if function.layout() == Layout::Sparse => {
-            let entries = sparse(function, outputs);
-            (kind, entries)
+            let (height, width) = (count(function.sizes[0]), count(function.sizes[1]));
+            (kind, quote!([[S::of(0.0); #width]; #height]))
         }
         _ => (kind, nested(&function.sizes, outputs)),
     }
@@ -153,23 +163,6 @@ fn nested(sizes: &[usize], outputs: &[TokenStream]) -> TokenStream {
     let parts = outputs.chunks((outputs.len() / size.max(&1)).max(1));
     let parts = parts.map(|part| nested(inner, part));
     quote!([#(#parts),*])
-}
-
-/// Zeros, and entries one by one.
-fn sparse(function: &Function, outputs: &[TokenStream]) -> TokenStream {
-    let (rows, columns) = (function.sizes[0], function.sizes[1]);
-    let (height, width) = (count(rows), count(columns));
-    let zeros = quote!([[S::of(0.0); #width]; #height]);
-    if function.is_zero.iter().all(|&is_zero| is_zero) {
-        return zeros;
-    }
-    let entries = outputs.iter().zip(&function.is_zero).enumerate();
-    let entries = entries.filter(|(_, (_, is_zero))| !**is_zero);
-    let entries = entries.map(|(k, (entry, _))| {
-        let (row, column) = (count(k / columns), count(k % columns));
-        quote!(y[#row][#column] = #entry;)
-    });
-    quote!(let mut y = #zeros; #(#entries)* y)
 }
 
 /// The equations solved for accelerations.
