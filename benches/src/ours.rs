@@ -117,7 +117,7 @@ version = \"0.0.0\"
 edition = \"2024\"
 
 [dependencies]
-robot-model = {{ path = '{}', default-features = false }}
+robot-model = {{ path = '{}', default-features = false, features = ['std'] }}
 
 [workspace]
 ",

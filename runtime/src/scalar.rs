@@ -65,7 +65,8 @@ pub trait Scalar:
 
     /// `self * factor + term`: one operation and one rounding where the target has an instruction for it, two where it has not.
     ///
-    /// On x86 it has one with `-C target-cpu=native` (or `-C target-feature=+fma`), on 64-bit ARM always.
+    /// On x86 it has one with `-C target-cpu=native` (or `-C target-feature=+fma`), on 64-bit ARM always; without the feature
+    /// `std` it is used in lanes only.
     #[must_use]
     #[inline]
     fn mul_add(self, factor: Self, term: Self) -> Self {

@@ -3,6 +3,9 @@
 use super::{Scalar, sealed, sin_cos};
 use crate::math;
 
+// `mul_add`: where the target has no instruction for it, the function of that name is slower than all the rest; `core` has none,
+// and the one in the lane of a register costs more moves than it spares.
+
 impl sealed::Sealed for f64 {}
 impl sealed::Sealed for f32 {}
 
@@ -16,7 +19,6 @@ impl Scalar for f64 {
 
     #[inline]
     fn mul_add(self, factor: Self, term: Self) -> Self {
-        // Without the instruction a function does it, slower than all the rest.
         #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
         return Self::mul_add(self, factor, term);
         #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]

@@ -21,8 +21,9 @@ pub use super::{Cost, Costs, Extent, costs};
 pub use expression::number;
 pub use implementation::{From, Parameters};
 
-/// Clippy looks at the page too.
-const LINTS: [&str; 2] = [
+/// What a reader of the page has to know; clippy looks at it too.
+const NOTES: [&str; 3] = [
+    "`S::mul_add(x, y, z)` is `x * y + z`, in one operation where the target has it.",
     "Clippy's pedantic lints speak of hand-written code: include the page in a module with",
     "`#[allow(clippy::pedantic)]` if your crate turns them on.",
 ];
@@ -40,7 +41,7 @@ pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
     let mut items: Vec<TokenStream> = functions.iter().map(function::item).collect();
     items.extend(implementation::items(compiled, &functions, extent));
     let mut lines = header::header(compiled);
-    lines.extend(LINTS.map(str::to_owned));
+    lines.extend(NOTES.map(str::to_owned));
     let header = header::comment("// ", &lines);
     pretty::page(&header, &items)
 }
