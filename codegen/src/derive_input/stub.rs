@@ -166,9 +166,9 @@ fn stub(name: &syn::Ident, sizes: &Sizes) -> TokenStream {
     };
     quote! {
         const _: () = {
-            #[allow(unused_imports)]
+            #[allow(unused_imports, reason = "a robot has not all of these faces")]
             use ::robot_model::model::{SMatrix, SVector};
-            #[allow(unused_imports)]
+            #[allow(unused_imports, reason = "a robot has not all of these faces")]
             use ::robot_model::{FromParameters, Kinematics, Mechanics, Memory, Points, RobotModel, Scalar, State, Vector};
             #[automatically_derived]
             impl RobotModel #all for #name {

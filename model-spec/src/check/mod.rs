@@ -16,6 +16,7 @@ mod setting;
 mod unit;
 mod used;
 mod value;
+mod words;
 
 pub(crate) use definition::check_definition;
 

@@ -5,92 +5,12 @@ use syn::Ident;
 
 use super::Errors;
 use super::binding::rate_name;
+use super::words::{FUNCTIONS, SIGNALS, function, one_argument, two_arguments};
 use crate::ast::{self, ExprKind};
 use crate::diagnostic::Diagnostic;
-use crate::model::{BinaryOp, Choice, EffectExpr, EffectLeaf, Expr, Function, Signal};
+use crate::model::{BinaryOp, Choice, EffectExpr, EffectLeaf, Expr, Signal};
 use crate::suggest;
 use crate::transform::{LARGEST, LARGEST_EXPONENT};
-
-/// Names of the functions.
-const FUNCTIONS: [(&str, Function); 7] = [
-    ("sin", Function::Sin),
-    ("cos", Function::Cos),
-    ("exp", Function::Exp),
-    ("sqrt", Function::Sqrt),
-    ("abs", Function::Abs),
-    ("sign", Function::Sign),
-    ("tanh", Function::Tanh),
-];
-
-/// Names of the signals.
-const SIGNALS: [(&str, Signal); 5] = [
-    ("q", Signal::Position),
-    ("dq", Signal::Velocity),
-    ("ddq", Signal::Acceleration),
-    ("rigid_torque", Signal::RigidTorque),
-    ("measured_torque", Signal::MeasuredTorque),
-];
-
-/// Words with a meaning of their own, besides functions and signals; words that only begin a statement may be names.
-const WORDS: [&str; 17] = [
-    "pi", "time", "torque", "tau", "linear", "shape", "input", "state", "let", "dot", "if", "else",
-    "min", "max", "step", "in", "on",
-];
-
-/// Words that no name of an equation may take.
-pub(super) fn reserved() -> impl Iterator<Item = &'static str> {
-    let signals = SIGNALS.iter().map(|(name, _)| *name);
-    let functions = FUNCTIONS.iter().map(|(name, _)| *name);
-    WORDS.into_iter().chain(signals).chain(functions)
-}
-
-/// A name that is a word of the language.
-pub(super) fn reserved_name(name: &Ident, words: impl Iterator<Item = &'static str>) -> Diagnostic {
-    let words: Vec<&str> = words.collect();
-    Diagnostic::new(
-        name.span(),
-        format!("`{name}` has a meaning in the language"),
-        "reserved",
-    )
-    .help(format!(
-        "choose another name; taken are {}",
-        words.join(", ")
-    ))
-}
-
-/// The function of that name.
-pub(super) fn function(name: &Ident) -> Result<Function, Diagnostic> {
-    let text = name.to_string();
-    FUNCTIONS
-        .iter()
-        .find(|(function, _)| *function == text)
-        .map(|(_, function)| *function)
-        .ok_or_else(|| {
-            Diagnostic::new(name.span(), format!("unknown function `{text}`"), "").help(
-                suggest::help(&text, FUNCTIONS.iter().map(|(function, _)| *function)),
-            )
-        })
-}
-
-/// A function with none or several arguments.
-pub(super) fn one_argument(name: &Ident, count: usize, span: Span) -> Diagnostic {
-    Diagnostic::new(
-        span,
-        format!("`{name}` takes one argument, found {count}"),
-        "",
-    )
-    .help(format!("write `{name}(x)`"))
-}
-
-/// `min` or `max` with other than two arguments.
-fn two_arguments(name: &Ident, count: usize, span: Span) -> Diagnostic {
-    Diagnostic::new(
-        span,
-        format!("`{name}` takes two arguments, found {count}"),
-        "",
-    )
-    .help(format!("write `{name}(x, y)`"))
-}
 
 /// What to do about a value that cannot be computed with.
 pub(super) const NOT_COMPUTABLE: &str = "divide by no zero, take no root of a negative number, stay below 1e30, and \
@@ -450,16 +370,4 @@ fn one_of(function: &str, arguments: &[String]) -> String {
         .iter()
         .map(|argument| format!("`{function}({argument})`"));
     calls.collect::<Vec<_>>().join(" or ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::reserved;
-
-    #[test]
-    fn the_reference_lists_the_reserved_words() {
-        let reference = include_str!("../../LANGUAGE.md");
-        let words: Vec<String> = reserved().map(|word| format!("`{word}`")).collect();
-        assert!(reference.contains(&words.join(" ")), "{}", words.join(" "));
-    }
 }

@@ -301,9 +301,9 @@ fn constant_name(name: &Ident) -> Checked<Quantity> {
 }
 
 fn call(name: &Ident, arguments: &[Expr], span: Span) -> Checked<Quantity> {
-    let function = super::resolve::function(name)?;
+    let function = super::words::function(name)?;
     let [argument] = arguments else {
-        return Err(super::resolve::one_argument(name, arguments.len(), span));
+        return Err(super::words::one_argument(name, arguments.len(), span));
     };
     let x = evaluate(argument)?;
     let value = function.apply(x.value);

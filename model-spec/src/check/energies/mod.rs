@@ -9,8 +9,8 @@ mod resolve;
 mod rules;
 mod written;
 
-use super::resolve::{reserved, reserved_name};
 use super::setting::Settings;
+use super::words::{reserved, reserved_name};
 use super::{Errors, check_unique};
 use crate::ast::{self, Robot, Value};
 use crate::diagnostic::Diagnostic;

@@ -4,7 +4,7 @@ use syn::Ident;
 
 use super::dimension::{Constants, Dimensions};
 use crate::ast::{self, ExprKind};
-use crate::check::{Errors, resolve, unit, value};
+use crate::check::{Errors, unit, value, words};
 use crate::diagnostic::Diagnostic;
 use crate::model::{EnergyExpr, EnergyLeaf, Expr};
 use crate::suggest;
@@ -108,12 +108,12 @@ impl Resolution<'_> {
             ExprKind::Name(name) => self.name(name),
             ExprKind::Call(name, arguments) if name == "dot" => self.rate(name, arguments),
             ExprKind::Call(name, arguments) => {
-                let function = resolve::function(name)
+                let function = words::function(name)
                     .map_err(|error| self.errors.push(error))
                     .ok()?;
                 let [argument] = arguments.as_slice() else {
                     self.errors
-                        .push(resolve::one_argument(name, arguments.len(), expr.span));
+                        .push(words::one_argument(name, arguments.len(), expr.span));
                     return None;
                 };
                 let argument = self.operand(0, argument)?;
