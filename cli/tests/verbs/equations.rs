@@ -108,7 +108,7 @@ fn emit_writes_a_file_named_as_the_spec() {
         "{code}"
     );
     assert!(
-        code.contains("S::of(3.0) * ddq[0] + S::of(5.0) * dq[0]"),
+        code.contains("S::mul_add(S::of(5.0), dq[0], S::of(3.0) * ddq[0])"),
         "{code}"
     );
 }
