@@ -50,7 +50,7 @@ impl Rounded {
 
     /// Whether there is nothing but rounding.
     pub fn is_noise(self) -> bool {
-        self.value.abs() <= 2.0 * self.error
+        self.value.is_finite() && self.value.abs() <= 2.0 * self.error
     }
 
     /// Zero where there is nothing but rounding.

@@ -91,6 +91,77 @@ fn what_is_computed_is_what_is_shown() {
     }
 }
 
+/// An arm of three joints, slides among them, in both conventions of DH.
+fn chain(modified: bool, kinds: usize, angles: usize) -> String {
+    let convention = if modified {
+        "modified_dh"
+    } else {
+        "standard_dh"
+    };
+    let joint = |k: usize| {
+        let alpha = [0, 90, 45][angles / [1, 3, 9][k] % 3];
+        let a = [0.0, 0.3, 0.1][k];
+        let (kind, last) = if kinds >> k & 1 == 0 {
+            ("revolute", "d = 0.2;")
+        } else {
+            ("prismatic", "theta = 0;")
+        };
+        format!("joint j{k}: {kind} {{ a = {a}; alpha = {alpha} deg; {last} }}\n")
+    };
+    let joints: String = (0..3).map(joint).collect();
+    format!("robot Arm {{ gravity = [0, 0, -9.81]; convention = {convention};\n{joints}}}\n")
+}
+
+/// With numbers for the parameters there are more ways to write an arm; all have its values.
+#[test]
+fn baked_arms_have_the_values_of_the_arm() {
+    let mut specs = compiled();
+    for case in 0..2 * 8 * 27 {
+        let text = chain(case % 2 == 1, case / 2 % 8, case / 16);
+        let model = robot_model_spec::load("arm", &text).unwrap_or_else(|e| panic!("{e}"));
+        specs.push((text, compile_model(&model)));
+    }
+    for (robot, model) in specs {
+        let beta: Vec<f64> = model
+            .base
+            .kept
+            .iter()
+            .map(|&k| value(Symbol::Parameter(k)))
+            .collect();
+        let parameters = model.parameter_values(&beta);
+        let shapes = robot_model_codegen::base::shape_values(&model.model);
+        let baked = model.baked(&beta, &shapes);
+        let bind = |symbol| match symbol {
+            Symbol::Parameter(k) => parameters[k],
+            Symbol::Shape(k) => shapes[k],
+            other => value(other),
+        };
+        let forms = |compiled: &Compiled| {
+            let computed = &compiled.computed;
+            [
+                computed.inverse_dynamics.clone(),
+                computed.bias.clone(),
+                computed.gravity.clone(),
+                computed.mass_matrix.concat(),
+                computed.coriolis_matrix.concat(),
+            ]
+            .map(|outputs| -> Vec<f64> {
+                let values = outputs.iter().map(|&x| compiled.dag.evaluate(x, &bind));
+                values.collect()
+            })
+        };
+        for (form, (found, wanted)) in forms(&baked).into_iter().zip(forms(&model)).enumerate() {
+            let size = wanted.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
+            for (x, y) in found.iter().zip(&wanted) {
+                assert!(
+                    (x - y).abs() <= TOLERANCE * size,
+                    "{robot} form {form}: {x} {y}"
+                );
+            }
+        }
+    }
+}
+
 /// Entries that are zero for every state stay so: no program computes them.
 #[test]
 fn columns_that_are_zero_are_not_computed() {

@@ -155,7 +155,7 @@ mod tests {
     /// Every function once, where all of them have a value and a slope.
     fn everything<S: Scalar>(x: S) -> S {
         let [[sin, sin_twice], [cos, _]] = S::sines_cosines([x, x + x]);
-        let mut sum = sin * cos + sin_twice / x;
+        let mut sum = sin.mul_add(cos, sin_twice / x);
         sum += x.exp() - x.exp_m1();
         sum -= x.ln() * x.sqrt();
         sum *= x.tanh() + (-x).abs();
@@ -211,6 +211,26 @@ mod tests {
         });
         assert!((by_exponent.slope - 8.0 * 2.0_f64.ln()).abs() < 1e-14);
         assert_eq!(Dual::<f64>::of(-2.0).pow(Dual::of(2.0)), Dual::of(4.0));
+    }
+
+    /// The slope of a slope, also where the slope itself is zero.
+    #[test]
+    fn duals_of_duals_have_second_derivatives() {
+        let t = Dual {
+            value: Dual {
+                value: 0.0,
+                slope: 1.0,
+            },
+            slope: Dual::of(1.0),
+        };
+        let second = |x: Dual<Dual<f64>>| x.slope.slope;
+        let square = t * t;
+        let plus = |c: f64| square + Dual::of(c);
+        assert!((second(plus(2.0).exp()) - 2.0 * 2.0_f64.exp()).abs() < 1e-14);
+        assert!((second(Scalar::sin(plus(1.0))) - 2.0 * 1.0_f64.cos()).abs() < 1e-14);
+        assert!((second(plus(4.0).sqrt()) - 0.5).abs() < 1e-14);
+        // The root of a constant zero stands still, however steep it is.
+        assert_eq!(Dual::<f64>::of(0.0).sqrt(), Dual::of(0.0));
     }
 
     #[test]

@@ -136,6 +136,10 @@ pub fn newton<S: Scalar, const N: usize>(
         let (mut largest, mut moved) = (0.0_f64, 0.0_f64);
         for (x, change) in x.iter_mut().zip(change) {
             *x += change;
+            // In one lane there is no number: there is no solution there, as where none is found.
+            if !x.abs().most().is_finite() {
+                return None;
+            }
             largest = largest.max(x.abs().most());
             moved = moved.max(change.abs().most());
         }
@@ -150,6 +154,24 @@ pub fn newton<S: Scalar, const N: usize>(
 mod tests {
     use super::*;
     use crate::scalar::Lanes4;
+
+    #[test]
+    fn newton_takes_no_lane_without_a_number_for_a_settled_one() {
+        let solve = |rest: [f64; 4]| {
+            newton(|x: &[Lanes4; 1]| {
+                let half = Lanes4::of(0.5);
+                let slope = Lanes4::of(1.0) + half * x[0].sign();
+                let left = Lanes4::from(rest) - x[0] - half * x[0].abs();
+                ([[slope]], [left])
+            })
+        };
+        let [x] = solve([0.3, 3.0, -1.0, 2.0]).expect("each lane has a solution");
+        for (x, wanted) in x.to_array().into_iter().zip([0.2, 2.0, -2.0, 4.0 / 3.0]) {
+            assert!((x - wanted).abs() < 1e-12, "{x}");
+        }
+        assert_eq!(solve([f64::NAN, 3.0, -1.0, 2.0]), None);
+        assert_eq!(solve([3.0, 3.0, f64::INFINITY, 2.0]), None);
+    }
 
     /// `a = L L^T` of numbers without meaning.
     fn system() -> ([[f64; 4]; 4], [f64; 4]) {

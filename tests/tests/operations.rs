@@ -88,11 +88,17 @@ fn counts() {
 /// What is emitted costs what the optimizer says.
 #[test]
 fn the_page_says_what_the_optimizer_counts() {
-    let compiled = bare("puma560");
-    for (name, outputs) in forms(&compiled.computed) {
-        let costs = rust::costs(&compiled);
-        let (_, emitted) = costs.iter().find(|cost| cost.0 == name).expect("emitted");
-        assert_eq!(*emitted, optimize(&compiled.dag, &outputs).cost(), "{name}");
+    for robot in ROBOTS {
+        let compiled = bare(robot);
+        let baked = compiled.baked(&nominal(&compiled), &shape_values(&compiled.model));
+        for compiled in [compiled, baked] {
+            let costs = rust::costs(&compiled);
+            for (name, outputs) in forms(&compiled.computed) {
+                let (_, emitted) = costs.iter().find(|cost| cost.0 == name).expect("emitted");
+                let counted = optimize(&compiled.dag, &outputs).cost();
+                assert_eq!(*emitted, counted, "{robot} {name}");
+            }
+        }
     }
 }
 

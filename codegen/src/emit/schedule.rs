@@ -74,13 +74,13 @@ impl Schedule {
             if !named[x.index()] {
                 continue;
             }
-            let value = writer.definition(x);
             let name = namer.name(x);
             writer.set_name(x, name.clone());
             match dag.node(x) {
                 Node::Call(function @ (Function::Sin | Function::Cos), angle)
                     if is_sum_of_positions(dag, angle) =>
                 {
+                    writer.count_trig();
                     let place = known.iter().position(|&one| one == angle);
                     let place = place.unwrap_or_else(|| {
                         known.push(angle);
@@ -97,8 +97,12 @@ impl Schedule {
                         angles[place].cosine = Some(name);
                     }
                 }
-                _ if is_sum_of_positions(dag, x) => sums.push(Temporary { name, value }),
                 _ => {
+                    let value = writer.definition(x);
+                    if is_sum_of_positions(dag, x) {
+                        sums.push(Temporary { name, value });
+                        continue;
+                    }
                     shared.push(Temporary { name, value });
                     needs[x.index()] = shared.len();
                 }

@@ -129,6 +129,11 @@ impl<'a> Writer<'a> {
         self.cost
     }
 
+    /// A sine or cosine that is computed with others.
+    pub fn count_trig(&mut self) {
+        self.cost.trig += 1;
+    }
+
     /// The expression, by its temporary if it has one.
     pub fn value(&mut self, x: ExprId) -> Written {
         self.write(x).0

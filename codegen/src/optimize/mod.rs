@@ -31,8 +31,26 @@ pub struct Optimized {
 const LARGE: usize = 10_000;
 
 /// Rewrites the outputs of one function.
+///
+/// What is taken out of sums leaves parts that only one other sum uses; written out there more may cancel. So what comes out
+/// goes in again, as long as that spares something.
 #[must_use]
 pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
+    let sum = |optimized: &Optimized| {
+        let cost = optimized.cost();
+        cost.mul + cost.add
+    };
+    let mut best = pass(dag, outputs);
+    loop {
+        let next = pass(&best.dag, &best.outputs);
+        if sum(&next) >= sum(&best) {
+            return best;
+        }
+        best = next;
+    }
+}
+
+fn pass(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     let mut network = Network::new(dag, outputs);
     terms::open(&mut network);
     let orders = [(false, false), (true, false), (false, true), (true, true)];

@@ -59,8 +59,9 @@ impl<S: Scalar> Dual<S> {
 
 /// `rise * slope`; zero where nothing moves, however steep it would rise.
 fn times<S: Scalar>(rise: S, slope: S) -> S {
-    // No number is neither zero nor larger.
-    S::choose(slope.abs(), rise * slope, slope)
+    let product = rise * slope;
+    // A slope that is nothing but zero may be that of another dual number, which has a slope itself: the product, where it is one.
+    S::choose(slope.abs(), product, product.finite_or(slope))
 }
 
 impl<S: Scalar> Add<f64> for Dual<S> {
@@ -211,6 +212,15 @@ impl<S: Scalar> Scalar for Dual<S> {
     #[inline]
     fn of(value: f64) -> Self {
         Self::constant(S::of(value))
+    }
+
+    #[inline]
+    fn mul_add(self, factor: Self, term: Self) -> Self {
+        let slope = self.value.mul_add(factor.slope, term.slope);
+        Self {
+            value: self.value.mul_add(factor.value, term.value),
+            slope: self.slope.mul_add(factor.value, slope),
+        }
     }
 
     #[inline]

@@ -92,13 +92,16 @@ impl LeanChain {
         }
     }
 
-    /// Lends a mass to each link, at its joint point, from its parent: one on the joint's axis moves with both. What lies on
-    /// the axes after that goes back down.
+    /// Lends a mass to each link behind a revolute joint, at its joint point, from its parent: one on the joint's axis moves with
+    /// both. What lies on the axes after that goes back down.
     fn lend(&mut self, dag: &mut Dag, masses: &[f64]) {
         if masses.iter().all(|&mass| mass == 0.0) {
             return;
         }
         for (link, &mass) in masses.iter().enumerate() {
+            if self.frames[link].kind != JointKind::Revolute {
+                continue;
+            }
             let back = self.frames[link].to_origin.map(|x| dag.neg(x));
             let joint = self.frames[link].joint_point;
             let (given, taken) = (dag.constant(mass), dag.constant(-mass));

@@ -1,5 +1,7 @@
 //! How a chain is best written: all ways that are tried have the same values, the one with the fewest operations is taken.
 
+use robot_model_spec::model::JointKind;
+
 use super::LeanChain;
 use super::body::Form;
 use crate::dynamics::chain::Chain;
@@ -77,8 +79,9 @@ impl Choice {
                 search.offer(|choice| choice.turned[link] = !choice.turned[link]);
             }
             for (link, mass) in search.masses() {
-                // Links between carry the mass on, as far down as that makes nothing worse.
-                for first in 1..=link {
+                // Links between carry the mass on, as far down as that makes nothing worse; none is carried past a slide.
+                let slide = (1..link).rev().find(|&k| !search.turns(k));
+                for first in slide.map_or(1, |k| k + 1)..=link {
                     search.offer(|choice| {
                         for lent in &mut choice.lent[first..=link] {
                             *lent += mass;
@@ -126,6 +129,11 @@ impl Search<'_> {
         operations(&dag, &outputs)
     }
 
+    /// Whether a joint is revolute.
+    fn turns(&self, link: usize) -> bool {
+        self.chain.frames[link].kind == JointKind::Revolute
+    }
+
     /// Masses that make a first moment of a parent vanish when the link is lent them.
     fn masses(&self) -> Vec<(usize, f64)> {
         /// A heavier mass would cost digits.
@@ -138,7 +146,7 @@ impl Search<'_> {
         };
         let lean = LeanChain::new(&mut dag, self.chain, &choice);
         let mut masses = Vec::new();
-        for link in 1..lean.frames.len() {
+        for link in (1..lean.frames.len()).filter(|&link| self.turns(link)) {
             let (step, first) = (lean.frames[link].joint_point, lean.bodies[link - 1].first);
             for (step, first) in step.into_iter().zip(first) {
                 if let (Some(step), Some(first)) = (dag.as_constant(step), dag.as_constant(first))

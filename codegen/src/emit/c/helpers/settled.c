@@ -4,6 +4,10 @@ static int robot_settled(double x[ROBOT_DOF], const double change[ROBOT_DOF]) {
     double moved = 0.0;
     for (int k = 0; k < ROBOT_DOF; ++k) {
         x[k] += change[k];
+        // What is no number settles nowhere.
+        if (!(fabs(x[k]) < HUGE_VAL)) {
+            return 0;
+        }
         largest = fmax(largest, fabs(x[k]));
         moved = fmax(moved, fabs(change[k]));
     }
