@@ -35,6 +35,14 @@ impl OutFile {
         })
     }
 
+    /// What stands in it now.
+    ///
+    /// # Errors
+    /// It is not there, or no text.
+    pub fn current(&self) -> Result<String, Error> {
+        std::fs::read_to_string(&self.path).map_err(|error| failed("read", &self.path, error))
+    }
+
     /// Puts the content in place in one step.
     ///
     /// # Errors

@@ -51,11 +51,9 @@ fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
     // Before the work: whether its result can be written.
     let target = options.target();
     let target = target.as_deref().map(OutFile::claim).transpose()?;
-    let page = workspace().join("docs/benchmarks.md");
-    let page = options.docs.then(|| {
-        let text = std::fs::read_to_string(&page).map_err(|error| failed("read", &page, error))?;
-        Ok((OutFile::claim(&page)?, text))
-    });
+    let page = options
+        .docs
+        .then(|| OutFile::claim(&workspace().join("docs/benchmarks.md")));
     let page = page.transpose()?;
     std::fs::create_dir_all(folder).map_err(|error| failed("make", folder, error))?;
     say("deriving the arms ..");
@@ -106,7 +104,9 @@ fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
         text.push('\n');
         say(&format!("wrote {}", target.commit(&text)?.display()));
     }
-    if let Some((page, text)) = page {
+    if let Some(page) = page {
+        // As it is by now: somebody may have written in it while this measured.
+        let text = page.current()?;
         let path = page.commit(&docs::renewed(&text, &report)?)?;
         say(&format!("wrote {}", path.display()));
     }
