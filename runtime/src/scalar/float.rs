@@ -3,8 +3,22 @@
 use super::{Scalar, sealed, sin_cos};
 use crate::math;
 
-// `mul_add`: where the target has no instruction for it, the function of that name is slower than all the rest; `core` has none,
-// and the one in the lane of a register costs more moves than it spares.
+/// Where the target has no instruction for it, the function of that name is slower than all the rest; `core` has none, and the
+/// one in the lane of a register costs more moves than it spares.
+macro_rules! mul_add {
+    () => {
+        #[inline]
+        fn mul_add(self, factor: Self, term: Self) -> Self {
+            #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+            return Self::mul_add(self, factor, term);
+            #[cfg(not(all(
+                feature = "std",
+                any(target_feature = "fma", target_arch = "aarch64")
+            )))]
+            return self * factor + term;
+        }
+    };
+}
 
 impl sealed::Sealed for f64 {}
 impl sealed::Sealed for f32 {}
@@ -17,13 +31,7 @@ impl Scalar for f64 {
         value
     }
 
-    #[inline]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
-        return Self::mul_add(self, factor, term);
-        #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
-        return self * factor + term;
-    }
+    mul_add!();
 
     #[expect(clippy::inline_always, reason = "see `sin_cos`")]
     #[inline(always)]
@@ -120,13 +128,7 @@ impl Scalar for f32 {
         value as Self
     }
 
-    #[inline]
-    fn mul_add(self, factor: Self, term: Self) -> Self {
-        #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
-        return Self::mul_add(self, factor, term);
-        #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
-        return self * factor + term;
-    }
+    mul_add!();
 
     #[inline]
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
