@@ -4,6 +4,15 @@ use serde_json::Value;
 
 use crate::common::{CART, Folder, PENDULUM, close, json, numbers};
 
+const CART_WITH_PARAMETERS: [&str; 6] = [
+    "eval",
+    "cart.robot",
+    "--states",
+    "states.json",
+    "--parameters",
+    "parameters.json",
+];
+
 #[test]
 fn eval_gives_the_values_of_a_pendulum() {
     let folder = Folder::new();
@@ -48,14 +57,7 @@ fn eval_takes_standard_and_base_parameters() {
     );
     let eval = |text: &str| {
         folder.write("parameters.json", text);
-        [
-            "eval",
-            "cart.robot",
-            "--states",
-            "states.json",
-            "--parameters",
-            "parameters.json",
-        ]
+        CART_WITH_PARAMETERS
     };
     let plain = json(&folder.succeed(&eval(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#)));
     close(numbers(&plain["states"][0]["torque"])[0], 8.5, 1e-12);
@@ -180,14 +182,7 @@ fn a_shape_is_what_the_law_allows() {
         "states.json",
         r#"{"states":[{"q":[0],"dq":[1],"ddq":[0]}]}"#,
     );
-    let said = folder.refuse(&[
-        "eval",
-        "cart.robot",
-        "--states",
-        "states.json",
-        "--parameters",
-        "parameters.json",
-    ]);
+    let said = folder.refuse(&CART_WITH_PARAMETERS);
     assert_eq!(
         said,
         "error: parameters.json: `rail.stribeck.vs` is -0.01; it has to be a positive number\n"
