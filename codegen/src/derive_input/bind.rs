@@ -5,7 +5,8 @@ use robot_model_spec::model::{Chain, Inertial};
 use syn::Ident;
 use syn::ext::IdentExt as _;
 
-use super::fields::{Effects, Holds, Robot, RobotField, type_name};
+use super::fields::{Robot, RobotField};
+use super::holds::{Effects, Holds, type_name};
 use super::mistake::{Errors, mistake};
 
 /// What a field holds.

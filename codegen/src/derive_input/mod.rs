@@ -31,6 +31,7 @@ mod bind;
 mod fields;
 #[cfg(test)]
 mod goldens;
+mod holds;
 mod mistake;
 mod source;
 mod stub;

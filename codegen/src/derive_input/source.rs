@@ -10,7 +10,8 @@ use syn::Ident;
 use syn::spanned::Spanned;
 
 use super::ReadFile;
-use super::fields::{FileName, Holds, Robot, RobotField, type_name};
+use super::fields::{FileName, Robot, RobotField};
+use super::holds::{Holds, type_name};
 use super::mistake::{Errors, mistake};
 
 /// The checked model.

@@ -10,7 +10,8 @@ use robot_model_spec::{Model, standard_effects};
 use syn::{Data, DeriveInput, Field};
 
 use super::ReadFile;
-use super::fields::{self, type_name};
+use super::fields;
+use super::holds::type_name;
 use super::source::with_places;
 use crate::compiled::compile_model;
 

@@ -7,7 +7,8 @@ use robot_model_spec::model::EffectDefinition;
 use robot_model_spec::standard_effects;
 
 use super::ReadFile;
-use super::fields::{FileName, identifier, type_name};
+use super::fields::FileName;
+use super::holds::{identifier, type_name};
 use super::source::{mistaken, with_places};
 use crate::base::middle;
 use crate::emit::rust::number;

@@ -6,7 +6,8 @@ use robot_model_spec::model::{Energies, Monomial};
 use robot_model_spec::parameter::{Owner, Status};
 
 use super::bind::Held;
-use super::fields::{Effects, Holds, Robot, identifier};
+use super::fields::Robot;
+use super::holds::{Effects, Holds, identifier};
 use crate::compiled::Compiled;
 use crate::emit::rust::{From, Parameters, number};
 
