@@ -55,6 +55,21 @@ static double block(const struct contender *f, size_t first) {
     return (now() - start) / BLOCK;
 }
 
+static void tell(const struct contender *f) {
+    if (!f->map) {
+        for (int k = 0; k < f->outputs; k++) printf("%.17g ", out[k]);
+    } else {
+        int own = f->outputs / joints;
+        for (int row = 0; row < joints; row++)
+            for (int column = 0; column < f->columns; column++) {
+                double entry = 0;
+                for (int k = 0; k < own; k++) entry += out[own * row + k] * f->map[f->columns * k + column];
+                printf("%.17g ", entry);
+            }
+    }
+    printf("\n");
+}
+
 int main(int argc, char **argv) {
     if (argc < 2) return 2;
     prepare(argv[0]);
@@ -71,8 +86,7 @@ int main(int argc, char **argv) {
         } else if (is_values) {
             for (size_t i = 0; i < wanted; i++) {
                 call(f, i);
-                for (int k = 0; k < f->outputs; k++) printf("%.17g ", out[k]);
-                printf("\n");
+                tell(f);
             }
         } else {
             // One block to wake up.

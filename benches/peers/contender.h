@@ -11,6 +11,10 @@ struct contender {
     int given;
     int outputs;
     void (*call)(const double *q, const double *dq, const double *ddq, const double *c, double *out);
+    // For a regressor in other frames than the spec's: its columns times this matrix, of so many columns, are those of ours. Only
+    // values that are told pass through it; a call that is timed does not.
+    const double *map;
+    int columns;
 };
 
 extern int joints;

@@ -105,6 +105,11 @@ def matrix_of(inertial):
     return [[inertial[PAIRS[min(r, c), max(r, c)]] for c in range(3)] for r in range(3)]
 
 
+def split(inertial):
+    """Mass, first moments, inertia."""
+    return inertial[0], inertial[1:4], matrix_of(inertial)
+
+
 def inertial_of(m, h, I):
     return [m, *h, I[0][0], I[0][1], I[0][2], I[1][1], I[1][2], I[2][2]]
 
@@ -176,19 +181,32 @@ class Arm:
 
 
 def motion(arm, frames, dq, ddq, gravity=True):
-    """Angular velocity, angular acceleration and acceleration of the origin of each link, in its frame."""
-    w, dw = ZERO, ZERO
+    """Of each link in its frame: angular velocity and acceleration, acceleration of the origin, and `dw x + w x w x`."""
+    w, dw, F = ZERO, ZERO, None
     a = minus(arm.gravity) if gravity else ZERO
     out = []
     for (E, z, p, r), v, dv in zip(frames, dq, ddq):
         T = transpose(E)
-        a = times(T, plus(a, cross(dw, p), cross(w, cross(w, p))))
-        w0, dw0 = times(T, w), times(T, dw)
-        zv = scaled(v, z)
+        a = times(T, plus(a, times(F, p)) if F else a)
+        w0, dw0, zv = times(T, w), times(T, dw), scaled(v, z)
         w, dw = plus(w0, zv), plus(dw0, cross(w0, zv), scaled(dv, z))
-        a = plus(a, cross(dw, r), cross(w, cross(w, r)))
-        out.append((w, dw, a))
+        W = skew(w)
+        F = matrix_plus(skew(dw), product(W, W))
+        a = plus(a, times(F, r))
+        out.append((w, dw, a, F))
     return out
+
+
+def moments(w, dw, F):
+    """`I dw + w x I w` of the six unit inertias, in the order of the ten, of sums that `F` has."""
+    xx, yy, zz = (mul(x, x) for x in w)
+    xy, xz, yz = mul(w[0], w[1]), mul(w[0], w[2]), mul(w[1], w[2])
+    return [[dw[0], xz, neg(xy)],
+            [neg(F[2][0]), F[2][1], add(xx, neg(yy))],
+            [F[1][0], add(zz, neg(xx)), neg(F[1][2])],
+            [neg(yz), dw[1], xy],
+            [add(yy, neg(zz)), neg(F[0][1]), F[0][2]],
+            [yz, neg(xz), dw[2]]]
 
 
 def to_parent(frame, f, n):
@@ -207,10 +225,10 @@ def at_joint(frame, f, n):
 
 def inverse_dynamics(arm, frames, dq, ddq, gravity=True):
     wrenches = []
-    for link, (w, dw, a) in zip(arm.links, motion(arm, frames, dq, ddq, gravity)):
-        m, h, I = link.inertial[0], link.inertial[1:4], matrix_of(link.inertial)
-        f = plus(scaled(m, a), cross(dw, h), cross(w, cross(w, h)))
-        n = plus(times(I, dw), cross(w, times(I, w)), cross(h, a))
+    for link, (w, dw, a, F) in zip(arm.links, motion(arm, frames, dq, ddq, gravity)):
+        m, h, inertia = link.inertial[0], link.inertial[1:4], link.inertial[4:]
+        f = plus(scaled(m, a), times(F, h))
+        n = plus(cross(h, a), *map(scaled, inertia, moments(w, dw, F)))
         wrenches.append((f, n))
     f, n, tau = ZERO, ZERO, []
     for frame, (F, N) in zip(reversed(frames), reversed(wrenches)):
@@ -221,8 +239,18 @@ def inverse_dynamics(arm, frames, dq, ddq, gravity=True):
 
 
 def gravity(arm, frames):
-    zeros = [0.0] * arm.dof
-    return inverse_dynamics(arm, frames, zeros, zeros)
+    """First moments of what a joint carries, and gravity in the frames of the links."""
+    g, directions = arm.gravity, []
+    for E, _, _, _ in frames:
+        g = times(transpose(E), g)
+        directions.append(g)
+    m, h, tau = 0.0, ZERO, []
+    for link, (E, z, p, r), g in zip(reversed(arm.links), reversed(frames), reversed(directions)):
+        m, h = add(m, link.inertial[0]), plus(h, link.inertial[1:4])
+        h = plus(h, scaled(m, r))
+        tau.append(dot(z, cross(g, h)))
+        h = plus(times(E, h), scaled(m, p))
+    return tau[::-1]
 
 
 def mass_matrix(arm, frames):
@@ -242,72 +270,56 @@ def mass_matrix(arm, frames):
     return M
 
 
-def regressor(arm, frames, dq, ddq):
-    Y = [[0.0] * (10 * arm.dof) for _ in range(arm.dof)]
-    for k, (w, dw, a) in enumerate(motion(arm, frames, dq, ddq)):
-        W, dW = skew(w), skew(dw)
-        forces = matrix_plus(dW, product(W, W))
-        wrenches = [(a, ZERO)]
-        units = transpose(IDENTITY)
-        wrenches += [(times(forces, e), cross(e, a)) for e in units]
-        for (r, c) in PAIRS:
-            I = [[1.0 if (x, y) in ((r, c), (c, r)) else 0.0 for y in range(3)] for x in range(3)]
-            wrenches.append((ZERO, plus(times(I, dw), cross(w, times(I, w)))))
-        for column, (f, n) in enumerate(wrenches):
-            for j in reversed(range(k + 1)):
-                Y[j][10 * k + column] = at_joint(frames[j], f, n)
-                f, n = to_parent(frames[j], f, n)
-    return Y
+def second_moments(I):
+    """`tr(I) / 2 - I`: of an inertia the integral of `r r'` over the mass."""
+    half = mul(0.5, total(I[k][k] for k in range(3)))
+    return matrix_plus(matrix_scaled(half, IDENTITY), matrix_scaled(-1.0, I))
 
 
-def base_regressor(arm, frames, dq, ddq):
-    Y = regressor(arm, frames, dq, ddq)
-    return [[row[k] for k in arm.base_columns] for row in Y]
+def inertia(S):
+    """Of second moments."""
+    return matrix_plus(matrix_scaled(total(S[k][k] for k in range(3)), IDENTITY), matrix_scaled(-1.0, S))
 
 
-def six(A, B, C, D):
-    return [a + b for a, b in zip(A, B)] + [c + d for c, d in zip(C, D)]
+def moments_in_parent(E, p, m, h, S):
+    """First and second moments of a mass in the frame in which its own stands at `E, p`."""
+    h, S = times(E, h), product(product(E, S), transpose(E))
+    entry = lambda r, c: total([S[r][c], mul(p[r], h[c]), mul(h[r], p[c]), mul(m, mul(p[r], p[c]))])
+    return plus(h, scaled(m, p)), [[entry(min(r, c), max(r, c)) for c in range(3)] for r in range(3)]
 
 
 def coriolis_matrix(arm, frames, dq):
-    """Christoffel form, all in the base frame; for frames behind the joints. Spatial vectors are (angular, linear)."""
-    R, p, v = IDENTITY, ZERO, [0.0] * 6
-    zeros = [ZERO] * 3
-    joints = []
-    for link, (E, z, p0, _), rate in zip(arm.links, frames, dq):
-        p = plus(p, times(R, p0))
-        R = product(R, E)
-        axis = times(R, z)
-        J = axis + cross(p, axis)
-        v = plus(v, scaled(rate, J))
-        w, u = v[:3], v[3:]
-        dJ = cross(w, J[:3]) + plus(cross(w, J[3:]), cross(u, J[:3]))
-        body = moved(link.inertial, R, p)
-        m, h, I = body[0], body[1:4], matrix_of(body)
-        H = skew(h)
-        inertia = six(I, H, matrix_scaled(-1.0, H), matrix_scaled(m, IDENTITY))
-        momentum = times(inertia, v)
-        W, U = skew(w), skew(u)
-        motion_cross = six(W, zeros, U, W)
-        force_cross = matrix_scaled(-1.0, transpose(motion_cross))
-        # (momentum x*) x = x x* momentum
-        K, L = skew(momentum[:3]), skew(momentum[3:])
-        by_momentum = matrix_scaled(-1.0, six(K, L, L, zeros))
-        B = matrix_plus(product(force_cross, inertia), by_momentum)
-        B = matrix_plus(B, matrix_scaled(-1.0, product(inertia, motion_cross)))
-        joints.append((J, dJ, inertia, matrix_scaled(0.5, B)))
-    n = arm.dof
-    C = [[0.0] * n for _ in range(n)]
-    nothing = [[0.0] * 6 for _ in range(6)]
-    inertia, B = nothing, nothing
-    for j in reversed(range(n)):
-        J, dJ, own, own_B = joints[j]
-        inertia, B = matrix_plus(inertia, own), matrix_plus(B, own_B)
-        F1 = plus(times(inertia, dJ), times(B, J))
-        F2, F3 = times(inertia, J), times(transpose(B), J)
-        for i in range(j + 1):
-            Ji, dJi = joints[i][:2]
-            C[i][j] = dot(Ji, F1)
-            if i < j:
-                C[j][i] = add(dot(dJi, F2), dot(Ji, F3))
+    """Christoffel form, of composite bodies in the frames of the links; for frames behind the joints.
+
+    Of the 6 x 6 matrix `B` of a body (angular part first) with first moments `h`, second moments `S` about the origin and velocity
+    `(w, u)` of it, the rows of moments are `[-(w x) S - (h x)(u x), 0]` and those of forces `[-f x, 0]`; `f` is its momentum.
+    """
+    w, u, bodies = ZERO, ZERO, []
+    for link, (E, z, p, _), rate in zip(arm.links, frames, dq):
+        T = transpose(E)
+        u = times(T, plus(u, cross(w, p)))
+        w = plus(times(T, w), scaled(rate, z))
+        m, h, I = split(link.inertial)
+        S = second_moments(I)
+        B = matrix_scaled(-1.0, matrix_plus(product(skew(w), S), product(skew(h), skew(u))))
+        bodies.append((m, h, S, B, plus(scaled(m, u), cross(w, h)), cross(w, z), cross(u, z)))
+    C = [[0.0] * arm.dof for _ in bodies]
+    m, h, S, B, F = 0.0, ZERO, [ZERO] * 3, [ZERO] * 3, ZERO
+    for j in reversed(range(arm.dof)):
+        (E, z, p, _), (m_j, h_j, S_j, B_j, F_j, dz, ds) = frames[j], bodies[j]
+        m, h, S, B, F = m + m_j, plus(h, h_j), matrix_plus(S, S_j), matrix_plus(B, B_j), plus(F, F_j)
+        I = inertia(S)
+        # Wrenches of the axis' own change, of the axis, and of the axis through the transpose of `B`.
+        change = plus(scaled(m, ds), cross(dz, h), cross(z, F)), plus(times(I, dz), cross(h, ds), times(B, z))
+        unit = cross(z, h), times(I, z)
+        back = ZERO, times(transpose(B), z)
+        C[j][j] = dot(z, change[1])
+        for i in reversed(range(j)):
+            change, unit, back = (to_parent(frames[i + 1], *wrench) for wrench in (change, unit, back))
+            z_i, (*_, dz_i, ds_i) = frames[i][1], bodies[i]
+            C[i][j] = dot(z_i, change[1])
+            C[j][i] = total([dot(ds_i, unit[0]), dot(dz_i, unit[1]), dot(z_i, back[1])])
+        F = times(E, F)
+        B = matrix_plus(product(product(E, B), transpose(E)), matrix_scaled(-1.0, product(skew(p), skew(F))))
+        h, S = moments_in_parent(E, p, m, h, S)
     return C

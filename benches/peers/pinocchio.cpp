@@ -19,6 +19,7 @@ using Rows = Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Ei
 pinocchio::Model model;
 pinocchio::Data data;
 Column q_, dq_, ddq_;
+Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> map;
 
 // Pinocchio takes no maps as states; a copy of a few numbers is less than one joint of its recursion.
 void state(const double *q, const double *dq, const double *ddq) {
@@ -47,6 +48,11 @@ void gravity(const double *q, const double *dq, const double *ddq, const double 
     Eigen::Map<Column>(out, joints) = pinocchio::computeGeneralizedGravity(model, data, q_);
 }
 
+void regressor(const double *q, const double *dq, const double *ddq, const double *, double *out) {
+    state(q, dq, ddq);
+    Rows(out, joints, 10 * joints) = pinocchio::computeJointTorqueRegressor(model, data, q_, dq_, ddq_);
+}
+
 } // namespace
 
 extern "C" {
@@ -54,11 +60,12 @@ extern "C" {
 int joints = 0;
 
 struct contender contenders[] = {
-    {"inverse_dynamics", 0, 0, inverse_dynamics},
-    {"mass_matrix", 0, 0, mass_matrix},
-    {"coriolis_matrix", 0, 0, coriolis_matrix},
-    {"gravity", 0, 0, gravity},
-    {0, 0, 0, 0},
+    {"inverse_dynamics", 0, 0, inverse_dynamics, 0, 0},
+    {"mass_matrix", 0, 0, mass_matrix, 0, 0},
+    {"coriolis_matrix", 0, 0, coriolis_matrix, 0, 0},
+    {"gravity", 0, 0, gravity, 0, 0},
+    {"regressor", 0, 0, regressor, 0, 0},
+    {0, 0, 0, 0, 0, 0},
 };
 
 void prepare(const char *program) {
@@ -86,6 +93,13 @@ void prepare(const char *program) {
     data = pinocchio::Data(model);
     for (struct contender &f : contenders) f.outputs = joints;
     contenders[1].outputs = contenders[2].outputs = joints * joints;
+    contenders[4].outputs = 10 * joints * joints;
+    map.resize(10 * joints, 10 * joints);
+    for (int i = 0; i < map.rows(); i++)
+        for (int j = 0; j < map.cols(); j++) file >> map(i, j);
+    if (!file) throw std::runtime_error("no map in arm.txt");
+    contenders[4].map = map.data();
+    contenders[4].columns = static_cast<int>(map.cols());
     q_.resize(joints), dq_.resize(joints), ddq_.resize(joints);
 }
 }

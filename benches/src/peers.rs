@@ -1,7 +1,8 @@
 //! Other programs that compute the same arm: which are installed, and how their code becomes a contender.
 //!
-//! The programs that call them are ours, `benches/peers`: textbook recursions (`dynamics.py`) over the symbols of a code
-//! generator, whose code the system's compiler gets with `-O3 -march=native`, and again with `-ffast-math`.
+//! The programs that call them are ours, `benches/peers`: textbook recursions (`dynamics.py`, `regressors.py`) over the symbols of
+//! a code generator, a function in several ways where it is not known which is the fastest (`ways.py`). The system's compiler gets
+//! the code with `-O3 -march=native`, and again with `-ffast-math`.
 
 use std::env;
 use std::fs;
@@ -13,6 +14,21 @@ use crate::{Error, build, failed};
 
 /// Peers that are known, as they are asked for.
 pub const NAMES: [&str; 3] = ["casadi", "symforce", "pinocchio"];
+
+/// In how many ways a peer may compute a function; the fastest counts.
+pub const WAYS: usize = 3;
+
+/// Name of a peer's case: `gravity`, in its second way `gravity~2`, with sines and cosines given `gravity~2/given`.
+#[must_use]
+pub fn case(function: &str, way: usize, given: bool) -> String {
+    let way = if way == 0 {
+        String::new()
+    } else {
+        format!("~{}", way + 1)
+    };
+    let given = if given { "/given" } else { "" };
+    format!("{function}{way}{given}")
+}
 
 /// A peer's program for an arm.
 #[derive(Debug)]
@@ -80,6 +96,12 @@ fn sources() -> PathBuf {
     workspace().join("benches/peers")
 }
 
+/// What the generators share.
+const SHARED: [&str; 4] = ["dynamics.py", "regressors.py", "ways.py", "table.py"];
+
+/// The clock that peers' programs are linked with.
+const CLOCK: [&str; 2] = ["contender.c", "contender.h"];
+
 /// Text of our sources, which a program depends on.
 fn text(names: &[&str]) -> Result<String, Error> {
     let read = |name: &&str| {
@@ -99,9 +121,10 @@ fn generate(
 ) -> Result<PathBuf, Error> {
     let product = folder.join(product);
     let input = format!(
-        "{version}\n{}\n{}",
+        "{version}\n{}\n{}{}",
         arm.to_json(),
-        text(&["dynamics.py", script])?
+        text(&SHARED)?,
+        text(&[script])?
     );
     build::made(&product, &input, || {
         build::run(
@@ -144,7 +167,7 @@ fn compile_with(
     let clock = folder.join("contender.o");
     let said = |path: &Path| fs::read_to_string(path).map_err(|error| failed("read", path, error));
     let cc = tool("CC", "cc");
-    build::made(&clock, &text(&["contender.c", "contender.h"])?, || {
+    build::made(&clock, &text(&CLOCK)?, || {
         let mut command = Command::new(&cc);
         command.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O2", "-c"]);
         command
@@ -169,7 +192,7 @@ fn compile_with(
             .arg("-lm")
             .arg("-o")
             .arg(&executable);
-        let input = format!("{command:?}\n{}", said(source)?);
+        let input = format!("{command:?}\n{}\n{}", said(source)?, text(&CLOCK)?);
         build::made(&executable, &input, || build::run(&mut command).map(drop))?;
         contenders.push(Contender { name, executable });
     }
@@ -257,7 +280,13 @@ fn eigen() -> Result<String, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::help;
+    use super::{case, help};
+
+    #[test]
+    fn ways_have_names() {
+        assert_eq!(case("gravity", 0, false), "gravity");
+        assert_eq!(case("gravity", 1, true), "gravity~2/given");
+    }
 
     #[test]
     fn what_is_missing_is_told_with_the_way_to_it() {
