@@ -91,35 +91,55 @@ fn what_is_computed_is_what_is_shown() {
     }
 }
 
+fn compile(text: &str) -> Compiled {
+    compile_model(&robot_model_spec::load("arm", text).unwrap_or_else(|e| panic!("{e}")))
+}
+
+/// `a` and `d`, m.
+const LENGTHS: [[f64; 3]; 2] = [[0.0, 0.3, 0.1], [0.2; 3]];
+
 /// An arm of three joints, slides among them, in both conventions of DH.
-fn chain(modified: bool, kinds: usize, angles: usize) -> String {
+fn chain(
+    gravity: &str,
+    modified: bool,
+    kinds: usize,
+    alphas: [&str; 3],
+    [lengths, offsets]: [[f64; 3]; 2],
+) -> String {
     let convention = if modified {
         "modified_dh"
     } else {
         "standard_dh"
     };
     let joint = |k: usize| {
-        let alpha = [0, 90, 45][angles / [1, 3, 9][k] % 3];
-        let a = [0.0, 0.3, 0.1][k];
+        let [a, d] = [lengths, offsets].map(|numbers| numbers[k]);
         let (kind, last) = if kinds >> k & 1 == 0 {
-            ("revolute", "d = 0.2;")
+            ("revolute", format!("d = {d};"))
         } else {
-            ("prismatic", "theta = 0;")
+            ("prismatic", "theta = 0;".to_owned())
         };
-        format!("joint j{k}: {kind} {{ a = {a}; alpha = {alpha} deg; {last} }}\n")
+        let alpha = alphas[k];
+        format!("joint j{k}: {kind} {{ a = {a}; alpha = {alpha}; {last} }}\n")
     };
     let joints: String = (0..3).map(joint).collect();
-    format!("robot Arm {{ gravity = [0, 0, -9.81]; convention = {convention};\n{joints}}}\n")
+    format!("robot Arm {{ gravity = {gravity}; convention = {convention};\n{joints}}}\n")
+}
+
+/// Three of the angles, each choice of them once.
+fn choices(angles: [&'static str; 3]) -> impl Iterator<Item = [&'static str; 3]> {
+    (0..27).map(move |case| [1, 3, 9].map(|place| angles[case / place % 3]))
 }
 
 /// With numbers for the parameters there are more ways to write an arm; all have its values.
 #[test]
 fn baked_arms_have_the_values_of_the_arm() {
     let mut specs = compiled();
-    for case in 0..2 * 8 * 27 {
-        let text = chain(case % 2 == 1, case / 2 % 8, case / 16);
-        let model = robot_model_spec::load("arm", &text).unwrap_or_else(|e| panic!("{e}"));
-        specs.push((text, compile_model(&model)));
+    for alphas in choices(["0", "90 deg", "45 deg"]) {
+        for case in 0..2 * 8 {
+            let text = chain("[0, 0, -9.81]", case % 2 == 1, case / 2, alphas, LENGTHS);
+            let model = compile(&text);
+            specs.push((text, model));
+        }
     }
     for (robot, model) in specs {
         let beta: Vec<f64> = model
@@ -157,6 +177,61 @@ fn baked_arms_have_the_values_of_the_arm() {
                     (x - y).abs() <= TOLERANCE * size,
                     "{robot} form {form}: {x} {y}"
                 );
+            }
+        }
+    }
+}
+
+/// An angle that is nearly none makes columns that are nearly none: strong ones of the link do not regroup into their parameters.
+#[test]
+fn nearly_parallel_axes_lose_no_digits() {
+    for alphas in choices(["1e-7", "0", "90 deg"]) {
+        for (gravity, modified, lengths) in [
+            ("[9.81, 0, 0]", false, [[0.0, 0.3, 0.0], [0.0, 2e-4, 0.3]]),
+            ("[1e-8, 0, -9.81]", true, LENGTHS),
+        ] {
+            let robot = chain(gravity, modified, 0, alphas, lengths);
+            let model = compile(&robot);
+            let standard: Vec<f64> = (0..model.standard.len())
+                .map(|k| value(Symbol::Parameter(k)))
+                .collect();
+            let coefficients = model.base.combinations.concat();
+            // One over the angle may be among them, which leaves nine digits; one over its square would leave two.
+            assert!(
+                coefficients.iter().all(|(_, x)| x.abs() < 1e8),
+                "{robot}: {coefficients:?}"
+            );
+            let baked = model.baked(&model.base.beta(&standard), &[]);
+            let computed = &baked.computed;
+            // With velocities and accelerations so many times those of `value`.
+            let forms = [
+                (&computed.inverse_dynamics, 1.0, 1.0),
+                (&computed.bias, 1.0, 0.0),
+                (&computed.gravity, 0.0, 0.0),
+            ];
+            for (joint, row) in model.linear.regressor.iter().enumerate() {
+                let torques = forms.map(|(outputs, dq, ddq)| {
+                    let state = |symbol| match symbol {
+                        Symbol::Dq(_) => dq * value(symbol),
+                        Symbol::Ddq(_) => ddq * value(symbol),
+                        other => value(other),
+                    };
+                    let terms = row.iter().zip(&standard);
+                    let terms: Vec<f64> = terms
+                        .map(|(&y, p)| model.dag.evaluate(y, &state) * p)
+                        .collect();
+                    let size: f64 = terms.iter().map(|x| x.abs()).sum();
+                    let found = baked.dag.evaluate(outputs[joint], &state);
+                    (found, terms.iter().sum::<f64>(), size)
+                });
+                // What base parameters leave out of a column is 1e-10 of it.
+                let tolerance = 1e-10 * torques[0].2;
+                for (found, wanted, _) in torques {
+                    assert!(
+                        (found - wanted).abs() <= tolerance,
+                        "{robot} {joint}: {torques:?}"
+                    );
+                }
             }
         }
     }
