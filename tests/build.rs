@@ -38,7 +38,8 @@ fn bake(name: &str) {
             _ => 0.3 + 0.25 * (1.7 * k as f64).sin(),
         })
         .collect();
-    let page = emit::rust::module(&compiled.baked(&beta, &shape_values(&model)));
+    let baked = compiled.baked(&beta, &shape_values(&model));
+    let page = emit::rust::module(&baked.unwrap_or_else(|error| panic!("{error}")));
     let out = std::env::var_os("OUT_DIR").expect("cargo says where");
     fs::write(Path::new(&out).join(format!("baked_{name}.rs")), page).expect("a writable folder");
 }

@@ -81,6 +81,7 @@ impl Arm {
         let standard = values.collect::<Result<Vec<f64>, Error>>()?;
         let beta = runtime.base.beta(&standard);
         let baked = runtime.baked(&beta, &shape_values(&model));
+        let baked = baked.map_err(|error| Error::new(format!("{name}: {error}")))?;
         Ok(Self {
             name,
             runtime,

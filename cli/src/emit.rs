@@ -1,9 +1,14 @@
 //! `robot-model emit`: an arm's equations as source code.
 
+use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
+use clap::{Arg, Args, Command, ValueEnum};
+use robot_model_codegen::Origin;
+use robot_model_codegen::emit::c::{Prefix, PrefixError};
 use robot_model_codegen::emit::{self, Extent};
 
 use crate::Error;
@@ -17,11 +22,15 @@ pub(crate) struct Emit {
     /// The `.robot` file.
     spec: PathBuf,
     /// Language of the code.
-    #[arg(long, value_enum)]
+    #[arg(long, ignore_case = true, value_parser = LanguageParser)]
     lang: Language,
-    /// Folder to write to, made where it is missing. A Rust file is called as the spec is, C files as the robot is.
+    /// Folder to write to, made where it is missing. A Rust file is called as the spec is, C files as the robot is or `--name` says.
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
+    /// C only: what its files are called and its names start with, in place of the robot's name. Arms of one program have a name
+    /// each.
+    #[arg(long, value_parser = prefix)]
+    name: Option<Prefix>,
     /// Which functions.
     #[arg(long, value_enum, default_value_t)]
     functions: Functions,
@@ -56,15 +65,69 @@ enum Language {
     C,
 }
 
+fn prefix(text: &str) -> Result<Prefix, String> {
+    Prefix::new(text).map_err(|reason| match reason {
+        PrefixError::Spelling { .. } => reason.to_string(),
+        _ => format!("{reason}; write `{}`, say", Prefix::of_robot(text).as_str()),
+    })
+}
+
+/// Languages by their names, with a hint at those that have none.
+#[derive(Clone)]
+struct LanguageParser;
+
+impl TypedValueParser for LanguageParser {
+    type Value = Language;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Language, clap::Error> {
+        let known = EnumValueParser::<Language>::new();
+        known
+            .parse_ref(command, argument, value)
+            .map_err(|mut error| {
+                if ["c++", "cpp", "cxx", "cc"]
+                    .iter()
+                    .any(|name| value.eq_ignore_ascii_case(name))
+                {
+                    let hint = "write `c`: what it emits is for C++ too".into();
+                    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![hint]));
+                    error.remove(ContextKind::SuggestedValue);
+                }
+                error
+            })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let values = Language::value_variants().iter();
+        Some(Box::new(values.filter_map(ValueEnum::to_possible_value)))
+    }
+}
+
 impl Emit {
     pub(crate) fn run(&self) -> Result<(), Error> {
+        if let (Language::Rust, Some(name)) = (self.lang, &self.name) {
+            return Err(Error::Argument(format!(
+                "`--name` is for `--lang c`; a page of Rust has the names of the module that includes it: `mod {} {{ include!(..) }}`",
+                name.as_str()
+            )));
+        }
         let compiled = compile_instantaneous(&self.spec)?;
         let compiled = match &self.parameters {
             Some(file) => {
                 let values = parameters::resolve(&compiled, Some(file))?;
-                let kept = compiled.base.kept.iter();
-                let beta: Vec<f64> = kept.map(|&k| values.parameters[k]).collect();
-                compiled.baked(&beta, &values.shapes)
+                let mut arm = compiled
+                    .baked(&values.beta, &values.shapes)
+                    .map_err(|error| Error::json(file, &error))?;
+                arm.origin = Some(Origin {
+                    file: file.display().to_string(),
+                    given: values.given,
+                    from_spec: values.from_spec.len(),
+                });
+                arm
             }
             None => compiled,
         };
@@ -75,12 +138,45 @@ impl Emit {
                 emit::rust::module_of(&compiled, extent),
             )],
             Language::C => {
-                let code = emit::c::code_of(&compiled, extent);
-                let file = |extension: &str| PathBuf::from(format!("{}.{extension}", code.name));
+                let name = self.name.clone();
+                let name = name.unwrap_or_else(|| Prefix::of_robot(&compiled.model.name));
+                if let Some(reason) = name.refused() {
+                    output::say(&format!(
+                        "note: C names start with `{}`, as {reason}; `--name NAME` chooses others",
+                        name.as_str()
+                    ));
+                }
+                let code = emit::c::code_named(&compiled, extent, name);
+                let name = code.name.as_str();
+                let file = |extension: &str| PathBuf::from(format!("{name}.{extension}"));
                 vec![(file("h"), code.header), (file("c"), code.source)]
             }
         };
         self.write(&code)
+    }
+
+    /// The folder to write to.
+    fn make_folder(&self) -> Result<(), Error> {
+        fs::create_dir_all(&self.out).map_err(|error| {
+            let file = self.out.ancestors().find(|path| path.is_file());
+            let reason = match file {
+                Some(file) => {
+                    let it = if file == self.out {
+                        "it".to_owned()
+                    } else {
+                        format!("`{}`", file.display())
+                    };
+                    format!(
+                        "{it} is a file, and `--out` takes a folder; what stands in it is called as the robot is, or the spec"
+                    )
+                }
+                None => error.to_string(),
+            };
+            Error::Write {
+                path: self.out.clone(),
+                reason,
+            }
+        })
     }
 
     /// All files, or none where one of them cannot be written.
@@ -90,7 +186,7 @@ impl Emit {
         let mut claimed = Vec::new();
         for (name, text) in code {
             let path = self.out.join(name);
-            fs::create_dir_all(&self.out).map_err(|error| Error::write(&path, &error))?;
+            self.make_folder()?;
             claimed.push((files.claim(&path)?, text, path));
         }
         for (file, text, path) in claimed {

@@ -75,13 +75,6 @@ impl Error {
         }
     }
 
-    pub(crate) fn write(path: &Path, error: &std::io::Error) -> Self {
-        Self::Write {
-            path: path.to_owned(),
-            reason: error.to_string(),
-        }
-    }
-
     pub(crate) fn json(path: &Path, reason: &impl ToString) -> Self {
         Self::Json {
             path: path.to_owned(),

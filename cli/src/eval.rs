@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::output::counted;
 use crate::parameters::{self, Values};
-use crate::spec::{compile_instantaneous, read_text};
-use crate::{Error, output};
+use crate::spec::compile_instantaneous;
+use crate::{Error, json, output};
 
 /// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
 /// the spec's points are, with their Jacobians, as JSON.
@@ -153,8 +153,7 @@ impl Eval {
             .symbols()
             .iter()
             .any(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)));
-        let written: serde_json::Value =
-            serde_json::from_str(&read_text(path)?).map_err(|error| Error::json(path, &error))?;
+        let written = json::read(path)?;
         if written.is_array() {
             let reason = "the list of states has a name: write `{\"states\": [..]}`";
             return Err(Error::json(path, &reason));

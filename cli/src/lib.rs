@@ -13,6 +13,7 @@ mod error;
 mod eval;
 mod identify;
 mod import;
+mod json;
 
 pub mod interpreted;
 mod output;

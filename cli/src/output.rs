@@ -246,3 +246,17 @@ pub(crate) fn counted(count: usize, what: &str) -> String {
         format!("{count} {what}s")
     }
 }
+
+/// Names in backticks; a long list keeps its first twelve.
+pub(crate) fn names(names: &[&str]) -> String {
+    const SHOWN: usize = 12;
+    let mut text: Vec<String> = names
+        .iter()
+        .take(SHOWN)
+        .map(|name| format!("`{name}`"))
+        .collect();
+    if names.len() > SHOWN {
+        text.push(format!("and {} more", names.len() - SHOWN));
+    }
+    text.join(", ")
+}

@@ -8,6 +8,7 @@ use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
 
+use crate::parameters::no_body;
 use crate::progress::Progress;
 use crate::{Error, output};
 
@@ -48,9 +49,9 @@ pub(crate) fn compile_to_look_at(path: &Path) -> Result<Compiled, Error> {
     for link in compiled.model.chain().iter().flat_map(|chain| &chain.links) {
         if !link.inertial.is_possible() {
             output::say(&format!(
-                "warning: {}: link `{}` has an inertia that no body has: about the center of mass each principal moment is positive \
-                 and at most the sum of the other two",
-                compiled.model.source, link.name
+                "warning: {}: {}",
+                compiled.model.source,
+                no_body(&link.name)
             ));
         }
     }

@@ -3,6 +3,7 @@
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{StandardParameter, Status};
 
+use crate::baked::{BakeError, Origin};
 use crate::base::{self, BaseForm};
 use crate::dynamics::energy::EnergyForm;
 use crate::dynamics::{self, Computed, Dynamics, Kinematics, Partials, Point, Value, energy};
@@ -49,6 +50,8 @@ pub struct Compiled {
     pub points: Vec<Point>,
     /// Numbers of the base parameters where these are in the equations, see [`Self::baked`]; else they are symbols.
     pub baked: Option<Vec<f64>>,
+    /// Where these numbers are from, for those who read the page; set by whoever knows it.
+    pub origin: Option<Origin>,
 }
 
 /// Derives everything. A checked model has no errors left; how clear the base parameters are is
@@ -122,6 +125,7 @@ fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
         kinematics,
         points,
         baked,
+        origin: None,
     }
 }
 
@@ -281,8 +285,11 @@ impl Compiled {
     /// One arm: the same model with numbers for all that an estimate gives, base parameters in their order and all shape
     /// parameters. Terms of parameters that are zero are gone, products of numbers are numbers, and the derivation chooses its
     /// ways for them. Regressors, which have no parameters in them, stay.
-    #[must_use]
-    pub fn baked(&self, beta: &[f64], shapes: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// A number that is not finite, a shape for which its effect's law does not hold, too many or too few of them; by name.
+    pub fn baked(&self, beta: &[f64], shapes: &[f64]) -> Result<Self, BakeError> {
+        self.check_numbers(beta, shapes)?;
         let mut model = self.model.clone();
         let mut values = shapes.iter();
         for effect in &mut model.effects {
@@ -290,7 +297,7 @@ impl Compiled {
                 *shape = Some(*value);
             }
         }
-        assemble(&model, Some((&self.base, beta)))
+        Ok(assemble(&model, Some((&self.base, beta))))
     }
 
     /// The internal states of the declared effects, one entry per effect that has some; slopes are added to `dag`, a copy of

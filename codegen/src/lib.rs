@@ -25,12 +25,14 @@ pub mod show;
 pub mod states;
 
 mod alone;
+mod baked;
 mod build_script;
 mod compiled;
 mod forms;
 mod measured;
 
 pub use alone::{EffectColumns, effect_columns};
+pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use measured::NotInstantaneous;

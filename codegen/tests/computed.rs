@@ -150,7 +150,7 @@ fn baked_arms_have_the_values_of_the_arm() {
             .collect();
         let parameters = model.parameter_values(&beta);
         let shapes = robot_model_codegen::base::shape_values(&model.model);
-        let baked = model.baked(&beta, &shapes);
+        let baked = model.baked(&beta, &shapes).expect("finite numbers");
         let bind = |symbol| match symbol {
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(k) => shapes[k],

@@ -53,6 +53,13 @@ fn nominal(compiled: &Compiled) -> Vec<f64> {
     compiled.base.beta(&standard.collect::<Vec<f64>>())
 }
 
+/// The arm of these.
+fn baked(compiled: &Compiled) -> Compiled {
+    let shapes = shape_values(&compiled.model);
+    let baked = compiled.baked(&nominal(compiled), &shapes);
+    baked.expect("the numbers of an arm")
+}
+
 /// Each form that numbers make smaller, by the name of its function.
 fn forms(computed: &Computed) -> [(&'static str, Vec<ExprId>); 5] {
     [
@@ -77,7 +84,7 @@ fn counts() {
         for (name, cost) in costs.iter().filter(|(name, _)| FUNCTIONS.contains(name)) {
             line(name, "runtime", *cost);
         }
-        let baked = compiled.baked(&nominal(&compiled), &shape_values(&compiled.model));
+        let baked = baked(&compiled);
         for (name, outputs) in forms(&baked.computed) {
             line(name, "baked", optimize(&baked.dag, &outputs).cost());
         }
@@ -90,7 +97,7 @@ fn counts() {
 fn the_page_says_what_the_optimizer_counts() {
     for robot in ROBOTS {
         let compiled = bare(robot);
-        let baked = compiled.baked(&nominal(&compiled), &shape_values(&compiled.model));
+        let baked = baked(&compiled);
         for compiled in [compiled, baked] {
             let costs = rust::costs(&compiled);
             for (name, outputs) in forms(&compiled.computed) {
@@ -108,7 +115,7 @@ fn baked_equations_have_the_values_of_the_arm() {
         let compiled = bare(robot);
         let beta = nominal(&compiled);
         let parameters = compiled.parameter_values(&beta);
-        let baked = compiled.baked(&beta, &shape_values(&compiled.model));
+        let baked = baked(&compiled);
         let bind = |symbol| match symbol {
             Symbol::Q(k) => 0.4 + 1.3 * k as f64,
             Symbol::Dq(k) => 0.9 - 0.7 * k as f64,

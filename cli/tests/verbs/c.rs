@@ -52,6 +52,127 @@ fn c_is_a_header_and_a_source_named_as_the_robot() {
     assert!(source.contains(body), "{source}");
 }
 
+/// Two specimens of an arm are in one program under a name each; a name that something else has is refused, or avoided.
+#[test]
+fn c_can_have_another_name() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let named = |name: &'static str| [&EMIT[..], &["--name", name]].concat();
+    let files = folder.succeed(&named("left_cart"));
+    assert_eq!(files, "code/left_cart.h\ncode/left_cart.c\n");
+    let header = folder.read("code/left_cart.h");
+    assert!(
+        header.contains("#define LEFT_CART_NAME \"Cart\"\n"),
+        "{header}"
+    );
+    assert!(header.contains("\nvoid left_cart_gravity("), "{header}");
+    let source = folder.read("code/left_cart.c");
+    assert!(source.contains("#include \"left_cart.h\"\n"), "{source}");
+    for (name, said) in [
+        ("math", "`math.h` is a header of the system"),
+        ("while", "`while` is a word of C or C++"),
+        ("sin", "`sin` is a function of the C library"),
+        ("LeftCart", "`LeftCart` would be `left_cart`"),
+        (
+            "cart_base",
+            "`cart_base_regressor` would be a name of both `cart` and `cart_base`",
+        ),
+    ] {
+        let run = folder.run(&named(name));
+        assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
+        assert!(
+            run.stderr.contains("'--name <NAME>'") && run.stderr.contains(said),
+            "{}",
+            run.stderr
+        );
+    }
+    let rust = [
+        "emit",
+        "cart.robot",
+        "--lang",
+        "rust",
+        "--out",
+        "code",
+        "--name",
+        "left",
+    ];
+    assert_eq!(
+        folder.refuse(&rust),
+        "error: `--name` is for `--lang c`; a page of Rust has the names of the module that includes it: \
+         `mod left { include!(..) }`\n"
+    );
+
+    folder.write("cart.robot", &CART.replace("robot Cart", "robot Math"));
+    let run = folder.run(&EMIT);
+    assert_eq!(run.stdout, "code/math_robot.h\ncode/math_robot.c\n");
+    assert_eq!(
+        run.stderr,
+        "note: C names start with `math_robot`, as `math.h` is a header of the system; `--name NAME` chooses others\n"
+    );
+}
+
+/// Languages have the names that they have.
+#[test]
+fn languages_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let emit = |lang: &'static str| ["emit", "cart.robot", "--lang", lang, "--out", "code"];
+    assert_eq!(folder.succeed(&emit("C")), "code/cart.h\ncode/cart.c\n");
+    for (lang, hint) in [
+        ("cpp", "write `c`: what it emits is for C++ too"),
+        ("C++", "write `c`: what it emits is for C++ too"),
+        ("fortran", "[possible values: rust, c]"),
+    ] {
+        let run = folder.run(&emit(lang));
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains(hint), "{}", run.stderr);
+    }
+}
+
+/// `--out` is a folder, wherever the file in its way is.
+#[test]
+fn a_file_is_no_folder() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("code", "");
+    for (out, said) in [
+        (
+            "code",
+            "cannot write `code`: it is a file, and `--out` takes a folder",
+        ),
+        (
+            "code/arms",
+            "cannot write `code/arms`: `code` is a file, and `--out` takes a folder",
+        ),
+    ] {
+        let said =
+            format!("error: {said}; what stands in it is called as the robot is, or the spec\n");
+        let emit = ["emit", "cart.robot", "--lang", "c", "--out", out];
+        assert_eq!(folder.refuse(&emit), said);
+    }
+}
+
+/// The page says whose numbers it has.
+#[test]
+fn baked_c_says_where_its_numbers_are_from() {
+    let folder = Folder::new();
+    folder.write(
+        "cart.robot",
+        &CART.replace("effects {", "effects { stribeck() on rail;"),
+    );
+    std::fs::create_dir(folder.path("lab")).expect("a writable folder");
+    folder.write(
+        "lab/monday.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.stribeck.fs": 1, "rail.stribeck.vs": 0.1}"#,
+    );
+    folder.succeed(&[&EMIT[..], &["--parameters", "lab/monday.json"]].concat());
+    let header = folder.read("code/cart.h");
+    let wanted = "// These numbers are from values of base parameters in monday.json; shapes = [rail.stribeck.vs = 0.1].\n";
+    assert!(header.contains(wanted), "{header}");
+    assert!(!header.contains("cart_nominal"), "{header}");
+    assert!(header.contains("cart_standard["), "{header}");
+}
+
 /// Where one of the two files cannot be written, the other is not either.
 #[test]
 fn both_files_or_none() {

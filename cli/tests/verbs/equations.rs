@@ -120,7 +120,9 @@ fn emit_refuses_what_it_cannot_write() {
     let emit = ["emit", "cart.robot", "--lang", "rust", "--out"];
     let said = folder.refuse(&[emit.as_slice(), &["cart.robot"]].concat());
     assert!(
-        said.starts_with("error: cannot write `cart.robot/cart.rs`: "),
+        said.starts_with(
+            "error: cannot write `cart.robot`: it is a file, and `--out` takes a folder"
+        ),
         "{said}"
     );
     folder.write("parameters.json", "{}");

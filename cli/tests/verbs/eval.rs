@@ -84,11 +84,152 @@ fn eval_takes_standard_and_base_parameters() {
             .refuse(&eval(r#"{"cart.m": 3,}"#))
             .starts_with("error: parameters.json: trailing comma at line 1")
     );
-    assert!(
-        folder
-            .refuse(&eval(r#"{"cart.m": "heavy"}"#))
-            .starts_with("error: parameters.json: write `{")
+}
+
+/// What a file of one's own may have wrong, with its place and the way out.
+#[test]
+fn slips_in_a_parameter_file_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[0]}]}"#,
     );
+    let forms =
+        "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
+    for (text, said) in [
+        (
+            r#"{"cart.m": 3, "cart.m": 4, "rail.viscous_friction.fv": 5}"#,
+            "`cart.m` stands there more than once; keep the value that is meant".to_owned(),
+        ),
+        (
+            r#"{"cart.m": "heavy", "rail.viscous_friction.fv": 5}"#,
+            format!("`cart.m` is text, where a number is wanted: {forms}"),
+        ),
+        (
+            r#"{"cart.m": null, "rail.viscous_friction.fv": 5}"#,
+            "`cart.m` is null; write its value, or leave it out where the spec has one".to_owned(),
+        ),
+        ("[3, 5]", format!("it is a list: {forms}")),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": 3}, {"value": 5}]}"#,
+            format!("entry 2 of `parameters` has no `name` that is text: {forms}"),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m"}]}"#,
+            format!("`cart.m` has no `value`: {forms}"),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": "3"}]}"#,
+            "the `value` of `cart.m` is text, where a number is wanted".to_owned(),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": 3}, {"name": "cart.m", "value": 3}]}"#,
+            "parameter `cart.m` stands there more than once; keep the value that is meant"
+                .to_owned(),
+        ),
+        (
+            r#"{"cart.m": 1e999, "rail.viscous_friction.fv": 5}"#,
+            "number out of range at line 1 column 16".to_owned(),
+        ),
+    ] {
+        folder.write("parameters.json", text);
+        assert_eq!(
+            folder.refuse(&CART_WITH_PARAMETERS),
+            format!("error: parameters.json: {said}\n"),
+            "{text}"
+        );
+    }
+}
+
+/// What no arm has is computed with all the same: an identification may miss zero by its error.
+#[test]
+fn values_that_no_arm_has_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[1]}]}"#,
+    );
+    let warned = |text: &str| {
+        folder.write("parameters.json", text);
+        let run = folder.run(&CART_WITH_PARAMETERS);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        (
+            json(&run.stdout)["states"][0]["torque"][0].clone(),
+            run.stderr,
+        )
+    };
+    let (torque, said) = warned(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#);
+    assert_eq!((torque, said), (Value::from(8.0), String::new()));
+    let (torque, said) = warned(r#"{"cart.m": -3, "rail.viscous_friction.fv": -0.5}"#);
+    let wanted = "warning: parameters.json: `cart.m` is -3, and no arm has a negative one\n\
+                  warning: parameters.json: `rail.viscous_friction.fv` is -0.5, and no arm has a negative one\n";
+    assert_eq!((torque, said.as_str()), (Value::from(-3.5), wanted));
+
+    // Slender rods whose mass is farther from the joint than their moment of inertia says, and sums of what is not negative.
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    folder.write("parameters.json", r#"{"lower.izz": 0.03}"#);
+    let run = folder.run(&eval);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let wanted = "warning: parameters.json: link `lower` has an inertia that no body has: ";
+    assert!(run.stderr.starts_with(wanted), "{}", run.stderr);
+}
+
+/// A base parameter or two are no set of them.
+#[test]
+fn parts_of_a_set_of_base_parameters_are_told() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    for (text, said) in [
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.izzr": 1}"#,
+            "`lower.izzr`, `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, \
+             with no others: Pendulum has 6 base parameters, the file lacks `lower.my`",
+        ),
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izz": 1}"#,
+            "`lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no \
+             others: Pendulum has 6 base parameters, the file lacks `lower.izzr`, and has besides `lower.izz`",
+        ),
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izrr": 1}"#,
+            "Pendulum has no parameter `lower.izrr`; is `lower.izzr` meant?",
+        ),
+    ] {
+        folder.write("parameters.json", text);
+        let said = format!("error: parameters.json: {said}\n");
+        assert_eq!(folder.refuse(&eval), said);
+    }
+}
+
+/// A file that leaves out what the spec has gets the spec's values, and is told so.
+#[test]
+fn values_from_the_spec_are_told() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    folder.write(
+        "parameters.json",
+        r#"{"lower.m": 1, "lower.mx": 0.2, "lower.my": 0, "lower.izz": 0.06}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    let run = folder.run(&eval);
+    let wanted = "note: parameters.json: no value for 4 parameters: the spec's for `upper.m`, `upper.mx`, `upper.my`, `upper.izz`\n";
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), wanted));
 }
 
 #[test]

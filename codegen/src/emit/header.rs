@@ -27,6 +27,9 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
         compiled.base.kept.len(),
     );
     header.extend(wrapped(&list, WIDTH));
+    if compiled.baked.is_some() {
+        header.extend(wrapped(&numbers(compiled), WIDTH));
+    }
     for (what, names) in [
         ("inputs", compiled.model.inputs()),
         ("states", compiled.model.states()),
@@ -37,6 +40,32 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
         }
     }
     header
+}
+
+/// Where the numbers of the equations are from, and those of shape parameters.
+fn numbers(compiled: &Compiled) -> String {
+    let from = compiled.origin.as_ref().map(|origin| {
+        let file = file_name(&origin.file);
+        let from_spec = match origin.from_spec {
+            0 => String::new(),
+            count => format!(" and, for {count} of them, from the spec"),
+        };
+        format!(" are from values of {} in {file}{from_spec}", origin.given)
+    });
+    let from = from.unwrap_or_else(|| " are in the equations".to_owned());
+    let effects = compiled.model.effects.iter();
+    let values = effects.flat_map(|effect| effect.shapes.iter().flatten());
+    let names = compiled.shape_names();
+    let shapes: Vec<String> = names
+        .iter()
+        .zip(values)
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    if shapes.is_empty() {
+        format!("These numbers{from}.")
+    } else {
+        format!("These numbers{from}; shapes = [{}].", shapes.join(", "))
+    }
 }
 
 /// No machine's folders reach the page.

@@ -1,9 +1,12 @@
 //! One function in C: its declaration under its doc comment, its definition.
 
+use std::collections::BTreeSet;
+
 use super::super::function::{Argument, Equations, Function, Layout, Returns, Step};
 use super::super::header::{comment, wrapped};
 use super::super::schedule::{Schedule, Temporary};
-use super::expression::{self, TIGHT};
+use super::expression::{Speller, TIGHT};
+use super::helpers::Helper;
 
 /// Width of the lines.
 const WIDTH: usize = 100;
@@ -77,12 +80,12 @@ fn statement(level: usize, text: &str) -> String {
     lines.collect::<String>().replace(TIGHT, " ")
 }
 
-/// The definition.
-pub fn definition(function: &Function, prefix: &str) -> String {
+/// The definition, and the helpers that it calls.
+pub fn definition(function: &Function, prefix: &str) -> (String, BTreeSet<Helper>) {
     let mut lines = Lines {
         text: signature(function, prefix) + " {\n",
         level: 1,
-        prefix,
+        speller: Speller::new(prefix),
     };
     let unread = function.arguments.iter();
     let unread = unread.filter(|argument| !argument.is_read && argument.length != Some(0));
@@ -90,14 +93,14 @@ pub fn definition(function: &Function, prefix: &str) -> String {
         lines.push(&format!("(void){};", argument.name));
     }
     lines.results(function);
-    lines.text + "}\n"
+    (lines.text + "}\n", lines.speller.called())
 }
 
 /// The lines of a function.
 struct Lines<'a> {
     text: String,
     level: usize,
-    prefix: &'a str,
+    speller: Speller<'a>,
 }
 
 impl Lines<'_> {
@@ -117,7 +120,7 @@ impl Lines<'_> {
     }
 
     fn temporary(&mut self, Temporary { name, value }: &Temporary) {
-        let value = expression::text(value, self.prefix);
+        let value = self.speller.text(value);
         self.push(&format!("const{TIGHT}double{TIGHT}{name}{TIGHT}= {value};"));
     }
 
@@ -151,26 +154,27 @@ impl Lines<'_> {
     /// `y[0][1] = x;`
     fn entry(&mut self, function: &Function, k: usize) {
         let place = format!("{}{}", function.result, indices(&function.sizes, k));
-        let value = expression::text(&function.schedule.outputs[k], self.prefix);
+        let value = self.speller.text(&function.schedule.outputs[k]);
         self.set(&place, &value);
     }
 
     fn sines_cosines(&mut self, schedule: &Schedule) {
-        let (angles, prefix) = (&schedule.angles, self.prefix);
+        let angles = &schedule.angles;
         let count = angles.len();
         if count == 0 {
             return;
         }
         let values = angles.iter();
-        let values = values.map(|angle| expression::text(&angle.value, prefix));
+        let values = values.map(|angle| self.speller.text(&angle.value));
         let values = values.collect::<Vec<_>>().join(", ");
         self.push(&format!(
             "const{TIGHT}double{TIGHT}angles[{count}] = {{{values}}};"
         ));
         self.push(&format!("double{TIGHT}sines[{count}];"));
         self.push(&format!("double{TIGHT}cosines[{count}];"));
+        let sines_cosines = self.speller.helper(Helper::SinesCosines);
         self.push(&format!(
-            "{prefix}_sines_cosines({count}, angles, sines, cosines);"
+            "{sines_cosines}({count}, angles, sines, cosines);"
         ));
         for (k, angle) in angles.iter().enumerate() {
             for (name, row) in [(&angle.sine, "sines"), (&angle.cosine, "cosines")] {
@@ -197,16 +201,16 @@ impl Lines<'_> {
             Returns::Accelerations(equations) => {
                 self.equations(function, "ddq");
                 let solver = match equations {
-                    Equations::Symmetric => "positive_definite",
-                    _ => "general",
+                    Equations::Symmetric => Helper::PositiveDefinite,
+                    _ => Helper::General,
                 };
-                let prefix = self.prefix;
-                self.push(&format!("return{TIGHT}{prefix}_{solver}(slope, ddq);"));
+                let solver = self.speller.helper(solver);
+                self.push(&format!("return{TIGHT}{solver}(slope, ddq);"));
             }
             Returns::Memory(counts) => self.after_step(function, counts),
             _ if is_sparse => {}
             Returns::Scalar => {
-                let value = expression::text(&function.schedule.outputs[0], self.prefix);
+                let value = self.speller.text(&function.schedule.outputs[0]);
                 self.push(&format!("return{TIGHT}{value};"));
             }
             _ => (0..function.schedule.outputs.len()).for_each(|k| self.entry(function, k)),
@@ -232,11 +236,11 @@ impl Lines<'_> {
         let (slope, torque) = function.schedule.outputs.split_at(dof * dof);
         self.push(&format!("double{TIGHT}slope[{dof}][{dof}];"));
         for (k, entry) in slope.iter().enumerate() {
-            let entry = expression::text(entry, self.prefix);
+            let entry = self.speller.text(entry);
             self.set(&format!("slope{}", indices(&[dof, dof], k)), &entry);
         }
         for (k, torque) in torque.iter().enumerate() {
-            let torque = expression::text(torque, self.prefix);
+            let torque = self.speller.text(torque);
             let value = if function.is_zero[dof * dof + k] {
                 format!("tau[{k}]")
             } else {
@@ -248,7 +252,7 @@ impl Lines<'_> {
 
     /// Newton's method from accelerations of zero.
     fn newton(&mut self, function: &Function) {
-        let (dof, prefix) = (function.sizes[0], self.prefix);
+        let dof = function.sizes[0];
         self.open(&format!("for (int k = 0; k < {dof}; ++k)"));
         self.push("ddq[k] = 0.0;");
         self.close();
@@ -256,10 +260,12 @@ impl Lines<'_> {
         self.statements(function);
         self.push(&format!("double{TIGHT}change[{dof}];"));
         self.equations(function, "change");
-        self.open(&format!("if (!{prefix}_general(slope, change))"));
+        let general = self.speller.helper(Helper::General);
+        self.open(&format!("if (!{general}(slope, change))"));
         self.push("return 0;");
         self.close();
-        self.open(&format!("if ({prefix}_settled(ddq, change))"));
+        let settled = self.speller.helper(Helper::Settled);
+        self.open(&format!("if ({settled}(ddq, change))"));
         self.push("return 1;");
         self.close();
         self.close();
@@ -269,16 +275,18 @@ impl Lines<'_> {
     /// States effect by effect. Those of one effect are read before they are written, and no other reads them: the result may
     /// take the place of the states before.
     fn after_step(&mut self, function: &Function, counts: &[usize]) {
-        let (result, prefix) = (function.result, self.prefix);
+        let result = function.result;
         let outputs = function.schedule.outputs.iter();
-        let mut outputs = outputs.map(|output| expression::text(output, prefix));
+        let outputs: Vec<String> = outputs.map(|output| self.speller.text(output)).collect();
+        let mut outputs = outputs.into_iter();
         let mut first = 0;
         for &count in counts.iter().filter(|&&count| count > 0) {
             let mut take = |n: usize| outputs.by_ref().take(n).collect::<Vec<_>>().join(", ");
             let (rates, slopes) = (take(count), take(count * count));
             if count == 1 {
+                let after = self.speller.helper(Helper::After);
                 self.push(&format!(
-                    "{result}[{first}] = {prefix}_after(states[{first}], seconds, {rates}, {slopes});"
+                    "{result}[{first}] = {after}(states[{first}], seconds, {rates}, {slopes});"
                 ));
             } else {
                 let all = count * count;
@@ -291,8 +299,9 @@ impl Lines<'_> {
                 for k in first..first + count {
                     self.push(&format!("{result}[{k}] = states[{k}];"));
                 }
+                let after_several = self.speller.helper(Helper::AfterSeveral);
                 self.push(&format!(
-                    "{prefix}_after_several({count}, seconds, rates{first}, slopes{first}, &{result}[{first}]);"
+                    "{after_several}({count}, seconds, rates{first}, slopes{first}, &{result}[{first}]);"
                 ));
             }
             first += count;

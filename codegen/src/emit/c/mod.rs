@@ -1,51 +1,38 @@
 //! C99 for one robot: a header and a source of functions on arrays of `double`, which need nothing but libm. C++ compiles them too.
 //!
-//! In: [`Compiled`]. Out: [`Code`]. Same spec, same bytes. Names of the robot stand before all others, so that several arms are
-//! linked into one program.
+//! In: [`Compiled`]. Out: [`Code`]. Same spec, same bytes. A [`Prefix`] stands before all names, so that several arms are linked
+//! into one program.
 
 mod expression;
 mod function;
+mod helpers;
+mod prefix;
+mod reserved;
 
 use std::fmt::Write;
 
 use super::function::{Function, Returns};
 use super::functions::{functions, its_standard, standard_of};
 use super::header::{WIDTH, comment, header, wrapped};
-use super::names::robot_prefix;
 use super::schedule::Schedule;
 use super::table::Table;
 use super::{Extent, function as shared};
 use crate::base;
 use crate::compiled::Compiled;
 use expression::number;
+pub use prefix::{Prefix, PrefixError};
+pub use reserved::Reserved;
 
 /// The two files of a robot.
 #[derive(Debug, Clone)]
 pub struct Code {
-    /// The robot's name in snake case: the files are called `NAME.h` and `NAME.c`, functions `NAME_gravity` and so on.
-    pub name: String,
+    /// The files are called `NAME.h` and `NAME.c`, functions `NAME_gravity` and so on.
+    pub name: Prefix,
     /// Declarations with their doc comments, constants.
     pub header: String,
     /// Definitions.
     pub source: String,
 }
-
-/// The C functions that the arms' functions call, those that are called behind those that call them. The word `robot` stands for
-/// the robot's name. What the runtime crate has for Rust is written again here: its modules `solve` and `memory`.
-const HELPERS: [(&str, &str); 9] = [
-    ("sign", include_str!("helpers/sign.c")),
-    ("sines_cosines", include_str!("helpers/sines_cosines.c")),
-    ("series", include_str!("helpers/series.c")),
-    ("after", include_str!("helpers/after.c")),
-    ("product", include_str!("helpers/product.c")),
-    ("after_several", include_str!("helpers/after_several.c")),
-    (
-        "positive_definite",
-        include_str!("helpers/positive_definite.c"),
-    ),
-    ("general", include_str!("helpers/general.c")),
-    ("settled", include_str!("helpers/settled.c")),
-];
 
 /// What arguments are, in the order in which functions have them.
 const ARGUMENTS: [(&str, &str); 13] = [
@@ -94,7 +81,14 @@ pub fn code(compiled: &Compiled) -> Code {
 /// The code, or the part of it that is wanted.
 #[must_use]
 pub fn code_of(compiled: &Compiled, extent: Extent) -> Code {
-    let name = robot_prefix(&compiled.model.name);
+    code_named(compiled, extent, Prefix::of_robot(&compiled.model.name))
+}
+
+/// The code with names that start otherwise: two specimens of one arm, or an arm with its parameters as arguments and in its
+/// equations, have a prefix each to be in one program.
+#[must_use]
+pub fn code_named(compiled: &Compiled, extent: Extent, prefix: Prefix) -> Code {
+    let name = prefix.as_str();
     let mut functions = functions(compiled, extent);
     if compiled.baked.is_none() {
         functions.push(back(compiled));
@@ -102,9 +96,9 @@ pub fn code_of(compiled: &Compiled, extent: Extent) -> Code {
     functions.retain(function::has_result);
     let constants = Constants::new(compiled);
     Code {
-        header: header_file(compiled, &name, &functions, &constants),
-        source: source_file(compiled, &name, &functions, &constants),
-        name,
+        header: header_file(compiled, name, &functions, &constants),
+        source: source_file(compiled, name, &functions, &constants),
+        name: prefix,
     }
 }
 
@@ -241,6 +235,8 @@ impl Constants {
                 standard,
             ));
         }
+        // What the spec says is not what the equations have.
+        arrays.retain(|array| array.name != "nominal" || compiled.baked.is_none());
         arrays.retain(|array| !sizes.contains(&(array.size, 0)));
         Self { sizes, arrays }
     }
@@ -321,9 +317,14 @@ fn source_file(
     functions: &[Function],
     constants: &Constants,
 ) -> String {
-    let definitions: Vec<String> = functions
-        .iter()
+    let functions = functions.iter();
+    let (definitions, called): (Vec<_>, Vec<_>) = functions
         .map(|function| function::definition(function, name))
+        .unzip();
+    let helpers = helpers::with_callees(&called.into_iter().flatten().collect());
+    let helpers: Vec<String> = helpers
+        .iter()
+        .map(|helper| helper.definition(name))
         .collect();
     let mut text = comment("// ", &header(compiled));
     let _ = write!(text, "\n#include \"{name}.h\"\n\n#include <math.h>\n");
@@ -331,28 +332,9 @@ fn source_file(
         text.push('\n');
         text.push_str(&array.definition(name));
     }
-    let helpers = helpers(name, &definitions);
     for part in helpers.iter().chain(&definitions) {
         text.push('\n');
         text.push_str(part);
     }
     text
-}
-
-/// Those that something calls.
-fn helpers(name: &str, definitions: &[String]) -> Vec<String> {
-    let mut wanted: Vec<String> = Vec::new();
-    for (helper, text) in HELPERS.iter().rev() {
-        let call = format!("{name}_{helper}(");
-        let mut callers = wanted.iter().chain(definitions);
-        if callers.any(|caller| caller.contains(&call)) {
-            let upper = format!("{}_", name.to_ascii_uppercase());
-            let text = text.replace("robot_", &format!("{name}_"));
-            // `ROBOT_MODEL_SINES_COSINES` is the same for all arms.
-            let text = text.replace("ROBOT_DOF", &format!("{upper}DOF"));
-            wanted.push(text.replace("ROBOT_STATES", &format!("{upper}STATES")));
-        }
-    }
-    wanted.reverse();
-    wanted
 }

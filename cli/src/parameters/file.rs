@@ -1,0 +1,87 @@
+//! The two forms of a parameter file: names and values, and what `identify --json` writes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use serde_json::{Map, Value};
+
+use crate::output::names;
+use crate::{Error, json};
+
+/// How a file is written.
+const FORMS: &str =
+    "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
+
+/// Reads a file: every value is a finite number.
+pub(super) fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
+    let values = match json::read(path)? {
+        Value::Object(entries) => match entries.get("parameters") {
+            Some(Value::Array(list)) => identified(list, entries.get("unexcited")),
+            _ => plain(&entries),
+        },
+        other => Err(format!("it is {}: {FORMS}", json::kind(&other))),
+    };
+    values.map_err(|reason| Error::json(path, &reason))
+}
+
+fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {
+    let entries = entries.iter();
+    entries
+        .map(|(name, value)| match value.as_f64() {
+            Some(value) => Ok((name.clone(), value)),
+            None if value.is_null() => Err(format!(
+                "`{name}` is null; write its value, or leave it out where the spec has one"
+            )),
+            None => Err(format!(
+                "`{name}` is {}, where a number is wanted: {FORMS}",
+                json::kind(value)
+            )),
+        })
+        .collect()
+}
+
+/// All values, where every one of them was measured: a zero in place of one that was not is wrong on every other motion.
+fn identified(list: &[Value], unexcited: Option<&Value>) -> Result<BTreeMap<String, f64>, String> {
+    let mut values = BTreeMap::new();
+    let mut without: Vec<&str> = match unexcited {
+        None => Vec::new(),
+        Some(names) => names
+            .as_array()
+            .and_then(|names| names.iter().map(Value::as_str).collect())
+            .ok_or("`unexcited` has to be a list of names")?,
+    };
+    for (k, entry) in list.iter().enumerate() {
+        let Some(name) = entry.get("name").and_then(Value::as_str) else {
+            return Err(format!(
+                "entry {} of `parameters` has no `name` that is text: {FORMS}",
+                k + 1
+            ));
+        };
+        let value = match entry.get("value") {
+            None => return Err(format!("`{name}` has no `value`: {FORMS}")),
+            Some(Value::Null) => {
+                if !without.contains(&name) {
+                    without.push(name);
+                }
+                0.0
+            }
+            Some(value) => value.as_f64().ok_or_else(|| {
+                let kind = json::kind(value);
+                format!("the `value` of `{name}` is {kind}, where a number is wanted")
+            })?,
+        };
+        if values.insert(name.to_owned(), value).is_some() {
+            return Err(format!(
+                "parameter `{name}` stands there more than once; keep the value that is meant"
+            ));
+        }
+    }
+    if without.is_empty() {
+        return Ok(values);
+    }
+    Err(format!(
+        "the logs did not separate {} from other parameters, so the file holds no value that is valid on another motion; \
+         identify on logs that move the joints concerned, or give values in a file of your own",
+        names(&without)
+    ))
+}

@@ -1,0 +1,70 @@
+//! Values that no arm has. An identification may miss zero by its error, so they are told and not refused.
+
+use robot_model_codegen::Compiled;
+use robot_model_spec::model::{Inertial, Model};
+use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter};
+
+/// Sentences about standard parameters; `None` where nothing is known, as no torque depends on it.
+pub(super) fn of_standard(compiled: &Compiled, values: &[Option<f64>]) -> Vec<String> {
+    let parameters = compiled.standard.iter().zip(values);
+    let mut doubts: Vec<String> = parameters
+        .filter(|(parameter, _)| is_nonnegative(&compiled.model, parameter))
+        .filter_map(|(parameter, value)| negative(&parameter.name, (*value)?))
+        .collect();
+    let links = compiled
+        .model
+        .chain()
+        .into_iter()
+        .flat_map(|chain| &chain.links);
+    let tens = values.chunks(InertialElement::ALL.len());
+    for (link, ten) in links.zip(tens) {
+        let ten: Option<Vec<f64>> = ten.iter().copied().collect();
+        let ten = ten.and_then(|ten| ten.try_into().ok());
+        // A mass below zero was told already.
+        if ten.is_some_and(|ten: [f64; 10]| ten[0] >= 0.0 && !Inertial::Nominal(ten).is_possible())
+        {
+            doubts.push(no_body(&link.name));
+        }
+    }
+    doubts
+}
+
+/// Sentences about base parameters: a sum of what is not negative is not either.
+pub(super) fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
+    let base = &compiled.base;
+    let sums = base.names.iter().zip(&base.combinations).zip(beta);
+    sums.filter(|((_, combination), _)| {
+        combination.iter().all(|&(k, coefficient)| {
+            coefficient > 0.0 && is_nonnegative(&compiled.model, &compiled.standard[k])
+        })
+    })
+    .filter_map(|((name, _), &value)| negative(name, value))
+    .collect()
+}
+
+/// The sentence about a link, of a spec or of a file.
+pub(crate) fn no_body(link: &str) -> String {
+    format!(
+        "link `{link}` has an inertia that no body has: about the center of mass each principal moment is positive and at most the \
+         sum of the other two"
+    )
+}
+
+fn negative(name: &str, value: f64) -> Option<String> {
+    (value < 0.0).then(|| format!("`{name}` is {value}, and no arm has a negative one"))
+}
+
+/// Masses, moments of inertia, and what effects declare so.
+fn is_nonnegative(model: &Model, parameter: &StandardParameter) -> bool {
+    match parameter.owner {
+        Owner::Link { element, .. } => matches!(
+            element,
+            InertialElement::M | InertialElement::Ixx | InertialElement::Iyy | InertialElement::Izz
+        ),
+        Owner::Effect { effect, parameter } => {
+            model.effects[effect].definition.linear[parameter].nonnegative
+        }
+        // The spec does not say the signs of unknown constants.
+        Owner::Monomial(_) => false,
+    }
+}
