@@ -2,9 +2,11 @@
 
 use super::network::{Cell, Id, Network, Term};
 
-/// Collects them in every sum. Parts of a sum that were apart in the dag are next to each other in the network.
+/// Collects them in every sum. Parts of a sum that were apart in the dag are next to each other in the network. Numbers of a
+/// product are one.
 pub fn collect(network: &mut Network) {
     for id in 0..network.cells.len() {
+        fold(network, id);
         let Cell::Sum(terms) = &network.cells[id] else {
             continue;
         };
@@ -18,7 +20,8 @@ pub fn collect(network: &mut Network) {
     }
 }
 
-/// Writes a sum out where another uses it and cancels with it: `x - (x + y) = -y`, although others use `x + y` as well.
+/// Writes a sum out where another uses it and cancels with it: `x - (x + y) = -y`, although others use `x + y` as well; or two
+/// of them, `(x + y) - (x - y) = 2 y`.
 pub fn open(network: &mut Network) {
     for id in 0..network.cells.len() {
         while let Some(terms) = opened(network, id) {
@@ -27,33 +30,59 @@ pub fn open(network: &mut Network) {
     }
 }
 
-/// A sum of no more terms; `None` where there is none.
+/// A sum that costs no more; `None` where there is none.
 fn opened(network: &mut Network, id: Id) -> Option<Vec<Term>> {
     let Cell::Sum(terms) = &network.cells[id] else {
         return None;
     };
     let terms = terms.clone();
-    for (k, term) in terms.iter().enumerate() {
-        let &[factor] = &term.factors[..] else {
-            continue;
-        };
-        let Cell::Sum(inner) = &network.cells[factor] else {
-            continue;
-        };
+    let sums: Vec<(usize, Vec<Term>)> = (0..terms.len())
+        .filter_map(|k| Some((k, written_out(network, &terms[k])?)))
+        .collect();
+    for (k, inner) in &sums {
         let mut written = terms.clone();
-        written.remove(k);
-        written.extend(inner.iter().map(|inner| Term {
-            negative: inner.negative != term.negative,
-            factors: inner.factors.clone(),
-        }));
-        match collected(network, written) {
-            Some(collected) if !collected.is_empty() && collected.len() <= terms.len() => {
+        written.remove(*k);
+        written.extend_from_slice(inner);
+        if let Some(collected) = collected(network, written)
+            && !collected.is_empty()
+            && collected.len() <= terms.len()
+            && operations(&collected) <= operations(&terms)
+        {
+            return Some(collected);
+        }
+    }
+    for (j, (l, second)) in sums.iter().enumerate() {
+        for (k, first) in &sums[..j] {
+            let mut written = terms.clone();
+            written.remove(*l);
+            written.remove(*k);
+            written.extend(first.iter().chain(second).cloned());
+            if let Some(collected) = collected(network, written)
+                && !collected.is_empty()
+                && collected.len() < terms.len()
+                && operations(&collected) <= operations(&terms)
+            {
                 return Some(collected);
             }
-            _ => {}
         }
     }
     None
+}
+
+/// The terms of a multiple of a sum.
+fn written_out(network: &mut Network, term: &Term) -> Option<Vec<Term>> {
+    let (number, rest) = apart(network, term);
+    let &[sum] = &rest[..] else {
+        return None;
+    };
+    let Cell::Sum(inner) = &network.cells[sum] else {
+        return None;
+    };
+    let inner = inner.clone().into_iter().map(|inner| {
+        let (own, rest) = apart(network, &inner);
+        together(network, number * own, rest)
+    });
+    Some(inner.collect())
 }
 
 /// `2 x` as `x + x`, which costs as much: so `y + 2 x` has `y + x` in it.
@@ -94,6 +123,40 @@ fn collected(network: &mut Network, mut terms: Vec<Term>) -> Option<Vec<Term>> {
         }
     }
     (terms.len() < before).then_some(terms)
+}
+
+/// Makes the numbers of each product of a cell one.
+fn fold(network: &mut Network, id: Id) {
+    let has_several = |network: &Network, factors: &[Id]| {
+        let numbers = factors.iter();
+        let numbers = numbers.filter(|&&x| matches!(network.cells[x], Cell::Number(_)));
+        numbers.count() > 1
+    };
+    match &network.cells[id] {
+        Cell::Sum(terms) if terms.iter().any(|term| has_several(network, &term.factors)) => {
+            let terms = terms.clone().into_iter().map(|term| {
+                let (number, rest) = apart(network, &term);
+                together(network, number, rest)
+            });
+            network.cells[id] = Cell::Sum(terms.collect());
+        }
+        Cell::Product(factors) if has_several(network, factors) => {
+            let factors = factors.clone();
+            let negative = false;
+            let (number, rest) = apart(network, &Term { negative, factors });
+            network.cells[id] = Cell::Product(together(network, number, rest).factors);
+        }
+        _ => {}
+    }
+}
+
+/// Multiplications and additions of a sum.
+fn operations(terms: &[Term]) -> usize {
+    terms
+        .iter()
+        .map(|term| term.factors.len())
+        .sum::<usize>()
+        .saturating_sub(1)
 }
 
 /// A number and the other factors.

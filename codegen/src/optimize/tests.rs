@@ -115,6 +115,31 @@ const TABLE: &[(&str, Build, Operations, Operations)] = &[
         (1, 2),
     ),
     (
+        "(x + y) - (x - y) = 2 y, although both are used",
+        |d, [x, y, a, b]| {
+            let (sum, difference) = (d.add(x, y), d.sub(x, y));
+            let between = d.add(sum, a);
+            let both = d.sub(between, difference);
+            vec![d.sub(both, a), d.mul(a, sum), d.mul(b, difference)]
+        },
+        (2, 5),
+        (3, 2),
+    ),
+    (
+        "0.5 a ((x + y) - (x - y)) = a y: numbers of a product are one",
+        |d, [x, y, a, b]| {
+            let (sum, difference) = (d.add(x, y), d.sub(x, y));
+            let between = d.add(sum, b);
+            let both = d.sub(between, difference);
+            let both = d.sub(both, b);
+            let product = d.mul(a, both);
+            let half = d.scale(0.5, product);
+            vec![half, d.mul(a, sum), d.mul(b, difference)]
+        },
+        (4, 5),
+        (3, 2),
+    ),
+    (
         "-a x - a y, subtracted: signs go outward",
         |d, [x, y, a, b]| {
             let product = d.mul(a, x);
