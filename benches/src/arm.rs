@@ -47,15 +47,21 @@ pub struct Arm {
 }
 
 impl Arm {
+    /// Where its spec is.
+    #[must_use]
+    pub fn spec(name: &str) -> PathBuf {
+        workspace()
+            .join("tests/specs/pass")
+            .join(name)
+            .with_extension("robot")
+    }
+
     /// Reads `tests/specs/pass/NAME.robot`.
     ///
     /// # Errors
     /// A spec that is not there, has mistakes or leaves parameters without a value.
     pub fn read(name: &'static str) -> Result<Self, Error> {
-        let path = workspace()
-            .join("tests/specs/pass")
-            .join(name)
-            .with_extension("robot");
+        let path = Self::spec(name);
         let text = std::fs::read_to_string(&path).map_err(|error| failed("read", &path, error))?;
         Self::rigid(name, &text)
     }

@@ -35,10 +35,76 @@ pub fn renewed(page: &str, report: &Report) -> Result<String, Error> {
             END.trim_end()
         )));
     };
-    let (operations, times) = (operations(report), times(report));
+    let parts = [
+        run(report),
+        operations(report),
+        times(report),
+        generation(report),
+        growth(report),
+    ];
+    let parts: Vec<String> = parts.into_iter().filter(|part| !part.is_empty()).collect();
     Ok(format!(
-        "{before}{BEGIN}\n{operations}\n{times}\n{END}{after}"
+        "{before}{BEGIN}\n{}\n{END}{after}",
+        parts.join("\n")
     ))
+}
+
+/// Where and when it was measured, and how far to trust a row.
+fn run(report: &Report) -> String {
+    let run = &report.run;
+    let tools = run.tools.iter();
+    let tools: Vec<String> = tools
+        .map(|(name, version)| format!("{name}: {version}"))
+        .collect();
+    let mut spreads: Vec<f64> = report.rows.iter().map(|row| 100.0 * row.spread).collect();
+    spreads.sort_by(f64::total_cmp);
+    let middle = spreads.get(spreads.len() / 2).copied().unwrap_or_default();
+    let worst = spreads.last().copied().unwrap_or_default();
+    format!(
+        "Measured on {}: {}, {} cores, {} passes.\n{}.\n\
+         The middle half of a row's passes spans {middle:.1} % of their median in the median row, {worst:.1} % in the worst.\n",
+        run.date,
+        run.processor,
+        run.cores,
+        run.passes,
+        tools.join("; ")
+    )
+}
+
+fn generation(report: &Report) -> String {
+    if report.generation.is_empty() {
+        return String::new();
+    }
+    let mut text =
+        String::from("| all functions of | generation, s | rustc, release, s |\n|---|--:|--:|\n");
+    for row in &report.generation {
+        writeln!(
+            text,
+            "| {} | {:.2} | {:.1} |",
+            row.robot, row.seconds, row.rustc_seconds
+        )
+        .expect("a string takes text");
+    }
+    text
+}
+
+fn growth(report: &Report) -> String {
+    if report.growth.is_empty() {
+        return String::new();
+    }
+    let mut text = String::from(
+        "| joints of a chain | operations of `inverse_dynamics`, runtime | a joint | generation, s |\n|--:|--:|--:|--:|\n",
+    );
+    for row in &report.growth {
+        let a_joint = row.inverse_dynamics as f64 / row.joints as f64;
+        writeln!(
+            text,
+            "| {} | {} | {a_joint:.0} | {:.1} |",
+            row.joints, row.inverse_dynamics, row.seconds
+        )
+        .expect("a string takes text");
+    }
+    text
 }
 
 fn operations(report: &Report) -> String {
@@ -65,8 +131,8 @@ fn operations(report: &Report) -> String {
 
 fn times(report: &Report) -> String {
     let mut text = String::from(
-        "| robot | function | form | ops | trig | ns | plain | arithmetic | fastest peer | its ns | ratio | ratio of arithmetic |\n\
-         |---|---|---|--:|--:|--:|--:|--:|---|--:|--:|--:|\n",
+        "| robot | function | form | ops | trig | ns | plain | C | arithmetic | fastest peer | its ns | ratio | ratio, plain | ratio of arithmetic |\n\
+         |---|---|---|--:|--:|--:|--:|--:|--:|---|--:|--:|--:|--:|\n",
     );
     for row in &report.rows {
         line(&mut text, row);
@@ -88,13 +154,11 @@ fn line(text: &mut String, row: &Row) {
 #[cfg(test)]
 mod tests {
     use super::{BEGIN, END, renewed};
-    use crate::report::{Report, example};
+    use crate::report::{Report, example_report};
 
     #[test]
     fn tables_are_renewed_between_the_marks() {
-        let report = Report {
-            rows: vec![example()],
-        };
+        let report = example_report();
         let page = format!("before\n{BEGIN}old\n{END}after\n");
         let text = renewed(&page, &report).expect("the marks are there");
         assert!(
@@ -107,15 +171,36 @@ mod tests {
             "{text}"
         );
         assert!(
-            text.contains("| puma560 | `gravity` | baked | 56 | 10 | 15.0 | 25.0 | 6.0 | symforce | 60.0 | 0.25 | 0.50 |"),
+            text.contains("| puma560 | `gravity` | baked | 56 | 10 | 15.0 | 25.0 | 18.0 | 6.0 | symforce | 60.0 | 0.25 | 0.42 | 0.50 |"),
             "{text}"
         );
+        for line in [
+            "Measured on 2026-01-31: abacus, 2 cores, 5 passes.\ncasadi: 3.8.\n",
+            "spans 3.0 % of their median in the median row, 3.0 % in the worst.",
+            "| puma560 | 1.25 | 6.0 |",
+            "| 5 | 400 | 80 | 0.5 |",
+        ] {
+            assert!(text.contains(line), "{line} in {text}");
+        }
         assert_eq!(renewed(&text, &report).ok(), Some(text));
     }
 
     #[test]
+    fn what_was_not_measured_has_no_table() {
+        let report = Report {
+            rows: Vec::new(),
+            generation: Vec::new(),
+            growth: Vec::new(),
+            ..example_report()
+        };
+        let text = renewed(&format!("{BEGIN}{END}"), &report).expect("the marks are there");
+        assert!(!text.contains("| generation"), "{text}");
+        assert!(text.contains("spans 0.0 %"), "{text}");
+    }
+
+    #[test]
     fn a_page_without_marks_is_left_alone() {
-        let error = renewed("nothing", &Report { rows: Vec::new() }).expect_err("no marks");
+        let error = renewed("nothing", &example_report()).expect_err("no marks");
         assert!(error.to_string().contains("--docs"), "{error}");
     }
 }

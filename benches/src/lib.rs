@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! spec -compile-> Arm -pages-> a crate of our functions -cargo-> Program (plain, native)
+//!                     -pages-> our functions in C -C compiler-> Program
 //!                     -json-> peers' generators -C, C++ compilers-> Program
 //! Programs -rounds of passes-> Times -rows-> table, JSON
 //! ```
@@ -13,14 +14,18 @@
 pub mod arm;
 pub mod build;
 pub mod docs;
+pub mod generation;
 mod given;
+pub mod machine;
 pub mod options;
 pub mod ours;
+pub mod ours_c;
 pub mod out_file;
 pub mod peers;
 pub mod program;
 pub mod report;
 pub mod rounds;
+mod rows;
 mod run;
 pub mod table;
 

@@ -23,7 +23,10 @@ pub struct Options {
     /// Rounds in which everybody makes one pass over all states; the least of a block's times counts.
     #[arg(long, default_value_t = 31, value_parser = clap::value_parser!(u32).range(1..))]
     pub passes: u32,
-    /// Write the tables of `docs/benchmarks.md` anew.
+    /// How long the compiler takes for each arm, and rustc with what it wrote; and what chains of 5 to 40 joints cost. Some minutes.
+    #[arg(long)]
+    pub growth: bool,
+    /// Write the tables of `docs/benchmarks.md` anew, those of `--growth` among them.
     #[arg(long)]
     pub docs: bool,
     /// What cargo says to every benchmark.

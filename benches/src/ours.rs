@@ -28,7 +28,8 @@ impl Flags {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Plain, Self::Native];
 
-    fn name(self) -> &'static str {
+    /// Name of the folder that cargo builds in.
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Plain => "plain",
             Self::Native => "native",
@@ -68,7 +69,7 @@ pub fn build(folder: &Path, arms: &[Arm]) -> Result<[PathBuf; 2], Error> {
         made.and_then(|()| fs::write(&path, text))
             .map_err(|error| failed("write", &path, error))
     };
-    write("Cargo.toml", &manifest())?;
+    write("Cargo.toml", &manifest("ours"))?;
     write("src/lib.rs", include_str!("../ours/src/contender.rs"))?;
     for arm in arms {
         write(&format!("src/bin/{}.rs", arm.name), &program(arm)?)?;
@@ -109,10 +110,11 @@ fn compile(root: &Path, target: &Path, flags: Flags) -> Result<(), Error> {
     Err(failed("build", root, "cargo says why above"))
 }
 
-fn manifest() -> String {
+/// Of a crate that depends on the runtime, and on nothing else.
+pub(crate) fn manifest(name: &str) -> String {
     format!(
         "[package]
-name = \"ours\"
+name = \"{name}\"
 version = \"0.0.0\"
 edition = \"2024\"
 
@@ -164,6 +166,10 @@ use robot_model::scalar::{Lanes4, Lanes8};
         }
     }
     for function in &runtime.functions {
+        // A regressor has no parameters: both forms are one function, which is timed once.
+        if !function.1.iter().any(|argument| argument == "beta") {
+            continue;
+        }
         text.push_str(&cases(arm, "runtime", function, "runtime", "f64"));
     }
     text.push_str("    ];\n    ours::serve(makers);\n}\n");

@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::arm::{Arm, workspace};
+use crate::report::Form;
 use crate::{Error, build, failed};
 
 /// Peers that are known, as they are asked for.
@@ -30,11 +31,13 @@ pub fn case(function: &str, way: usize, given: bool) -> String {
     format!("{function}{way}{given}")
 }
 
-/// A peer's program for an arm.
+/// A program that is compiled from C or C++ for an arm.
 #[derive(Debug)]
 pub struct Contender {
     /// The peer, with what sets one of its programs apart from another.
     pub name: String,
+    /// Set where it is no peer, but one of our forms in C.
+    pub ours: Option<Form>,
     /// Its program.
     pub executable: PathBuf,
 }
@@ -43,6 +46,16 @@ pub struct Contender {
 fn tool(variable: &str, otherwise: &str) -> String {
     let named = env::var(variable).ok().filter(|name| !name.is_empty());
     named.unwrap_or_else(|| otherwise.to_owned())
+}
+
+/// The compiler of C.
+pub(crate) fn cc() -> String {
+    tool("CC", "cc")
+}
+
+/// The compiler of C++.
+pub(crate) fn cxx() -> String {
+    tool("CXX", "c++")
 }
 
 fn python() -> String {
@@ -166,7 +179,7 @@ fn compile_with(
     let folder = source.parent().unwrap_or(Path::new("."));
     let clock = folder.join("contender.o");
     let said = |path: &Path| fs::read_to_string(path).map_err(|error| failed("read", path, error));
-    let cc = tool("CC", "cc");
+    let cc = cc();
     build::made(&clock, &text(&CLOCK)?, || {
         let mut command = Command::new(&cc);
         command.args(["-std=c11", "-D_POSIX_C_SOURCE=200809L", "-O2", "-c"]);
@@ -194,15 +207,46 @@ fn compile_with(
             .arg(&executable);
         let input = format!("{command:?}\n{}\n{}", said(source)?, text(&CLOCK)?);
         build::made(&executable, &input, || build::run(&mut command).map(drop))?;
-        contenders.push(Contender { name, executable });
+        contenders.push(Contender {
+            name,
+            ours: None,
+            executable,
+        });
     }
     Ok(contenders)
+}
+
+/// One program of ours, by the flags that peers get.
+pub(crate) fn compile_one(
+    name: &str,
+    compiler: &str,
+    source: &Path,
+    flags: &[String],
+    ours: Option<Form>,
+) -> Result<Contender, Error> {
+    let made = compile_with(name, compiler, source, flags, &PRECISE)?;
+    let mut made = made.into_iter().map(|made| Contender { ours, ..made });
+    made.next()
+        .ok_or_else(|| failed("build", source, "nothing was made"))
+}
+
+/// What a peer says of its version.
+///
+/// # Errors
+/// It is not installed.
+pub(crate) fn version(peer: &str) -> Result<String, Error> {
+    let packages = match peer {
+        "casadi" => "casadi",
+        "symforce" => "symforce casadi",
+        _ => "pin casadi",
+    };
+    package(peer, packages).map(|(version, _)| version)
 }
 
 fn casadi(folder: &Path, arm: &Arm) -> Result<Vec<Contender>, Error> {
     let (version, _) = package("casadi", "casadi")?;
     let source = generate("casadi_peer.py", folder, "casadi.c", &version, arm)?;
-    compile("casadi", &tool("CC", "cc"), &source, &[])
+    compile("casadi", &cc(), &source, &[])
 }
 
 fn symforce(folder: &Path, arm: &Arm) -> Result<Vec<Contender>, Error> {
@@ -210,7 +254,7 @@ fn symforce(folder: &Path, arm: &Arm) -> Result<Vec<Contender>, Error> {
     let eigen = eigen()?;
     let source = generate("symforce_peer.py", folder, "symforce.cpp", &version, arm)?;
     let flags = ["-std=c++17".to_owned(), "-I".to_owned(), eigen];
-    compile("symforce", &tool("CXX", "c++"), &source, &flags)
+    compile("symforce", &cxx(), &source, &flags)
 }
 
 fn pinocchio(folder: &Path, arm: &Arm) -> Result<Vec<Contender>, Error> {
@@ -245,7 +289,7 @@ fn pinocchio(folder: &Path, arm: &Arm) -> Result<Vec<Contender>, Error> {
         &eigen,
     ]
     .map(str::to_owned);
-    let made = compile_with("pinocchio", &tool("CXX", "c++"), &shared, &flags, &PRECISE)?;
+    let made = compile_with("pinocchio", &cxx(), &shared, &flags, &PRECISE)?;
     made.into_iter()
         .map(|contender| {
             let executable = folder.join(&contender.name);

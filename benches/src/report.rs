@@ -9,6 +9,49 @@ use serde::{Deserialize, Serialize};
 pub struct Report {
     /// By robot, function and form.
     pub rows: Vec<Row>,
+    /// Where and when, and by which tools.
+    pub run: Run,
+    /// How long code takes to be made.
+    pub generation: Vec<Generation>,
+    /// What chains of other lengths cost, where it was asked for.
+    pub growth: Vec<Growth>,
+}
+
+/// Where, when and by which tools a report was made.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Run {
+    /// The day, UTC, as `2026-01-31`.
+    pub date: String,
+    /// The processor, in its own words.
+    pub processor: String,
+    /// How many of its cores this machine has.
+    pub cores: usize,
+    /// Tools by name, with what they say of their version.
+    pub tools: BTreeMap<String, String>,
+    /// Passes over all states.
+    pub passes: u32,
+}
+
+/// How long the code of an arm takes to be made, s.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Generation {
+    /// Name of the spec.
+    pub robot: String,
+    /// From the text of the spec, with its effects, to all functions in Rust.
+    pub seconds: f64,
+    /// rustc, release, all functions for `f64`.
+    pub rustc_seconds: f64,
+}
+
+/// What a chain of so many joints costs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Growth {
+    /// Joints.
+    pub joints: usize,
+    /// Multiplications and additions of inverse dynamics with base parameters as an argument.
+    pub inverse_dynamics: usize,
+    /// Seconds from text to all functions.
+    pub seconds: f64,
 }
 
 /// A function of an arm in one form.
@@ -36,6 +79,10 @@ pub struct Row {
     pub ns_plain: f64,
     /// Nanoseconds of the peers with sines and cosines given, where they can be.
     pub peers_arithmetic: BTreeMap<String, f64>,
+    /// Nanoseconds of the emitted C, by the compiler and the flags of the peers; none of lanes, and none without a compiler.
+    pub ns_c: Option<f64>,
+    /// How far passes of `ns` differ, relative: see `rounds::Timing`.
+    pub spread: f64,
 }
 
 /// Form of a function.
@@ -72,11 +119,12 @@ impl Row {
         best(&self.peers)
     }
 
-    /// Ours over the fastest peer's: whole, and with sines and cosines given.
+    /// Ours over the fastest peer's: whole, built plainly, and with sines and cosines given.
     #[must_use]
-    pub fn ratios(&self) -> [Option<f64>; 2] {
+    pub fn ratios(&self) -> [Option<f64>; 3] {
         [
             best(&self.peers).map(|(_, ns)| self.ns / ns),
+            best(&self.peers).map(|(_, ns)| self.ns_plain / ns),
             best(&self.peers_arithmetic).map(|(_, ns)| self.ns_arithmetic / ns),
         ]
     }
@@ -101,20 +149,44 @@ pub(crate) fn example() -> Row {
         peers: BTreeMap::from([("casadi".to_owned(), 90.0), ("symforce".to_owned(), 60.0)]),
         ns_plain: 25.0,
         peers_arithmetic: BTreeMap::from([("casadi".to_owned(), 12.0)]),
+        ns_c: Some(18.0),
+        spread: 0.03,
+    }
+}
+
+#[cfg(test)]
+pub(crate) fn example_report() -> Report {
+    Report {
+        rows: vec![example()],
+        run: Run {
+            date: "2026-01-31".to_owned(),
+            processor: "abacus".to_owned(),
+            cores: 2,
+            tools: BTreeMap::from([("casadi".to_owned(), "3.8".to_owned())]),
+            passes: 5,
+        },
+        generation: vec![Generation {
+            robot: "puma560".to_owned(),
+            seconds: 1.25,
+            rustc_seconds: 6.0,
+        }],
+        growth: vec![Growth {
+            joints: 5,
+            inverse_dynamics: 400,
+            seconds: 0.5,
+        }],
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Report, example};
+    use super::{Report, example, example_report};
 
     #[test]
     fn the_shape_of_the_json() {
-        let report = Report {
-            rows: vec![example()],
-        };
+        let report = example_report();
         let text = serde_json::to_string(&report).expect("plain numbers");
-        let wanted = r#"{"rows":[{"robot":"puma560","function":"gravity","form":"baked","mul":36,"add":20,"trig":10,"ns":15.0,"ns_arithmetic":6.0,"peers":{"casadi":90.0,"symforce":60.0},"ns_plain":25.0,"peers_arithmetic":{"casadi":12.0}}]}"#;
+        let wanted = r#"{"rows":[{"robot":"puma560","function":"gravity","form":"baked","mul":36,"add":20,"trig":10,"ns":15.0,"ns_arithmetic":6.0,"peers":{"casadi":90.0,"symforce":60.0},"ns_plain":25.0,"peers_arithmetic":{"casadi":12.0},"ns_c":18.0,"spread":0.03}],"run":{"date":"2026-01-31","processor":"abacus","cores":2,"tools":{"casadi":"3.8"},"passes":5},"generation":[{"robot":"puma560","seconds":1.25,"rustc_seconds":6.0}],"growth":[{"joints":5,"inverse_dynamics":400,"seconds":0.5}]}"#;
         assert_eq!(text, wanted);
         assert_eq!(serde_json::from_str::<Report>(&text).ok(), Some(report));
     }
@@ -123,6 +195,6 @@ mod tests {
     fn the_fastest_peer_counts() {
         let row = example();
         assert_eq!(row.best_peer(), Some(("symforce", 60.0)));
-        assert_eq!(row.ratios(), [Some(0.25), Some(0.5)]);
+        assert_eq!(row.ratios(), [Some(0.25), Some(25.0 / 60.0), Some(0.5)]);
     }
 }

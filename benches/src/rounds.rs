@@ -45,32 +45,64 @@ pub fn write_states(folder: &Path, dof: usize) -> Result<PathBuf, Error> {
     Ok(path)
 }
 
-/// Mean over blocks of the least time of each, ns.
+/// What was measured of a case.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timing {
+    /// Mean over blocks of the least time of each, ns.
+    pub ns: f64,
+    /// How far passes differ: the range that the middle half of their means spans, relative to the median.
+    pub spread: f64,
+}
+
+/// Every case once a pass.
 ///
 /// # Errors
-/// A program that ends.
+/// A program that ends, or that times no block.
 pub fn measure(
     programs: &mut [Program],
     cases: &[Case],
     passes: u32,
-) -> Result<BTreeMap<Case, f64>, Error> {
-    let mut least: BTreeMap<&Case, Vec<f64>> = BTreeMap::new();
+) -> Result<BTreeMap<Case, Timing>, Error> {
+    let mut measured: BTreeMap<&Case, Vec<Vec<f64>>> = BTreeMap::new();
     for _ in 0..passes {
         for case in cases {
             let times = programs[case.program].pass(&case.name)?;
-            let least = least
-                .entry(case)
-                .or_insert_with(|| vec![f64::INFINITY; times.len()]);
-            for (least, time) in least.iter_mut().zip(times) {
-                *least = least.min(time);
-            }
+            measured.entry(case).or_default().push(times);
         }
     }
-    let mean = |times: Vec<f64>| times.iter().sum::<f64>() / times.len() as f64;
-    Ok(least
-        .into_iter()
-        .map(|(case, times)| (case.clone(), mean(times)))
-        .collect())
+    let timings = measured.into_iter().map(|(case, passes)| {
+        let timing = timing(&passes).ok_or_else(|| {
+            Error::new(format!(
+                "`{}` has timed no block of states in a pass",
+                case.name
+            ))
+        })?;
+        Ok((case.clone(), timing))
+    });
+    timings.collect()
+}
+
+/// Of the times of blocks in several passes; `None` without a block, or where passes have other numbers of them.
+fn timing(passes: &[Vec<f64>]) -> Option<Timing> {
+    let blocks = passes.first()?.len();
+    if blocks == 0 || passes.iter().any(|pass| pass.len() != blocks) {
+        return None;
+    }
+    let mean = |times: &[f64]| times.iter().sum::<f64>() / times.len() as f64;
+    let least = |block: usize| {
+        passes
+            .iter()
+            .map(|pass| pass[block])
+            .fold(f64::INFINITY, f64::min)
+    };
+    let least: Vec<f64> = (0..blocks).map(least).collect();
+    let mut means: Vec<f64> = passes.iter().map(|pass| mean(pass)).collect();
+    means.sort_by(f64::total_cmp);
+    let quarter = |k: usize| means[k * (means.len() - 1) / 4];
+    Some(Timing {
+        ns: mean(&least),
+        spread: (quarter(3) - quarter(1)) / quarter(2),
+    })
 }
 
 /// The largest difference of two results, relative to the largest entry of the state's.
@@ -83,7 +115,13 @@ pub fn difference(found: &[Vec<f64>], wanted: &[Vec<f64>]) -> f64 {
         }
         let size = wanted.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         for (x, y) in found.iter().zip(wanted) {
-            let difference = (x - y).abs() / size;
+            // A state may be without any torque: there is nothing then to be relative to, and nothing to divide.
+            let absolute = (x - y).abs();
+            let difference = if absolute <= 0.0 {
+                0.0
+            } else {
+                absolute / size
+            };
             // No number is no agreement, and stays.
             if difference > worst || difference.is_nan() {
                 worst = difference;
@@ -95,7 +133,20 @@ pub fn difference(found: &[Vec<f64>], wanted: &[Vec<f64>]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{difference, write_states};
+    use super::{Timing, difference, timing, write_states};
+
+    #[test]
+    fn the_least_of_a_block_counts_and_the_middle_half_of_the_passes_is_the_spread() {
+        let passes = [[2.0, 4.0], [1.0, 5.0], [3.0, 9.0], [2.0, 6.0], [8.0, 8.0]].map(Vec::from);
+        // Means of passes: 3, 3, 4, 6, 8.
+        let wanted = Timing {
+            ns: 2.5,
+            spread: 0.75,
+        };
+        assert_eq!(timing(&passes), Some(wanted));
+        assert_eq!(timing(&[vec![], vec![]]), None);
+        assert_eq!(timing(&[vec![1.0], vec![]]), None);
+    }
 
     #[test]
     fn states_are_as_many_as_told_and_within_bounds() {
@@ -118,5 +169,8 @@ mod tests {
         assert!((difference(&[vec![1.0, 8.0]], &[vec![2.0, 8.0]]) - 0.125).abs() < 1e-15);
         assert!(difference(&[vec![f64::NAN, 1.0]], &[vec![1.0, 1.0]]).is_nan());
         assert!(difference(&[vec![1.0]], &[vec![1.0, 0.0]]).is_infinite());
+        // Nothing agrees with nothing, and something does not.
+        assert!(difference(&[vec![0.0, 0.0]], &[vec![0.0, 0.0]]) <= 0.0);
+        assert!(difference(&[vec![1e-9]], &[vec![0.0]]).is_infinite());
     }
 }

@@ -1,6 +1,5 @@
 //! The command: arms, programs, rounds, rows.
 
-use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::Path;
 use std::process::ExitCode;
@@ -8,25 +7,22 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use crate::arm::{Arm, FUNCTIONS, workspace};
-use crate::docs;
 use crate::options::Options;
 use crate::ours::{self, case};
 use crate::out_file::OutFile;
 use crate::peers::{self, Contender};
 use crate::program::Program;
-use crate::report::{Form, Report, Row};
+use crate::report::{Generation, Report};
 use crate::rounds::{self, Case};
+use crate::rows::{OURS_ARE, rows_of};
 use crate::table::table;
-use crate::{Error, failed};
+use crate::{Error, docs, failed, generation, machine, ours_c};
 
 /// States at which all programs must agree.
 const COMPARED: usize = 50;
 
 /// How far: products are formed in other orders, by some with contracted products.
 const AGREEMENT: f64 = 1e-9;
-
-/// The first programs are ours: plain, native.
-const OURS_ARE: usize = 2;
 
 /// Forms of a program of ours.
 const OURS: [&str; 4] = ["baked", "runtime", "lanes4", "lanes8"];
@@ -65,17 +61,22 @@ fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
     let mut missing = Vec::new();
     for arm in &arms {
         let mut contenders: Vec<Contender> = Vec::new();
+        let mut tell = |line: String| {
+            // Once, and not for each arm.
+            if !missing.contains(&line) {
+                missing.push(line);
+            }
+        };
+        say(&format!("building our C for {} ..", arm.name));
+        match ours_c::contenders(folder, arm) {
+            Ok(found) => contenders.extend(found),
+            Err(why) => tell(format!("our C is not measured: {why}")),
+        }
         for peer in options.peers.iter().filter(|peer| *peer != "none") {
             say(&format!("building {peer} for {} ..", arm.name));
             match peers::contenders(peer, folder, arm) {
                 Ok(found) => contenders.extend(found),
-                Err(why) => {
-                    let line = format!("{peer} is not measured: {why}");
-                    // Once, and not for each arm.
-                    if !missing.contains(&line) {
-                        missing.push(line);
-                    }
-                }
+                Err(why) => tell(format!("{peer} is not measured: {why}")),
             }
         }
         let states = rounds::write_states(folder, arm.dof())?;
@@ -92,7 +93,21 @@ fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
         let times = rounds::measure(&mut programs, &cases, options.passes)?;
         rows.extend(rows_of(arm, &contenders, &times));
     }
-    let report = Report { rows };
+    let (mut generation, mut growth) = (Vec::new(), Vec::new());
+    if options.growth || options.docs {
+        say("compiling, and having rustc compile ..");
+        let arms = arms.iter().map(|arm| generation::of_arm(folder, arm.name));
+        generation = arms.collect::<Result<Vec<Generation>, Error>>()?;
+        say("compiling chains ..");
+        growth = generation::growth()?;
+    }
+    let run = machine::run(options.passes);
+    let report = Report {
+        rows,
+        run,
+        generation,
+        growth,
+    };
     let mut out = std::io::stdout().lock();
     // A reader that has gone away has read what it wanted.
     let _ = out.write_all(table(&report).as_bytes());
@@ -139,8 +154,10 @@ fn agreed(
                 case.name, arm.name
             );
             match case.program.checked_sub(OURS_ARE) {
-                Some(peer) => told.push(format!("{}'s {what}: not timed", contenders[peer].name)),
-                None => return Err(Error::new(what)),
+                Some(k) if contenders[k].ours.is_none() => {
+                    told.push(format!("{}'s {what}: not timed", contenders[k].name));
+                }
+                _ => return Err(Error::new(what)),
             }
         }
     }
@@ -162,59 +179,4 @@ fn cases_of(function: &str, programs: usize) -> Vec<Case> {
         }
     }
     cases
-}
-
-fn rows_of(arm: &Arm, contenders: &[Contender], times: &BTreeMap<Case, f64>) -> Vec<Row> {
-    let time = |program: usize, name: String| times.get(&Case { program, name }).copied();
-    let mut rows = Vec::new();
-    for function in FUNCTIONS {
-        let peers = |given: bool| -> BTreeMap<String, f64> {
-            let found = contenders.iter().enumerate().filter_map(|(k, contender)| {
-                let ways = 0..peers::WAYS;
-                let times =
-                    ways.filter_map(|way| time(k + OURS_ARE, peers::case(function, way, given)));
-                let ns = times.min_by(f64::total_cmp)?;
-                Some((contender.name.clone(), rounded(ns)))
-            });
-            found.collect()
-        };
-        for form in Form::ALL {
-            let names: &[&str] = match form {
-                Form::Baked => &["baked"],
-                Form::Runtime => &["runtime"],
-                Form::Lanes => &["lanes4", "lanes8"],
-            };
-            let least = |program: usize, given: bool| {
-                let times = names
-                    .iter()
-                    .filter_map(|name| time(program, case(function, name, given)));
-                rounded(times.fold(f64::INFINITY, f64::min))
-            };
-            let compiled = if form == Form::Runtime {
-                &arm.runtime
-            } else {
-                &arm.baked
-            };
-            let cost = Arm::cost(compiled, function);
-            rows.push(Row {
-                robot: arm.name.to_owned(),
-                function: function.to_owned(),
-                form,
-                mul: cost.mul,
-                add: cost.add,
-                trig: cost.trig,
-                ns: least(1, false),
-                ns_arithmetic: least(1, true),
-                peers: peers(false),
-                ns_plain: least(0, false),
-                peers_arithmetic: peers(true),
-            });
-        }
-    }
-    rows
-}
-
-/// A clock tells no more than this.
-fn rounded(ns: f64) -> f64 {
-    (ns * 100.0).round() / 100.0
 }
