@@ -111,7 +111,7 @@ fn compare(case: &Case, function: &str, found: &[f64], wanted: &[f64], tolerance
         let is_same = if y.is_finite() {
             (x - y).abs() <= tolerance * size
         } else {
-            x.is_nan() == y.is_nan() && (y.is_nan() || x == y)
+            x.is_nan() && y.is_nan() || x.to_bits() == y.to_bits()
         };
         assert!(
             is_same,
@@ -125,7 +125,7 @@ fn compare(case: &Case, function: &str, found: &[f64], wanted: &[f64], tolerance
 type Found = (&'static Case, State, String, Vec<f64>);
 
 /// What all functions of all arms return, each list of states in one go: one of each arm.
-fn found(program: &Path, states: Vec<Vec<State>>) -> Vec<Found> {
+fn found(program: &Path, states: &[Vec<State>]) -> Vec<Found> {
     let states = || states.iter().flat_map(|states| CASES.iter().zip(states));
     let mut input = String::new();
     for (case, state) in states() {
@@ -185,7 +185,8 @@ fn at_usual_states(program: &Path) {
             .map(|case| state(&mut random, case.interpreter.compiled.dof()))
             .collect()
     };
-    let found = found(program, (0..ROUNDS).map(one_each).collect());
+    let states: Vec<Vec<State>> = (0..ROUNDS).map(one_each).collect();
+    let found = found(program, &states);
     for results in found.chunk_by(|one, next| one.0.arm.name == next.0.arm.name) {
         let (case, state, ..) = &results[0];
         let mut wanted = case.wanted(state);
@@ -212,7 +213,7 @@ fn at_usual_states(program: &Path) {
 /// has been emitted in both languages has the same operations in the same order.
 fn at_odd_states(program: &Path) {
     let mut random = generator(12);
-    let mut states = Vec::new();
+    let mut states: Vec<Vec<State>> = Vec::new();
     for odd in ODD {
         for kind in 0..3 {
             let one_each = CASES.iter().map(|case| {
@@ -232,7 +233,7 @@ fn at_odd_states(program: &Path) {
         }
     }
     let mut compared = 0;
-    for (case, state, function, values) in found(program, states) {
+    for (case, state, function, values) in found(program, &states) {
         if !case.is_emitted_in_both() || !case.reads_only_the_state(&function) {
             continue;
         }
