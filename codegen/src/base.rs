@@ -13,16 +13,19 @@
 //! what the columns are there.
 
 mod names;
+mod order;
 mod rank;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Add as _;
 
 use robot_model_spec::model::Model;
-use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter, Status};
+use robot_model_spec::parameter::{Owner, StandardParameter, Status};
 
 use crate::expr::Dag;
 use crate::lumps::Lump;
 use crate::regressor::LinearForm;
+use crate::rounded::{Rounded, UNIT};
 use crate::sample::{Column, Sample, sample};
 use crate::selection::{Dependence, INDEPENDENT_ABOVE, Offer, Selection, norm, shortest};
 
@@ -107,16 +110,22 @@ impl BaseForm {
         remarks
     }
 
-    /// `beta = map * standard`
+    /// `beta = map * standard`, of the numbers that the sum's rounding does not tell apart the one with the fewest digits: so
+    /// 0.3 + 0.05 is 0.35.
     #[must_use]
     pub fn beta(&self, standard: &[f64]) -> Vec<f64> {
         self.combinations
             .iter()
             .map(|combination| {
-                combination
-                    .iter()
-                    .map(|&(k, coefficient)| coefficient * standard[k])
-                    .sum()
+                let mut terms = combination.iter().map(|&(k, coefficient)| {
+                    // One times a number is that number.
+                    let is_exact = coefficient.to_bits() == 1.0f64.to_bits();
+                    let error = if is_exact { 0.0 } else { UNIT };
+                    Rounded::relative(coefficient * standard[k], error)
+                });
+                let first = terms.next().unwrap_or_default();
+                let sum = terms.fold(first, Rounded::add);
+                shortest(sum.value, sum.error)
             })
             .collect()
     }
@@ -147,7 +156,7 @@ pub fn reduce(dag: &Dag, model: &Model, linear: &LinearForm) -> BaseForm {
         }
     };
     let mut reduction = Reduction::new(&sample);
-    for k in order_of_choice(&parameters, &sample) {
+    for k in order::of_choice(&parameters, &sample) {
         if is_fixed(&k) {
             continue;
         }
@@ -310,40 +319,6 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// The order in which columns are offered: link by link inertia, first moments, mass; then the effects'. A faint column of a
-/// link comes behind its strong ones: were it kept, these would regroup into it with coefficients that leave no digits.
-fn order_of_choice(parameters: &[StandardParameter], sample: &Sample) -> Vec<usize> {
-    use InertialElement::{M, Mx, My, Mz};
-    /// Of the largest of the same link and unit: an angle that is nearly none, or its square.
-    const FAINT: f64 = 1e-6;
-    let place = |k: usize| match parameters[k].owner {
-        Owner::Link { link, element: M } => (link, 2),
-        Owner::Link {
-            link,
-            element: Mx | My | Mz,
-        } => (link, 1),
-        Owner::Link { link, .. } => (link, 0),
-        Owner::Monomial(_) => (0, 0),
-        Owner::Effect { .. } => (usize::MAX, 0),
-    };
-    let scale = |k: usize| {
-        sample.columns[k]
-            .as_ref()
-            .map_or(0.0, |column| column.scale)
-    };
-    let mut largest: BTreeMap<(usize, u8), f64> = BTreeMap::new();
-    for k in 0..parameters.len() {
-        let largest = largest.entry(place(k)).or_default();
-        *largest = largest.max(scale(k));
-    }
-    let is_faint = |k: usize| {
-        matches!(parameters[k].owner, Owner::Link { .. }) && scale(k) < FAINT * largest[&place(k)]
-    };
-    let mut order: Vec<usize> = (0..parameters.len()).collect();
-    order.sort_by_key(|&k| (place(k), is_faint(k)));
-    order
-}
-
 /// A value for every shape parameter of the declared effects: the spec's, else the geometric middle of its range.
 #[must_use]
 pub fn shape_values(model: &Model) -> Vec<f64> {
@@ -367,5 +342,30 @@ pub fn middle(low: f64, high: f64) -> f64 {
         (low * high).sqrt()
     } else {
         f64::midpoint(low, high)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[expect(clippy::float_cmp, reason = "digits are kept, or the fewest taken")]
+    fn sums_have_the_fewest_digits_and_given_numbers_their_own() {
+        let base = BaseForm {
+            kept: vec![0, 1],
+            names: vec!["a".to_owned(), "b".to_owned()],
+            combinations: vec![vec![(0, 1.0), (1, 0.5), (2, 1.0)], vec![(3, 1.0)]],
+            unidentifiable: Vec::new(),
+            asleep: Vec::new(),
+            fixed: Vec::new(),
+            rank: RankStatus::Clear {
+                smallest_kept: 1.0,
+                largest_dropped: 0.0,
+            },
+        };
+        let given = 0.1 + 0.2;
+        assert_eq!(given, 0.300_000_000_000_000_04);
+        assert_eq!(base.beta(&[0.1, 0.4, 0.05, given]), [0.35, given]);
     }
 }

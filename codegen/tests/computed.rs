@@ -201,7 +201,8 @@ fn nearly_parallel_axes_lose_no_digits() {
                 coefficients.iter().all(|(_, x)| x.abs() < 1e8),
                 "{robot}: {coefficients:?}"
             );
-            let baked = model.baked(&model.base.beta(&standard), &[]);
+            let beta = model.base.beta(&standard);
+            let baked = model.baked(&beta, &[]).expect("numbers");
             let computed = &baked.computed;
             // With velocities and accelerations so many times those of `value`.
             let forms = [

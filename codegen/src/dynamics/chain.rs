@@ -112,7 +112,8 @@ impl Chain {
     }
 }
 
-fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
+/// Says what the components of a link's vector are.
+pub(super) fn label(dag: &mut Dag, stem: &'static str, link: usize, v: Vector) {
     for (axis, x) in v.into_iter().enumerate() {
         dag.set_label(x, Label::Component { stem, link, axis });
     }

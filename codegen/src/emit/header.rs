@@ -15,8 +15,8 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
     let names = compiled.base.names.iter().enumerate();
     let beta: Vec<String> = names
         .map(|(k, name)| match &compiled.baked {
-            Some(beta) => format!("{name} = {}", beta[k]),
-            None => name.clone(),
+            Some(beta) => format!("{k}:{TIGHT}{name}{TIGHT}={TIGHT}{}", beta[k]),
+            None => format!("{k}:{TIGHT}{name}"),
         })
         .collect();
     let beta = beta.join(", ");
@@ -39,8 +39,17 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
             header.extend(wrapped(&list, WIDTH));
         }
     }
+    if compiled.model.chain().is_some() {
+        header.extend(wrapped(TEMPORARIES, WIDTH));
+    }
     header
 }
+
+/// What the names of temporaries say; see [`Label`](crate::expr::Label).
+const TEMPORARIES: &str = "Of link 3, along its axes: w3x angular velocity, dw3x angular acceleration, a3x acceleration of the \
+                           point that the function puts its origin at, less gravity, u3xy entry of U = [dw]x + [w]x [w]x, f3x \
+                           and n3x force and moment about that point which its joint puts on it, in lengths of the arm's own \
+                           where that spares factors; m_12 entry of M. What has no such meaning is numbered, t0, t1 and so on.";
 
 /// Where the numbers of the equations are from, and those of shape parameters.
 fn numbers(compiled: &Compiled) -> String {
@@ -73,6 +82,9 @@ fn file_name(source: &str) -> &str {
     source.rsplit(['/', '\\']).next().unwrap_or(source)
 }
 
+/// A space that stays on its line.
+pub const TIGHT: char = '\u{1f}';
+
 /// Breaks text at spaces into lines of at most `width` characters, where words allow it.
 pub fn wrapped(text: &str, width: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
@@ -84,6 +96,9 @@ pub fn wrapped(text: &str, width: usize) -> Vec<String> {
             }
             _ => lines.push(word.to_owned()),
         }
+    }
+    for line in &mut lines {
+        *line = line.replace(TIGHT, " ");
     }
     lines
 }

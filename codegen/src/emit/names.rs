@@ -166,9 +166,11 @@ impl<'a> Namer<'a> {
 
 /// Indices count from 1 in names.
 fn label_name(label: Label) -> String {
+    const AXES: [&str; 3] = ["x", "y", "z"];
     match label {
-        Label::Component { stem, link, axis } => {
-            format!("{stem}{}{}", link + 1, ["x", "y", "z"][axis])
+        Label::Component { stem, link, axis } => format!("{stem}{}{}", link + 1, AXES[axis]),
+        Label::Gradient { link, row, column } => {
+            format!("u{}{}{}", link + 1, AXES[row], AXES[column])
         }
         Label::Entry { stem, row, column } if row < 9 && column < 9 => {
             format!("{stem}_{}{}", row + 1, column + 1)

@@ -46,6 +46,15 @@ pub enum Label {
         /// 0 to 2 for x to z.
         axis: usize,
     },
+    /// An entry of a link's acceleration gradient `U = [dw]x + [w]x [w]x`.
+    Gradient {
+        /// The link.
+        link: usize,
+        /// 0 to 2 for x to z.
+        row: usize,
+        /// 0 to 2 for x to z.
+        column: usize,
+    },
     /// An entry of a matrix: `m` in row 1, column 2.
     Entry {
         /// The matrix.

@@ -18,7 +18,7 @@ mod search;
 
 use robot_model_spec::model::JointKind;
 
-use super::chain::Chain;
+use super::chain::{Chain, label};
 use super::frame::{Frame, multiply};
 use super::inertia::Turn;
 use super::rigid::Terms;
@@ -242,6 +242,12 @@ impl LeanChain {
             let (own_force, own_moment) = motion.wrench(dag, &self.bodies[index]);
             let force = vector::add(dag, own_force, carried.0);
             let moment = vector::add(dag, own_moment, carried.1);
+            // Other axes than the link's have no names, and parts of a motion would take those of the whole.
+            if terms == Terms::All && !self.frames[index].is_turned_back(dag) {
+                motion.label(dag, index);
+                label(dag, "f", index, force);
+                label(dag, "n", index, moment);
+            }
             let along_joint;
             (along_joint, carried) = self.frames[index].transmit(dag, (force, moment));
             torque.push(along_joint);

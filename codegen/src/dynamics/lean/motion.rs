@@ -3,10 +3,10 @@
 use robot_model_spec::model::JointKind;
 
 use super::body::{Body, Form};
-use crate::dynamics::chain::acceleration_gradient;
+use crate::dynamics::chain::{acceleration_gradient, label};
 use crate::dynamics::frame::Frame;
 use crate::dynamics::vector::{self, Matrix, Vector};
-use crate::expr::{Dag, ExprId};
+use crate::expr::{Dag, ExprId, Label};
 
 /// Motion of a link, in link coordinates.
 pub struct Motion {
@@ -83,6 +83,19 @@ impl Motion {
         let relative = vector::apply(dag, &u, frame.to_origin);
         let a = vector::add(dag, a, relative);
         Self { w, dw, u, a }
+    }
+
+    /// Says what the expressions are.
+    pub fn label(&self, dag: &mut Dag, link: usize) {
+        for (stem, vector) in [("w", self.w), ("dw", self.dw), ("a", self.a)] {
+            label(dag, stem, link, vector);
+        }
+        for (row, entries) in self.u.iter().enumerate() {
+            for (column, &entry) in entries.iter().enumerate() {
+                let label = Label::Gradient { link, row, column };
+                dag.set_label(entry, label);
+            }
+        }
     }
 
     /// Force on the body, and moment about the origin: `f = m a + U mc`, `n = mc x a + spin`.

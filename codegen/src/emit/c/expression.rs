@@ -2,12 +2,10 @@
 
 use std::collections::BTreeSet;
 
+use super::super::header::TIGHT;
 use super::super::written::{Operator, Place, Written};
 use super::helpers::Helper;
 use crate::expr::Function;
-
-/// A space that stays on its line.
-pub const TIGHT: char = '\u{1f}';
 
 /// Spells what a function computes, and knows which helpers that calls.
 pub struct Speller<'a> {

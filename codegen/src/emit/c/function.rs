@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use super::super::function::{Argument, Equations, Function, Layout, Returns, Step};
-use super::super::header::{comment, wrapped};
+use super::super::header::{TIGHT, comment, wrapped};
 use super::super::schedule::{Schedule, Temporary};
-use super::expression::{Speller, TIGHT};
+use super::expression::Speller;
 use super::helpers::Helper;
 
 /// Width of the lines.
@@ -77,7 +77,7 @@ fn statement(level: usize, text: &str) -> String {
         let indent = if k == 0 { indent } else { indent + INDENT };
         format!("{:indent$}{line}\n", "")
     });
-    lines.collect::<String>().replace(TIGHT, " ")
+    lines.collect()
 }
 
 /// The definition, and the helpers that it calls.
