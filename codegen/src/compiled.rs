@@ -36,7 +36,7 @@ pub struct Compiled {
     pub computed: Computed,
     /// [`Self::linear`] to be computed.
     pub computed_linear: LinearForm,
-    /// [`Self::candidates`] to be computed.
+    /// [`Self::candidates`] to be computed, as far as it is kept.
     pub computed_candidates: LinearForm,
     /// Slopes of the inverse dynamics, in the same parameters.
     pub partials: Partials,
@@ -88,10 +88,11 @@ fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
     let values = base_values(&standard, &base, baked.as_deref());
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
     let computed = dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values);
-    let computed_linear = regressor::computed(&mut dag, model, &linear, &base.kept);
+    let (computed_linear, computed_base) =
+        regressor::computed(&mut dag, model, &linear, &base.kept);
     let computed_candidates = match form {
         Some(_) => candidates.clone(),
-        None => computed_linear.clone(),
+        None => computed_base,
     };
     let partials = Partials::new(&mut dag, &dynamics);
     let symbols = vec![Value::Symbol; standard.len()];

@@ -1,13 +1,14 @@
 //! The regressor of a chain, link by link: what a unit of each inertial parameter takes of the joints.
 //!
-//! In: a [`Chain`]. Out: [`Columns`]. Seven columns of a link are carried from joint to joint; the other three fall out, since a
-//! mass on a joint's axis moves with the parent as well as with the link: its columns are those of the parent, and the joint
-//! itself feels nothing of it.
+//! In: a [`Chain`]. Out: [`Columns`]. The wrench of a column is carried from joint to joint, or the joints' axes are carried to
+//! the link. Three columns of a link may fall out, since a mass on a joint's axis moves with the parent as well as with the
+//! link: its columns are those of the parent, and the joint itself feels nothing of it.
 
 use super::chain::Chain;
 use super::frame::{Frame, MainAxis};
 use super::lean::{Body, Choice, Form, LeanChain};
 use super::rigid::Terms;
+use super::twist::{self, Twist};
 use super::vector::{self, Vector};
 use crate::expr::{Dag, ExprId};
 
@@ -15,7 +16,7 @@ use crate::expr::{Dag, ExprId};
 pub type Columns = [Vec<ExprId>; 10];
 
 /// Force and moment about the origin of a frame.
-type Wrench = (Vector, Vector);
+pub type Wrench = (Vector, Vector);
 
 /// Numbers for the ten parameters, in the order of `InertialElement::ALL`.
 type Numbers = [f64; 10];
@@ -26,20 +27,40 @@ const FIRST: [usize; 3] = [1, 2, 3];
 /// The inertia, `[row][column]`.
 const SECOND: [[usize; 3]; 3] = [[4, 5, 6], [5, 7, 8], [6, 8, 9]];
 
+/// How columns are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// Wrenches are carried inward, from joint to joint; three columns are put together from the parent's.
+    Wrenches,
+    /// Axes are carried outward, from link to link; three columns are put together from the parent's.
+    AxesAndParents,
+    /// Axes are carried outward, from link to link.
+    Axes,
+}
+
+impl Way {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Wrenches, Self::AxesAndParents, Self::Axes];
+}
+
 /// `tau = sum over links and elements of columns[link][element] * parameter`. Columns of `wanted` links and elements are
-/// carried rather than put together from others.
+/// found rather than put together from others.
 pub fn columns(
     dag: &mut Dag,
     chain: &Chain,
+    way: Way,
     wanted: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<Columns> {
     let mut lean = LeanChain::new(dag, chain, &Choice::plain(chain.frames.len()));
     lean.slide_joint_points(dag);
     let motions = lean.forward(dag, Terms::All);
     let center = Center::of(dag, &lean.frames);
+    let mut twists: Vec<Twist> = Vec::with_capacity(motions.len());
     let mut columns: Vec<Columns> = Vec::with_capacity(motions.len());
     for (link, motion) in motions.iter().enumerate() {
-        let on_axis = OnAxis::of(dag, &chain.frames[link], |element| wanted(link, element));
+        twist::outward(dag, &lean.frames[link], &mut twists);
+        let on_axis = OnAxis::of(dag, &chain.frames[link], |element| wanted(link, element))
+            .filter(|_| way != Way::Axes);
         let zero = dag.zero();
         let mut own: Columns = std::array::from_fn(|_| vec![zero; motions.len()]);
         let together = columns.last().zip(on_axis);
@@ -49,9 +70,16 @@ pub fn columns(
         for element in (0..10).filter(|element| !pivots.contains(element)) {
             let body = unit(dag, element);
             let wrench = motion.wrench(dag, &body);
-            carry(dag, &lean.frames, &center, link, wrench, &mut own[element]);
+            if way == Way::Wrenches {
+                carry(dag, &lean.frames, &center, link, wrench, &mut own[element]);
+                continue;
+            }
+            for (entry, twist) in own[element].iter_mut().zip(&twists) {
+                *entry = twist.power(dag, &wrench);
+            }
         }
         if let Some((_, on_axis)) = &together
+            && way == Way::Wrenches
             && link > center.joint
         {
             let [along, across, other] = on_axis.squares;

@@ -4,7 +4,7 @@
 use robot_model_spec::model::Model;
 
 use super::chain::Chain;
-use super::columns;
+use super::columns::{self, Way};
 use super::coriolis;
 use super::energy::EnergyForm;
 use super::lean::{Choice, LeanChain, Wanted};
@@ -109,31 +109,74 @@ fn rows(matrix: &[ExprId]) -> Vec<Vec<ExprId>> {
     matrix.chunks(dof).map(<[ExprId]>::to_vec).collect()
 }
 
+/// A regressor to be computed, `[joint][parameter]`, by what is wanted of it.
+pub struct Regressors {
+    /// All of it.
+    pub standard: Vec<Vec<ExprId>>,
+    /// The columns of the kept parameters; others have values too.
+    pub base: Vec<Vec<ExprId>>,
+}
+
 /// The regressor of the rigid body from the columns of its links, `[joint][parameter]`: the entries of `regressor` are replaced
 /// where `is_rigid`, and none that is zero is computed. `kept` parameters have base parameters.
-pub fn regressor(
+pub fn regressors(
     dag: &mut Dag,
     model: &Model,
     regressor: &[Vec<ExprId>],
     is_rigid: &dyn Fn(usize) -> bool,
     kept: &[usize],
-) -> Vec<Vec<ExprId>> {
+) -> Regressors {
     let count = regressor.first().map_or(0, Vec::len);
     let symbols = vec![Value::Symbol; count];
     let parameters = parameter_expressions(dag, &symbols);
-    if model.chain().is_none() {
-        return regressor.to_vec();
+    let body = model
+        .chain()
+        .is_some()
+        .then(|| RigidBody::new(dag, model, None, &parameters));
+    let mut ways = vec![regressor.to_vec()];
+    if let Some(RigidBody::Chain(chain)) = body {
+        let shares: Vec<_> = (0..count)
+            .map(|parameter| {
+                if is_rigid(parameter) {
+                    shares(dag, &chain, parameter)
+                } else {
+                    Vec::new()
+                }
+            })
+            .collect();
+        for way in Way::ALL {
+            ways.push(by_columns(dag, &chain, way, regressor, &shares, kept));
+        }
     }
-    let RigidBody::Chain(chain) = RigidBody::new(dag, model, None, &parameters) else {
-        return regressor.to_vec();
+    let all: Vec<usize> = (0..count).collect();
+    let fewest = |columns: &[usize]| {
+        let cost = |rows: &&Vec<Vec<ExprId>>| {
+            let entries = rows.iter().flat_map(|row| columns.iter().map(|&k| row[k]));
+            operations(dag, &entries.collect::<Vec<_>>())
+        };
+        ways.iter().min_by_key(cost).cloned().unwrap_or_default()
     };
+    Regressors {
+        standard: fewest(&all),
+        base: fewest(kept),
+    }
+}
+
+/// The regressor with the columns of the links found in one way.
+fn by_columns(
+    dag: &mut Dag,
+    chain: &Chain,
+    way: Way,
+    regressor: &[Vec<ExprId>],
+    shares: &[Vec<(usize, usize, ExprId)>],
+    kept: &[usize],
+) -> Vec<Vec<ExprId>> {
     let wanted = |link: usize, element: usize| kept.binary_search(&(10 * link + element)).is_ok();
-    let columns = columns::columns(dag, &chain, &wanted);
+    let columns = columns::columns(dag, chain, way, &wanted);
     let mut computed = regressor.to_vec();
-    for parameter in (0..count).filter(|&k| is_rigid(k)) {
-        let shares = shares(dag, &chain, parameter);
+    for (parameter, shares) in shares.iter().enumerate() {
         for (joint, row) in computed.iter_mut().enumerate() {
-            if dag.as_constant(row[parameter]).is_some() {
+            if shares.is_empty() || dag.as_constant(row[parameter]).is_some() {
                 continue;
             }
             let terms: Vec<ExprId> = shares
@@ -143,8 +186,7 @@ pub fn regressor(
             row[parameter] = dag.sum(terms);
         }
     }
-    let flat = cheaper(dag, computed.concat(), regressor.concat());
-    flat.chunks(count.max(1)).map(<[ExprId]>::to_vec).collect()
+    computed
 }
 
 /// `(link, element, d element / d parameter)` where it is not zero.

@@ -22,6 +22,7 @@ mod lower;
 mod partial;
 mod point;
 mod rigid;
+mod twist;
 mod vanishing;
 mod vector;
 
@@ -30,7 +31,7 @@ use robot_model_spec::model::{Act, Model};
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
 pub use changes::Changes;
-pub use computed::{Computed, compute, regressor as computed_regressor};
+pub use computed::{Computed, Regressors, compute, regressors};
 pub use energies::Energies;
 use energy::EnergyForm;
 pub use kinematics::{Kinematics, Lever, Pose};
