@@ -1,8 +1,10 @@
 //! The regressor of a chain, link by link: what a unit of each inertial parameter takes of the joints.
 //!
-//! In: a [`Chain`]. Out: [`Columns`]. The wrench of a column is carried from joint to joint, or the joints' axes are carried to
-//! the link. Three columns of a link may fall out, since a mass on a joint's axis moves with the parent as well as with the
+//! In: a [`Chain`]. Out: [`Columns`]. The wrench of a column is carried inward from joint to joint, the axes of the joints outward
+//! from link to link, and both meet on the way ([`search`]). Three columns of a link may fall out, since a mass on a joint's axis moves with the parent as well as with the
 //! link: its columns are those of the parent, and the joint itself feels nothing of it.
+
+mod search;
 
 use super::chain::Chain;
 use super::frame::{Frame, MainAxis};
@@ -27,20 +29,22 @@ const FIRST: [usize; 3] = [1, 2, 3];
 /// The inertia, `[row][column]`.
 const SECOND: [[usize; 3]; 3] = [[4, 5, 6], [5, 7, 8], [6, 8, 9]];
 
-/// How columns are found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Wrenches are carried inward, from joint to joint; three columns are put together from the parent's.
-    Wrenches,
-    /// Axes are carried outward, from link to link; three columns are put together from the parent's.
-    AxesAndParents,
-    /// Axes are carried outward, from link to link.
-    Axes,
+/// How columns are found; all ways have the same values.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Way {
+    /// Whether three columns of a link are put together from the parent's.
+    pub from_parents: bool,
+    /// Per link where the wrenches of its columns meet the axes of the joints that are still to come.
+    pub meets: Vec<Meet>,
 }
 
-impl Way {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Wrenches, Self::AxesAndParents, Self::Axes];
+/// Where wrenches, on their way to the base, meet axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Meet {
+    /// In the frame of this link, the columns' own or one before it.
+    pub link: usize,
+    /// About the point of its joint, and not about its origin.
+    pub at_joint: bool,
 }
 
 /// `tau = sum over links and elements of columns[link][element] * parameter`. Columns of `wanted` links and elements are
@@ -48,19 +52,21 @@ impl Way {
 pub fn columns(
     dag: &mut Dag,
     chain: &Chain,
-    way: Way,
+    way: &Way,
     wanted: &dyn Fn(usize, usize) -> bool,
 ) -> Vec<Columns> {
     let mut lean = LeanChain::new(dag, chain, &Choice::plain(chain.frames.len()));
     lean.slide_joint_points(dag);
     let motions = lean.forward(dag, Terms::All);
-    let center = Center::of(dag, &lean.frames);
-    let mut twists: Vec<Twist> = Vec::with_capacity(motions.len());
+    let twists = twist::of_links(dag, &lean.frames);
+    let inward = Inward {
+        frames: &lean.frames,
+        twists: &twists,
+    };
     let mut columns: Vec<Columns> = Vec::with_capacity(motions.len());
-    for (link, motion) in motions.iter().enumerate() {
-        twist::outward(dag, &lean.frames[link], &mut twists);
+    for (link, (motion, &meet)) in motions.iter().zip(&way.meets).enumerate() {
         let on_axis = OnAxis::of(dag, &chain.frames[link], |element| wanted(link, element))
-            .filter(|_| way != Way::Axes);
+            .filter(|_| way.from_parents);
         let zero = dag.zero();
         let mut own: Columns = std::array::from_fn(|_| vec![zero; motions.len()]);
         let together = columns.last().zip(on_axis);
@@ -70,17 +76,10 @@ pub fn columns(
         for element in (0..10).filter(|element| !pivots.contains(element)) {
             let body = unit(dag, element);
             let wrench = motion.wrench(dag, &body);
-            if way == Way::Wrenches {
-                carry(dag, &lean.frames, &center, link, wrench, &mut own[element]);
-                continue;
-            }
-            for (entry, twist) in own[element].iter_mut().zip(&twists) {
-                *entry = twist.power(dag, &wrench);
-            }
+            inward.carry(dag, link, meet, wrench, &mut own[element]);
         }
         if let Some((_, on_axis)) = &together
-            && way == Way::Wrenches
-            && link > center.joint
+            && link > meet.link
         {
             let [along, across, other] = on_axis.squares;
             let frame = &lean.frames[link];
@@ -93,7 +92,7 @@ pub fn columns(
             let (_, along) = frame.transmit(dag, wrench);
             let handed = (dumbbell.0, vector::sub(dag, dumbbell.1, along.1));
             let column = &mut own[SECOND[across][across]];
-            carry(dag, &lean.frames, &center, link - 1, handed, column);
+            inward.carry(dag, link - 1, meet, handed, column);
         }
         if let Some((parent, on_axis)) = &together {
             on_axis.complete(dag, parent, &mut own, link);
@@ -103,62 +102,37 @@ pub fn columns(
     columns
 }
 
-/// Joints with axes through one point, the first of the chain: all of them feel the moment about that point, so it is taken
-/// in the frame of the last of them and not carried on.
-struct Center {
-    /// The last of them.
-    joint: usize,
-    /// Axes of those before, in the frame of the last one's link.
-    axes: Vec<Vector>,
+/// The way of wrenches to the base.
+struct Inward<'a> {
+    frames: &'a [Frame],
+    /// Per link those of the joints up to its own.
+    twists: &'a [Vec<Twist>],
 }
 
-impl Center {
-    fn of(dag: &mut Dag, frames: &[Frame]) -> Self {
-        let turns_about_main_axis = |dag: &Dag, frame: &Frame| frame.main_axis(dag).is_some();
-        let is_zero = |dag: &Dag, v: Vector| v.iter().all(|&x| dag.is_zero(x));
-        let mut center = Self {
-            joint: 0,
-            axes: Vec::new(),
-        };
-        for (joint, pair) in (1..).zip(frames.windows(2)) {
-            let [inner, outer] = pair else { break };
-            if !turns_about_main_axis(dag, inner)
-                || !turns_about_main_axis(dag, outer)
-                || !is_zero(dag, inner.to_origin)
-                || !is_zero(dag, outer.joint_point)
-            {
-                break;
-            }
-            center.joint = joint;
-            center.axes.push(inner.axis);
-            for axis in &mut center.axes {
-                *axis = vector::apply_transposed(dag, &outer.rotation, *axis);
-            }
+impl Inward<'_> {
+    /// Carries the wrench of a column from the link of `joint` to where it meets the axes of the joints before.
+    fn carry(
+        &self,
+        dag: &mut Dag,
+        joint: usize,
+        meet: Meet,
+        mut wrench: Wrench,
+        column: &mut [ExprId],
+    ) {
+        for joint in (meet.link + 1..=joint).rev() {
+            (column[joint], wrench) = self.frames[joint].transmit(dag, wrench);
         }
-        center
-    }
-}
-
-/// Carries the wrench of a column from the link of `joint` down to the base.
-fn carry(
-    dag: &mut Dag,
-    frames: &[Frame],
-    center: &Center,
-    joint: usize,
-    mut wrench: Wrench,
-    column: &mut [ExprId],
-) {
-    for joint in (0..=joint).rev() {
-        if joint == center.joint {
-            let lever = vector::cross(dag, frames[joint].to_origin, wrench.0);
-            let moment = vector::add(dag, wrench.1, lever);
-            for (inner, axis) in center.axes.iter().enumerate() {
-                column[inner] = vector::dot(dag, moment, *axis);
-            }
+        let to_origin = self.frames[meet.link].to_origin;
+        if meet.at_joint {
+            let lever = vector::cross(dag, to_origin, wrench.0);
+            wrench.1 = vector::add(dag, wrench.1, lever);
         }
-        (column[joint], wrench) = frames[joint].transmit(dag, wrench);
-        if joint == center.joint {
-            break;
+        for (entry, twist) in column.iter_mut().zip(&self.twists[meet.link]) {
+            *entry = if meet.at_joint {
+                twist.power(dag, &wrench)
+            } else {
+                twist.at_origin(dag, to_origin).power(dag, &wrench)
+            };
         }
     }
 }

@@ -4,7 +4,7 @@
 use robot_model_spec::model::Model;
 
 use super::chain::Chain;
-use super::columns::{self, Way};
+use super::columns::{self, Columns, Way};
 use super::coriolis;
 use super::energy::EnergyForm;
 use super::lean::{Choice, LeanChain, Wanted};
@@ -133,28 +133,25 @@ pub fn regressors(
         .chain()
         .is_some()
         .then(|| RigidBody::new(dag, model, None, &parameters));
-    let mut ways = vec![regressor.to_vec()];
-    if let Some(RigidBody::Chain(chain)) = body {
-        let shares: Vec<_> = (0..count)
-            .map(|parameter| {
-                if is_rigid(parameter) {
-                    shares(dag, &chain, parameter)
-                } else {
-                    Vec::new()
-                }
-            })
-            .collect();
-        for way in Way::ALL {
-            ways.push(by_columns(dag, &chain, way, regressor, &shares, kept));
-        }
-    }
     let all: Vec<usize> = (0..count).collect();
-    let fewest = |columns: &[usize]| {
-        let cost = |rows: &&Vec<Vec<ExprId>>| {
-            let entries = rows.iter().flat_map(|row| columns.iter().map(|&k| row[k]));
-            operations(dag, &entries.collect::<Vec<_>>())
+    let mut fewest = |wanted: &[usize]| {
+        let entries = |rows: &[Vec<ExprId>]| -> Vec<ExprId> {
+            let entries = rows.iter().flat_map(|row| wanted.iter().map(|&k| row[k]));
+            entries.collect()
         };
-        ways.iter().min_by_key(cost).cloned().unwrap_or_default()
+        let Some(RigidBody::Chain(chain)) = &body else {
+            return regressor.to_vec();
+        };
+        let is_wanted =
+            |link: usize, element: usize| wanted.binary_search(&(10 * link + element)).is_ok();
+        let way = best_way(model, &symbols, &is_wanted);
+        let columns = columns::columns(dag, chain, &way, &is_wanted);
+        let computed = by_columns(dag, chain, regressor, is_rigid, &columns);
+        if operations(dag, &entries(regressor)) < operations(dag, &entries(&computed)) {
+            regressor.to_vec()
+        } else {
+            computed
+        }
     };
     Regressors {
         standard: fewest(&all),
@@ -162,21 +159,30 @@ pub fn regressors(
     }
 }
 
-/// The regressor with the columns of the links found in one way.
+/// How columns are best found; on a dag of its own, which is small.
+fn best_way(model: &Model, symbols: &[Value], wanted: &dyn Fn(usize, usize) -> bool) -> Way {
+    let mut dag = Dag::new();
+    let parameters = parameter_expressions(&mut dag, symbols);
+    match RigidBody::new(&mut dag, model, None, &parameters) {
+        RigidBody::Chain(chain) => Way::best(&dag, &chain, wanted),
+        RigidBody::Lagrangian(_) => Way::default(),
+    }
+}
+
+/// The regressor from the columns of the links.
 fn by_columns(
     dag: &mut Dag,
     chain: &Chain,
-    way: Way,
     regressor: &[Vec<ExprId>],
-    shares: &[Vec<(usize, usize, ExprId)>],
-    kept: &[usize],
+    is_rigid: &dyn Fn(usize) -> bool,
+    columns: &[Columns],
 ) -> Vec<Vec<ExprId>> {
-    let wanted = |link: usize, element: usize| kept.binary_search(&(10 * link + element)).is_ok();
-    let columns = columns::columns(dag, chain, way, &wanted);
     let mut computed = regressor.to_vec();
-    for (parameter, shares) in shares.iter().enumerate() {
+    let count = regressor.first().map_or(0, Vec::len);
+    for parameter in (0..count).filter(|&k| is_rigid(k)) {
+        let shares = shares(dag, chain, parameter);
         for (joint, row) in computed.iter_mut().enumerate() {
-            if shares.is_empty() || dag.as_constant(row[parameter]).is_some() {
+            if dag.as_constant(row[parameter]).is_some() {
                 continue;
             }
             let terms: Vec<ExprId> = shares

@@ -7,57 +7,64 @@ use super::frame::Frame;
 use super::vector::{self, Vector};
 use crate::expr::{Dag, ExprId};
 
-/// Angular velocity of a link and velocity of its origin, in its coordinates.
+/// Angular velocity of a link and velocity of the point of its joint, in its coordinates.
+#[derive(Clone, Copy)]
 pub struct Twist {
     angular: Vector,
     linear: Vector,
 }
 
 impl Twist {
-    /// Power of a wrench about the link's origin: what the joint at unit rate takes of it.
+    /// Power of a wrench about the same point: what the joint at unit rate takes of it.
     pub fn power(&self, dag: &mut Dag, (force, moment): &Wrench) -> ExprId {
         let turning = vector::dot(dag, self.angular, *moment);
         let moving = vector::dot(dag, self.linear, *force);
         dag.add(turning, moving)
     }
 
-    /// Of a point of the link.
-    fn at(&self, dag: &mut Dag, point: Vector) -> Vector {
-        let relative = vector::cross(dag, self.angular, point);
-        vector::add(dag, self.linear, relative)
+    /// Of the link's origin in place of its joint.
+    pub fn at_origin(&self, dag: &mut Dag, to_origin: Vector) -> Self {
+        let relative = vector::cross(dag, self.angular, to_origin);
+        Self {
+            angular: self.angular,
+            linear: vector::add(dag, self.linear, relative),
+        }
     }
 
     /// Of the next link, which does not move against this one.
-    fn outward(&self, dag: &mut Dag, frame: &Frame) -> Self {
-        let joint = self.at(dag, frame.joint_point);
-        let moved = Self {
-            angular: vector::apply_transposed(dag, &frame.rotation, self.angular),
-            linear: vector::apply_transposed(dag, &frame.rotation, joint),
-        };
-        let linear = moved.at(dag, frame.to_origin);
-        Self { linear, ..moved }
+    fn outward(&self, dag: &mut Dag, own: &Frame, next: &Frame) -> Self {
+        let origin = self.at_origin(dag, own.to_origin);
+        let joint = origin.at_origin(dag, next.joint_point);
+        Self {
+            angular: vector::apply_transposed(dag, &next.rotation, joint.angular),
+            linear: vector::apply_transposed(dag, &next.rotation, joint.linear),
+        }
     }
 
     /// Of the joint's own link.
     fn of_joint(dag: &mut Dag, frame: &Frame) -> Self {
         let still = vector::zero(dag);
-        match frame.kind {
-            JointKind::Prismatic => Self {
-                angular: still,
-                linear: frame.axis,
-            },
-            JointKind::Revolute => Self {
-                angular: frame.axis,
-                linear: vector::cross(dag, frame.axis, frame.to_origin),
-            },
-        }
+        let (angular, linear) = match frame.kind {
+            JointKind::Prismatic => (still, frame.axis),
+            JointKind::Revolute => (frame.axis, still),
+        };
+        Self { angular, linear }
     }
 }
 
-/// Twists of a link for the joints up to the parent's become those of the next link, its own joint among them.
-pub fn outward(dag: &mut Dag, frame: &Frame, twists: &mut Vec<Twist>) {
-    for twist in twists.iter_mut() {
-        *twist = twist.outward(dag, frame);
+/// Per link its twists for the joints up to its own.
+pub fn of_links(dag: &mut Dag, frames: &[Frame]) -> Vec<Vec<Twist>> {
+    let mut links: Vec<Vec<Twist>> = Vec::with_capacity(frames.len());
+    for (link, frame) in frames.iter().enumerate() {
+        let mut twists: Vec<Twist> = match link.checked_sub(1) {
+            Some(parent) => links[parent]
+                .iter()
+                .map(|twist| twist.outward(dag, &frames[parent], frame))
+                .collect(),
+            None => Vec::new(),
+        };
+        twists.push(Twist::of_joint(dag, frame));
+        links.push(twists);
     }
-    twists.push(Twist::of_joint(dag, frame));
+    links
 }
