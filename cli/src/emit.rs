@@ -187,6 +187,7 @@ impl Emit {
         for (name, text) in code {
             let path = self.out.join(name);
             self.make_folder()?;
+            refuse_what_others_wrote(&path)?;
             claimed.push((files.claim(&path)?, text, path));
         }
         for (file, text, path) in claimed {
@@ -194,6 +195,20 @@ impl Emit {
             output::print(&format!("{}\n", path.display()))?;
         }
         Ok(())
+    }
+}
+
+/// A page may take the place of a page, and of nothing else.
+fn refuse_what_others_wrote(path: &Path) -> Result<(), Error> {
+    match fs::read(path) {
+        Ok(bytes) if !bytes.is_empty() && !bytes.starts_with(emit::MARK.as_bytes()) => {
+            Err(Error::Write {
+                path: path.to_owned(),
+                reason: "it is there and was not generated: give another `--out`, or take it away"
+                    .to_owned(),
+            })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -182,6 +182,22 @@ fn baked_arms_have_the_values_of_the_arm() {
     }
 }
 
+/// Coefficients are no larger than one over an angle between axes, in decades from parallel to what a calibration finds.
+#[test]
+fn coefficients_grow_with_one_over_an_angle() {
+    for decade in 1..=7 {
+        let angle = 10f64.powi(-decade);
+        let alpha = format!("{angle}");
+        let lengths = [[0.3, 0.2, 0.2], [0.1, 0.2, 0.0]];
+        let robot = chain("[0, 0, -9.81]", false, 0, [&alpha, "90 deg", "0"], lengths);
+        let combinations = compile(&robot).base.combinations.concat();
+        let largest = combinations
+            .iter()
+            .fold(0.0, |size: f64, (_, x)| size.max(x.abs()));
+        assert!(largest < 2.0 / angle, "{robot}: {largest}");
+    }
+}
+
 /// An angle that is nearly none makes columns that are nearly none: strong ones of the link do not regroup into their parameters.
 #[test]
 fn nearly_parallel_axes_lose_no_digits() {

@@ -62,3 +62,19 @@ fn mistakes_come_back_as_rendered_diagnostics() {
         "{text}"
     );
 }
+
+/// Names of the language and its prelude are names of robots too.
+#[test]
+fn robots_may_be_called_as_words_of_rust() {
+    for (robot, name) in [("Self", "SelfRobot"), ("Option", "Option")] {
+        let text = format!(
+            "robot {robot} {{ gravity = [0, 0, -9.81]; convention = standard_dh;\n\
+             joint j: revolute {{ a = 1; alpha = 90 deg; d = 0; }} }}\n"
+        );
+        let page = compile_text("arm.robot", &text).unwrap_or_else(|error| panic!("{error}"));
+        assert!(page.contains("impl model::RobotModel<1, 10, "), "{page}");
+        assert!(page.contains(&format!("pub struct {name} {{")), "{page}");
+        let bare = page.matches("Option<").count() - page.matches("core::option::Option<").count();
+        assert_eq!(bare, 0, "{page}");
+    }
+}

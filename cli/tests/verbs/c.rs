@@ -40,7 +40,7 @@ fn c_is_a_header_and_a_source_named_as_the_robot() {
         folder.read("code/rail_cart.c"),
     );
     assert!(
-        header.contains("beta = [cart.m = 3, rail.viscous_friction.fv = 5]"),
+        header.contains("beta = [0: cart.m = 3, 1: rail.viscous_friction.fv = 5]"),
         "{header}"
     );
     assert!(
@@ -50,6 +50,22 @@ fn c_is_a_header_and_a_source_named_as_the_robot() {
     assert!(!header.contains("const double beta"), "{header}");
     let body = "    tau[0] = 3.0 * ddq[0] + 5.0 * dq[0];\n";
     assert!(source.contains(body), "{source}");
+}
+
+/// A page takes the place of a page, and of nothing that somebody wrote.
+#[test]
+fn what_was_not_generated_stays() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("code/cart.c", "// by hand\n");
+    assert_eq!(
+        folder.refuse(&EMIT),
+        "error: code/cart.c: it is there and was not generated: give another `--out`, or take it away\n"
+    );
+    assert_eq!(folder.read("code/cart.c"), "// by hand\n");
+    folder.write("code/cart.c", "");
+    folder.succeed(&EMIT);
+    folder.succeed(&EMIT);
 }
 
 /// Two specimens of an arm are in one program under a name each; a name that something else has is refused, or avoided.

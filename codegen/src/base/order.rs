@@ -10,8 +10,8 @@ use crate::sample::Sample;
 /// link comes behind its strong ones: were it kept, these would regroup into it with coefficients that leave no digits.
 pub fn of_choice(parameters: &[StandardParameter], sample: &Sample) -> Vec<usize> {
     use InertialElement::{M, Mx, My, Mz};
-    /// Of the largest of the same link and unit: an angle that is nearly none, or its square.
-    const FAINT: f64 = 1e-6;
+    /// Of the largest of the same link and unit: an angle that is nearly none, or its square, up to that of a few degrees.
+    const FAINT: f64 = 0.02;
     let place = |k: usize| match parameters[k].owner {
         Owner::Link { link, element: M } => (link, 2),
         Owner::Link {

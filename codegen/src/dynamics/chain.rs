@@ -57,7 +57,7 @@ impl Chain {
     /// Torque of every joint, N m or N.
     pub fn torque(&self, dag: &mut Dag, terms: Terms, labeled: bool) -> Vec<ExprId> {
         let motions = self.forward(dag, terms, labeled);
-        self.backward(dag, &motions, labeled)
+        self.backward(dag, &motions)
     }
 
     /// Base to tip: velocities and accelerations. Gravity is an upward acceleration of the base.
@@ -91,7 +91,7 @@ impl Chain {
     }
 
     /// Tip to base: forces and moments, and their part along each joint.
-    fn backward(&self, dag: &mut Dag, motions: &[LinkMotion], labeled: bool) -> Vec<ExprId> {
+    fn backward(&self, dag: &mut Dag, motions: &[LinkMotion]) -> Vec<ExprId> {
         let mut torque = Vec::with_capacity(motions.len());
         // Force and moment about the origin of link i, that joint i + 1 takes from it.
         let mut carried = (vector::zero(dag), vector::zero(dag));
@@ -99,10 +99,6 @@ impl Chain {
             let (own_force, own_moment) = motion.wrench(dag, &self.links[index]);
             let force = vector::add(dag, own_force, carried.0);
             let moment = vector::add(dag, own_moment, carried.1);
-            if labeled {
-                label(dag, "f", index, force);
-                label(dag, "n", index, moment);
-            }
             let along_joint;
             (along_joint, carried) = self.frames[index].transmit(dag, (force, moment));
             torque.push(along_joint);

@@ -12,7 +12,7 @@ use super::rigid::{RigidBody, Terms};
 use super::vanishing::without_vanishing;
 use super::{Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
-use crate::optimize;
+use crate::optimize::{self, Cost, optimize};
 
 /// Torques and matrices, as of [`Dynamics`](super::Dynamics).
 #[derive(Debug, Clone)]
@@ -59,9 +59,12 @@ pub fn compute(
     let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
     let (mass_matrix, coriolis_matrix) = match body {
         RigidBody::Chain(chain) => {
-            let choice = choice(model, values, Wanted::MassMatrix);
-            let chain = LeanChain::new(dag, &chain, &choice).into_chain();
-            let coriolis_matrix = cheaper_coriolis_matrix(dag, &chain, &derived);
+            let best = choice(model, values, Wanted::MassMatrix);
+            let torques = choice(model, values, Wanted::Torque(Terms::All)).with_inertias();
+            let plain = Choice::plain(model.joints.len());
+            let coriolis_matrix =
+                cheapest_coriolis_matrix(dag, &chain, &derived, &[&best, &torques, &plain]);
+            let chain = LeanChain::new(dag, &chain, &best).into_chain();
             let mass_matrix = chain.mass_matrix(dag).concat();
             (rows(&without_vanishing(dag, mass_matrix)), coriolis_matrix)
         }
@@ -91,16 +94,21 @@ fn choice(model: &Model, values: &[Value], wanted: Wanted) -> Choice {
     }
 }
 
-/// By derivatives, which few joints and parallel axes simplify, or by composite bodies.
-fn cheaper_coriolis_matrix(
+/// By derivatives, which few joints and parallel axes simplify, or by composite bodies in one of the ways to write the chain.
+fn cheapest_coriolis_matrix(
     dag: &mut Dag,
     chain: &Chain,
     derived: &[Vec<ExprId>],
+    choices: &[&Choice],
 ) -> Vec<Vec<ExprId>> {
-    let composite = chain.coriolis_matrix(dag).concat();
-    let [derived, composite] =
-        [derived.concat(), composite].map(|matrix| without_vanishing(dag, matrix));
-    rows(&cheaper(dag, derived, composite))
+    let mut best = without_vanishing(dag, derived.concat());
+    for choice in choices {
+        let chain = LeanChain::new(dag, chain, choice).into_chain();
+        let composite = chain.coriolis_matrix(dag).concat();
+        let composite = without_vanishing(dag, composite);
+        best = cheaper(dag, best, composite);
+    }
+    rows(&best)
 }
 
 /// The rows of a square matrix.
@@ -211,15 +219,24 @@ fn shares(dag: &mut Dag, chain: &Chain, parameter: usize) -> Vec<(usize, usize, 
 
 /// The list with fewer operations; the first of equals.
 fn cheaper(dag: &Dag, first: Vec<ExprId>, second: Vec<ExprId>) -> Vec<ExprId> {
-    if operations(dag, &second) < operations(dag, &first) {
-        second
-    } else {
-        first
+    /// What is sharing away is looked at where that takes no time.
+    const SMALL: usize = 1_500;
+    let lists = [&first, &second];
+    let mut costs = lists.map(|list| operations(dag, list));
+    if costs.iter().all(|&cost| cost < SMALL) {
+        costs = lists.map(|list| price(optimize(dag, list).cost()));
     }
+    if costs[1] < costs[0] { second } else { first }
 }
 
-/// Multiplications and additions.
+/// Multiplications and additions, and what sines and cosines are worth of them.
 pub(super) fn operations(dag: &Dag, outputs: &[ExprId]) -> usize {
-    let cost = optimize::operations(dag, outputs);
-    cost.mul + cost.add
+    price(optimize::operations(dag, outputs))
+}
+
+/// An angle more, for its sine and cosine, takes as long as some ten operations where all angles go through one register, and
+/// several times that where libm takes them one by one.
+fn price(cost: Cost) -> usize {
+    const SINE: usize = 5;
+    cost.mul + cost.add + SINE * cost.trig
 }

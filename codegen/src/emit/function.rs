@@ -194,7 +194,12 @@ impl Context<'_> {
             })
             .collect();
         let note = (!self.note.is_empty()).then(|| self.note.to_owned());
-        let cost = format!("Cost: {}.", schedule.cost);
+        let besides = match &task.returns {
+            Returns::Accelerations(_) => ", besides the solution for the accelerations",
+            Returns::Memory(_) => ", besides the steps of the states",
+            _ => "",
+        };
+        let cost = format!("Cost: {}{besides}.", schedule.cost);
         Function {
             name: task.name,
             doc: [Some(task.doc.to_owned()), note, Some(cost)]

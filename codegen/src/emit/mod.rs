@@ -17,6 +17,7 @@ mod written;
 
 use crate::compiled::Compiled;
 pub use crate::optimize::Cost;
+pub use header::MARK;
 
 /// What is on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

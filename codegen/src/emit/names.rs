@@ -151,6 +151,10 @@ impl<'a> Namer<'a> {
                     ((1.0, Some(p)), (-1.0, Some(q))) | ((-1.0, Some(q)), (1.0, Some(p))) => {
                         Some(format!("{}_minus_{}", self.argument(p)?, self.argument(q)?))
                     }
+                    // By an offset.
+                    ((_, None), (1.0, Some(x))) | ((1.0, Some(x)), (_, None)) => {
+                        Some(format!("{}_shifted", self.argument(x)?))
+                    }
                     _ => None,
                 }
             }

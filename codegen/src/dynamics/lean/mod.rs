@@ -18,7 +18,7 @@ mod search;
 
 use robot_model_spec::model::JointKind;
 
-use super::chain::{Chain, label};
+use super::chain::Chain;
 use super::frame::{Frame, multiply};
 use super::inertia::Turn;
 use super::rigid::Terms;
@@ -35,6 +35,7 @@ pub struct LeanChain {
     bodies: Vec<Body>,
     /// Acceleration of gravity in the base frame.
     gravity: Vector,
+    is_in_meters: bool,
 }
 
 impl LeanChain {
@@ -51,6 +52,7 @@ impl LeanChain {
             frames: chain.frames.clone(),
             bodies,
             gravity: chain.gravity,
+            is_in_meters: true,
         };
         lean.hand_over(dag);
         lean.move_origins(dag, &choice.origins);
@@ -188,6 +190,7 @@ impl LeanChain {
         if unit.to_bits() == 1.0f64.to_bits() || !self.frames.iter().all(is_revolute) {
             return;
         }
+        self.is_in_meters = false;
         let mut shorter = |v: Vector| v.map(|x| dag.scale(unit.recip(), x));
         self.gravity = shorter(self.gravity);
         for frame in &mut self.frames {
@@ -242,11 +245,10 @@ impl LeanChain {
             let (own_force, own_moment) = motion.wrench(dag, &self.bodies[index]);
             let force = vector::add(dag, own_force, carried.0);
             let moment = vector::add(dag, own_moment, carried.1);
-            // Other axes than the link's have no names, and parts of a motion would take those of the whole.
+            // Other axes than the link's have no names, and parts of a motion would take those of the whole. Wrenches have none
+            // either: they are those of the bodies that base parameters describe.
             if terms == Terms::All && !self.frames[index].is_turned_back(dag) {
-                motion.label(dag, index);
-                label(dag, "f", index, force);
-                label(dag, "n", index, moment);
+                motion.label(dag, index, self.is_in_meters);
             }
             let along_joint;
             (along_joint, carried) = self.frames[index].transmit(dag, (force, moment));

@@ -85,10 +85,12 @@ impl Motion {
         Self { w, dw, u, a }
     }
 
-    /// Says what the expressions are.
-    pub fn label(&self, dag: &mut Dag, link: usize) {
-        for (stem, vector) in [("w", self.w), ("dw", self.dw), ("a", self.a)] {
-            label(dag, stem, link, vector);
+    /// Says what the expressions are; accelerations are named in m/s^2.
+    pub fn label(&self, dag: &mut Dag, link: usize, is_in_meters: bool) {
+        label(dag, "w", link, self.w);
+        label(dag, "dw", link, self.dw);
+        if is_in_meters {
+            label(dag, "a", link, self.a);
         }
         for (row, entries) in self.u.iter().enumerate() {
             for (column, &entry) in entries.iter().enumerate() {

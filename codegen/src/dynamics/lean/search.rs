@@ -47,6 +47,12 @@ impl Choice {
         }
     }
 
+    /// The same for derivations that know no second moments.
+    pub fn with_inertias(mut self) -> Self {
+        self.forms.fill(Form::Inertia);
+        self
+    }
+
     /// The way with the fewest operations, one decision after the other. The same chain gives the same choice. `dag` is where
     /// the chain's expressions are; trials are built on copies of it.
     pub fn best(dag: &Dag, chain: &Chain, wanted: Wanted) -> Self {

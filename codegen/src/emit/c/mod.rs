@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 use super::function::{Function, Returns};
 use super::functions::{functions, its_standard, standard_of};
-use super::header::{WIDTH, comment, header, wrapped};
+use super::header::{WIDTH, comment, header, legend, wrapped};
 use super::schedule::Schedule;
 use super::table::Table;
 use super::{Extent, function as shared};
@@ -230,7 +230,7 @@ impl Constants {
             let standard = its_standard(compiled, beta);
             arrays.push(numbers(
                 "standard",
-                "Standard parameters of the equations.",
+                "Standard parameters with these base parameters: what falls out is 0, so they are no masses of the arm's links.",
                 "STANDARD",
                 standard,
             ));
@@ -327,6 +327,7 @@ fn source_file(
         .map(|helper| helper.definition(name))
         .collect();
     let mut text = comment("// ", &header(compiled));
+    text.push_str(&comment("// ", &legend(compiled)));
     let _ = write!(text, "\n#include \"{name}.h\"\n\n#include <math.h>\n");
     for array in &constants.arrays {
         text.push('\n');

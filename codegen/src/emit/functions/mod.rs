@@ -199,7 +199,9 @@ pub fn standard_of(compiled: &Compiled) -> Vec<Written> {
 pub fn its_standard(compiled: &Compiled, beta: &[f64]) -> Vec<f64> {
     let of_beta = |combination: &Vec<(usize, f64)>| {
         let terms = combination.iter();
-        terms.map(|&(k, share)| share * beta[k]).sum()
+        let sum: f64 = terms.map(|&(k, share)| share * beta[k]).sum();
+        // No zero has a sign.
+        sum + 0.0
     };
     choose_standard(compiled, |value| value, of_beta)
 }

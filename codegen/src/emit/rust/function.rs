@@ -141,7 +141,7 @@ fn result(function: &Function, outputs: &[TokenStream]) -> (TokenStream, TokenSt
         Returns::Memory(counts) => (kind, after_step(counts, outputs)),
         Returns::Accelerations(equations) => {
             let result = accelerations(function, *equations, outputs);
-            (quote!(Option<#kind>), result)
+            (quote!(::core::option::Option<#kind>), result)
         }
         Returns::Matrix(0) => {
             let rows = count(function.sizes[0]);

@@ -19,7 +19,7 @@ pub use parameters::{From, Parameters};
 
 /// The page's type and its implementation: it holds base parameters, or nothing where the equations have them.
 pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec<TokenStream> {
-    let name = Ident::new(&compiled.model.name, Span::call_site());
+    let name = type_of(&compiled.model.name);
     let (item, parameters) = match &compiled.baked {
         Some(beta) => (
             parameters::one_arm(&name),
@@ -53,6 +53,14 @@ pub fn items(compiled: &Compiled, functions: &[Function], extent: Extent) -> Vec
         };
     };
     vec![item, implementation]
+}
+
+/// The page's type: the robot's name, with `Robot` behind a word of Rust's.
+fn type_of(robot: &str) -> Ident {
+    syn::parse_str(robot).unwrap_or_else(|_| {
+        let name = format!("{robot}Robot");
+        Ident::new(&name, Span::call_site())
+    })
 }
 
 /// What the implementations take from the runtime's module `model`.

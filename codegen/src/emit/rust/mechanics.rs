@@ -43,7 +43,7 @@ fn values(compiled: &Compiled, functions: &[Function]) -> TokenStream {
             #potential
         }
         __blank!();
-        fn forward_dynamics_at<S: ::robot_model::Scalar>(&self, state: &#state, tau: &model::SVector<S, #dof>) -> Option<model::SVector<S, #dof>> {
+        fn forward_dynamics_at<S: ::robot_model::Scalar>(&self, state: &#state, tau: &model::SVector<S, #dof>) -> ::core::option::Option<model::SVector<S, #dof>> {
             #forward.map(Into::into)
         }
         __blank!();

@@ -41,6 +41,7 @@ pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
     let mut items: Vec<TokenStream> = functions.iter().map(function::item).collect();
     items.extend(implementation::items(compiled, &functions, extent));
     let mut lines = header::header(compiled);
+    lines.extend(header::legend(compiled));
     lines.extend(NOTES.map(str::to_owned));
     let header = header::comment("// ", &lines);
     pretty::page(&header, &items)
