@@ -100,7 +100,7 @@ fn emit_writes_a_file_named_as_the_spec() {
         "{plain}"
     );
     assert!(
-        code.contains("beta = [cart.m = 3, rail.viscous_friction.fv = 5]"),
+        code.contains("beta = [0: cart.m = 3, 1: rail.viscous_friction.fv = 5]"),
         "{code}"
     );
     assert!(
