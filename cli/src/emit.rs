@@ -187,8 +187,9 @@ impl Emit {
         for (name, text) in code {
             let path = self.out.join(name);
             self.make_folder()?;
+            let file = files.claim(&path)?;
             refuse_what_others_wrote(&path)?;
-            claimed.push((files.claim(&path)?, text, path));
+            claimed.push((file, text, path));
         }
         for (file, text, path) in claimed {
             file.commit(text.as_bytes())?;

@@ -57,10 +57,11 @@ fn c_is_a_header_and_a_source_named_as_the_robot() {
 fn what_was_not_generated_stays() {
     let folder = Folder::new();
     folder.write("cart.robot", CART);
+    std::fs::create_dir_all(folder.path("code")).expect("a folder");
     folder.write("code/cart.c", "// by hand\n");
     assert_eq!(
         folder.refuse(&EMIT),
-        "error: code/cart.c: it is there and was not generated: give another `--out`, or take it away\n"
+        "error: cannot write `code/cart.c`: it is there and was not generated: give another `--out`, or take it away\n"
     );
     assert_eq!(folder.read("code/cart.c"), "// by hand\n");
     folder.write("code/cart.c", "");

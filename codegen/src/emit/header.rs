@@ -18,7 +18,7 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
     let names = compiled.base.names.iter().enumerate();
     let beta: Vec<String> = names
         .map(|(k, name)| match &compiled.baked {
-            Some(beta) => format!("{k}:{TIGHT}{name}{TIGHT}={TIGHT}{:?}", beta[k]),
+            Some(beta) => format!("{k}:{TIGHT}{name}{TIGHT}={TIGHT}{}", Digits(beta[k])),
             None => format!("{k}:{TIGHT}{name}"),
         })
         .collect();
@@ -81,12 +81,26 @@ fn numbers(compiled: &Compiled) -> String {
     let shapes: Vec<String> = names
         .iter()
         .zip(values)
-        .map(|(name, value)| format!("{name} = {value:?}"))
+        .map(|(name, value)| format!("{name} = {}", Digits(*value)))
         .collect();
     if shapes.is_empty() {
         format!("These numbers{from}.")
     } else {
         format!("These numbers{from}; shapes = [{}].", shapes.join(", "))
+    }
+}
+
+/// A number as people write it: with an exponent where it would be all zeros.
+struct Digits(f64);
+
+impl std::fmt::Display for Digits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let value = self.0;
+        if value == 0.0 || (1e-6..1e16).contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
+        }
     }
 }
 
