@@ -30,7 +30,8 @@ pub fn open(network: &mut Network) {
     }
 }
 
-/// A sum that costs no more; `None` where there is none.
+/// A sum that costs no more and in which something has canceled; `None` where there is none. No sum uses itself, not by
+/// others either, and what is written out is sums nearer to the symbols: so this comes to an end.
 fn opened(network: &mut Network, id: Id) -> Option<Vec<Term>> {
     let Cell::Sum(terms) = &network.cells[id] else {
         return None;

@@ -31,17 +31,17 @@ impl Reserved {
     }
 }
 
-/// Headers of C23 and POSIX.1-2017, of glibc, musl, macOS and Windows where these are in every installation.
+/// Headers of C23 and POSIX.1-2017, and of glibc, musl, macOS and Windows those with short names.
 const HEADERS: &str = "
-    assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic stdbit
+    assert complex ctype errno fenv inttypes iso646 limits locale math setjmp signal stdalign stdarg stdatomic stdbit
     stdbool stdckdint stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype
     aio cpio dirent dlfcn fcntl fmtmsg fnmatch ftw glob grp iconv langinfo libgen monetary mqueue ndbm netdb nl_types poll
     pthread pwd regex sched search semaphore spawn strings stropts syslog tar termios trace ulimit unistd utime utmpx wordexp
     aliases alloca ar argp argz byteswap crypt elf endian envz err error execinfo features fpu_control fstab fts getopt gshadow
     ieee754 ifaddrs lastlog libintl link malloc mcheck memory mntent nss obstack paths printf proc_service pty re_comp regexp
-    resolv sgtty shadow stab stdc stropts syscall sysexits syslog termio thread_db ttyent ucontext ustat utmp values wait
+    resolv sgtty shadow stab stdc syscall sysexits termio thread_db ttyent ucontext ustat utmp values wait
     libc util unwind copyfile dispatch membership notify
-    conio crtdbg direct dos fcntl io intrin malloc mbstring process rpc share tchar windows winsock winsock2 wincon winnt winuser
+    conio crtdbg direct dos io intrin mbstring process rpc share tchar windows winsock winsock2 wincon winnt winuser
 ";
 
 /// Keywords of C23 and C++23, alternative spellings, macros that act as keywords.
@@ -99,4 +99,29 @@ fn is_device(name: &str) -> bool {
         .find_map(|kind| name.strip_prefix(kind));
     ["aux", "con", "nul", "prn"].contains(&name)
         || numbered.is_some_and(|rest| rest.len() == 1 && rest.chars().all(|c| c.is_ascii_digit()))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn a_name_stands_in_one_list_once() {
+        let mut seen = BTreeSet::new();
+        for list in [HEADERS, WORDS] {
+            for name in list.split_whitespace() {
+                assert!(seen.insert(name), "{name}");
+                assert!(what(name).is_some(), "{name}");
+            }
+        }
+        let mut functions = BTreeSet::new();
+        for name in FUNCTIONS.split_whitespace() {
+            assert!(
+                functions.insert(name) && !name.contains(char::is_uppercase),
+                "{name}"
+            );
+        }
+    }
 }
