@@ -9,4 +9,5 @@ mod every;
 mod identify;
 mod import;
 mod outputs;
+mod parameters;
 mod trace;

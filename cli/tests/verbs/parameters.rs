@@ -1,0 +1,277 @@
+//! Parameters as `eval` and `emit` take them: from a file, and from the spec.
+
+use serde_json::Value;
+
+use crate::common::{CART, Folder, PENDULUM, close, json, numbers};
+
+const CART_WITH_PARAMETERS: [&str; 6] = [
+    "eval",
+    "cart.robot",
+    "--states",
+    "states.json",
+    "--parameters",
+    "parameters.json",
+];
+
+#[test]
+fn eval_takes_standard_and_base_parameters() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.1],"dq":[0.5],"ddq":[2]}]}"#,
+    );
+    let eval = |text: &str| {
+        folder.write("parameters.json", text);
+        CART_WITH_PARAMETERS
+    };
+    let plain = json(&folder.succeed(&eval(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#)));
+    close(numbers(&plain["states"][0]["torque"])[0], 8.5, 1e-12);
+    let identified = r#"{"method":"wls","parameters":[{"name":"cart.m","value":3,"std":0.1},{"name":"rail.viscous_friction.fv","value":5,"std":1}]}"#;
+    let identified = json(&folder.succeed(&eval(identified)));
+    assert_eq!(identified, plain);
+
+    assert_eq!(
+        folder.refuse(&["eval", "cart.robot", "--states", "states.json"]),
+        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file with `--parameters`: {\"cart.m\": .., \"rail.viscous_friction.fv\": ..}\n"
+    );
+    assert_eq!(
+        folder.refuse(&eval(r#"{"cart.m": 3}"#)),
+        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file with `--parameters`: {\"rail.viscous_friction.fv\": ..}\n"
+    );
+    assert_eq!(
+        folder.refuse(&eval(
+            r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "cart.mass": 3}"#
+        )),
+        "error: parameters.json: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
+    );
+    assert!(
+        folder
+            .refuse(&eval(r#"{"cart.m": 3,}"#))
+            .starts_with("error: parameters.json: trailing comma at line 1")
+    );
+}
+
+/// What a file of one's own may have wrong, with its place and the way out.
+#[test]
+fn slips_in_a_parameter_file_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[0]}]}"#,
+    );
+    let forms =
+        "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
+    for (text, said) in [
+        (
+            r#"{"cart.m": 3, "cart.m": 4, "rail.viscous_friction.fv": 5}"#,
+            "`cart.m` stands there more than once; keep the value that is meant".to_owned(),
+        ),
+        (
+            r#"{"cart.m": "heavy", "rail.viscous_friction.fv": 5}"#,
+            format!("`cart.m` is text, where a number is wanted: {forms}"),
+        ),
+        (
+            r#"{"cart.m": null, "rail.viscous_friction.fv": 5}"#,
+            "`cart.m` is null; write its value, or leave it out where the spec has one".to_owned(),
+        ),
+        ("[3, 5]", format!("it is a list: {forms}")),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": 3}, {"value": 5}]}"#,
+            format!("entry 2 of `parameters` has no `name` that is text: {forms}"),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m"}]}"#,
+            format!("`cart.m` has no `value`: {forms}"),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": "3"}]}"#,
+            "the `value` of `cart.m` is text, where a number is wanted".to_owned(),
+        ),
+        (
+            r#"{"parameters": [{"name": "cart.m", "value": 3}, {"name": "cart.m", "value": 3}]}"#,
+            "parameter `cart.m` stands there more than once; keep the value that is meant"
+                .to_owned(),
+        ),
+        (
+            r#"{"cart.m": 1e999, "rail.viscous_friction.fv": 5}"#,
+            "number out of range at line 1 column 16".to_owned(),
+        ),
+    ] {
+        folder.write("parameters.json", text);
+        assert_eq!(
+            folder.refuse(&CART_WITH_PARAMETERS),
+            format!("error: parameters.json: {said}\n"),
+            "{text}"
+        );
+    }
+}
+
+/// What no arm has is computed with all the same: an identification may miss zero by its error.
+#[test]
+fn values_that_no_arm_has_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[1]}]}"#,
+    );
+    let warned = |text: &str| {
+        folder.write("parameters.json", text);
+        let run = folder.run(&CART_WITH_PARAMETERS);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        (
+            json(&run.stdout)["states"][0]["torque"][0].clone(),
+            run.stderr,
+        )
+    };
+    let (torque, said) = warned(r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#);
+    assert_eq!((torque, said), (Value::from(8.0), String::new()));
+    let (torque, said) = warned(r#"{"cart.m": -3, "rail.viscous_friction.fv": -0.5}"#);
+    let wanted = "warning: parameters.json: `cart.m` is -3, and no arm has a negative one\n\
+                  warning: parameters.json: `rail.viscous_friction.fv` is -0.5, and no arm has a negative one\n";
+    assert_eq!((torque, said.as_str()), (Value::from(-3.5), wanted));
+
+    // Slender rods whose mass is farther from the joint than their moment of inertia says, and sums of what is not negative.
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    folder.write("parameters.json", r#"{"lower.izz": 0.03}"#);
+    let run = folder.run(&eval);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let wanted = "warning: parameters.json: link `lower` has an inertia that no body has: ";
+    assert!(run.stderr.starts_with(wanted), "{}", run.stderr);
+}
+
+/// A base parameter or two are no set of them.
+#[test]
+fn parts_of_a_set_of_base_parameters_are_told() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    for (text, said) in [
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.izzr": 1}"#,
+            "`lower.izzr`, `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, \
+             with no others: Pendulum has 6 base parameters, the file lacks `lower.my`",
+        ),
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izz": 1}"#,
+            "`lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no \
+             others: Pendulum has 6 base parameters, the file lacks `lower.izzr`, and has besides `lower.izz`",
+        ),
+        (
+            r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izrr": 1}"#,
+            "Pendulum has no parameter `lower.izrr`; is `lower.izzr` meant?",
+        ),
+    ] {
+        folder.write("parameters.json", text);
+        let said = format!("error: parameters.json: {said}\n");
+        assert_eq!(folder.refuse(&eval), said);
+    }
+}
+
+/// A file that leaves out what the spec has gets the spec's values, and is told so.
+#[test]
+fn values_from_the_spec_are_told() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#,
+    );
+    folder.write(
+        "parameters.json",
+        r#"{"lower.m": 1, "lower.mx": 0.2, "lower.my": 0, "lower.izz": 0.06}"#,
+    );
+    let eval = [&["eval", "pendulum.robot"], &CART_WITH_PARAMETERS[2..]].concat();
+    let run = folder.run(&eval);
+    let wanted = "note: parameters.json: no value for 4 parameters: the spec's for `upper.m`, `upper.mx`, `upper.my`, `upper.izz`\n";
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), wanted));
+}
+
+#[test]
+fn base_parameters_are_accepted_as_a_whole_set() {
+    let folder = Folder::new();
+    folder.write("pendulum.robot", PENDULUM);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0.3,-0.8],"dq":[1,2],"ddq":[-1,3]}]}"#,
+    );
+    let nominal = json(&folder.succeed(&["eval", "pendulum.robot", "--states", "states.json"]));
+    // The spec's own values, regrouped as the output says.
+    let standard = |name: &str| match name {
+        "upper.m" => 2.0,
+        "upper.mx" => -0.5,
+        "upper.izz" => 0.05 + 2.0 * 0.0625,
+        "lower.m" => 1.0,
+        "lower.mx" => -0.2,
+        "lower.izz" => 0.02 + 0.04,
+        _ => 0.0,
+    };
+    let mut beta = serde_json::Map::new();
+    for base in nominal["base_parameters"].as_array().expect("a list") {
+        let terms = base["combination"].as_object().expect("terms");
+        let value: f64 = terms
+            .iter()
+            .map(|(name, factor)| factor.as_f64().expect("a number") * standard(name))
+            .sum();
+        beta.insert(
+            base["name"].as_str().expect("a name").to_owned(),
+            Value::from(value),
+        );
+    }
+    folder.write("beta.json", &Value::from(beta.clone()).to_string());
+    let arguments = [
+        "eval",
+        "pendulum.robot",
+        "--states",
+        "states.json",
+        "--parameters",
+        "beta.json",
+    ];
+    let regrouped = json(&folder.succeed(&arguments));
+    for (found, expected) in numbers(&regrouped["states"][0]["torque"])
+        .into_iter()
+        .zip(numbers(&nominal["states"][0]["torque"]))
+    {
+        close(found, expected, 1e-12);
+    }
+    let gone = beta
+        .keys()
+        .find(|name| !name.ends_with('r'))
+        .expect("a parameter that stands alone")
+        .clone();
+    beta.remove(&gone);
+    folder.write("beta.json", &Value::from(beta).to_string());
+    assert!(folder.refuse(&arguments).contains("only as a whole set"));
+}
+
+#[test]
+fn a_shape_is_what_the_law_allows() {
+    let folder = Folder::new();
+    let spec = CART.replace("effects {", "effects { stribeck() on rail;");
+    assert_ne!(spec, CART);
+    folder.write("cart.robot", &spec);
+    folder.write(
+        "parameters.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.stribeck.fs": 1, "rail.stribeck.vs": -0.01}"#,
+    );
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[0]}]}"#,
+    );
+    let said = folder.refuse(&CART_WITH_PARAMETERS);
+    assert_eq!(
+        said,
+        "error: parameters.json: `rail.stribeck.vs` is -0.01; it has to be a positive number\n"
+    );
+}
