@@ -1,8 +1,9 @@
 //! The regressor of a chain, link by link: what a unit of each inertial parameter takes of the joints.
 //!
 //! In: a [`Chain`]. Out: [`Columns`]. The wrench of a column is carried inward from joint to joint, the axes of the joints outward
-//! from link to link, and both meet on the way ([`search`]). Three columns of a link may fall out, since a mass on a joint's axis moves with the parent as well as with the
-//! link: its columns are those of the parent, and the joint itself feels nothing of it.
+//! from link to link, and both meet on the way ([`search`]). Three columns of a link may fall out, since a mass on a joint's
+//! axis moves with the parent as well as with the link: its columns are those of the parent, and the joint itself feels
+//! nothing of it.
 
 mod search;
 
