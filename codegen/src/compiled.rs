@@ -132,7 +132,7 @@ fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
 
 /// Kept parameters are symbols, or the numbers of an arm; fixed ones are numbers. What was regrouped into kept ones counts there
 /// and vanishes here.
-fn base_values(
+pub(crate) fn base_values(
     standard: &[StandardParameter],
     base: &BaseForm,
     beta: Option<&[f64]>,

@@ -30,9 +30,11 @@ mod build_script;
 mod compiled;
 mod forms;
 mod measured;
+mod plant;
 
 pub use alone::{EffectColumns, effect_columns};
 pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use measured::NotInstantaneous;
+pub use plant::{Plant, PlantSlopes};

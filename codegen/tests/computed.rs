@@ -29,7 +29,7 @@ fn value(symbol: Symbol) -> f64 {
         Symbol::Time => 0.7,
         Symbol::Shape(k) => 0.2 + 0.05 * k as f64,
         Symbol::RigidTorque(k) => 1.3 - 0.4 * k as f64,
-        Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) => 0.3,
+        Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) | Symbol::Switch(_) => 0.3,
     }
 }
 

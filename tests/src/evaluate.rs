@@ -85,6 +85,7 @@ impl Interpreter {
             Symbol::MeasuredTorque(j) => state.measured_torque[j],
             Symbol::Input(k) => state.inputs[k],
             Symbol::State(k) => state.states[k],
+            Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
             Symbol::Time => state.time,
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(k) => self.shapes[k],

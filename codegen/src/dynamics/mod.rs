@@ -181,6 +181,13 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
         .collect()
 }
 
+/// Sum of the declared effects' torques, load-dependent ones at [`Symbol::RigidTorque`].
+pub(crate) fn loaded_effect_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprId> {
+    let parameters = parameter_expressions(dag, values);
+    let rigid_torque = effect::outside_rigid_torque(dag, model.joints.len());
+    effect_torque(dag, model, &parameters, &rigid_torque)
+}
+
 /// Sum of the declared effects' torques.
 fn effect_torque(
     dag: &mut Dag,

@@ -261,5 +261,6 @@ pub fn place(
         Symbol::Time => Place::Argument("time"),
         Symbol::Parameter(k) => parameter(k),
         Symbol::Shape(k) => shape(k),
+        Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
     }
 }

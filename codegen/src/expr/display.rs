@@ -45,6 +45,7 @@ impl Names {
             Symbol::Shape(k) => named(&self.shapes, "shape", k),
             Symbol::Input(k) => named(&self.inputs, "input", k),
             Symbol::State(k) => named(&self.states, "state", k),
+            Symbol::Switch(k) => format!("switch{}", k + 1),
         };
         if style == Style::Text {
             return text;
@@ -56,7 +57,11 @@ impl Names {
             Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
             Symbol::MeasuredTorque(j) => format!("\\tau^{{\\mathrm{{measured}}}}_{{{}}}", j + 1),
             Symbol::Time => text,
-            Symbol::Parameter(_) | Symbol::Shape(_) | Symbol::Input(_) | Symbol::State(_) => {
+            Symbol::Parameter(_)
+            | Symbol::Shape(_)
+            | Symbol::Input(_)
+            | Symbol::State(_)
+            | Symbol::Switch(_) => {
                 format!("\\mathrm{{{}}}", text.replace('_', "\\_"))
             }
         }

@@ -15,12 +15,14 @@ mod node;
 mod rounding;
 pub mod rules;
 mod substitute;
+mod switch;
 
 use std::collections::{HashMap, HashSet};
 
 pub(crate) use display::number;
 pub use display::{Names, Style};
 pub use node::{Function, Node, Real, Symbol};
+pub use switch::Switched;
 
 /// An expression of one [`Dag`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -25,6 +25,10 @@ pub enum Symbol {
     Input(usize),
     /// An internal state, by its index over all states of the declared effects.
     State(usize),
+    /// Where a jump stands: 1 on the one side, -1 on the other, between them where a motion is held on the jump, as that of a
+    /// joint that sticks. By its index over the jumps that [`Dag::switched`](super::Dag::switched) has found; only in equations
+    /// of simulation.
+    Switch(usize),
 }
 
 /// Functions of one argument.

@@ -1,0 +1,174 @@
+//! The equations as a simulation wants them: dry friction's sign as an unknown, and the slopes of everything.
+//!
+//! In: a [`Compiled`]. Out: a [`Plant`], programs whose outputs make up `tau = R(q, dq, ddq) + E(q, dq, ddq, z, s, R)`: the torque `R`
+//! of the rigid body is affine in `ddq`, that `E` of effects reads it as its load. Where `E` jumps with a position, a velocity or
+//! time it has a switch `s` in place of the sign, see [`Dag::switched`](crate::expr::Dag::switched); what else jumps stays.
+
+use crate::compiled::{Compiled, base_values};
+use crate::dynamics::loaded_effect_torque;
+use crate::expr::{Dag, ExprId, Symbol};
+use crate::interpreter::Program;
+
+/// Programs of the motion. All read base parameters as [`Compiled::inverse_dynamics`] does; matrices are row by row.
+#[derive(Debug, Clone)]
+pub struct Plant {
+    /// Degrees of freedom, `n`.
+    pub dof: usize,
+    /// Internal states of effects, `p`.
+    pub states: usize,
+    /// Switches, `m`.
+    pub switches: usize,
+    /// `R`, `n` outputs.
+    pub rigid_torque: Program,
+    /// `d R / d ddq = M`, `n n` outputs.
+    pub mass_matrix: Program,
+    /// `E`, `d E / d ddq` and `d E / d R`: `n`, `n n` and `n n` outputs.
+    pub effects: Program,
+    /// Rates of the states, `p` outputs; the load of those that depend on it is outside.
+    pub rates: Program,
+    /// What switches are the signs of, `m` outputs.
+    pub arguments: Program,
+    /// Half of what `E` jumps by, `n m` outputs; slopes of the arguments by `dq`, `m n`; their rates beside that, by `q` and time,
+    /// `m` outputs.
+    pub jumps: Program,
+    /// Whether `tau` is affine in `ddq`.
+    pub is_affine: bool,
+    /// Whether anything depends on time or on channels.
+    pub is_timed: bool,
+}
+
+/// Programs of slopes, for implicit steps.
+#[derive(Debug, Clone)]
+pub struct PlantSlopes {
+    /// `d R / dq`, `n n` outputs.
+    pub rigid_by_position: Program,
+    /// `C`: `d R / d dq` is twice that.
+    pub coriolis_matrix: Program,
+    /// `d E / dq`, `d E / d dq`, `d E / dz`: `n n`, `n n`, `n p` outputs.
+    pub effects: Program,
+    /// Of the states' rates by `q`, `dq`, `ddq` and `R`, each `p n` outputs, and by `z`, `p p`.
+    pub rates: Program,
+}
+
+/// What both are made of.
+struct Equations {
+    dag: Dag,
+    effects: Vec<ExprId>,
+    halves: Vec<Vec<ExprId>>,
+    arguments: Vec<ExprId>,
+}
+
+impl Compiled {
+    fn switched(&self) -> Equations {
+        let mut dag = self.dag.clone();
+        let values = base_values(&self.standard, &self.base, self.baked.as_deref());
+        let effects = loaded_effect_torque(&mut dag, &self.model, &values);
+        let switched = dag.switched(&effects);
+        Equations {
+            dag,
+            effects: switched.roots,
+            halves: switched.halves,
+            arguments: switched.arguments,
+        }
+    }
+
+    /// The equations of motion for simulation.
+    #[must_use]
+    pub fn plant(&self) -> Plant {
+        let Equations {
+            mut dag,
+            effects,
+            halves,
+            arguments,
+        } = self.switched();
+        let dof = self.dof();
+        let rates = &self.dynamics.state_rates;
+        let by_acceleration = jacobian(&mut dag, &effects, dof, Symbol::Ddq);
+        let by_load = jacobian(&mut dag, &effects, dof, Symbol::RigidTorque);
+        let along = |dag: &mut Dag, argument: ExprId| {
+            let mut terms = vec![dag.derivative(argument, Symbol::Time)];
+            for joint in 0..dof {
+                let slope = dag.derivative(argument, Symbol::Q(joint));
+                let speed = dag.symbol(Symbol::Dq(joint));
+                terms.push(dag.mul(slope, speed));
+            }
+            dag.sum(terms)
+        };
+        let drifts: Vec<ExprId> = arguments.iter().map(|&x| along(&mut dag, x)).collect();
+        let directions = jacobian(&mut dag, &arguments, dof, Symbol::Dq);
+        // A load that is bent, as by `abs`, makes the torque so in the accelerations.
+        let is_affine = dag.is_affine(&effects, &|symbol| {
+            matches!(symbol, Symbol::Ddq(_) | Symbol::RigidTorque(_))
+        });
+        let everything = [&effects[..], rates, &arguments].concat();
+        let is_timed = dag
+            .symbols(&everything)
+            .iter()
+            .any(|symbol| matches!(symbol, Symbol::Time | Symbol::Input(_)));
+        Plant {
+            dof,
+            states: rates.len(),
+            switches: arguments.len(),
+            rigid_torque: self.rigid_torque(),
+            mass_matrix: self.mass_matrix(),
+            effects: Program::new(&dag, &[effects, by_acceleration, by_load].concat()),
+            rates: Program::new(&dag, rates),
+            arguments: Program::new(&dag, &arguments),
+            jumps: Program::new(&dag, &[halves.concat(), directions, drifts].concat()),
+            is_affine,
+            is_timed,
+        }
+    }
+
+    /// Slopes of the equations for simulation; for arms of many joints this takes a while.
+    #[must_use]
+    pub fn plant_slopes(&self) -> PlantSlopes {
+        let Equations {
+            mut dag, effects, ..
+        } = self.switched();
+        let dof = self.dof();
+        let rates = self.dynamics.state_rates.clone();
+        let states = rates.len();
+        let mut slopes = |roots: &[ExprId], by: &[fn(usize) -> Symbol]| {
+            let outputs = by.iter().flat_map(|&symbol| {
+                let count = match symbol(0) {
+                    Symbol::State(_) => states,
+                    _ => dof,
+                };
+                jacobian(&mut dag, roots, count, symbol)
+            });
+            let outputs: Vec<ExprId> = outputs.collect();
+            Program::new(&dag, &outputs)
+        };
+        PlantSlopes {
+            rigid_by_position: slopes(&self.computed.rigid_torque, &[Symbol::Q]),
+            coriolis_matrix: self.coriolis_matrix(),
+            effects: slopes(&effects, &[Symbol::Q, Symbol::Dq, Symbol::State]),
+            rates: slopes(
+                &rates,
+                &[
+                    Symbol::Q,
+                    Symbol::Dq,
+                    Symbol::Ddq,
+                    Symbol::RigidTorque,
+                    Symbol::State,
+                ],
+            ),
+        }
+    }
+}
+
+/// Slopes by the first `count` symbols, row by row.
+fn jacobian(
+    dag: &mut Dag,
+    roots: &[ExprId],
+    count: usize,
+    symbol: fn(usize) -> Symbol,
+) -> Vec<ExprId> {
+    let columns: Vec<Vec<ExprId>> = (0..count)
+        .map(|k| dag.derivatives(roots, symbol(k)))
+        .collect();
+    (0..roots.len())
+        .flat_map(|row| columns.iter().map(move |column| column[row]))
+        .collect()
+}
