@@ -17,6 +17,8 @@ pub mod motion;
 pub mod scalar;
 #[cfg(feature = "std")]
 pub mod signal;
+#[cfg(feature = "std")]
+pub mod simulate;
 pub mod solve;
 pub mod state;
 #[cfg(feature = "std")]

@@ -1,0 +1,208 @@
+//! What decides the torque, once a sample.
+
+use super::error::SimulateError;
+use super::trajectory::Desired;
+
+/// What a controller knows of the arm.
+#[derive(Debug, Clone, Copy)]
+pub struct Measured<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Seconds for which the torque will be held.
+    pub period: f64,
+    /// Positions as encoders tell them, rad or m.
+    pub q: &'a [f64],
+    /// Velocities from them.
+    pub dq: &'a [f64],
+    /// Channels, such as a temperature.
+    pub inputs: &'a [f64],
+}
+
+/// A sampled controller: its torque is held until the next sample.
+///
+/// # Examples
+/// ```
+/// use robot_model::simulate::{Controller, Desired, Measured};
+///
+/// /// A spring to the wanted position.
+/// struct Spring(f64);
+/// impl Controller for Spring {
+///     fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]) {
+///         for (joint, torque) in torque.iter_mut().enumerate() {
+///             *torque = self.0 * (desired.q[joint] - measured.q[joint]);
+///         }
+///     }
+/// }
+/// ```
+pub trait Controller {
+    /// Torque of every joint, N m or N.
+    fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]);
+}
+
+/// A controller's own model of the arm, right or wrong.
+pub trait InverseDynamics {
+    /// Torque of the accelerations `ddq` where the arm is; friction is that of the velocities `sliding`.
+    fn inverse_dynamics(
+        &mut self,
+        measured: &Measured<'_>,
+        ddq: &[f64],
+        sliding: &[f64],
+        torque: &mut [f64],
+    );
+}
+
+/// How a joint comes back: natural frequency and damping of the error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gains {
+    frequency: f64,
+    damping: f64,
+}
+
+impl Gains {
+    /// Natural frequency in rad/s, and damping, 1 for critical.
+    ///
+    /// # Errors
+    /// [`SimulateError::Setting`] where one is not positive.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::Gains;
+    /// assert!(Gains::new(20.0, 1.0).is_ok());
+    /// let error = Gains::new(-3.0, 1.0).unwrap_err();
+    /// assert_eq!(error.to_string(), "the natural frequency has to be positive, not -3");
+    /// ```
+    pub fn new(frequency: f64, damping: f64) -> Result<Self, SimulateError> {
+        for (what, value) in [
+            ("the natural frequency", frequency),
+            ("the damping", damping),
+        ] {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(SimulateError::Setting {
+                    what,
+                    range: "positive",
+                    value,
+                });
+            }
+        }
+        Ok(Self { frequency, damping })
+    }
+
+    /// `w^2 (q_d - q) + 2 d w (dq_d - dq)`
+    fn acceleration(self, joint: usize, measured: &Measured<'_>, desired: &Desired) -> f64 {
+        let w = self.frequency;
+        w * w * (desired.q[joint] - measured.q[joint])
+            + 2.0 * self.damping * w * (desired.dq[joint] - measured.dq[joint])
+    }
+}
+
+/// Every joint by itself: `tau = m (w^2 e + 2 d w de/dt)`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pd {
+    gains: Gains,
+    inertia: Vec<f64>,
+}
+
+impl Pd {
+    /// `inertia` is that of each joint for which the frequency holds, kg m^2 or kg.
+    #[must_use]
+    pub fn new(gains: Gains, inertia: Vec<f64>) -> Self {
+        Self { gains, inertia }
+    }
+}
+
+impl Controller for Pd {
+    fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]) {
+        for (joint, torque) in torque.iter_mut().enumerate() {
+            *torque = self.inertia[joint] * self.gains.acceleration(joint, measured, desired);
+        }
+    }
+}
+
+/// `tau = R(q, dq, ddq_d + w^2 e + 2 d w de/dt)` with the torque `R` of a model, and its friction at the wanted velocity, which
+/// does not chatter.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ComputedTorque<M> {
+    gains: Gains,
+    model: M,
+    accelerations: Vec<f64>,
+}
+
+impl<M: InverseDynamics> ComputedTorque<M> {
+    /// With a model of the arm.
+    #[must_use]
+    pub fn new(gains: Gains, model: M) -> Self {
+        Self {
+            gains,
+            model,
+            accelerations: Vec::new(),
+        }
+    }
+}
+
+impl<M: InverseDynamics> Controller for ComputedTorque<M> {
+    fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]) {
+        let gains = self.gains;
+        let accelerations = desired.ddq.iter().enumerate();
+        self.accelerations.clear();
+        self.accelerations.extend(
+            accelerations.map(|(joint, ddq)| ddq + gains.acceleration(joint, measured, desired)),
+        );
+        self.model
+            .inverse_dynamics(measured, &self.accelerations, &desired.dq, torque);
+    }
+}
+
+/// Torques that are given, whatever the arm does: linear between samples, as in the middle of each period, and held at both ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Torques {
+    time: Vec<f64>,
+    torque: Vec<Vec<f64>>,
+}
+
+impl Torques {
+    /// `torque[joint][sample]` at rising times, s.
+    ///
+    /// # Errors
+    /// [`SimulateError::Size`] where columns differ in length, [`SimulateError::Setting`] where time does not rise or is empty.
+    pub fn new(time: Vec<f64>, torque: Vec<Vec<f64>>) -> Result<Self, SimulateError> {
+        if time.is_empty() {
+            return Err(SimulateError::Setting {
+                what: "the number of torque samples",
+                range: "1 or more",
+                value: 0.0,
+            });
+        }
+        if let Some(pair) = time.windows(2).find(|pair| pair[1] <= pair[0]) {
+            return Err(SimulateError::Setting {
+                what: "the time of each torque sample",
+                range: "later than that of the sample before",
+                value: pair[1],
+            });
+        }
+        if let Some(column) = torque.iter().find(|column| column.len() != time.len()) {
+            return Err(SimulateError::Size {
+                what: "a column of torques",
+                found: column.len(),
+                expected: time.len(),
+            });
+        }
+        Ok(Self { time, torque })
+    }
+}
+
+impl Controller for Torques {
+    fn torque(&mut self, measured: &Measured<'_>, _: &Desired, torque: &mut [f64]) {
+        let time = self.time[0] + measured.time + 0.5 * measured.period;
+        let after = self.time.partition_point(|&sample| sample <= time);
+        for (torque, column) in torque.iter_mut().zip(&self.torque) {
+            *torque = match (after.checked_sub(1), column.get(after)) {
+                (None, _) => column[0],
+                (Some(k), None) => column[k],
+                (Some(k), Some(next)) => {
+                    let share = (time - self.time[k]) / (self.time[after] - self.time[k]);
+                    column[k] + share * (next - column[k])
+                }
+            };
+        }
+    }
+}

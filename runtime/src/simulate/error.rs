@@ -1,0 +1,65 @@
+//! What ends a simulation.
+
+use thiserror::Error;
+
+/// Why a motion has no continuation. Joints count from 1.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SimulateError {
+    /// `d tau / d ddq` is singular: something moves that has no inertia.
+    #[error(
+        "at {time:.6} s the arm has no accelerations: its inertia is singular there; give every joint that moves an inertia, of its link or `motor_inertia`"
+    )]
+    NoInertia {
+        /// Time, s.
+        time: f64,
+    },
+    /// The load of a joint and friction that depends on it drive each other up.
+    #[error(
+        "at {time:.6} s the accelerations have no solution: the load and friction that depends on it drive each other up; make that friction smaller"
+    )]
+    NoAcceleration {
+        /// Time, s.
+        time: f64,
+    },
+    /// A position, velocity or state is no number, or has grown beyond all bounds.
+    #[error(
+        "at {time:.6} s the motion of joint {joint} is beyond all bounds; make the controller softer or its rate higher, or look at the parameters"
+    )]
+    Unbounded {
+        /// Time, s.
+        time: f64,
+        /// The joint, from 1.
+        joint: usize,
+    },
+    /// An internal state has grown beyond all bounds.
+    #[error(
+        "at {time:.6} s internal state {state} of the effects is beyond all bounds; look at the parameters of its effect"
+    )]
+    UnboundedState {
+        /// Time, s.
+        time: f64,
+        /// The state, from 1.
+        state: usize,
+    },
+    /// A number of the set-up is out of its range.
+    #[error("{what} has to be {range}, not {value}")]
+    Setting {
+        /// What it is.
+        what: &'static str,
+        /// What it may be.
+        range: &'static str,
+        /// What it is.
+        value: f64,
+    },
+    /// Parts of a set-up have other sizes than the arm.
+    #[error("{what} has {found} where the arm has {expected}")]
+    Size {
+        /// What it is.
+        what: &'static str,
+        /// How many it has.
+        found: usize,
+        /// How many it should have.
+        expected: usize,
+    },
+}

@@ -1,0 +1,284 @@
+//! The sampled loop around a plant, and its log.
+
+use std::collections::VecDeque;
+
+use super::controller::{Controller, Measured};
+use super::error::SimulateError;
+use super::integrate::{Integrator, Tolerances, Work};
+use super::motion::Drive;
+use super::noise::{Noise, Sensors};
+use super::plant::Plant;
+use super::trajectory::Trajectory;
+use crate::log::Channel;
+use crate::signal::resample::whole_steps;
+
+/// A sampled control loop: what it runs at, and what its log is.
+///
+/// The log has positions of its instants, and of torques the mean over its interval around each, as drives report it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loop {
+    /// Samples of the controller, Hz.
+    pub rate: f64,
+    /// Samples of the log, Hz.
+    pub log_rate: f64,
+    /// Samples of the controller that pass before its torque acts.
+    pub delay: usize,
+    /// How long it runs, s.
+    pub duration: f64,
+    /// What is measured.
+    pub sensors: Sensors,
+    /// Seconds by which logged torques are late.
+    pub torque_delay: f64,
+    /// Joint torque per unit of the logged channel; none is 1 for all.
+    pub actuator_gain: Vec<f64>,
+    /// Channels of the trajectory that the plant reads, in its order, by their places.
+    pub inputs: Vec<usize>,
+    /// How exact the motion is.
+    pub tolerances: Tolerances,
+}
+
+/// What a loop leaves.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Record {
+    /// Time stamps, s.
+    pub time: Vec<f64>,
+    /// Positions as measured, `[joint][sample]`, rad or m.
+    pub q: Vec<Vec<f64>>,
+    /// Velocities as the controller has them.
+    pub dq: Vec<Vec<f64>>,
+    /// Logged torques.
+    pub tau: Vec<Vec<f64>>,
+    /// Channels of the trajectory.
+    pub extra: Vec<Channel>,
+    /// Largest distance of each joint's true position from the wanted one.
+    pub tracking: Vec<f64>,
+    /// Whether each switch was held at the end.
+    pub held: Vec<bool>,
+    /// What the motion took.
+    pub work: Work,
+}
+
+impl Default for Loop {
+    fn default() -> Self {
+        Self {
+            rate: 1000.0,
+            log_rate: 1000.0,
+            delay: 0,
+            duration: 1.0,
+            sensors: Sensors::default(),
+            torque_delay: 0.0,
+            actuator_gain: Vec::new(),
+            inputs: Vec::new(),
+            tolerances: Tolerances::default(),
+        }
+    }
+}
+
+impl Loop {
+    fn check(&self, dof: usize, trajectory: &Trajectory) -> Result<(), SimulateError> {
+        let settings = [
+            ("the rate of the controller", self.rate, 1e6),
+            ("the rate of the log", self.log_rate, 1e5),
+            ("the duration", self.duration, 1e6),
+        ];
+        for (what, value, most) in settings {
+            if !(value > 0.0 && value <= most) {
+                return Err(SimulateError::Setting {
+                    what,
+                    range: if most == 1e5 {
+                        "positive and at most 1e5"
+                    } else {
+                        "positive and at most 1e6"
+                    },
+                    value,
+                });
+            }
+        }
+        let sensors = &self.sensors;
+        let none_negative = [
+            ("the step of the encoders", sensors.encoder_step),
+            ("the noise of positions", sensors.position_noise),
+            ("the noise of torques", sensors.torque_noise),
+            ("the corner of the velocity filter", sensors.velocity_hz),
+        ];
+        for (what, value) in none_negative {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(SimulateError::Setting {
+                    what,
+                    range: "0 or more",
+                    value,
+                });
+            }
+        }
+        if trajectory.dof() != dof {
+            return Err(SimulateError::Size {
+                what: "the trajectory",
+                found: trajectory.dof(),
+                expected: dof,
+            });
+        }
+        Ok(())
+    }
+
+    /// Runs a plant from the start of a trajectory, moving as that does, under a controller; `progress` is told the time now and
+    /// then.
+    ///
+    /// # Errors
+    /// [`SimulateError`]: a setting out of its range, or a motion without continuation.
+    pub fn run<P: Plant>(
+        &self,
+        plant: P,
+        controller: &mut dyn Controller,
+        trajectory: &Trajectory,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<(Record, Integrator<P>), SimulateError> {
+        let dof = plant.dof();
+        self.check(dof, trajectory)?;
+        let start = trajectory.at(0.0);
+        let mut arm = Integrator::new(plant, &start.q, &start.dq, self.tolerances)?;
+        let period = 1.0 / self.rate;
+        let samples = whole_steps(self.duration * self.log_rate + 1e-9) + 1;
+        let mut record = Record {
+            q: vec![Vec::with_capacity(samples); dof],
+            dq: vec![Vec::with_capacity(samples); dof],
+            tracking: vec![0.0; dof],
+            ..Record::default()
+        };
+        let mut noise = Noise::new(self.sensors.seed, 0);
+        let mut log_noise = Noise::new(self.sensors.seed, 1);
+        let mut measured = Vec::new();
+        let (mut dq, mut last): (Vec<f64>, Option<Vec<f64>>) = (start.dq.clone(), None);
+        let mut waiting: VecDeque<Vec<f64>> = VecDeque::from(vec![vec![0.0; dof]; self.delay]);
+        let mut applied: Vec<Vec<f64>> = Vec::new();
+        let mut row = Vec::new();
+        while record.time.len() < samples {
+            let tick = applied.len();
+            let now = tick as f64 * period;
+            if tick % 256 == 0 {
+                progress(now);
+            }
+            let desired = trajectory.at(now);
+            for (joint, most) in record.tracking.iter_mut().enumerate() {
+                *most = most.max((desired.q[joint] - arm.q()[joint]).abs());
+            }
+            self.sensors.positions(arm.q(), &mut noise, &mut measured);
+            self.velocities(&arm, &measured, last.as_deref(), &mut dq);
+            last = Some(measured.clone());
+            let inputs_at = |time: f64| -> Vec<f64> {
+                let inputs = self.inputs.iter();
+                inputs.map(|&k| trajectory.channel(k, time)).collect()
+            };
+            let inputs = inputs_at(now);
+            let mut torque = vec![0.0; dof];
+            let measurement = Measured {
+                time: now,
+                period,
+                q: &measured,
+                dq: &dq,
+                inputs: &inputs,
+            };
+            controller.torque(&measurement, &desired, &mut torque);
+            waiting.push_back(torque);
+            let torque = waiting.pop_front().unwrap_or_default();
+            let after = inputs_at(now + period);
+            let rates = inputs.iter().zip(after).map(|(x, y)| (y - x) / period);
+            arm.drive(Drive {
+                torque: torque.clone(),
+                input_rates: rates.collect(),
+                inputs,
+                since: now,
+            });
+            applied.push(torque);
+            let end = (tick + 1) as f64 * period;
+            // Instants of the log within the period.
+            while record.time.len() < samples {
+                let instant = record.time.len() as f64 / self.log_rate;
+                if instant >= end - 1e-12 * end {
+                    break;
+                }
+                arm.advance(instant.max(arm.time()))?;
+                record.time.push(instant);
+                self.sensors.positions(arm.q(), &mut log_noise, &mut row);
+                for joint in 0..dof {
+                    record.q[joint].push(row[joint]);
+                    let exact = self.sensors.are_exact();
+                    record.dq[joint].push(if exact { arm.dq()[joint] } else { dq[joint] });
+                }
+            }
+            if record.time.len() < samples {
+                arm.advance(end)?;
+            }
+        }
+        record.tau = self.logged_torque(&applied, &record.time, dof);
+        let channels = trajectory.extra().iter().enumerate();
+        record.extra = channels
+            .map(|(k, channel)| Channel {
+                name: channel.name.clone(),
+                values: record
+                    .time
+                    .iter()
+                    .map(|&t| trajectory.channel(k, t))
+                    .collect(),
+            })
+            .collect();
+        record.held = arm.held();
+        record.work = arm.work();
+        Ok((record, arm))
+    }
+
+    /// Velocities as a controller has them.
+    fn velocities<P: Plant>(
+        &self,
+        arm: &Integrator<P>,
+        measured: &[f64],
+        last: Option<&[f64]>,
+        dq: &mut [f64],
+    ) {
+        if self.sensors.are_exact() {
+            dq.copy_from_slice(arm.dq());
+            return;
+        }
+        let Some(last) = last else {
+            return;
+        };
+        let share = if self.sensors.velocity_hz > 0.0 {
+            1.0 - (-std::f64::consts::TAU * self.sensors.velocity_hz / self.rate).exp()
+        } else {
+            1.0
+        };
+        for (joint, dq) in dq.iter_mut().enumerate() {
+            let difference = (measured[joint] - last[joint]) * self.rate;
+            *dq += share * (difference - *dq);
+        }
+    }
+
+    /// Means of the torques that were held, in units of the logged channel, late and with noise.
+    fn logged_torque(&self, applied: &[Vec<f64>], time: &[f64], dof: usize) -> Vec<Vec<f64>> {
+        let mut noise = Noise::new(self.sensors.seed, 2);
+        let interval = 1.0 / self.log_rate;
+        let end = applied.len() as f64 / self.rate;
+        let joints = (0..dof).map(|joint| {
+            let mut sums = vec![0.0];
+            for torque in applied {
+                sums.push(sums[sums.len() - 1] + torque[joint]);
+            }
+            // Integral from the start, in periods.
+            let integral = |time: f64| {
+                let ticks = time * self.rate;
+                let tick = whole_steps(ticks).min(applied.len() - 1);
+                sums[tick] + (ticks - tick as f64) * applied[tick][joint]
+            };
+            let gain = self.actuator_gain.get(joint).copied().unwrap_or(1.0);
+            let mean = |&instant: &f64| {
+                let middle = (instant - self.torque_delay).clamp(0.0, end);
+                let from = (middle - 0.5 * interval).max(0.0);
+                let to = (middle + 0.5 * interval).min(end);
+                (integral(to) - integral(from)) / ((to - from) * self.rate) / gain
+            };
+            let mut torque: Vec<f64> = time.iter().map(mean).collect();
+            self.sensors.disturb(&mut torque, interval, &mut noise);
+            torque
+        });
+        joints.collect()
+    }
+}

@@ -1,0 +1,544 @@
+//! Accelerations of a plant, with jumps of its torque held or crossed.
+//!
+//! In: a [`Plant`], a state `x = (q, dq, z)` and on which side of each jump the motion is. Out: its rate `dx/dt` and slopes.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::complementarity;
+use super::error::SimulateError;
+use super::plant::{Instant, Jumps, Plant, Slopes};
+
+/// Most steps of Newton's method for accelerations, and its last step relative to them.
+const STEPS: usize = 40;
+const SETTLED: f64 = 1e-12;
+
+/// Arguments of switches this small are zero: velocities of joints that stand.
+pub(super) const ZERO: f64 = 1e-11;
+
+/// A contact this weak, relative to the strongest of the arm, holds nothing.
+const WEAK: f64 = 1e-12;
+
+/// Where a motion is with regard to a jump.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Side {
+    /// On one side: 1 or -1.
+    Free(f64),
+    /// On the jump, held by as much of it as that takes.
+    Held,
+    /// On the jump, which other contacts hold as well: with this share of it.
+    Shared(f64),
+}
+
+/// What comes from outside: torque that is held, inputs that change linearly.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Drive {
+    /// Torque of the motors, N m or N.
+    pub torque: Vec<f64>,
+    /// Inputs at [`Self::since`].
+    pub inputs: Vec<f64>,
+    /// Their rates, 1/s.
+    pub input_rates: Vec<f64>,
+    /// When the inputs have their values, s.
+    pub since: f64,
+}
+
+impl Drive {
+    fn inputs_at(&self, time: f64) -> Vec<f64> {
+        let inputs = self.inputs.iter().zip(&self.input_rates);
+        inputs
+            .map(|(x, rate)| x + rate * (time - self.since))
+            .collect()
+    }
+}
+
+/// A plant with where it is on its jumps.
+#[derive(Debug)]
+pub(super) struct Moving<P> {
+    pub plant: P,
+    pub drive: Drive,
+    pub sides: Vec<Side>,
+    /// Accelerations and shares of the last solution.
+    pub ddq: DVector<f64>,
+    pub shares: DVector<f64>,
+    torque: DVector<f64>,
+    inertia: DMatrix<f64>,
+    jumps: Jumps,
+    pub evaluations: u64,
+}
+
+/// Positions, velocities and states of a whole state.
+fn parts(x: &DVector<f64>, dof: usize) -> (&[f64], &[f64], &[f64]) {
+    let (q, rest) = x.as_slice().split_at(dof);
+    let (dq, z) = rest.split_at(dof);
+    (q, dq, z)
+}
+
+/// Whether a pivot of a factored matrix is nothing but rounding.
+fn is_singular(factored: &DMatrix<f64>) -> bool {
+    let pivots = factored.diagonal().abs();
+    pivots.min() <= 1e-14 * pivots.max()
+}
+
+impl<P: Plant> Moving<P> {
+    pub fn new(plant: P) -> Self {
+        let (n, m) = (plant.dof(), plant.switches());
+        Self {
+            drive: Drive {
+                torque: vec![0.0; n],
+                ..Drive::default()
+            },
+            sides: vec![Side::Free(1.0); m],
+            ddq: DVector::zeros(n),
+            shares: DVector::zeros(m),
+            torque: DVector::zeros(n),
+            inertia: DMatrix::zeros(n, n),
+            jumps: Jumps::zeros(&plant),
+            plant,
+            evaluations: 0,
+        }
+    }
+
+    fn with<R>(
+        &mut self,
+        time: f64,
+        x: &DVector<f64>,
+        call: impl FnOnce(&mut P, &Instant<'_>, &mut DVector<f64>, &mut DMatrix<f64>, &mut Jumps) -> R,
+    ) -> R {
+        let (q, dq, memory) = parts(x, self.plant.dof());
+        let inputs = self.drive.inputs_at(time);
+        let at = Instant {
+            time,
+            q,
+            dq,
+            ddq: self.ddq.as_slice(),
+            memory,
+            switches: self.shares.as_slice(),
+            torque: &self.drive.torque,
+            inputs: &inputs,
+        };
+        call(
+            &mut self.plant,
+            &at,
+            &mut self.torque,
+            &mut self.inertia,
+            &mut self.jumps,
+        )
+    }
+
+    /// What switches are signs of.
+    pub fn arguments(&mut self, time: f64, x: &DVector<f64>) -> Vec<f64> {
+        let mut arguments = vec![0.0; self.plant.switches()];
+        if !arguments.is_empty() {
+            self.with(time, x, |plant, at, _, _, _| {
+                plant.arguments(at, &mut arguments)
+            });
+        }
+        arguments
+    }
+
+    fn held(&self) -> Vec<usize> {
+        let sides = self.sides.iter().enumerate();
+        let held = sides.filter(|(_, side)| **side == Side::Held);
+        held.map(|(k, _)| k).collect()
+    }
+
+    pub fn holds_any(&self) -> bool {
+        self.sides.iter().any(|side| !matches!(side, Side::Free(_)))
+    }
+
+    /// Accelerations and shares, with everything held that is.
+    fn accelerate(&mut self, time: f64, x: &DVector<f64>) -> Result<DMatrix<f64>, SimulateError> {
+        let dof = self.plant.dof();
+        self.evaluations += 1;
+        for (share, side) in self.shares.iter_mut().zip(&self.sides) {
+            *share = match *side {
+                Side::Free(sign) => sign,
+                Side::Held => 0.0,
+                Side::Shared(share) => share,
+            };
+        }
+        let held = self.held();
+        let is_one_step = self.plant.is_affine() && held.is_empty();
+        self.ddq.fill(0.0);
+        for step in 0..STEPS {
+            self.with(time, x, |plant, at, torque, inertia, jumps| {
+                plant.torque(at, torque, inertia);
+                if !held.is_empty() && step == 0 {
+                    plant.jumps(at, jumps);
+                }
+            });
+            let matrix = self.bordered(&held);
+            let mut change = DVector::zeros(dof + held.len());
+            for joint in 0..dof {
+                change[joint] = self.drive.torque[joint] - self.torque[joint];
+            }
+            for (row, &k) in held.iter().enumerate() {
+                let rate = (self.jumps.directions.row(k) * &self.ddq)[0] + self.jumps.drifts[k];
+                change[dof + row] = -rate;
+            }
+            let lu = matrix.clone().lu();
+            let is_singular = held.is_empty() && is_singular(lu.lu_internal());
+            if is_singular || !lu.solve_mut(&mut change) || !change.iter().all(|x| x.is_finite()) {
+                return Err(self.no_solution(time, x));
+            }
+            self.ddq += change.rows(0, dof);
+            for (row, &k) in held.iter().enumerate() {
+                self.shares[k] += change[dof + row];
+            }
+            // Held joints stand, to the last digit.
+            for &k in &held {
+                if let (Some(joint), true) = (self.lone_joint(k), self.jumps.drifts[k] == 0.0) {
+                    self.ddq[joint] = 0.0;
+                }
+            }
+            let largest = self.ddq.amax() + self.shares.amax();
+            if is_one_step || (step > 0 && change.amax() <= SETTLED * largest) {
+                return Ok(matrix);
+            }
+        }
+        Err(SimulateError::NoAcceleration { time })
+    }
+
+    /// The joint whose velocity alone a switch looks at.
+    fn lone_joint(&self, switch: usize) -> Option<usize> {
+        let row = self.jumps.directions.row(switch);
+        let mut joints = row.iter().enumerate().filter(|(_, slope)| **slope != 0.0);
+        let (joint, _) = joints.next()?;
+        joints.next().is_none().then_some(joint)
+    }
+
+    /// `[A W; G 0]` of what is held.
+    fn bordered(&self, held: &[usize]) -> DMatrix<f64> {
+        let dof = self.plant.dof();
+        let size = dof + held.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        matrix.view_mut((0, 0), (dof, dof)).copy_from(&self.inertia);
+        for (row, &k) in held.iter().enumerate() {
+            for joint in 0..dof {
+                matrix[(joint, dof + row)] = self.jumps.halves[(joint, k)];
+                matrix[(dof + row, joint)] = self.jumps.directions[(k, joint)];
+            }
+        }
+        matrix
+    }
+
+    /// Why there are no accelerations.
+    fn no_solution(&self, time: f64, x: &DVector<f64>) -> SimulateError {
+        match self.unbounded(time, x) {
+            Some(error) => error,
+            None => SimulateError::NoInertia { time },
+        }
+    }
+
+    /// The first entry of a state that is no number.
+    pub fn unbounded(&self, time: f64, x: &DVector<f64>) -> Option<SimulateError> {
+        /// Nothing that an arm does is as large.
+        const MOST: f64 = 1e9;
+        let dof = self.plant.dof();
+        let k = x.iter().position(|x| x.is_nan() || x.abs() > MOST)?;
+        Some(if k < 2 * dof {
+            SimulateError::Unbounded {
+                time,
+                joint: k % dof + 1,
+            }
+        } else {
+            SimulateError::UnboundedState {
+                time,
+                state: k - 2 * dof + 1,
+            }
+        })
+    }
+
+    /// `dx/dt`
+    pub fn rate(&mut self, time: f64, x: &DVector<f64>) -> Result<DVector<f64>, SimulateError> {
+        self.accelerate(time, x)?;
+        Ok(self.rate_at_solution(time, x))
+    }
+
+    fn rate_at_solution(&mut self, time: f64, x: &DVector<f64>) -> DVector<f64> {
+        let dof = self.plant.dof();
+        let mut rate = DVector::zeros(x.len());
+        rate.rows_mut(0, dof).copy_from(&x.rows(dof, dof));
+        rate.rows_mut(dof, dof).copy_from(&self.ddq);
+        if self.plant.states() > 0 {
+            let rates = &mut rate.as_mut_slice()[2 * dof..];
+            self.with(time, x, |plant, at, _, _, _| plant.rates(at, rates));
+        }
+        rate
+    }
+
+    /// `dx/dt` and its slope by `x`.
+    pub fn linearized(
+        &mut self,
+        time: f64,
+        x: &DVector<f64>,
+    ) -> Result<(DVector<f64>, DMatrix<f64>), SimulateError> {
+        let (dof, states) = (self.plant.dof(), self.plant.states());
+        let bordered = self.accelerate(time, x)?;
+        let mut slopes = Slopes::zeros(&self.plant);
+        self.with(time, x, |plant, at, _, _, _| plant.slopes(at, &mut slopes));
+        let mut right = DMatrix::zeros(bordered.nrows(), x.len());
+        let mut column = 0;
+        for part in &slopes.torque {
+            right
+                .view_mut((0, column), (dof, part.ncols()))
+                .copy_from(&-part);
+            column += part.ncols();
+        }
+        if !bordered.lu().solve_mut(&mut right) {
+            return Err(self.no_solution(time, x));
+        }
+        for &k in &self.held() {
+            if let Some(joint) = self.lone_joint(k) {
+                right.row_mut(joint).fill(0.0);
+            }
+        }
+        let accelerations = right.rows(0, dof).into_owned();
+        let mut jacobian = DMatrix::zeros(x.len(), x.len());
+        for joint in 0..dof {
+            jacobian[(joint, dof + joint)] = 1.0;
+        }
+        jacobian
+            .view_mut((dof, 0), (dof, x.len()))
+            .copy_from(&accelerations);
+        let mut rates = &slopes.rates_by_acceleration * &accelerations;
+        let mut column = 0;
+        for part in &slopes.rates {
+            let mut target = rates.view_mut((0, column), (states, part.ncols()));
+            target += part;
+            column += part.ncols();
+        }
+        jacobian
+            .view_mut((2 * dof, 0), (states, x.len()))
+            .copy_from(&rates);
+        // Where an equation has a cusp, as `abs(z)^n` has, a step does without the slope.
+        jacobian.apply(|slope| {
+            if !slope.is_finite() {
+                *slope = 0.0;
+            }
+        });
+        let rate = self.rate_at_solution(time, x);
+        Ok((rate, jacobian))
+    }
+
+    /// Takes the rests of velocities that are zero to within [`ZERO`] away, and decides for every jump on which the motion is
+    /// whether it is held there, and else on which side it goes on.
+    pub fn settle(&mut self, time: f64, x: &mut DVector<f64>) -> Result<(), SimulateError> {
+        let arguments = self.arguments(time, x);
+        let on: Vec<usize> = (0..arguments.len())
+            .filter(|&k| arguments[k].abs() <= ZERO)
+            .collect();
+        for (k, side) in self.sides.iter_mut().enumerate() {
+            if !on.contains(&k) {
+                *side = Side::Free(arguments[k].signum());
+            }
+        }
+        if on.is_empty() {
+            return Ok(());
+        }
+        for (share, side) in self.shares.iter_mut().zip(&self.sides) {
+            *share = match *side {
+                Side::Free(sign) => sign,
+                Side::Held | Side::Shared(_) => 0.0,
+            };
+        }
+        self.with(time, x, |plant, at, _, _, jumps| plant.jumps(at, jumps));
+        self.stop(&on, &arguments, x);
+        self.ddq.fill(0.0);
+        for step in 0..STEPS {
+            let Contacts {
+                d,
+                r,
+                holding,
+                free,
+            } = self.contacts(time, x, &on)?;
+            let shares = complementarity::solve(&d, &r);
+            let before = (self.ddq.clone(), self.shares.clone());
+            let mut ddq = free.start;
+            for (i, &k) in holding.iter().enumerate() {
+                ddq.axpy(-shares[i], &free.effect.column(i).into_owned(), 1.0);
+                self.shares[k] = shares[i];
+            }
+            self.ddq = ddq;
+            for &k in on.iter().filter(|k| !holding.contains(k)) {
+                let rate = (self.jumps.directions.row(k) * &self.ddq)[0] + self.jumps.drifts[k];
+                if rate != 0.0 {
+                    self.shares[k] = rate.signum();
+                } else if self.shares[k] == 0.0 {
+                    self.shares[k] = 1.0;
+                }
+            }
+            let moved = (&self.ddq - before.0).amax() + (&self.shares - before.1).amax();
+            let largest = self.ddq.amax() + self.shares.amax();
+            if step > 0 && moved <= 1e-9 * largest {
+                self.choose_sides(&on, &holding, &d);
+                return Ok(());
+            }
+        }
+        Err(SimulateError::NoAcceleration { time })
+    }
+
+    /// Velocities for which the arguments on their jumps are zero.
+    fn stop(&self, on: &[usize], arguments: &[f64], x: &mut DVector<f64>) {
+        let dof = self.plant.dof();
+        for &k in on {
+            if let Some(joint) = self.lone_joint(k) {
+                let speed = x[dof + joint] - arguments[k] / self.jumps.directions[(k, joint)];
+                x[dof + joint] = if speed.abs() <= ZERO { 0.0 } else { speed };
+            }
+        }
+    }
+
+    /// What contacts do to each other.
+    fn contacts(
+        &mut self,
+        time: f64,
+        x: &DVector<f64>,
+        on: &[usize],
+    ) -> Result<Contacts, SimulateError> {
+        self.evaluations += 1;
+        self.with(time, x, |plant, at, torque, inertia, jumps| {
+            plant.torque(at, torque, inertia);
+            plant.jumps(at, jumps);
+        });
+        let halves = self.jumps.halves.select_columns(on);
+        let directions = self.jumps.directions.select_rows(on);
+        let rest = DVector::from_column_slice(&self.drive.torque) - &self.torque;
+        let lu = self.inertia.clone().lu();
+        let (Some(step), Some(effect)) = (lu.solve(&rest), lu.solve(&halves)) else {
+            return Err(self.no_solution(time, x));
+        };
+        let held_back = &directions * &effect;
+        let strongest = held_back.diagonal().amax();
+        let (mut holding, mut places) = (Vec::new(), Vec::new());
+        for (place, &k) in on.iter().enumerate() {
+            if held_back[(place, place)] > WEAK * strongest {
+                holding.push(k);
+                places.push(place);
+            }
+        }
+        let effect = effect.select_columns(&places);
+        let directions = directions.select_rows(&places);
+        let mut start = &self.ddq + step;
+        for (i, &k) in holding.iter().enumerate() {
+            start.axpy(self.shares[k], &effect.column(i).into_owned(), 1.0);
+        }
+        let drifts = DVector::from_fn(holding.len(), |i, _| self.jumps.drifts[holding[i]]);
+        if !start.iter().all(|x| x.is_finite()) {
+            return Err(self.no_solution(time, x));
+        }
+        Ok(Contacts {
+            d: &directions * &effect,
+            r: &directions * &start + drifts,
+            holding,
+            free: Unheld { start, effect },
+        })
+    }
+
+    /// Sides from shares: what is inside is held, and of contacts that hold the same thing some are enough.
+    fn choose_sides(&mut self, on: &[usize], holding: &[usize], d: &DMatrix<f64>) {
+        for &k in on {
+            self.sides[k] = Side::Free(self.shares[k].signum());
+        }
+        let inside: Vec<usize> = (0..holding.len())
+            .filter(|&i| self.shares[holding[i]].abs() < 1.0)
+            .collect();
+        let mut rest =
+            DMatrix::from_fn(inside.len(), inside.len(), |i, j| d[(inside[i], inside[j])]);
+        let mut open: Vec<usize> = (0..inside.len()).collect();
+        while let Some(&pivot) = open
+            .iter()
+            .max_by(|&&i, &&j| rest[(i, i)].total_cmp(&rest[(j, j)]))
+        {
+            let k = inside[pivot];
+            if rest[(pivot, pivot)] <= 1e-10 * d[(k, k)] {
+                for &i in &open {
+                    let switch = holding[inside[i]];
+                    self.sides[switch] = Side::Shared(self.shares[switch]);
+                }
+                break;
+            }
+            self.sides[holding[k]] = Side::Held;
+            open.retain(|&i| i != pivot);
+            for &i in &open {
+                let factor = rest[(i, pivot)] / rest[(pivot, pivot)];
+                for &j in &open {
+                    rest[(i, j)] -= factor * rest[(pivot, j)];
+                }
+            }
+        }
+    }
+
+    /// A step of the first order over impulses: linearly implicit in all that is smooth, and with those shares of all jumps that
+    /// hold velocities where they come to rest in it (Moreau). It needs no event, however many there are.
+    pub fn impulse(
+        &mut self,
+        time: f64,
+        x: &DVector<f64>,
+        h: f64,
+    ) -> Result<DVector<f64>, SimulateError> {
+        let dof = self.plant.dof();
+        // No contact holds; where one stands it starts with no share.
+        for side in &mut self.sides {
+            if *side == Side::Held {
+                *side = Side::Shared(0.0);
+            }
+        }
+        let (rate, jacobian) = self.linearized(time, x)?;
+        let arguments = self.arguments(time, x);
+        self.with(time, x, |plant, at, _, _, jumps| plant.jumps(at, jumps));
+        let lu = (DMatrix::identity(x.len(), x.len()) - jacobian * h).lu();
+        let mut effect = DMatrix::zeros(x.len(), arguments.len());
+        let Some(accelerations) = self.inertia.clone().lu().solve(&self.jumps.halves) else {
+            return Err(SimulateError::NoInertia { time });
+        };
+        effect
+            .view_mut((dof, 0), (dof, arguments.len()))
+            .copy_from(&(accelerations * h));
+        let mut step = rate * h;
+        if !lu.solve_mut(&mut step) || !lu.solve_mut(&mut effect) {
+            return Err(SimulateError::NoInertia { time });
+        }
+        let speeds = effect.rows(dof, dof);
+        let held_back = &self.jumps.directions * speeds;
+        let strongest = held_back.diagonal().amax();
+        let holding: Vec<usize> = (0..arguments.len())
+            .filter(|&k| held_back[(k, k)] > WEAK * strongest)
+            .collect();
+        let moves = &self.jumps.directions * step.rows(dof, dof);
+        let d = DMatrix::from_fn(holding.len(), holding.len(), |i, j| {
+            held_back[(holding[i], holding[j])]
+        });
+        let before = DVector::from_fn(holding.len(), |i, _| self.shares[holding[i]]);
+        let after = DVector::from_fn(holding.len(), |i, _| {
+            let k = holding[i];
+            arguments[k] + moves[k] + h * self.jumps.drifts[k]
+        });
+        let shares = complementarity::solve(&d, &(after + &d * &before));
+        let mut end = x + step;
+        for (i, &k) in holding.iter().enumerate() {
+            end.axpy(before[i] - shares[i], &effect.column(k).into_owned(), 1.0);
+            // What has come to rest stands.
+            if let (Some(joint), true) = (self.lone_joint(k), shares[i].abs() < 1.0)
+                && end[dof + joint].abs() < 1e-9
+            {
+                end[dof + joint] = 0.0;
+            }
+        }
+        Ok(end)
+    }
+}
+
+/// Contacts that can hold: what is left of their accelerations is `r - D s`.
+struct Contacts {
+    d: DMatrix<f64>,
+    r: DVector<f64>,
+    holding: Vec<usize>,
+    free: Unheld,
+}
+
+/// Accelerations without shares, and what each share takes off them.
+struct Unheld {
+    start: DVector<f64>,
+    effect: DMatrix<f64>,
+}

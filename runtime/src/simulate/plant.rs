@@ -1,0 +1,116 @@
+//! What is simulated: equations of motion with sizes known at run time.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Everything that a torque may depend on at an instant.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    /// Time, s.
+    pub time: f64,
+    /// Positions, rad or m.
+    pub q: &'a [f64],
+    /// Velocities.
+    pub dq: &'a [f64],
+    /// Accelerations.
+    pub ddq: &'a [f64],
+    /// Internal states of effects.
+    pub memory: &'a [f64],
+    /// Where jumps stand, -1 to 1.
+    pub switches: &'a [f64],
+    /// Torque of the motors, N m or N.
+    pub torque: &'a [f64],
+    /// Channels from outside, such as a temperature.
+    pub inputs: &'a [f64],
+}
+
+/// How the torque jumps at an instant, where switches stand between their ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Jumps {
+    /// `d tau / d s`, `[joint][switch]`: half of what the torque jumps by.
+    pub halves: DMatrix<f64>,
+    /// `d g / d dq`, `[switch][joint]`.
+    pub directions: DMatrix<f64>,
+    /// `dg/dt` less what accelerations make of it.
+    pub drifts: DVector<f64>,
+}
+
+/// Slopes of the torque and of the rates of internal states, all else held.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Slopes {
+    /// `d tau / dq`, `d tau / d dq` and `d tau / dz`.
+    pub torque: [DMatrix<f64>; 3],
+    /// `d (dz/dt)` by `q`, `dq` and `z`.
+    pub rates: [DMatrix<f64>; 3],
+    /// `d (dz/dt)` by `ddq`.
+    pub rates_by_acceleration: DMatrix<f64>,
+}
+
+/// An arm to be simulated: `tau = f(q, dq, ddq, z, s, ..)`, solved for `ddq` by whoever simulates it.
+///
+/// `n` joints, `p` internal states `z` of effects, `m` switches `s`. A switch is the sign of a continuous `g(q, dq, time)` where the
+/// torque jumps, as dry friction does where a joint turns round; the torque is affine in each. A plant without jumps has none.
+pub trait Plant {
+    /// Degrees of freedom, `n`.
+    fn dof(&self) -> usize;
+
+    /// Internal states, `p`.
+    fn states(&self) -> usize {
+        0
+    }
+
+    /// Switches, `m`.
+    fn switches(&self) -> usize {
+        0
+    }
+
+    /// Whether the torque is affine in the accelerations; Newton's method solves for them where it is not.
+    fn is_affine(&self) -> bool {
+        true
+    }
+
+    /// Whether anything depends on time or on inputs.
+    fn is_timed(&self) -> bool {
+        false
+    }
+
+    /// Torque that the motion takes, `n`, and `d tau / d ddq`, `n` by `n`.
+    fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>);
+
+    /// Rates `dz/dt`, `p`.
+    fn rates(&mut self, _at: &Instant<'_>, _rates: &mut [f64]) {}
+
+    /// What the switches are signs of, `m`.
+    fn arguments(&mut self, _at: &Instant<'_>, _arguments: &mut [f64]) {}
+
+    /// How the torque jumps.
+    fn jumps(&mut self, _at: &Instant<'_>, _jumps: &mut Jumps) {}
+
+    /// Slopes, for implicit steps.
+    fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes);
+}
+
+impl Jumps {
+    /// Room for those of a plant.
+    #[must_use]
+    pub fn zeros(plant: &impl Plant) -> Self {
+        let (n, m) = (plant.dof(), plant.switches());
+        Self {
+            halves: DMatrix::zeros(n, m),
+            directions: DMatrix::zeros(m, n),
+            drifts: DVector::zeros(m),
+        }
+    }
+}
+
+impl Slopes {
+    /// Room for those of a plant.
+    #[must_use]
+    pub fn zeros(plant: &impl Plant) -> Self {
+        let (n, p) = (plant.dof(), plant.states());
+        Self {
+            torque: [n, n, p].map(|columns| DMatrix::zeros(n, columns)),
+            rates: [n, n, p].map(|columns| DMatrix::zeros(p, columns)),
+            rates_by_acceleration: DMatrix::zeros(p, n),
+        }
+    }
+}
