@@ -20,6 +20,7 @@ mod output;
 mod parameters;
 mod progress;
 mod show;
+mod simulate;
 mod spec;
 mod trace;
 
@@ -46,6 +47,7 @@ enum Verb {
     Emit(emit::Emit),
     Eval(eval::Eval),
     Import(import::Import),
+    Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
     Trace(trace::TraceArguments),
     Demo(demo::Demo),
@@ -59,6 +61,7 @@ impl Verb {
             Self::Emit(verb) => verb.run(),
             Self::Eval(verb) => verb.run(),
             Self::Import(verb) => verb.run(),
+            Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
             Self::Demo(verb) => verb.run(),

@@ -8,6 +8,7 @@ mod band;
 mod candidate;
 mod measured;
 mod momentum;
+mod plant;
 mod program;
 mod rough;
 mod shape;
@@ -16,6 +17,7 @@ mod states;
 
 pub use candidate::InterpretedCandidate;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
+pub use plant::InterpretedPlant;
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
 use robot_model::motion::Motion;

@@ -15,6 +15,14 @@ fn every_verb_refuses_a_broken_spec() {
         vec!["eval", "broken.robot", "--states", "states.json"],
         vec!["identify", "broken.robot", "log.csv", "--json", "out.json"],
         vec![
+            "simulate",
+            "broken.robot",
+            "--trajectory",
+            "log.csv",
+            "--out",
+            "out.csv",
+        ],
+        vec![
             "trace",
             "broken.robot",
             "log.csv",

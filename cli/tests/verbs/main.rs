@@ -10,4 +10,5 @@ mod identify;
 mod import;
 mod outputs;
 mod parameters;
+mod simulate;
 mod trace;

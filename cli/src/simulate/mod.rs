@@ -1,0 +1,329 @@
+//! `robot-model simulate`: the log of an arm that moves under a controller.
+
+mod table;
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use robot_model::simulate::{
+    ComputedTorque, Controller, Desired, Gains, Loop, Measured, Pd, Record, Sensors, Torques,
+    Trajectory,
+};
+use robot_model_codegen::Compiled;
+use robot_model_codegen::expr::Symbol;
+use serde::Serialize;
+
+use crate::Error;
+use crate::interpreted::InterpretedPlant;
+use crate::output::{self, Files};
+use crate::parameters;
+use crate::progress::Progress;
+use crate::spec::compile_instantaneous;
+
+/// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
+#[derive(Debug, Args)]
+pub(crate) struct Simulate {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// Wanted motion, CSV: `time,q1..qn[,dq1..][,ddq1..][,extra]`, SI units; missing derivatives are those of a spline, extra columns
+    /// are what effects read. The arm starts where it starts.
+    #[arg(long, value_name = "TRAJ.csv")]
+    trajectory: PathBuf,
+    /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+    /// The log to write: `time,q1..qn,dq1..dqn,tau1..taun[,extra]`.
+    #[arg(long, value_name = "LOG.csv")]
+    out: PathBuf,
+    /// Who decides the torque.
+    #[arg(long, value_enum, default_value_t)]
+    controller: ControllerArgument,
+    /// Torques to apply in place of a controller, CSV: `time,tau1..taun`, joint torques in N m or N.
+    #[arg(long, value_name = "FILE.csv", conflicts_with = "controller")]
+    torque: Option<PathBuf>,
+    /// Natural frequency of the controller's error, rad/s.
+    #[arg(long, value_name = "W", default_value_t = 20.0)]
+    frequency: f64,
+    /// Damping of the controller's error.
+    #[arg(long, value_name = "D", default_value_t = 1.0)]
+    damping: f64,
+    /// The controller's own parameter values; without it those of the arm.
+    #[arg(long, value_name = "FILE.json")]
+    control_parameters: Option<PathBuf>,
+    /// Samples of the controller, Hz; its torque is held between them.
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    rate: f64,
+    /// Samples of the log, Hz; without it those of the controller.
+    #[arg(long, value_name = "HZ")]
+    log_rate: Option<f64>,
+    /// Samples of the controller that pass before its torque acts.
+    #[arg(long, value_name = "SAMPLES", default_value_t = 0)]
+    delay: u16,
+    /// How long, s; without it as long as the trajectory, whose end is held beyond.
+    #[arg(long, value_name = "S")]
+    duration: Option<f64>,
+    /// Encoders of 2^BITS steps a turn (prismatic joints: a meter); without it positions are exact.
+    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u8).range(4..=40))]
+    encoder_bits: Option<u8>,
+    /// Standard deviation of the noise of positions, rad or m.
+    #[arg(long, value_name = "SIGMA", default_value_t = 0.0)]
+    position_noise: f64,
+    /// Standard deviation of the noise of logged torques, as a share of each joint's root mean square; half white, half correlated
+    /// over 4 ms.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    torque_noise: f64,
+    /// Of all noise: the same seed, the same log.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Write what the simulation took, and how far the arm was from the trajectory, as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum ControllerArgument {
+    /// Each joint by itself, with gains for the inertia that it has at the start.
+    #[default]
+    Pd,
+    /// The torque of the model for what is wanted, and PD on the error.
+    ComputedTorque,
+    /// No torque: the arm is let go.
+    None,
+}
+
+/// No torque at all.
+struct Idle;
+
+impl Controller for Idle {
+    fn torque(&mut self, _: &Measured<'_>, _: &Desired, torque: &mut [f64]) {
+        torque.fill(0.0);
+    }
+}
+
+#[derive(Serialize)]
+struct Report {
+    samples: usize,
+    seconds: f64,
+    /// Largest distance of each joint from the trajectory, rad or m.
+    tracking_error: Vec<f64>,
+    /// Change of energy relative to the largest kinetic energy; of arms without torques and effects alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy_drift: Option<f64>,
+    /// Stops, reversals, breakaways and other jumps.
+    events: u64,
+    explicit_steps: u64,
+    implicit_steps: u64,
+    impulse_steps: u64,
+    rejected_steps: u64,
+    evaluations: u64,
+}
+
+impl Simulate {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let inputs = [Some(&self.spec), Some(&self.trajectory)];
+        let more = [&self.parameters, &self.control_parameters, &self.torque];
+        let inputs = inputs.into_iter().chain(more.map(Option::as_ref)).flatten();
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let out = files.claim(&self.out)?;
+        let json = files.claim_if(self.json.as_deref())?;
+        if self.control_parameters.is_some()
+            && self.controller != ControllerArgument::ComputedTorque
+        {
+            return Err(Error::Argument(
+                "`--control-parameters` are those of the model of `--controller computed-torque`; \
+                 another controller has none"
+                    .to_owned(),
+            ));
+        }
+
+        let progress = Progress::new();
+        progress.step(&format!("compiling {}", self.spec.display()));
+        let compiled = compile_instantaneous(&self.spec)?;
+        let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
+        let mut setting = self.set_up(&compiled, &trajectory)?;
+        let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;
+        if let Some(delay) = compiled.delay() {
+            setting.torque_delay = delay.eval(&|symbol| match symbol {
+                Symbol::Shape(k) => shapes[k],
+                _ => unreachable!("checked in model-spec: a delay is constant"),
+            })[0];
+        }
+        let mut controller = self.controller(&compiled, &plant, &trajectory, &setting)?;
+        let start = trajectory.at(0.0);
+        let before = plant.energies(&start.q, &start.dq);
+
+        let mut told = 0.0;
+        let mut tell = |time: f64| {
+            if time == 0.0 || time >= told + 0.1 * setting.duration {
+                told = time;
+                progress.step(&format!(
+                    "simulating: {time:.1} s of {} s",
+                    setting.duration
+                ));
+            }
+        };
+        let run = setting.run(plant, controller.as_mut(), &trajectory, &mut tell);
+        let (record, mut end) =
+            run.map_err(|error| Error::Argument(format!("{}: {error}", compiled.model.source)))?;
+        let (q, dq) = (end.q().to_vec(), end.dq().to_vec());
+        let after = end.plant_mut().energies(&q, &dq);
+        let is_free = self.controller == ControllerArgument::None
+            && self.torque.is_none()
+            && compiled.model.effects.is_empty();
+        let drift = (after[0] + after[1] - before[0] - before[1]).abs();
+        let scale = before[0].max(after[0]).max((after[1] - before[1]).abs());
+        let report = Report {
+            samples: record.time.len(),
+            seconds: setting.duration,
+            tracking_error: record.tracking.clone(),
+            energy_drift: is_free.then(|| if scale > 0.0 { drift / scale } else { 0.0 }),
+            events: record.work.events,
+            explicit_steps: record.work.explicit,
+            implicit_steps: record.work.implicit,
+            impulse_steps: record.work.impulses,
+            rejected_steps: record.work.rejected,
+            evaluations: record.work.evaluations,
+        };
+        let text = csv(&record);
+        let joints = compiled
+            .model
+            .joints
+            .iter()
+            .map(|joint| joint.name.as_str());
+        let said = summary(&self.out, &report, joints);
+        out.commit(text.as_bytes())?;
+        if let Some(json) = json {
+            json.commit(output::json(&report).as_bytes())?;
+        }
+        drop(progress);
+        output::print(&said)
+    }
+
+    fn set_up(&self, compiled: &Compiled, trajectory: &Trajectory) -> Result<Loop, Error> {
+        let channels = compiled.model.inputs();
+        let inputs = channels.iter().map(|name| {
+            let place = trajectory
+                .extra()
+                .iter()
+                .position(|channel| channel.name == *name);
+            place.ok_or_else(|| {
+                Error::Argument(format!(
+                    "{}: it has no column `{name}`, which a declared effect reads",
+                    self.trajectory.display()
+                ))
+            })
+        });
+        let joints = &compiled.model.joints;
+        Ok(Loop {
+            rate: self.rate,
+            log_rate: self.log_rate.unwrap_or(self.rate),
+            delay: usize::from(self.delay),
+            duration: self.duration.unwrap_or_else(|| trajectory.duration()),
+            sensors: Sensors {
+                encoder_step: self
+                    .encoder_bits
+                    .map_or(0.0, |bits| TAU / 2_f64.powi(i32::from(bits))),
+                position_noise: self.position_noise,
+                torque_noise: self.torque_noise,
+                // High enough to leave the gains their damping, low enough to smooth steps of encoders.
+                velocity_hz: self.rate / 20.0,
+                seed: self.seed,
+            },
+            actuator_gain: joints.iter().map(|joint| joint.actuator_gain).collect(),
+            inputs: inputs.collect::<Result<_, Error>>()?,
+            ..Loop::default()
+        })
+    }
+
+    fn controller(
+        &self,
+        compiled: &Compiled,
+        plant: &InterpretedPlant,
+        trajectory: &Trajectory,
+        setting: &Loop,
+    ) -> Result<Box<dyn Controller>, Error> {
+        let argument =
+            |error: robot_model::simulate::SimulateError| Error::Argument(error.to_string());
+        let gains = || Gains::new(self.frequency, self.damping).map_err(argument);
+        if let Some(path) = &self.torque {
+            let torques: Torques = table::torques(path, compiled.dof())?;
+            return Ok(Box::new(torques));
+        }
+        Ok(match self.controller {
+            ControllerArgument::None => Box::new(Idle),
+            ControllerArgument::Pd => {
+                let inputs = setting.inputs.iter();
+                let inputs: Vec<f64> = inputs.map(|&k| trajectory.channel(k, 0.0)).collect();
+                let inertia = plant.clone().own_inertia(&trajectory.at(0.0).q, &inputs);
+                Box::new(Pd::new(gains()?, inertia))
+            }
+            ControllerArgument::ComputedTorque => {
+                let model = match &self.control_parameters {
+                    Some(file) => arm(compiled, Some(file))?.0,
+                    None => plant.clone(),
+                };
+                Box::new(ComputedTorque::new(gains()?, model))
+            }
+        })
+    }
+}
+
+/// The arm with the values of a file, or of its spec; its shape parameters.
+fn arm(compiled: &Compiled, file: Option<&Path>) -> Result<(InterpretedPlant, Vec<f64>), Error> {
+    let values = parameters::resolve(compiled, file)?;
+    let plant = InterpretedPlant::new(compiled.clone(), &values.beta, &values.shapes);
+    Ok((plant, values.shapes))
+}
+
+/// `time,q1..,dq1..,tau1..[,extra]`
+fn csv(record: &Record) -> String {
+    let mut text = String::from("time");
+    for (stem, columns) in [("q", &record.q), ("dq", &record.dq), ("tau", &record.tau)] {
+        for joint in 1..=columns.len() {
+            let _ = write!(text, ",{stem}{joint}");
+        }
+    }
+    for channel in &record.extra {
+        let _ = write!(text, ",{}", channel.name);
+    }
+    text.push('\n');
+    let columns = record.q.iter().chain(&record.dq).chain(&record.tau);
+    let columns: Vec<&Vec<f64>> = columns
+        .chain(record.extra.iter().map(|channel| &channel.values))
+        .collect();
+    for (k, time) in record.time.iter().enumerate() {
+        let _ = write!(text, "{time}");
+        for column in &columns {
+            let _ = write!(text, ",{}", column[k]);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+fn summary<'a>(out: &Path, report: &Report, joints: impl Iterator<Item = &'a str>) -> String {
+    let mut text = format!(
+        "{}: {} samples of {} s\n",
+        out.display(),
+        report.samples,
+        report.seconds
+    );
+    for (joint, error) in joints.zip(&report.tracking_error) {
+        let _ = writeln!(text, "largest tracking error of {joint}: {error:.3e}");
+    }
+    if let Some(drift) = report.energy_drift {
+        let _ = writeln!(text, "relative drift of energy: {drift:.1e}");
+    }
+    let _ = writeln!(
+        text,
+        "{} events; {} explicit, {} implicit and {} impulse steps, {} rejected",
+        report.events,
+        report.explicit_steps,
+        report.implicit_steps,
+        report.impulse_steps,
+        report.rejected_steps
+    );
+    text
+}

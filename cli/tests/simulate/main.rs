@@ -1,0 +1,7 @@
+//! Simulation: against what can be worked out by hand.
+
+mod common;
+mod conservation;
+mod dry;
+mod lugre;
+mod twin;
