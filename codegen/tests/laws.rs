@@ -79,7 +79,9 @@ impl Case {
             Symbol::Time => 0.7,
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(_) => 0.1,
-            Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) | Symbol::Switch(_) => 0.3,
+            Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) | Symbol::Switch(_) => {
+                0.3
+            }
         }
     }
 }

@@ -28,7 +28,7 @@ fn an_arm_that_is_let_go_rests_inside_the_dead_band_and_stays() {
     let (m1, m2, l1, c1, c2, g) = (5.914, 3.437, 0.615, 0.293, 0.19, 9.81);
     for degrees in [10.0_f64, 20.0, 30.0, 40.0] {
         let mut arm = pneumatic([degrees.to_radians(), 0.0]);
-        // Oil takes a third of its speed away in ten seconds; friction ends it.
+        // From 30 degrees it still swings after twenty seconds.
         arm.advance(60.0).expect("a motion");
         assert_eq!(arm.dq(), [0.0, 0.0], "{degrees}");
         assert_eq!(arm.held(), [true, true]);
