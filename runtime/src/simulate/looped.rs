@@ -258,22 +258,23 @@ impl Loop {
         let interval = 1.0 / self.log_rate;
         let end = applied.len() as f64 / self.rate;
         let joints = (0..dof).map(|joint| {
-            let mut sums = vec![0.0];
-            for torque in applied {
-                sums.push(sums[sums.len() - 1] + torque[joint]);
-            }
-            // Integral from the start, in periods.
-            let integral = |time: f64| {
-                let ticks = time * self.rate;
-                let tick = whole_steps(ticks).min(applied.len() - 1);
-                sums[tick] + (ticks - tick as f64) * applied[tick][joint]
+            // Over the periods that an interval covers, each by its share: sums from the start would lose digits.
+            let integral = |from: f64, to: f64| -> f64 {
+                let (from, to) = (from * self.rate, to * self.rate);
+                let last = applied.len() - 1;
+                let ticks = whole_steps(from).min(last)..=whole_steps(to).min(last);
+                let share = |tick: usize| {
+                    let start = tick as f64;
+                    (to.min(start + 1.0) - from.max(start)).max(0.0)
+                };
+                ticks.map(|tick| share(tick) * applied[tick][joint]).sum()
             };
             let gain = self.actuator_gain.get(joint).copied().unwrap_or(1.0);
             let mean = |&instant: &f64| {
                 let middle = (instant - self.torque_delay).clamp(0.0, end);
                 let from = (middle - 0.5 * interval).max(0.0);
                 let to = (middle + 0.5 * interval).min(end);
-                (integral(to) - integral(from)) / ((to - from) * self.rate) / gain
+                integral(from, to) / ((to - from) * self.rate) / gain
             };
             let mut torque: Vec<f64> = time.iter().map(mean).collect();
             self.sensors.disturb(&mut torque, interval, &mut noise);
