@@ -7,6 +7,7 @@ mod check;
 mod close_the_loop;
 mod demo;
 mod diff;
+mod dissect;
 mod emit;
 
 mod error;
@@ -48,6 +49,7 @@ enum Verb {
     Import(import::Import),
     Identify(identify::IdentifyArguments),
     Trace(trace::TraceArguments),
+    Dissect(dissect::Dissect),
     Demo(demo::Demo),
 }
 
@@ -61,6 +63,7 @@ impl Verb {
             Self::Import(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
+            Self::Dissect(verb) => verb.run(),
             Self::Demo(verb) => verb.run(),
         }
     }
