@@ -84,7 +84,7 @@ struct Controllers {
 
 impl Controllers {
     fn new() -> Result<Self, ControlError> {
-        let limits = Safety::new().torque([870.0; 7]).velocity([10.0; 7]);
+        let limits = Safety::new().torque([500.0; 7]).velocity([10.0; 7]);
         let computed = ComputedTorque::new(arm(), Gains::critically_damped(25.0))?.with_safety(limits)?;
         Ok(Self {
             computed,
@@ -150,7 +150,8 @@ fn main() -> Result<(), ControlError> {
         Some("instructions") => {
             for k in 0..30 {
                 let command = cycle(&mut c.computed, &state(k), &state(k + 1));
-                assert_eq!(command.status, Status::Normal);
+                // Limits are met in some of them.
+                assert!(matches!(command.status, Status::Normal | Status::Saturated));
             }
         }
         _ => {

@@ -58,10 +58,10 @@ impl<const R: usize, const D: usize> Contact<R, D> {
     /// # Examples
     /// That of [`Contact`].
     pub fn unseen(&self) -> impl Iterator<Item = Vector<R>> + '_ {
-        let directions = self.directions.column_iter().zip(self.seen.iter());
-        directions
-            .filter(|(_, seen)| **seen < 1.0)
-            .map(|(direction, _)| direction.into_owned())
+        // Entries that are looked up: an iterator over columns has a panic in it.
+        (0..R)
+            .filter(|k| self.seen.get(*k).is_some_and(|seen| *seen < 1.0))
+            .map(|k| Vector::from_fn(|r, _| self.directions.get((r, k)).copied().unwrap_or(0.0)))
     }
 }
 

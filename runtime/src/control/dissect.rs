@@ -94,8 +94,10 @@ impl<const D: usize, const S: usize> Dissection<D, S> {
             }
         }
         let sum = |regressor: &Matrix<D, S>| {
-            let columns = regressor.column_iter().take(rigid);
-            columns.fold(Vector::zeros(), |sum, column| sum + column)
+            Vector::from_fn(|joint, _| {
+                let row = (0..S).filter(|column| *column < rigid);
+                row.map(|column| regressor[(joint, column)]).sum()
+            })
         };
         let gravity = sum(&resting);
         Self {
@@ -113,14 +115,20 @@ impl<const D: usize, const S: usize> Dissection<D, S> {
     /// # Examples
     /// That of [`Dissection`].
     pub fn effects(&self) -> impl Iterator<Item = Share<D>> + '_ {
-        let columns = self.names.iter().zip(self.contributions.column_iter());
-        let mut columns = columns.skip(self.rigid).peekable();
+        let mut next = self.rigid;
         core::iter::from_fn(move || {
-            let (parameter, column) = columns.next()?;
-            let name = owner(parameter);
-            let mut torque = column.into_owned();
-            while let Some((_, column)) = columns.next_if(|(other, _)| owner(other) == name) {
-                torque += column;
+            let name = owner(self.names.get(next)?);
+            let mut torque = Vector::<D>::zeros();
+            // Indices that are looked up: a sum of columns from a number on has a panic in it.
+            while self
+                .names
+                .get(next)
+                .is_some_and(|other| owner(other) == name)
+            {
+                for (joint, sum) in torque.iter_mut().enumerate() {
+                    *sum += self.contributions.get((joint, next)).unwrap_or(&0.0);
+                }
+                next += 1;
             }
             Some(Share { name, torque })
         })
@@ -139,9 +147,9 @@ impl<const D: usize, const S: usize> Dissection<D, S> {
 
 /// `JOINT.EFFECT` of `JOINT.EFFECT.PARAMETER`.
 fn owner(parameter: &'static str) -> &'static str {
-    parameter
-        .rsplit_once('.')
-        .map_or(parameter, |(owner, _)| owner)
+    let dot = parameter.bytes().rposition(|byte| byte == b'.');
+    dot.and_then(|dot| parameter.get(..dot))
+        .unwrap_or(parameter)
 }
 
 /// How many standard parameters, from the first, are those of links or energies: `LINK.izz` ten a link, or names without a dot.
@@ -149,12 +157,16 @@ fn rigid_parameters<const D: usize>(joints: &[&'static str; D], names: &[&'stati
     let links = joints
         .iter()
         .flat_map(|link| ELEMENTS.map(|element| (*link, element)));
+    let is_link = |name: &str, link: &str, element: &str| {
+        let rest = name
+            .strip_prefix(link)
+            .and_then(|rest| rest.strip_prefix("."));
+        rest == Some(element)
+    };
     let of_links = names.iter().zip(links);
-    let is_link =
-        |name: &str, link: &str, element: &str| name.rsplit_once('.') == Some((link, element));
     let chain = of_links
         .take_while(|(name, (link, element))| is_link(name, link, element))
         .count();
-    let energies = names.iter().take_while(|name| !name.contains('.')).count();
-    chain.max(energies)
+    let is_product = |name: &&&str| !name.bytes().any(|byte| byte == b'.');
+    chain.max(names.iter().take_while(is_product).count())
 }

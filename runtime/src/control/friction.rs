@@ -35,7 +35,6 @@ pub enum FrictionVelocity {
 /// use robot_model::{State, Vector};
 ///
 /// let gains = Gains::new(25.0, 0.7);
-/// let still = State::at_rest(Vector::zeros());
 /// let moving = State::new(Vector::zeros(), Vector::from([1.0, 0.0]), Vector::zeros());
 /// let torque = |friction| {
 ///     let mut control = ComputedTorque::new(arms::two_link(), gains)?.with_friction(friction)?;
@@ -44,7 +43,6 @@ pub enum FrictionVelocity {
 /// // 1.5 N m s/rad and 2 N m.
 /// assert!((torque(Friction::full())? - torque(Friction::none())? - 3.5).abs() < 1e-12);
 /// assert!((torque(Friction::part(0.5).at_measured_velocity())? - torque(Friction::none())? - 1.75).abs() < 1e-12);
-/// # let _ = still;
 /// # Ok::<(), robot_model::control::ControlError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

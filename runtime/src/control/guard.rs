@@ -127,7 +127,8 @@ impl<const D: usize> Guard<D> {
             // Not `clamp`, which has a panic in it.
             *torque = torque.max(-limit).min(*limit);
         }
-        let is_cut = saturated.iter().any(|joint| *joint);
+        // All of them are looked at: a cycle is as long whatever its torque.
+        let is_cut = saturated.iter().fold(false, |any, joint| any | *joint);
         Command {
             torque,
             status: match status {

@@ -20,7 +20,7 @@ use crate::state::State;
 /// let mut observer = MomentumObserver::new(arms::two_link(), 50.0, 1e-3)?;
 /// let lost = State::at_rest(Vector::from([f64::NAN, 0.0]));
 /// let found = observer.update(&lost, &Vector::zeros());
-/// assert!(matches!(found.status, Status::Held(_)) && found.torque == Vector::zeros());
+/// assert!(matches!(found.status, Status::Held(_)) && found.torque == Vector::from([0.0, 0.0]));
 /// # Ok::<(), robot_model::control::ControlError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
