@@ -128,7 +128,7 @@ impl<const D: usize> Guard<D> {
             *torque = torque.max(-limit).min(*limit);
         }
         // All of them are looked at: a cycle is as long whatever its torque.
-        let is_cut = saturated.iter().fold(false, |any, joint| any | *joint);
+        let is_cut = saturated.iter().filter(|joint| **joint).count() > 0;
         Command {
             torque,
             status: match status {

@@ -1,5 +1,7 @@
 //! What a controller may do, and where it stops.
 
+use core::cmp::Ordering;
+
 use super::error::{ControlError, NOT_NEGATIVE, POSITIVE, each_joint, is_not_negative, number};
 use crate::model::Vector;
 
@@ -150,7 +152,7 @@ impl<const D: usize> Safety<D> {
         let ends = self.lower.iter().zip(self.upper.iter());
         for (&joint, (&lower, &upper)) in joints.iter().zip(ends) {
             // Also where one of them is no number.
-            if !(lower < upper) {
+            if lower.partial_cmp(&upper) != Some(Ordering::Less) {
                 return Err(ControlError::EmptyRange {
                     joint,
                     lower,
