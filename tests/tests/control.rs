@@ -362,7 +362,7 @@ fn contact_forces_are_found_where_they_are_felt() -> Result<(), ControlError> {
         assert!(scaled.norm() <= 0.01 * 6f64.sqrt() / 1e-3 + 1e-9, "{angle}");
     }
     let lost = contact.at_tip(&q, &Vector::repeat(f64::NAN));
-    assert_eq!(lost.force, Vector::zeros());
+    assert_eq!(lost.force, Vector::<6>::zeros());
     assert_eq!(
         lost.status,
         Status::Held(Reason::NoNumber {
@@ -516,7 +516,7 @@ fn a_controller_holds_the_arm_and_recovers() -> Result<(), ControlError> {
     // Nothing was read yet.
     let mut lost = good;
     lost.q[4] = f64::NAN;
-    assert_eq!(check(&mut control, &lost, &desired).torque, Vector::zeros());
+    assert_eq!(check(&mut control, &lost, &desired).torque, Vector::<6>::zeros());
     let normal = check(&mut control, &good, &desired);
     assert!(
         matches!(normal.status, Status::Normal | Status::Saturated),
