@@ -7,6 +7,7 @@ mod check;
 mod close_the_loop;
 mod demo;
 mod diff;
+mod dissect;
 mod emit;
 
 mod error;
@@ -50,6 +51,7 @@ enum Verb {
     Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
     Trace(trace::TraceArguments),
+    Dissect(dissect::Dissect),
     Demo(demo::Demo),
 }
 
@@ -64,6 +66,7 @@ impl Verb {
             Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
+            Self::Dissect(verb) => verb.run(),
             Self::Demo(verb) => verb.run(),
         }
     }

@@ -3,6 +3,7 @@
 
 #[cfg(feature = "std")]
 pub mod columns;
+pub mod control;
 #[cfg(feature = "std")]
 pub mod identify;
 pub mod link;

@@ -8,6 +8,7 @@ pub mod evaluate;
 pub mod expression;
 pub mod mechanics;
 pub mod oracle;
+pub mod program;
 pub mod shared;
 pub mod specs;
 pub mod states;

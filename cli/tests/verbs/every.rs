@@ -14,6 +14,7 @@ fn every_verb_refuses_a_broken_spec() {
         vec!["emit", "broken.robot", "--lang", "rust", "--out", "code"],
         vec!["eval", "broken.robot", "--states", "states.json"],
         vec!["identify", "broken.robot", "log.csv", "--json", "out.json"],
+        vec!["dissect", "broken.robot", "log.csv", "--json", "out.json"],
         vec![
             "simulate",
             "broken.robot",
@@ -50,6 +51,7 @@ fn every_verb_refuses_a_missing_file() {
         vec!["import", "none.urdf", "-o", "out.robot"],
         vec!["identify", "none.robot", "log.csv"],
         vec!["trace", "none.robot", "log.csv"],
+        vec!["dissect", "none.robot", "log.csv"],
     ] {
         let said = folder.refuse(&arguments);
         assert!(

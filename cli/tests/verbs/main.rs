@@ -2,6 +2,7 @@
 
 mod c;
 mod common;
+mod dissect;
 mod energies;
 mod equations;
 mod eval;

@@ -1,0 +1,165 @@
+//! Feed-forward: the torque of the desired motion, and a linear loop for what it misses.
+
+use super::command::Command;
+use super::error::{ControlError, NOT_NEGATIVE, each_joint, is_not_negative};
+use super::guard::Guard;
+use super::safety::Safety;
+use crate::model::{RobotModel, Vector};
+use crate::state::State;
+
+/// Torque along a desired motion, with stiffness and damping a joint:
+///
+/// ```text
+/// tau = inverse_dynamics(q_d, dq_d, ddq_d) + k (q_d - q) + d (dq_d - dq)
+/// ```
+///
+/// The model sees nothing that is measured, so its part can be computed ahead ([`Self::along`]) and closes no loop. `k` in N m/rad
+/// or N/m, `d` in N m s/rad or N s/m.
+///
+/// Source: Siciliano et al. 2009, ch. 8.
+///
+/// # Examples
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+/// use robot_model::control::FeedForward;
+/// use robot_model::{State, Vector};
+///
+/// let mut control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+/// let desired = State::new(Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]), Vector::zeros());
+/// let measured = State { q: desired.q + Vector::from([-0.01, 0.0]), ..desired };
+/// let torque = control.torque(&measured, &desired).torque;
+/// assert!((torque - control.along(&desired) - Vector::from([2.0, 0.0])).norm() < 1e-9);
+/// # Ok::<(), robot_model::control::ControlError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FeedForward<A, const D: usize> {
+    arm: A,
+    stiffness: Vector<D>,
+    damping: Vector<D>,
+    guard: Guard<D>,
+}
+
+impl<A, const D: usize> FeedForward<A, D> {
+    /// Of an arm with its parameters.
+    ///
+    /// # Errors
+    /// [`ControlError::Joint`], where a stiffness or a damping is negative or no finite number.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::FeedForward;
+    ///
+    /// let refused = FeedForward::new(arms::two_link(), [200.0, f64::INFINITY], [20.0, 6.0]).unwrap_err();
+    /// assert_eq!(
+    ///     refused.to_string(),
+    ///     "stiffness of joint `elbow` is inf N m/rad or N/m; give a finite number that is not negative"
+    /// );
+    /// ```
+    pub fn new<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
+        arm: A,
+        stiffness: [f64; D],
+        damping: [f64; D],
+    ) -> Result<Self, ControlError>
+    where
+        A: RobotModel<D, S, B, H, M, I>,
+    {
+        let what = ("stiffness", " N m/rad or N/m", NOT_NEGATIVE);
+        each_joint(&A::JOINTS, &stiffness, what, is_not_negative)?;
+        let what = ("damping", " N m s/rad or N s/m", NOT_NEGATIVE);
+        each_joint(&A::JOINTS, &damping, what, is_not_negative)?;
+        Ok(Self {
+            arm,
+            stiffness: stiffness.into(),
+            damping: damping.into(),
+            guard: Guard::new(Safety::new()),
+        })
+    }
+
+    /// The same within limits.
+    ///
+    /// # Errors
+    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{FeedForward, Safety};
+    ///
+    /// let control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+    /// let refused = control.with_safety(Safety::new().position([1.0, -2.0], [-1.0, 2.0])).unwrap_err();
+    /// assert_eq!(
+    ///     refused.to_string(),
+    ///     "positions of joint `shoulder` from 1 to -1 are none; give the lower end first"
+    /// );
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
+    pub fn with_safety<
+        const S: usize,
+        const B: usize,
+        const H: usize,
+        const M: usize,
+        const I: usize,
+    >(
+        self,
+        safety: Safety<D>,
+    ) -> Result<Self, ControlError>
+    where
+        A: RobotModel<D, S, B, H, M, I>,
+    {
+        safety.check(&A::JOINTS)?;
+        Ok(Self {
+            guard: Guard::new(safety),
+            ..self
+        })
+    }
+
+    /// The model's part, N m or N: the torque that the desired motion takes.
+    ///
+    /// # Examples
+    /// That of [`FeedForward`].
+    #[must_use]
+    pub fn along<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
+        &self,
+        desired: &State<D, M, I>,
+    ) -> Vector<D>
+    where
+        A: RobotModel<D, S, B, H, M, I>,
+    {
+        self.arm.inverse_dynamics_at(desired)
+    }
+
+    /// One cycle. Memory, channels and time are those of `measured`.
+    ///
+    /// # Examples
+    /// That of [`FeedForward`].
+    pub fn torque<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
+        &mut self,
+        measured: &State<D, M, I>,
+        desired: &State<D>,
+    ) -> Command<D>
+    where
+        A: RobotModel<D, S, B, H, M, I>,
+    {
+        let Self {
+            arm,
+            stiffness,
+            damping,
+            guard,
+        } = self;
+        guard.cycle(arm, measured, Some(desired), || {
+            let along = State {
+                q: desired.q,
+                dq: desired.dq,
+                ddq: desired.ddq,
+                ..*measured
+            };
+            arm.inverse_dynamics_at(&along)
+                + stiffness.component_mul(&(desired.q - measured.q))
+                + damping.component_mul(&(desired.dq - measured.dq))
+        })
+    }
+}
