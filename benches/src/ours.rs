@@ -197,16 +197,16 @@ fn cases(
     let rest = format!("parameters: {beta}, scalar: PhantomData::<{scalar}>");
     let (inside, outside) = (list("p"), list("&beta()"));
     format!(
-        "        ({name:?}, |states| Box::new(Case {{
-            states: states.of::<{dof}, {scalar}, ()>(|_| ()),
-            call: |x, p| {module}::{function}({inside}),
-            {rest},
-        }})),
-        ({given:?}, |states| Box::new(Case {{
-            states: states.of::<{dof}, {scalar}, _>(|x| {scalar}::sines_cosines({module}::{function}_angles({outside}))),
-            call: |x, p| {module}::{function}_given({inside}, &x.given),
-            {rest},
-        }})),
+        "        ({name:?}, |states| {{
+            let states = states.of::<{dof}, {scalar}>();
+            let given = vec![(); states.len()];
+            Box::new(Case {{ states, given, call: |x, (), p| {module}::{function}({inside}), {rest} }})
+        }}),
+        ({given:?}, |states| {{
+            let states = states.of::<{dof}, {scalar}>();
+            let given = states.iter().map(|x| {scalar}::sines_cosines({module}::{function}_angles({outside}))).collect();
+            Box::new(Case {{ states, given, call: |x, given, p| {module}::{function}_given({inside}, given), {rest} }})
+        }}),
 "
     )
 }

@@ -13,12 +13,11 @@ use robot_model::scalar::{Lanes4, Lanes8};
 /// States of a block, which is timed as a whole.
 const BLOCK: usize = 500;
 
-/// Positions, velocities and accelerations; with sines and cosines where these are given.
-pub struct State<const D: usize, S, T = ()> {
+/// Positions, velocities and accelerations.
+pub struct State<const D: usize, S> {
     pub q: [S; D],
     pub dq: [S; D],
     pub ddq: [S; D],
-    pub given: T,
 }
 
 /// A number, or several beside each other.
@@ -81,16 +80,14 @@ impl States {
         Self { numbers: numbers.collect() }
     }
 
-    /// In packs of as many as the scalar holds, with what is computed from each.
-    pub fn of<const D: usize, S: Number, T>(&self, given: impl Fn(&State<D, S>) -> T) -> Vec<State<D, S, T>> {
+    /// In packs of as many as the scalar holds.
+    pub fn of<const D: usize, S: Number>(&self) -> Vec<State<D, S>> {
         let width = 3 * D;
         self.numbers
             .chunks_exact(width * S::COUNT)
             .map(|pack| {
                 let part = |part: usize| std::array::from_fn(|k| S::gather(|lane| pack[width * lane + D * part + k]));
-                let state = State { q: part(0), dq: part(1), ddq: part(2), given: () };
-                let given = given(&state);
-                State { q: state.q, dq: state.dq, ddq: state.ddq, given }
+                State { q: part(0), dq: part(1), ddq: part(2) }
             })
             .collect()
     }
@@ -102,20 +99,22 @@ pub trait Timed {
     fn pass(&self) -> Vec<f64>;
 }
 
-/// `call` at `states` with `parameters`, in the scalar `S`.
-pub struct Case<X, P, R, S> {
+/// `call` at `states` with `parameters`, in the scalar `S`; `given` is what each state comes with, in an array of its own, as
+/// a peer's sines are.
+pub struct Case<X, T, P, R, S> {
     pub states: Vec<X>,
+    pub given: Vec<T>,
     pub parameters: P,
-    pub call: fn(&X, &P) -> R,
+    pub call: fn(&X, &T, &P) -> R,
     pub scalar: std::marker::PhantomData<S>,
 }
 
-impl<X, P, R: Entries<S>, S: Number> Timed for Case<X, P, R, S> {
+impl<X, T, P, R: Entries<S>, S: Number> Timed for Case<X, T, P, R, S> {
     fn values(&self, count: usize) -> Vec<Vec<f64>> {
         let mut rows = Vec::new();
-        for state in self.states.iter().take(count.div_ceil(S::COUNT)) {
+        for (state, given) in self.states.iter().zip(&self.given).take(count.div_ceil(S::COUNT)) {
             let mut lanes = vec![Vec::new(); S::COUNT];
-            (self.call)(state, &self.parameters).entries(&mut |entry: S| {
+            (self.call)(state, given, &self.parameters).entries(&mut |entry: S| {
                 for (lane, row) in lanes.iter_mut().enumerate() {
                     row.push(entry.lane(lane));
                 }
@@ -129,17 +128,18 @@ impl<X, P, R: Entries<S>, S: Number> Timed for Case<X, P, R, S> {
     fn pass(&self) -> Vec<f64> {
         // Not known where it is called: neither inlined nor specialized, as a function of another library.
         let (call, parameters) = (black_box(self.call), black_box(&self.parameters));
-        let time = |block: &[X]| {
+        let time = |(states, given): (&[X], &[T])| {
             let start = Instant::now();
-            for state in block {
-                black_box(&call(state, parameters));
+            for (state, given) in states.iter().zip(given) {
+                black_box(&call(state, given, parameters));
             }
-            start.elapsed().as_nanos() as f64 / (block.len() * S::COUNT) as f64
+            start.elapsed().as_nanos() as f64 / (states.len() * S::COUNT) as f64
         };
-        // One block to wake up.
         let size = BLOCK / S::COUNT;
-        time(&self.states[..size]);
-        self.states.chunks_exact(size).map(time).collect()
+        let blocks = || self.states.chunks_exact(size).zip(self.given.chunks_exact(size));
+        // One block to wake up.
+        blocks().take(1).for_each(|block| _ = time(block));
+        blocks().map(time).collect()
     }
 }
 
