@@ -15,6 +15,7 @@ mod node;
 mod rounding;
 pub mod rules;
 mod substitute;
+mod uses;
 
 use std::collections::{HashMap, HashSet};
 
