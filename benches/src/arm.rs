@@ -104,11 +104,15 @@ impl Arm {
     }
 
     /// Operations of an emitted function.
-    #[must_use]
-    pub fn cost(compiled: &Compiled, function: &str) -> emit::Cost {
+    ///
+    /// # Errors
+    /// The page has no such function.
+    pub fn cost(compiled: &Compiled, function: &str) -> Result<emit::Cost, Error> {
         let costs = emit::costs(compiled);
         let found = costs.iter().find(|(name, _)| *name == function);
-        found.map(|(_, cost)| *cost).unwrap_or_default()
+        found
+            .map(|(_, cost)| *cost)
+            .ok_or_else(|| Error::new(format!("the page has no function `{function}` to count")))
     }
 
     /// How many numbers a function returns.

@@ -44,11 +44,25 @@ pub fn made(
     fs::write(stamp, input).map_err(|error| failed("write", stamp, error))
 }
 
+/// Gives a crate of its own the versions in `lock`, the workspace's `Cargo.lock`. Cargo leaves out what the crate does not need,
+/// so its own file is not compared but what it was made from.
+///
+/// # Errors
+/// A file that cannot be read or written.
+pub fn lock(lock: &Path, root: &Path) -> Result<(), Error> {
+    let text = fs::read_to_string(lock).map_err(|error| failed("read", lock, error))?;
+    let own = root.join("Cargo.lock");
+    made(&own, &text, || {
+        fs::write(&own, &text).map_err(|error| failed("write", &own, error))
+    })
+}
+
 #[cfg(test)]
 mod tests {
+    use std::fs;
     use std::process::Command;
 
-    use super::{made, run};
+    use super::{lock, made, run};
     use crate::Error;
 
     #[test]
@@ -64,6 +78,22 @@ mod tests {
             made(&product, input, make).expect("a writable folder");
         }
         assert_eq!(times, 2);
+    }
+
+    #[test]
+    fn versions_are_those_of_the_workspace_also_when_they_change() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let (workspace, own) = (folder.path().join("lock"), folder.path().join("Cargo.lock"));
+        let read = || fs::read_to_string(&own).expect("it is there");
+        for text in ["one", "two"] {
+            fs::write(&workspace, text).expect("a writable folder");
+            lock(&workspace, folder.path()).expect("a writable folder");
+            assert_eq!(read(), text);
+            // As cargo does.
+            fs::write(&own, "less").expect("a writable folder");
+            lock(&workspace, folder.path()).expect("a writable folder");
+            assert_eq!(read(), "less");
+        }
     }
 
     #[test]

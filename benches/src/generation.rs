@@ -39,7 +39,7 @@ pub fn of_arm(folder: &Path, name: &str) -> Result<Generation, Error> {
 pub fn growth() -> Result<Vec<Growth>, Error> {
     let grown = CHAINS.map(|joints| {
         let (_, compiled, seconds) = generated("chain", &chain(joints))?;
-        let cost = Arm::cost(&compiled, "inverse_dynamics");
+        let cost = Arm::cost(&compiled, "inverse_dynamics")?;
         Ok(Growth {
             joints,
             inverse_dynamics: cost.mul + cost.add,
@@ -90,10 +90,7 @@ fn rustc(folder: &Path, page: &str) -> Result<f64, Error> {
     };
     fs::create_dir_all(root.join("src")).map_err(|error| failed("make", &root, error))?;
     write(&root.join("Cargo.toml"), &ours::manifest("generation"))?;
-    let lock = workspace().join("Cargo.lock");
-    if !root.join("Cargo.lock").exists() {
-        fs::copy(&lock, root.join("Cargo.lock")).map_err(|error| failed("copy", &lock, error))?;
-    }
+    crate::build::lock(&workspace().join("Cargo.lock"), &root)?;
     let build = || {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         command.args(["build", "--release", "--offline", "--quiet", "--target-dir"]);
@@ -146,7 +143,7 @@ fn used(page: &str) -> Result<String, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::{chain, generated, used};
+    use super::{Arm, chain, generated, used};
 
     #[test]
     fn all_functions_are_used() {
@@ -168,6 +165,8 @@ mod tests {
     fn chains_are_robots() {
         let (page, compiled, _) = generated("chain", &chain(2)).expect("a spec");
         assert_eq!(compiled.dof(), 2);
+        let error = Arm::cost(&compiled, "nothing").expect_err("no such function");
+        assert!(error.to_string().contains("`nothing`"), "{error}");
         assert!(
             used(&page)
                 .expect("emitted")

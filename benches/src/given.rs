@@ -22,7 +22,7 @@ pub struct Page {
 pub fn functions(page: &str, wanted: &[&str]) -> Result<Page, Error> {
     let file = syn::parse_file(page)
         .map_err(|error| Error::new(format!("an emitted page does not parse: {error}")))?;
-    let (mut items, mut functions) = (TokenStream::new(), Vec::new());
+    let (mut items, mut functions) = (TokenStream::new(), Vec::<(String, _)>::new());
     for item in file.items {
         let Item::Fn(mut function) = item else {
             continue;
@@ -35,6 +35,12 @@ pub fn functions(page: &str, wanted: &[&str]) -> Result<Page, Error> {
             items.extend(quote!(#function #companions));
             functions.push((function.sig.ident.to_string(), arguments(&function)));
         }
+    }
+    let is_there = |name: &&str| functions.iter().any(|(function, _)| function == name);
+    if let Some(name) = wanted.iter().find(|name| !is_there(name)) {
+        return Err(Error::new(format!(
+            "an emitted page has no function `{name}`"
+        )));
     }
     let file = syn::parse2(items)
         .map_err(|error| Error::new(format!("rewritten functions do not parse: {error}")))?;
@@ -146,6 +152,12 @@ mod tests {
         );
         assert_eq!(text.matches("S::sines_cosines").count(), 1, "{text}");
         assert!(!text.contains("bias") && !text.contains("Arm"), "{text}");
+    }
+
+    #[test]
+    fn a_function_that_the_page_has_not_is_told() {
+        let error = functions(PAGE, &["gravity", "mass_matrix"]).expect_err("none");
+        assert!(error.to_string().contains("`mass_matrix`"), "{error}");
     }
 
     #[test]

@@ -26,8 +26,8 @@ pub struct Options {
     /// How long the compiler takes for each arm, and rustc with what it wrote; and what chains of 5 to 40 joints cost. Some minutes.
     #[arg(long)]
     pub growth: bool,
-    /// Write the tables of `docs/benchmarks.md` anew, those of `--growth` among them.
-    #[arg(long)]
+    /// Write the tables of `docs/benchmarks.md` anew, those of `--growth` among them; of all arms and peers.
+    #[arg(long, conflicts_with_all = ["robots", "peers"])]
     pub docs: bool,
     /// What cargo says to every benchmark.
     #[arg(long, hide = true)]
@@ -87,5 +87,16 @@ mod tests {
             let error = Options::try_parse_from(arguments).expect_err("it is none");
             assert!(error.to_string().contains(said), "{error}");
         }
+    }
+
+    /// A page of some arms would lose the rows of the others.
+    #[test]
+    fn the_page_has_all_arms_and_peers() {
+        for choice in ["--robots=panda", "--peers=none"] {
+            let arguments = ["dynamics", "--docs", choice];
+            let error = Options::try_parse_from(arguments).expect_err("not the whole page");
+            assert!(error.to_string().contains("--docs"), "{error}");
+        }
+        assert!(Options::try_parse_from(["dynamics", "--docs"]).is_ok());
     }
 }

@@ -74,12 +74,7 @@ pub fn build(folder: &Path, arms: &[Arm]) -> Result<[PathBuf; 2], Error> {
     for arm in arms {
         write(&format!("src/bin/{}.rs", arm.name), &program(arm)?)?;
     }
-    let lock = workspace().join("Cargo.lock");
-    let text = fs::read_to_string(&lock).map_err(|error| failed("read", &lock, error))?;
-    if !root.join("Cargo.lock").exists() {
-        // The same versions as the workspace's.
-        write("Cargo.lock", &text)?;
-    }
+    crate::build::lock(&workspace().join("Cargo.lock"), &root)?;
     let mut targets = Flags::ALL.map(|flags| folder.join(flags.name()));
     for (flags, target) in Flags::ALL.into_iter().zip(&mut targets) {
         compile(&root, target, flags)?;

@@ -108,6 +108,9 @@ fn timing(passes: &[Vec<f64>]) -> Option<Timing> {
 /// The largest difference of two results, relative to the largest entry of the state's.
 #[must_use]
 pub fn difference(found: &[Vec<f64>], wanted: &[Vec<f64>]) -> f64 {
+    if found.len() != wanted.len() {
+        return f64::INFINITY;
+    }
     let mut worst: f64 = 0.0;
     for (found, wanted) in found.iter().zip(wanted) {
         if found.len() != wanted.len() {
@@ -169,6 +172,7 @@ mod tests {
         assert!((difference(&[vec![1.0, 8.0]], &[vec![2.0, 8.0]]) - 0.125).abs() < 1e-15);
         assert!(difference(&[vec![f64::NAN, 1.0]], &[vec![1.0, 1.0]]).is_nan());
         assert!(difference(&[vec![1.0]], &[vec![1.0, 0.0]]).is_infinite());
+        assert!(difference(&[vec![1.0]], &[]).is_infinite());
         // Nothing agrees with nothing, and something does not.
         assert!(difference(&[vec![0.0, 0.0]], &[vec![0.0, 0.0]]) <= 0.0);
         assert!(difference(&[vec![1e-9]], &[vec![0.0]]).is_infinite());

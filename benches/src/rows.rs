@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use crate::Error;
 use crate::arm::{Arm, FUNCTIONS};
 use crate::ours::case;
 use crate::peers::{self, Contender};
@@ -75,11 +76,14 @@ fn fastest(times: impl Iterator<Item = Timing>) -> Option<Timing> {
 }
 
 /// Rows of an arm.
+///
+/// # Errors
+/// A page without one of the functions.
 pub(crate) fn rows_of(
     arm: &Arm,
     contenders: &[Contender],
     times: &BTreeMap<Case, Timing>,
-) -> Vec<Row> {
+) -> Result<Vec<Row>, Error> {
     let times = Times { contenders, times };
     let mut rows = Vec::new();
     for function in FUNCTIONS {
@@ -91,7 +95,7 @@ pub(crate) fn rows_of(
             } else {
                 &arm.baked
             };
-            let cost = Arm::cost(compiled, function);
+            let cost = Arm::cost(compiled, function)?;
             rows.push(Row {
                 robot: arm.name.to_owned(),
                 function: function.to_owned(),
@@ -109,7 +113,7 @@ pub(crate) fn rows_of(
             });
         }
     }
-    rows
+    Ok(rows)
 }
 
 /// A clock tells no more than this.

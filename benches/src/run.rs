@@ -91,7 +91,7 @@ fn bench(options: &Options, folder: &Path) -> Result<(), Error> {
         let cases = agreed(arm, &mut programs, &contenders, &mut missing)?;
         say(&format!("timing {} ..", arm.name));
         let times = rounds::measure(&mut programs, &cases, options.passes)?;
-        rows.extend(rows_of(arm, &contenders, &times));
+        rows.extend(rows_of(arm, &contenders, &times)?);
     }
     let (mut generation, mut growth) = (Vec::new(), Vec::new());
     if options.growth || options.docs {
@@ -139,7 +139,12 @@ fn agreed(
     let mut cases = Vec::new();
     for function in FUNCTIONS {
         let first = case(function, "baked", false);
-        let wanted = programs[0].values(&first, COMPARED)?.unwrap_or_default();
+        let wanted = programs[0].values(&first, COMPARED)?.ok_or_else(|| {
+            Error::new(format!(
+                "our program of {} has no `{first}` to compare with",
+                arm.name
+            ))
+        })?;
         for case in cases_of(function, programs.len()) {
             let Some(found) = programs[case.program].values(&case.name, COMPARED)? else {
                 continue;

@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use robot_model::{RobotModel, State, Vector};
+use robot_model::{Mechanics, RobotModel, State, Vector};
 use robot_model_examples::{TwoLinkArm, arm, computed_torque};
 
 const STEP_S: f64 = 1e-3;
@@ -55,11 +55,10 @@ fn reference(time: f64) -> State<2> {
     State::new(size * sin, size * w * cos, size * (-w * w * sin))
 }
 
-/// The plant: `M ddq = tau - (C dq + G + friction)`, one semi-implicit Euler step.
+/// The plant, one semi-implicit Euler step. Rotors would count: the mass matrix has no effects, forward dynamics has all.
 fn moved(arm: &TwoLinkArm, now: &State<2>, tau: &Vector<2>) -> State<2> {
-    let rest = arm.inverse_dynamics(&now.q, &now.dq, &Vector::zeros());
-    let inverse = arm.mass_matrix(&now.q).try_inverse();
-    let ddq = inverse.expect("a mass matrix is positive definite") * (tau - rest);
+    let ddq = arm.forward_dynamics(&now.q, &now.dq, tau);
+    let ddq = ddq.expect("an arm with masses moves in one way");
     let dq = now.dq + STEP_S * ddq;
     State::new(now.q + STEP_S * dq, dq, ddq)
 }

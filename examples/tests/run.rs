@@ -6,6 +6,8 @@ mod build_script;
 mod close_the_loop;
 #[path = "../examples/derive.rs"]
 mod derive;
+#[path = "../examples/scalars.rs"]
+mod scalars;
 
 #[test]
 fn build_script() {
@@ -15,6 +17,30 @@ fn build_script() {
 #[test]
 fn derive() {
     derive::main();
+}
+
+#[test]
+fn scalars() {
+    scalars::main();
+}
+
+/// What README.md shows of lanes and slopes are lines of the example, which is compiled.
+#[test]
+fn readme_shows_the_example() {
+    let example: Vec<String> = lines(include_str!("../examples/scalars.rs")).collect();
+    let readme = include_str!("../../README.md");
+    let blocks = readme.split("```rust,ignore\n").skip(1);
+    let mut blocks = blocks.filter_map(|rest| Some(rest.split_once("\n```")?.0));
+    let shown = blocks.find(|block| block.contains("Dual::variable"));
+    for line in lines(shown.expect("README.md shows dual numbers")) {
+        assert!(example.contains(&line), "{line}");
+    }
+}
+
+/// Wherever their comments stand.
+fn lines(text: &str) -> impl Iterator<Item = String> {
+    let words = |line: &str| line.split_whitespace().collect::<Vec<_>>().join(" ");
+    text.lines().map(words)
 }
 
 #[test]

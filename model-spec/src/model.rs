@@ -166,6 +166,18 @@ pub enum Convention {
     Origin,
 }
 
+impl Convention {
+    /// Its name in a spec.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::StandardDh => "standard_dh",
+            Self::ModifiedDh => "modified_dh",
+            Self::Origin => "origin",
+        }
+    }
+}
+
 /// One joint, or one coordinate of a robot that is described by its energies.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -236,6 +248,8 @@ pub struct Link {
     pub name: String,
     /// Pose of the link's frame in its parent's as a function of `q`.
     pub placement: Placement,
+    /// The numbers of the frame as they are written: `a = 0.4 m; alpha = 90 deg; d = 0`.
+    pub frame: String,
     /// What the spec says of mass, first moments and inertia.
     pub inertial: Inertial,
 }

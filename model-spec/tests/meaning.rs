@@ -85,6 +85,8 @@ fn dh_rows_are_the_books_matrices() {
             panic!("two joints")
         };
         let links = &model.chain().unwrap().links;
+        let written = "a = 0.3; alpha = 40 deg; d = -0.2; offset = 0.7";
+        assert_eq!(links[0].frame, written);
         for q in [-2.0, 0.0, 0.9] {
             let turned = row(q + 0.7, -0.2, 0.3, 40f64.to_radians());
             assert_near(&pose(&links[0].placement, turn.kind, q), &turned);

@@ -95,6 +95,11 @@ pub trait RobotModel<
     fn shapes(&self) -> Vector<SHAPES>;
 
     /// Mass matrix `M(q)`, DOF x DOF, kg m^2 (kg for prismatic joints); symmetric.
+    ///
+    /// That of the rigid body: of the inertia of effects, as of rotors, it has what regroups into a base parameter of a link, and
+    /// no more. The slope of the torque by `ddq` with all of it is what
+    /// [`forward_dynamics`](crate::Mechanics::forward_dynamics) solves with; for computed torque call
+    /// [`Self::inverse_dynamics`].
     fn mass_matrix<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, DOF, DOF>;
 
     /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew.

@@ -21,6 +21,8 @@ mod lean;
 mod lower;
 mod partial;
 mod point;
+#[cfg(test)]
+mod rewrites;
 mod rigid;
 mod twist;
 mod vanishing;

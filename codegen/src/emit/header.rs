@@ -1,5 +1,7 @@
 //! What stands at the top of a page.
 
+use robot_model_spec::model::{Chain, Joint};
+
 use crate::compiled::Compiled;
 
 /// How pages begin, whatever their language.
@@ -50,8 +52,15 @@ pub fn header(compiled: &Compiled) -> Vec<String> {
 
 /// What names and costs of the functions say: lines of a comment where these are defined.
 pub fn legend(compiled: &Compiled) -> Vec<String> {
-    let of_links = compiled.model.chain().map(|_| wrapped(TEMPORARIES, WIDTH));
-    let mut legend = of_links.unwrap_or_default();
+    let mut legend = Vec::new();
+    if let Some(chain) = compiled.model.chain() {
+        let parameters = match compiled.baked {
+            Some(_) => ", and of the parameters above",
+            None => "",
+        };
+        legend.extend(frames(chain, &compiled.model.joints, parameters));
+        legend.extend(wrapped(TEMPORARIES, WIDTH));
+    }
     legend.extend(wrapped(COSTS, WIDTH));
     legend
 }
@@ -59,7 +68,26 @@ pub fn legend(compiled: &Compiled) -> Vec<String> {
 /// What the names of temporaries say; see [`Label`](crate::expr::Label).
 const TEMPORARIES: &str = "Of link 1, along its axes: w1x angular velocity, dw1x angular acceleration, u1xy entry of \
                            U = [dw]x + [w]x [w]x, a1x acceleration less gravity of the point that the function takes for its \
-                           origin; m_12 entry of M. What has no such meaning is numbered, t0, t1 and so on.";
+                           origin; m_12 entry of M. Temporaries t0, t1 and so on have no such meaning.";
+
+/// The spec's own numbers, of which other decimals on the page are made: a line each. Nothing where they would fill the page.
+fn frames(chain: &Chain, joints: &[Joint], parameters: &str) -> Vec<String> {
+    /// Lines of joints.
+    const MOST: usize = 10;
+    let links = joints.iter().zip(&chain.links);
+    let lines = links.map(|(joint, link)| format!("    {}: {}", joint.name, link.frame));
+    let lines: Vec<String> = lines.collect();
+    if lines.len() > MOST || lines.iter().any(|line| line.len() > WIDTH) {
+        return Vec::new();
+    }
+    let [x, y, z] = chain.gravity.map(Digits);
+    let convention = chain.convention.name();
+    let about = format!(
+        "Decimals in the functions are made of the numbers of effects{parameters}, and of these of the spec: \
+         gravity = [{x},{TIGHT}{y},{TIGHT}{z}]; {convention}, of whose angles there are sines and cosines:"
+    );
+    [wrapped(&about, WIDTH), lines].concat()
+}
 
 /// What costs say; see [`Cost`](crate::optimize::Cost).
 const COSTS: &str = "Costs are multiplications, additions and subtractions, sines and cosines; other: calls of functions, and choices.";

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::names::Namer;
 use super::written::{Binding, Writer, Written};
 use crate::expr::{Dag, ExprId, Function, Names, Node, Symbol};
-use crate::optimize::Cost;
+use crate::optimize::{Cost, operations};
 
 /// An expression with more operations than this is broken up by a named part.
 const LONGEST_EXPRESSION: usize = 12;
@@ -80,7 +80,6 @@ impl Schedule {
                 Node::Call(function @ (Function::Sin | Function::Cos), angle)
                     if is_sum_of_positions(dag, angle) =>
                 {
-                    writer.count_trig();
                     let place = known.iter().position(|&one| one == angle);
                     let place = place.unwrap_or_else(|| {
                         known.push(angle);
@@ -115,7 +114,7 @@ impl Schedule {
             shared,
             ready: outputs.iter().map(|x| needs[x.index()]).collect(),
             outputs: outputs.iter().map(|&x| writer.value(x)).collect(),
-            cost: writer.cost(),
+            cost: operations(dag, outputs),
             reads: symbols.into_iter().map(|x| binding(x).argument()).collect(),
         }
     }
@@ -135,18 +134,7 @@ fn is_sum_of_positions(dag: &Dag, x: ExprId) -> bool {
 
 /// Which expressions become temporaries: those used more than once, function calls, and parts of long expressions.
 pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec<bool> {
-    let mut uses = vec![0usize; dag.len()];
-    for &output in outputs {
-        uses[through_sign(dag, output).index()] += 1;
-    }
-    for &x in order.iter().rev().filter(|&&x| !is_negation(dag, x)) {
-        // What only hung on a negation was counted for its operand.
-        if uses[x.index()] > 0 {
-            for operand in dag.node(x).operands() {
-                uses[through_sign(dag, operand).index()] += 1;
-            }
-        }
-    }
+    let uses = dag.uses(order, outputs);
     let mut named = vec![false; dag.len()];
     // Operations in the expression if it is written out where it is used.
     let mut size = vec![0usize; dag.len()];
@@ -162,7 +150,9 @@ pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec
             Node::Select(..) => (false, true),
             _ => (false, false),
         };
-        if atom || is_negation(dag, x) {
+        // A product divides by what only it has the reciprocal of.
+        let divides = matches!(dag.node(x), Node::Call(Function::Recip, _)) && uses[x.index()] == 1;
+        if atom || divides || dag.is_negation(x) {
             size[x.index()] = inline;
         } else if call || uses[x.index()] > 1 || inline + 1 > LONGEST_EXPRESSION {
             named[x.index()] = uses[x.index()] > 0;
@@ -177,14 +167,63 @@ pub fn named_expressions(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Vec
     named
 }
 
-/// `-x` costs nothing where it is added or multiplied; it is never a temporary.
-pub fn is_negation(dag: &Dag, x: ExprId) -> bool {
-    matches!(dag.node(x), Node::Mul(..)) && dag.coefficient(x).0.to_bits() == (-1.0f64).to_bits()
-}
+#[cfg(test)]
+mod tests {
+    use super::super::written::{Operator, Place, Written};
+    use super::Schedule;
+    use crate::expr::{Dag, Names, Symbol};
+    use crate::optimize::Cost;
 
-fn through_sign(dag: &Dag, x: ExprId) -> ExprId {
-    match (is_negation(dag, x), dag.coefficient(x).1) {
-        (true, Some(positive)) => positive,
-        _ => x,
+    /// Counts what is written down.
+    fn count(written: &Written, cost: &mut Cost) {
+        match written {
+            Written::Number(_) | Written::Place(_) | Written::Name(_) => {}
+            Written::Parentheses(x) | Written::Negative(x) => count(x, cost),
+            Written::Binary(operator, both) => {
+                match operator {
+                    Operator::Plus | Operator::Minus => cost.add += 1,
+                    Operator::Times => cost.mul += 1,
+                    Operator::Over => cost.div += 1,
+                }
+                both.iter().for_each(|x| count(x, cost));
+            }
+            Written::Call(..) | Written::Power(_) | Written::Choice(_) => {
+                unreachable!("quotients have none")
+            }
+        }
+    }
+
+    /// Reciprocals that one product uses, that several use, that are subtracted and that are made before the other factor.
+    #[test]
+    fn the_page_has_the_operations_that_it_says() {
+        let mut dag = Dag::new();
+        let [x, y, a] = [0, 1, 2].map(|k| dag.symbol(Symbol::Q(k)));
+        let (over_x, sum) = (dag.call(crate::expr::Function::Recip, x), dag.add(y, a));
+        let behind = dag.mul(over_x, sum);
+        let half = dag.scale(2.0, over_x);
+        let subtracted = dag.sub(y, half);
+        let [first, second, third] = [y, a, sum].map(|other| dag.mul(over_x, other));
+        let outputs = [
+            vec![behind],
+            vec![subtracted],
+            vec![first, second, third],
+            vec![over_x],
+        ];
+        for (outputs, wanted) in outputs
+            .iter()
+            .zip([(0, 1, 1), (0, 1, 1), (3, 1, 1), (0, 0, 1)])
+        {
+            let names = Names::default();
+            let place = |_| Place::Entry("q", 0);
+            let schedule = Schedule::new(&dag, &names, &place, outputs);
+            let mut found = Cost::default();
+            let shared = schedule.shared.iter().chain(&schedule.sums);
+            let written = shared.map(|temporary| &temporary.value);
+            written
+                .chain(&schedule.outputs)
+                .for_each(|x| count(x, &mut found));
+            assert_eq!(found, schedule.cost);
+            assert_eq!((found.mul, found.add, found.div), wanted);
+        }
     }
 }

@@ -6,7 +6,6 @@
 use std::collections::HashMap;
 
 use crate::expr::{Dag, ExprId, Function, Node, Symbol};
-use crate::optimize::Cost;
 
 /// An expression, ready to be spelled.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,13 +98,12 @@ enum Strength {
 /// Where the symbols of a function are.
 pub type Binding<'a> = dyn Fn(Symbol) -> Place + 'a;
 
-/// Writes expressions and counts their operations.
+/// Writes expressions.
 pub struct Writer<'a> {
     dag: &'a Dag,
     binding: &'a Binding<'a>,
     // Looked up only.
     names: HashMap<ExprId, String>,
-    cost: Cost,
 }
 
 impl<'a> Writer<'a> {
@@ -115,7 +113,6 @@ impl<'a> Writer<'a> {
             dag,
             binding,
             names: HashMap::new(),
-            cost: Cost::default(),
         }
     }
 
@@ -124,34 +121,24 @@ impl<'a> Writer<'a> {
         self.names.insert(x, name);
     }
 
-    /// Operations written so far.
-    pub fn cost(&self) -> Cost {
-        self.cost
-    }
-
-    /// A sine or cosine that is computed with others.
-    pub fn count_trig(&mut self) {
-        self.cost.trig += 1;
-    }
-
     /// The expression, by its temporary if it has one.
-    pub fn value(&mut self, x: ExprId) -> Written {
+    pub fn value(&self, x: ExprId) -> Written {
         self.write(x).0
     }
 
     /// The right-hand side of the expression's temporary.
-    pub fn definition(&mut self, x: ExprId) -> Written {
+    pub fn definition(&self, x: ExprId) -> Written {
         self.write_node(x).0
     }
 
-    fn write(&mut self, x: ExprId) -> (Written, Strength) {
+    fn write(&self, x: ExprId) -> (Written, Strength) {
         match self.names.get(&x) {
             Some(name) => (Written::Name(name.clone()), Strength::Atom),
             None => self.write_node(x),
         }
     }
 
-    fn at_least(&mut self, x: ExprId, strength: Strength) -> Written {
+    fn at_least(&self, x: ExprId, strength: Strength) -> Written {
         let (written, own) = self.write(x);
         if own < strength {
             Written::Parentheses(Box::new(written))
@@ -160,34 +147,26 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn write_node(&mut self, x: ExprId) -> (Written, Strength) {
+    fn write_node(&self, x: ExprId) -> (Written, Strength) {
         match self.dag.node(x) {
             Node::Constant(value) => (Written::Number(value.get()), Strength::Atom),
             Node::Symbol(symbol) => (Written::Place((self.binding)(symbol)), Strength::Atom),
             Node::Add(p, q) => (self.write_sum(p, q), Strength::Sum),
             Node::Mul(p, q) => (self.write_product(p, q), Strength::Product),
             Node::Power(p, q) => {
-                self.cost.call += 1;
                 let both = [self.value(p), self.value(q)];
                 (Written::Power(Box::new(both)), Strength::Atom)
             }
             Node::Select(condition, p, q) => {
-                self.cost.call += 1;
                 let all = [self.value(condition), self.value(p), self.value(q)];
                 (Written::Choice(Box::new(all)), Strength::Atom)
             }
             Node::Call(Function::Recip, p) => {
-                self.cost.div += 1;
                 let p = self.at_least(p, Strength::Atom);
                 let quotient = Written::binary(Operator::Over, Written::Number(1.0), p);
                 (quotient, Strength::Product)
             }
             Node::Call(function, p) => {
-                if matches!(function, Function::Sin | Function::Cos) {
-                    self.cost.trig += 1;
-                } else {
-                    self.cost.call += 1;
-                }
                 let p = self.value(p);
                 (Written::Call(function, Box::new(p)), Strength::Atom)
             }
@@ -199,8 +178,15 @@ impl<'a> Writer<'a> {
         !self.names.contains_key(&x) && self.dag.coefficient(x).0 < 0.0
     }
 
-    fn write_sum(&mut self, p: ExprId, q: ExprId) -> Written {
-        self.cost.add += 1;
+    /// What a product with this reciprocal divides by, where nothing else uses it.
+    fn divisor(&self, x: ExprId) -> Option<ExprId> {
+        match self.dag.node(x) {
+            Node::Call(Function::Recip, divisor) if !self.names.contains_key(&x) => Some(divisor),
+            _ => None,
+        }
+    }
+
+    fn write_sum(&self, p: ExprId, q: ExprId) -> Written {
         let (p, q) = match (self.is_negative(p), self.is_negative(q)) {
             (true, false) => (q, p),
             // A number reads better behind what it is added to.
@@ -220,30 +206,30 @@ impl<'a> Writer<'a> {
     }
 
     /// `c x` with positive `c`, as an operand of a subtraction.
-    fn scaled(&mut self, c: f64, x: ExprId) -> Written {
-        let rest = self.at_least(x, Strength::Product);
+    fn scaled(&self, c: f64, x: ExprId) -> Written {
         if c.to_bits() == 1.0f64.to_bits() {
-            return rest;
+            return self.at_least(x, Strength::Product);
         }
-        self.cost.mul += 1;
+        if let Some(divisor) = self.divisor(x) {
+            let divisor = self.at_least(divisor, Strength::Atom);
+            return Written::binary(Operator::Over, Written::Number(c), divisor);
+        }
+        let rest = self.at_least(x, Strength::Product);
         Written::binary(Operator::Times, Written::Number(c), rest)
     }
 
-    fn write_product(&mut self, p: ExprId, q: ExprId) -> Written {
-        let factor = self.dag.as_constant(p);
-        if factor.is_some_and(|c| c.to_bits() == (-1.0f64).to_bits()) {
+    fn write_product(&self, p: ExprId, q: ExprId) -> Written {
+        if self.dag.as_constant(p) == Some(-1.0) {
             let rest = self.at_least(q, Strength::Product);
             return Written::Negative(Box::new(rest));
         }
-        if let (Node::Call(Function::Recip, q), false) =
-            (self.dag.node(q), self.names.contains_key(&q))
-        {
-            self.cost.div += 1;
-            let left = self.at_least(p, Strength::Product);
-            let right = self.at_least(q, Strength::Atom);
-            return Written::binary(Operator::Over, left, right);
+        for (x, over) in [(p, q), (q, p)] {
+            if let Some(divisor) = self.divisor(over) {
+                let left = self.at_least(x, Strength::Product);
+                let right = self.at_least(divisor, Strength::Atom);
+                return Written::binary(Operator::Over, left, right);
+            }
         }
-        self.cost.mul += 1;
         let left = self.at_least(p, Strength::Product);
         let right = self.at_least(q, Strength::Product);
         Written::binary(Operator::Times, left, right)

@@ -16,6 +16,7 @@ mod rounding;
 pub mod rules;
 mod substitute;
 mod switch;
+mod uses;
 
 use std::collections::{HashMap, HashSet};
 

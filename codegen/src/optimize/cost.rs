@@ -31,7 +31,8 @@ impl std::fmt::Display for Cost {
 }
 
 impl Optimized {
-    /// Operations of all outputs together. A sign costs nothing, and a product with a reciprocal is a division.
+    /// Operations of all outputs together. A sign costs nothing, and a product with a reciprocal that nothing else uses is a
+    /// division.
     #[must_use]
     pub fn cost(&self) -> Cost {
         operations(&self.dag, &self.outputs)
@@ -41,13 +42,16 @@ impl Optimized {
 /// Operations of expressions as they are.
 pub(crate) fn operations(dag: &Dag, outputs: &[ExprId]) -> Cost {
     let mut cost = Cost::default();
-    let is_quotient = |x: ExprId| matches!(dag.node(x), Node::Call(Function::Recip, _));
-    for x in dag.reachable(outputs) {
+    let order = dag.reachable(outputs);
+    let uses = dag.uses(&order, outputs);
+    let divides =
+        |x: ExprId| matches!(dag.node(x), Node::Call(Function::Recip, _)) && uses[x.index()] == 1;
+    for x in order {
         match dag.node(x) {
             Node::Constant(_) | Node::Symbol(_) => {}
             Node::Add(..) => cost.add += 1,
-            Node::Mul(..) if dag.coefficient(x).0.to_bits() == (-1.0f64).to_bits() => {}
-            Node::Mul(p, q) if is_quotient(p) || is_quotient(q) => {}
+            Node::Mul(..) if dag.is_negation(x) => {}
+            Node::Mul(p, q) if divides(p) || divides(q) => {}
             Node::Mul(..) => cost.mul += 1,
             Node::Call(Function::Sin | Function::Cos, _) => cost.trig += 1,
             Node::Call(Function::Recip, _) => cost.div += 1,

@@ -103,15 +103,12 @@ fn places(network: &Network) -> BTreeMap<Kernel, Vec<Place>> {
 fn disjoint(places: &[Place], changed: &[bool]) -> Vec<Place> {
     let mut taken: Vec<(Id, usize)> = Vec::new();
     let mut kept: Vec<Place> = Vec::new();
-    // Those with a factor first: they save more.
-    for wanted in [true, false] {
-        for place in places.iter().filter(|p| p.factor.is_empty() != wanted) {
-            let terms = [(place.sum, place.terms.0), (place.sum, place.terms.1)];
-            let free = terms.iter().all(|term| !taken.contains(term));
-            if free && !changed.get(place.sum).copied().unwrap_or(false) {
-                taken.extend(terms);
-                kept.push(place.clone());
-            }
+    for place in places {
+        let terms = [(place.sum, place.terms.0), (place.sum, place.terms.1)];
+        let free = terms.iter().all(|term| !taken.contains(term));
+        if free && !changed.get(place.sum).copied().unwrap_or(false) {
+            taken.extend(terms);
+            kept.push(place.clone());
         }
     }
     kept

@@ -33,7 +33,7 @@ const LARGE: usize = 10_000;
 /// Rewrites the outputs of one function.
 ///
 /// What is taken out of sums leaves parts that only one other sum uses; written out there more may cancel. So what comes out
-/// goes in again, to be shared anew or just to cancel, as long as that spares something.
+/// goes in again, to cancel and be shared anew, as long as that spares something.
 #[must_use]
 pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     let sum = |optimized: &Optimized| {
@@ -42,13 +42,7 @@ pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     };
     let mut best = pass(dag, outputs);
     loop {
-        let anew = pass(&best.dag, &best.outputs);
-        let canceled = rebuild::rebuild(&best.dag, &opened(&best.dag, &best.outputs));
-        let next = if sum(&anew) <= sum(&canceled) {
-            anew
-        } else {
-            canceled
-        };
+        let next = pass(&best.dag, &best.outputs);
         if sum(&next) >= sum(&best) {
             return best;
         }
@@ -56,15 +50,9 @@ pub fn optimize(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     }
 }
 
-/// The network of outputs, in which what cancels is gone.
-fn opened(dag: &Dag, outputs: &[ExprId]) -> Network {
+fn pass(dag: &Dag, outputs: &[ExprId]) -> Optimized {
     let mut network = Network::new(dag, outputs);
     terms::open(&mut network);
-    network
-}
-
-fn pass(dag: &Dag, outputs: &[ExprId]) -> Optimized {
-    let network = opened(dag, outputs);
     let orders = [(false, false), (true, false), (false, true), (true, true)];
     let tried = if network.operations() > LARGE {
         1

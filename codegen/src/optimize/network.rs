@@ -102,14 +102,6 @@ impl Network {
     }
 }
 
-/// `-x` as a sign and `x`.
-fn unsigned(dag: &Dag, x: ExprId) -> (bool, ExprId) {
-    match dag.coefficient(x) {
-        (c, Some(rest)) if c.to_bits() == (-1.0f64).to_bits() => (true, rest),
-        _ => (false, x),
-    }
-}
-
 /// How often expressions are used, with signs looked through.
 struct Uses {
     count: Vec<usize>,
@@ -119,26 +111,15 @@ struct Uses {
 
 impl Uses {
     fn new(dag: &Dag, order: &[ExprId], outputs: &[ExprId]) -> Self {
-        let mut count = vec![0; dag.len()];
-        for &output in outputs {
-            // A result is a value of its own, even where one sum uses it besides.
-            count[unsigned(dag, output).1.index()] += 2;
-        }
+        // A result that one sum uses besides is used twice.
+        let count = dag.uses(order, outputs);
         let mut inside = vec![false; dag.len()];
-        for &x in order.iter().rev() {
-            if count[x.index()] == 0 {
-                continue;
-            }
-            for operand in dag.node(x).operands() {
-                count[unsigned(dag, operand).1.index()] += 1;
-            }
-        }
         for &x in order {
             if count[x.index()] == 0 {
                 continue;
             }
             for operand in dag.node(x).operands() {
-                let operand = unsigned(dag, operand).1;
+                let operand = dag.unsigned(operand).1;
                 let fits = matches!(
                     (dag.node(x), dag.node(operand)),
                     (Node::Add(..), Node::Add(..) | Node::Mul(..)) | (Node::Mul(..), Node::Mul(..))
@@ -191,7 +172,7 @@ impl Builder<'_> {
         let mut stack = vec![(false, x)];
         let mut first = true;
         while let Some((negative, x)) = stack.pop() {
-            let (sign, x) = unsigned(self.dag, x);
+            let (sign, x) = self.dag.unsigned(x);
             let negative = negative != sign;
             let open = std::mem::take(&mut first) || self.uses.inside[x.index()];
             match self.dag.node(x) {
@@ -219,7 +200,7 @@ impl Builder<'_> {
         let mut stack = vec![x];
         let mut first = true;
         while let Some(x) = stack.pop() {
-            let (sign, x) = unsigned(self.dag, x);
+            let (sign, x) = self.dag.unsigned(x);
             negative ^= sign;
             let open = std::mem::take(&mut first) || self.uses.inside[x.index()];
             match self.dag.node(x) {
@@ -237,7 +218,7 @@ impl Builder<'_> {
 
     /// Sign and cell of an expression that has a cell.
     fn reference(&mut self, x: ExprId) -> (bool, Id) {
-        let (negative, x) = unsigned(self.dag, x);
+        let (negative, x) = self.dag.unsigned(x);
         match self.dag.as_constant(x) {
             Some(value) => {
                 let size = value.abs();

@@ -151,14 +151,14 @@ impl Rebuilder<'_> {
 
     /// Positive terms first; a sum without any is the negative of one that has no others.
     fn sum(&mut self, terms: &[Term]) -> (bool, ExprId) {
-        let terms: Vec<(bool, ExprId)> = terms
+        let mut terms: Vec<(bool, ExprId)> = terms
             .iter()
             .map(|term| {
                 let (negative, x) = self.product(&term.factors);
                 (negative != term.negative, x)
             })
             .collect();
-        let terms = self.without_cancelling(terms);
+        terms.retain(|term| !self.dag.is_zero(term.1));
         if terms.is_empty() {
             return (false, self.dag.zero());
         }
@@ -174,22 +174,6 @@ impl Rebuilder<'_> {
             .chain(negative)
             .reduce(|x, y| self.dag.as_it_is(Node::Add(x.min(y), x.max(y))));
         (all_negative, sum.expect("a sum has terms"))
-    }
-
-    /// Cells that were apart in the network may be one expression: `x - x` goes, and so does 0.
-    fn without_cancelling(&self, terms: Vec<(bool, ExprId)>) -> Vec<(bool, ExprId)> {
-        let mut kept: Vec<(bool, ExprId)> = Vec::with_capacity(terms.len());
-        for (negative, x) in terms {
-            let opposite = kept.iter().position(|&other| other == (!negative, x));
-            match opposite {
-                Some(k) => {
-                    kept.remove(k);
-                }
-                None if self.dag.is_zero(x) => {}
-                None => kept.push((negative, x)),
-            }
-        }
-        kept
     }
 
     fn signed(&mut self, negative: bool, x: ExprId) -> ExprId {

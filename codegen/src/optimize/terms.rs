@@ -1,6 +1,7 @@
 //! Terms of a sum that are multiples of one product: `c x + y - c x = y`, `x + y + x = 2 x + y`, and for a while the other way.
 
 use super::network::{Cell, Id, Network, Term};
+use crate::rounded::Rounded;
 
 /// Collects them in every sum. Parts of a sum that were apart in the dag are next to each other in the network. Numbers of a
 /// product are one.
@@ -81,9 +82,10 @@ fn written_out(network: &mut Network, term: &Term) -> Option<Vec<Term>> {
     };
     let inner = inner.clone().into_iter().map(|inner| {
         let (own, rest) = apart(network, &inner);
-        together(network, number * own, rest)
+        let number = number * own;
+        number.is_normal().then(|| together(network, number, rest))
     });
-    Some(inner.collect())
+    inner.collect()
 }
 
 /// `2 x` as `x + x`, which costs as much: so `y + 2 x` has `y + x` in it.
@@ -114,7 +116,11 @@ fn collected(network: &mut Network, mut terms: Vec<Term>) -> Option<Vec<Term>> {
             j += 1;
             continue;
         };
-        let sum = apart(network, &terms[i]).0 + factor;
+        let sum = sum_of_numbers(apart(network, &terms[i]).0, factor);
+        if !sum.is_finite() {
+            j += 1;
+            continue;
+        }
         terms.remove(j);
         if sum == 0.0 {
             terms.remove(i);
@@ -124,6 +130,13 @@ fn collected(network: &mut Network, mut terms: Vec<Term>) -> Option<Vec<Term>> {
         }
     }
     (terms.len() < before).then_some(terms)
+}
+
+/// A named rounding step: 0 where nothing but rounding is left of two numbers, as of those of a [`Dag`](crate::expr::Dag).
+fn sum_of_numbers(c: f64, d: f64) -> f64 {
+    (Rounded::constant(c) + Rounded::constant(d))
+        .cleaned()
+        .value
 }
 
 /// Makes the numbers of each product of a cell one.
@@ -160,17 +173,25 @@ fn operations(terms: &[Term]) -> usize {
         .saturating_sub(1)
 }
 
-/// A number and the other factors.
+/// A number and the other factors. Numbers stay where they are if they are too large or too small to be one.
 fn apart(network: &Network, term: &Term) -> (f64, Vec<Id>) {
-    let mut number = if term.negative { -1.0 } else { 1.0 };
+    let sign = if term.negative { -1.0 } else { 1.0 };
+    let (mut number, mut has_zero) = (sign, false);
     let mut rest = Vec::with_capacity(term.factors.len());
     for &factor in &term.factors {
         match network.cells[factor] {
-            Cell::Number(value) => number *= value,
+            Cell::Number(value) => {
+                number *= value;
+                has_zero |= value == 0.0;
+            }
             _ => rest.push(factor),
         }
     }
-    (number, rest)
+    if number.is_normal() || has_zero && number == 0.0 {
+        (number, rest)
+    } else {
+        (sign, term.factors.clone())
+    }
 }
 
 fn together(network: &mut Network, number: f64, mut factors: Vec<Id>) -> Term {

@@ -1,7 +1,7 @@
 //! The table of rewrites: one row each, with an example, what it costs before and after.
 
 use super::{Cost, operations, optimize};
-use crate::expr::{Dag, ExprId, Function, Symbol};
+use crate::expr::{Dag, ExprId, Function, Node, Symbol};
 
 /// Builds outputs from `x`, `y`, `a` and `b`.
 type Build = fn(&mut Dag, [ExprId; 4]) -> Vec<ExprId>;
@@ -140,6 +140,50 @@ const TABLE: &[(&str, Build, Operations, Operations)] = &[
         (3, 2),
     ),
     (
+        "0.1 x + y + 0.2 x + a - 0.3 x = y + a: what is left of numbers that cancel is no term",
+        |d, [x, y, a, b]| {
+            let [one, two, three] = [0.1, 0.2, -0.3].map(|c| d.scale(c, x));
+            // What is between hides from the rules of the dag that they cancel.
+            let sum = [y, a, two, b, three]
+                .iter()
+                .fold(one, |sum, &x| d.add(sum, x));
+            vec![sum]
+        },
+        (3, 5),
+        (0, 2),
+    ),
+    (
+        "x b, x a - b a x = a (x - x b): one of two common factors",
+        |d, [x, _, a, b]| {
+            let (alone, left, both) = (d.mul(x, b), d.mul(x, a), d.mul(b, a));
+            let right = d.mul(both, x);
+            vec![alone, d.sub(left, right)]
+        },
+        (4, 1),
+        (2, 1),
+    ),
+    (
+        "b b - x b - x a b: a saving that another has spoilt is none",
+        |d, [x, _, a, b]| {
+            let (one, both, square) = (d.mul(x, b), d.mul(x, a), d.mul(b, b));
+            let (one, two) = (d.neg(one), d.mul(both, b));
+            let sum = d.sub(one, two);
+            vec![d.add(sum, square)]
+        },
+        (4, 2),
+        (2, 2),
+    ),
+    (
+        "y y, (y y) y + y x y, x: a product that is there is the shared one",
+        |d, [x, y, _, _]| {
+            let (square, other) = (d.mul(y, y), d.mul(y, x));
+            let (cube, other) = (d.mul(square, y), d.mul(other, y));
+            vec![square, d.add(cube, other), x]
+        },
+        (4, 1),
+        (2, 1),
+    ),
+    (
         "-a x - a y, subtracted: signs go outward",
         |d, [x, y, a, b]| {
             let product = d.mul(a, x);
@@ -213,4 +257,67 @@ fn a_sign_is_taken_by_a_subtraction() {
         crate::expr::Style::Text,
     );
     assert_eq!(text, "q1 - (q1 + q2) q3");
+}
+
+/// A page has the angles of a state in one list, which is read by joint.
+#[test]
+fn sines_come_first_in_the_order_in_which_they_were_made() {
+    let mut dag = Dag::new();
+    let [x, y, a, b] = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+    let [sin_x, sin_y] = [x, y].map(|x| dag.call(Function::Sin, x));
+    let outputs = [dag.mul(a, sin_y), dag.mul(b, sin_x)];
+    let optimized = optimize(&dag, &outputs);
+    let order = optimized.dag.reachable(&optimized.outputs);
+    let nodes = order.iter().map(|&x| optimized.dag.node(x));
+    let computed: Vec<Node> = nodes
+        .filter(|node| !matches!(node, Node::Symbol(_)))
+        .collect();
+    let sine_of = |node: Node| match node {
+        Node::Call(Function::Sin, x) => optimized.dag.node(x),
+        other => other,
+    };
+    let first = [0, 1].map(|k| sine_of(computed[k]));
+    assert_eq!(first, [0, 1].map(|k| Node::Symbol(Symbol::Q(k))));
+}
+
+/// Together they would have no double, or not all of its digits.
+#[test]
+fn numbers_of_a_product_stay_apart_where_together_they_are_none() {
+    for size in [1e200, 1e-200] {
+        let mut dag = Dag::new();
+        let [x, y, a, b] = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+        let small = dag.scale(size, x);
+        let product = dag.scale(size, small);
+        // A sum that is used twice, and written out where it cancels.
+        let sum = dag.add(small, y);
+        let (large, other) = (dag.scale(size, sum), dag.scale(size, y));
+        let between = dag.add(large, b);
+        let written_out = dag.sub(between, other);
+        let outputs = [product, written_out, dag.mul(a, sum)];
+        let optimized = optimize(&dag, &outputs);
+        let state = |symbol| match symbol {
+            Symbol::Q(0) => size.powf(-1.5),
+            Symbol::Q(1) => size.powf(-0.5),
+            Symbol::Q(2) => 1.0,
+            _ => size.sqrt(),
+        };
+        for (&x, &y) in outputs.iter().zip(&optimized.outputs) {
+            let (x, y) = (dag.evaluate(x, &state), optimized.dag.evaluate(y, &state));
+            assert!((x - y).abs() <= 1e-14 * x.abs(), "{size}: {x} {y}");
+        }
+    }
+}
+
+/// A reciprocal that several products share is one division, and each of them multiplies.
+#[test]
+fn a_division_is_that_of_one_product() {
+    let mut dag = Dag::new();
+    let [x, y, a, b] = std::array::from_fn(|k| dag.symbol(Symbol::Q(k)));
+    let quotients = [y, a, b].map(|other| dag.div(other, x));
+    let count = |outputs: &[ExprId]| {
+        let cost = operations(&dag, outputs);
+        (cost.mul, cost.div)
+    };
+    assert_eq!(count(&quotients[..1]), (0, 1));
+    assert_eq!(count(&quotients), (3, 1));
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use proc_macro2::Span;
 use syn::Ident;
 
-use super::frame::{Z, check_keys, check_placement};
+use super::frame::{Z, check_keys, check_placement, written};
 use super::setting::Settings;
 use super::unit::Dimension;
 use super::{Errors, check_unique, optional, value};
@@ -19,6 +19,7 @@ pub(super) struct CheckedJoint {
     name: String,
     kind: JointKind,
     placement: Placement,
+    frame: String,
     limits: Limits,
     actuator_gain: f64,
     pub(super) link: Ident,
@@ -39,6 +40,7 @@ impl CheckedJoint {
         let link = Link {
             name,
             placement: self.placement,
+            frame: self.frame,
             inertial,
         };
         (joint, link)
@@ -141,6 +143,7 @@ fn check_joint(
             offset: 0.0,
             after: Transform::IDENTITY,
         }),
+        frame: written(joint),
         limits: check_limits(&settings, kind, errors),
         actuator_gain: check_gain(&settings, errors),
         link: check_link_name(joint, &settings, errors),

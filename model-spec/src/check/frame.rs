@@ -31,6 +31,21 @@ fn frame_keys(
     }
 }
 
+/// The numbers of a joint's frame as they are written.
+pub(super) fn written(joint: &ast::Joint) -> String {
+    let settings = joint.settings.iter();
+    let numbers = settings.filter_map(|setting| {
+        let key = setting.key.to_string();
+        if key != "offset" && !FRAME_KEYS.contains(&key.as_str()) {
+            return None;
+        }
+        let value = setting.value.span().source_text()?;
+        let value: Vec<&str> = value.split_whitespace().collect();
+        Some(format!("{key} = {}", value.join(" ")))
+    });
+    numbers.collect::<Vec<_>>().join("; ")
+}
+
 /// Keys of all conventions.
 const FRAME_KEYS: [&str; 7] = ["a", "alpha", "d", "theta", "xyz", "rpy", "axis"];
 
@@ -68,7 +83,7 @@ pub(super) fn check_keys(
         errors.push(Diagnostic::new(setting.key.span(), message, label).help(help));
     }
     if let Some((first, rest)) = foreign.split_first() {
-        let name = convention_name(convention);
+        let name = convention.name();
         let message = format!(
             "joint `{}` is written in another convention than `{name}`",
             joint.name
@@ -109,14 +124,6 @@ fn check_complete(joint: &ast::Joint, required: &[&str], errors: &mut Errors) {
             Diagnostic::new(joint.name.span(), message, "incomplete frame")
                 .help(format!("add {}", example(&missing))),
         );
-    }
-}
-
-fn convention_name(convention: Convention) -> &'static str {
-    match convention {
-        Convention::StandardDh => "standard_dh",
-        Convention::ModifiedDh => "modified_dh",
-        Convention::Origin => "origin",
     }
 }
 

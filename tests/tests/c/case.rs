@@ -21,9 +21,10 @@ use super::header;
 const BAKED: [&str; 3] = ["puma560", "memory", "phantom"];
 
 /// What no other spec has: states of one effect that depend on each other, and a torque on one joint by the acceleration of
-/// another, so that the matrix of the accelerations is not symmetric.
+/// another, so that the matrix of the accelerations is not symmetric. Its name has the words in it that stand for a name in the
+/// files of helpers.
 const LOPSIDED: &str = "\
-robot Lopsided {
+robot MyRobotStates {
     gravity = [0, -9.81, 0];
     convention = standard_dh;
     joint shoulder: revolute { a = 0.4; alpha = 0; d = 0; }

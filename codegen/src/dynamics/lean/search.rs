@@ -9,7 +9,7 @@ use crate::dynamics::computed::operations;
 use crate::dynamics::frame::Frame;
 use crate::dynamics::rigid::Terms;
 use crate::dynamics::vector::Vector;
-use crate::expr::Dag;
+use crate::expr::{Dag, ExprId};
 
 /// One way to write a chain.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,6 +65,7 @@ impl Choice {
         };
         search.cost = search.operations(&search.best);
         let places = places(dag, &chain.frames);
+        let weight = weight(dag, chain);
         let mut before = usize::MAX;
         while search.cost < before {
             before = search.cost;
@@ -88,11 +89,12 @@ impl Choice {
                 // Links between carry the mass on, as far down as that makes nothing worse; none is carried past a slide.
                 let slide = (1..link).rev().find(|&k| !search.turns(k));
                 for first in slide.map_or(1, |k| k + 1)..=link {
-                    search.offer(|choice| {
-                        for lent in &mut choice.lent[first..=link] {
-                            *lent += mass;
-                        }
-                    });
+                    let mut lent = search.best.lent.clone();
+                    lent[first..=link].iter_mut().for_each(|lent| *lent += mass);
+                    // More than the arm weighs would cost digits: it cancels again.
+                    if lent.iter().all(|mass| mass.abs() <= weight) {
+                        search.offer(|choice| choice.lent = lent);
+                    }
                 }
             }
             for unit in search.lengths() {
@@ -142,8 +144,6 @@ impl Search<'_> {
 
     /// Masses that make a first moment of a parent vanish when the link is lent them.
     fn masses(&self) -> Vec<(usize, f64)> {
-        /// A heavier mass would cost digits.
-        const HEAVIEST: f64 = 1e3;
         let mut dag = self.dag.clone();
         let choice = Choice {
             unit: 1.0,
@@ -158,7 +158,6 @@ impl Search<'_> {
                 if let (Some(step), Some(first)) = (dag.as_constant(step), dag.as_constant(first))
                     && step.abs() > NEAR
                     && first != 0.0
-                    && (first / step).abs() < HEAVIEST
                 {
                     masses.push((link, first / step));
                 }
@@ -184,6 +183,22 @@ impl Search<'_> {
         lengths.dedup();
         lengths
     }
+}
+
+/// What an arm weighs at least, kg: base parameters have few masses, but where a link has its first moment, there is a mass within
+/// the longest length.
+fn weight(dag: &Dag, chain: &Chain) -> f64 {
+    let size = |x: ExprId| dag.as_constant(x).map_or(0.0, f64::abs);
+    let largest = |numbers: &[ExprId]| numbers.iter().map(|&x| size(x)).fold(0.0, f64::max);
+    let frames = chain.frames.iter();
+    let lengths: Vec<ExprId> = frames
+        .flat_map(|frame| [frame.joint_point, frame.to_origin].concat())
+        .collect();
+    let longest = largest(&lengths).max(NEAR);
+    let links = chain.links.iter();
+    links
+        .map(|link| largest(&link[..1]).max(largest(&link[1..4]) / longest))
+        .sum()
 }
 
 /// Where origins may be worth moving to, per link: on the joint's axis, the next one's, or where these are next to each other.

@@ -59,11 +59,16 @@ impl Helper {
 
     /// Its definition on a page.
     pub fn definition(self, prefix: &str) -> String {
-        let upper = prefix.to_ascii_uppercase();
-        let text = self.row().text.replace("robot_", &format!("{prefix}_"));
-        // `ROBOT_MODEL_SINES_COSINES` is the same for all arms.
-        let text = text.replace("ROBOT_DOF", &format!("{upper}_DOF"));
-        text.replace("ROBOT_STATES", &format!("{upper}_STATES"))
+        /// Macros that are the same for all arms begin so.
+        const SHARED: &str = "ROBOT_MODEL_";
+        let upper = format!("{}_", prefix.to_ascii_uppercase());
+        // The second replacement finds nothing that the first has put there: a prefix has no capitals.
+        let named = |part: &str| {
+            let part = part.replace("robot_", &format!("{prefix}_"));
+            part.replace("ROBOT_", &upper)
+        };
+        let parts: Vec<String> = self.row().text.split(SHARED).map(named).collect();
+        parts.join(SHARED)
     }
 }
 
@@ -108,6 +113,27 @@ mod tests {
                 let says = helper.row().calls.contains(&other);
                 assert_eq!(text.contains(&call), says, "{helper:?} calls {other:?}");
                 assert!(!says || other < helper, "{other:?} stands first");
+            }
+        }
+    }
+
+    /// A prefix that has the word in it, or the words behind it, is put there as any other.
+    #[test]
+    fn a_prefix_is_put_in_once() {
+        for prefix in [
+            "robot",
+            "robot_dof",
+            "robot_states",
+            "my_robot_states",
+            "robot_model",
+        ] {
+            let upper = prefix.to_ascii_uppercase();
+            for helper in ALL {
+                let arm = helper
+                    .definition("arm")
+                    .replace("arm_", &format!("{prefix}_"));
+                let wanted = arm.replace("ARM_", &format!("{upper}_"));
+                assert_eq!(helper.definition(prefix), wanted);
             }
         }
     }

@@ -188,6 +188,8 @@ mod tests {
             ("Ärm", "rm"),
             ("Æ7", "arm7"),
             ("Base", "base"),
+            ("RobotStates", "robot_states"),
+            ("MyRobotStates", "my_robot_states"),
         ] {
             let prefix = Prefix::of_robot(name);
             assert_eq!(prefix.as_str(), wanted, "{name}");

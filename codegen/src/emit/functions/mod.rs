@@ -36,8 +36,13 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
     };
     let (computed, dof) = (&compiled.computed, compiled.dof());
 
+    let note = inertia_of_effects(compiled);
+    let with_note = Context {
+        note: &note,
+        ..context
+    };
     let mut functions = vec![
-        context.function(&Task {
+        with_note.function(&Task {
             name: "mass_matrix",
             doc: "Joint-space mass matrix `M(q)`, kg m^2 (kg for prismatic joints); symmetric, positive definite for \
                   physical `beta`.",
@@ -106,6 +111,44 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
     }
     functions.extend(memory(&context));
     functions
+}
+
+/// What the mass matrix has of the inertia of effects; empty where the arm has none.
+fn inertia_of_effects(compiled: &Compiled) -> String {
+    let reads_ddq = |k: usize| {
+        let rows = compiled.candidates.regressor.iter();
+        let column: Vec<_> = rows.map(|row| row[k]).collect();
+        let symbols = compiled.dag.symbols(&column);
+        symbols
+            .iter()
+            .any(|symbol| matches!(symbol, Symbol::Ddq(_)))
+    };
+    let standard = compiled.standard.iter().enumerate();
+    let inertias: Vec<_> = standard
+        .filter(|&(k, parameter)| !compiled.model.is_rigid(parameter) && reads_ddq(k))
+        .collect();
+    if inertias.is_empty() {
+        return String::new();
+    }
+    let is_outside = |k: usize, status: Status| {
+        matches!(status, Status::Fixed(_)) || compiled.base.kept.contains(&k)
+    };
+    let outside = inertias
+        .iter()
+        .filter(|(k, parameter)| is_outside(*k, parameter.status));
+    let outside: Vec<String> = outside
+        .map(|(_, parameter)| format!("`{}`", parameter.name))
+        .collect();
+    let without = if outside.is_empty() {
+        String::new()
+    } else {
+        format!(", so without {}", outside.join(", "))
+    };
+    format!(
+        "That of the rigid body, and of the inertia of effects what regroups into a base parameter of a link{without}. The slope \
+         of `inverse_dynamics` by `ddq` has all of it: `forward_dynamics` solves with that, and for computed torque call \
+         `inverse_dynamics`."
+    )
 }
 
 /// How the effects' internal states change, where there are some.

@@ -166,6 +166,18 @@ fn finite(dag: &mut Dag, value: f64) -> Option<ExprId> {
     value.is_finite().then(|| dag.folded(value))
 }
 
+/// `c d`, where that is a number with all its digits: in `1e-200 (1e-200 x)` it is not.
+fn coefficient(dag: &mut Dag, c: f64, d: f64) -> Option<f64> {
+    let is_sign = equal(c.abs(), 1.0) || equal(d.abs(), 1.0);
+    (is_sign || (c * d).is_normal()).then(|| dag.product_of_numbers(c, d))
+}
+
+/// `(c + d) x`, where the sum is finite.
+fn collected(dag: &mut Dag, c: f64, d: f64, x: ExprId) -> Option<ExprId> {
+    let sum = dag.sum_of_numbers(c, d);
+    sum.is_finite().then(|| dag.multiple(sum, x))
+}
+
 /// Bit-equal: a rule holds for identical numbers only.
 const fn equal(c: f64, d: f64) -> bool {
     c.to_bits() == d.to_bits()
@@ -188,10 +200,10 @@ fn add_zero(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
 fn collect(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     let ((c, p), (d, q)) = (dag.coefficient(x), dag.coefficient(y));
     let (p, q) = (p?, q?);
-    (p == q).then(|| {
-        let sum = dag.sum_of_numbers(c, d);
-        dag.multiple(sum, p)
-    })
+    if p != q {
+        return None;
+    }
+    collected(dag, c, d, p)
 }
 
 fn collect_nested(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
@@ -208,11 +220,13 @@ fn collect_into(dag: &mut Dag, sum: ExprId, term: ExprId) -> Option<ExprId> {
     for (here, other) in [(p, q), (q, p)] {
         let (c, s) = dag.coefficient(here);
         if s == t {
-            let product = dag.product_of_numbers(outer, c);
-            let sum = dag.sum_of_numbers(product, d);
+            let product = coefficient(dag, outer, c)?;
             let collected = match t {
-                Some(t) => dag.multiple(sum, t),
-                None => dag.folded(sum),
+                Some(t) => collected(dag, product, d, t)?,
+                None => {
+                    let sum = dag.sum_of_numbers(product, d);
+                    finite(dag, sum)?
+                }
             };
             let other = dag.multiple(outer, other);
             return Some(dag.add(other, collected));
@@ -252,9 +266,8 @@ fn coefficients_meet(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
         return None;
     };
     let d = dag.as_constant(factor)?;
-    let product = dag.product_of_numbers(c, d);
-    let product = finite(dag, product)?;
-    Some(dag.mul(product, rest))
+    let product = coefficient(dag, c, d)?;
+    Some(dag.multiple(product, rest))
 }
 
 fn coefficient_outside(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
@@ -263,8 +276,8 @@ fn coefficient_outside(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     if p == x && q == y {
         return None;
     }
-    let coefficient = dag.product_of_numbers(c, d);
-    let coefficient = finite(dag, coefficient)?;
+    let coefficient = coefficient(dag, c, d)?;
+    let coefficient = dag.folded(coefficient);
     let product = dag.mul(p, q);
     Some(dag.mul(coefficient, product))
 }
@@ -362,7 +375,10 @@ fn recip_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<Exp
     if function != Function::Recip || equal(c, 1.0) {
         return None;
     }
-    let factor = finite(dag, c.recip())?;
+    if !c.recip().is_normal() {
+        return None;
+    }
+    let factor = dag.folded(c.recip());
     let recip = dag.call(function, rest?);
     Some(dag.mul(factor, recip))
 }

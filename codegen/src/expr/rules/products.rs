@@ -104,8 +104,7 @@ pub(super) fn collect_reordered(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<E
         return None;
     }
     let (_, product) = dag.coefficient(x);
-    let sum = dag.sum_of_numbers(left.coefficient, right.coefficient);
-    Some(dag.multiple(sum, product?))
+    super::collected(dag, left.coefficient, right.coefficient, product?)
 }
 
 pub(super) fn pythagoras(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {

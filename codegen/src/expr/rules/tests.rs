@@ -290,3 +290,37 @@ fn a_difference_of_cosines_is_the_cosine_of_a_difference() {
         "one cosine of one difference"
     );
 }
+
+/// Where one number in place of two would be infinite, zero or short of digits, there are two.
+#[test]
+fn numbers_are_folded_where_their_product_has_all_its_digits() {
+    for size in [1e200, 1e-200, 1e-155] {
+        let mut dag = Dag::new();
+        let (x, y) = (dag.symbol(Symbol::Q(0)), dag.symbol(Symbol::Q(1)));
+        let small = dag.scale(size, x);
+        let product = dag.scale(size, small);
+        let sum = dag.add(small, y);
+        let (large, other) = (dag.scale(size, sum), dag.scale(size, y));
+        let twice = dag.scale(size, y);
+        let outputs = [product, dag.sub(large, other), dag.mul(small, twice)];
+        let state = |symbol| match symbol {
+            Symbol::Q(0) => f64::powf(size, -1.5),
+            _ => size.recip(),
+        };
+        let (x, y) = (state(Symbol::Q(0)), state(Symbol::Q(1)));
+        let values = outputs.map(|output| dag.evaluate(output, &state));
+        let wanted = [size * (size * x), size * (size * x), size * x * (size * y)];
+        for (found, wanted) in values.iter().zip(wanted) {
+            assert!(
+                (found - wanted).abs() <= 1e-14 * wanted,
+                "{size}: {found} {wanted}"
+            );
+        }
+    }
+    // Nor is a sum of numbers that is none.
+    let mut dag = Dag::new();
+    let x = dag.symbol(Symbol::Q(0));
+    let large = dag.scale(1.7e308, x);
+    let twice = dag.add(large, large);
+    assert!((dag.evaluate(twice, &|_| 1e-300) / 3.4e8 - 1.0).abs() < 1e-14);
+}
