@@ -94,7 +94,8 @@ impl Dissect {
         });
 
         let count = motion.time.len();
-        let border = ((BORDER_S * prepared.rate_hz) as usize).min(count / 4);
+        let border = motion.time.iter().take_while(|&&t| t < BORDER_S).count();
+        let border = border.min(count / 4);
         let rms = |torque: &[Vec<f64>]| -> Vec<f64> {
             let of = |values: &Vec<f64>| root_mean_square(&values[border..count - border]);
             torque.iter().map(of).collect()
@@ -201,7 +202,9 @@ fn shares(arm: &InterpretedArm, motion: &mut Motion, shapes: &[f64], beta: &[f64
             .collect();
         // What regroups into links has no columns of its own.
         if !own.is_empty() {
-            own.into_iter().for_each(|entry| add(&mut torque, entry));
+            for entry in own {
+                add(&mut torque, entry);
+            }
             shares.push(share(&compiled.model.effect_name(k), torque));
         }
     }
@@ -217,7 +220,9 @@ fn effect_of(compiled: &Compiled, column: usize) -> Option<usize> {
 }
 
 fn still(channels: &mut [Vec<f64>]) {
-    channels.iter_mut().for_each(|values| values.fill(0.0));
+    for values in channels {
+        values.fill(0.0);
+    }
 }
 
 /// Logged torques in N m or N.
@@ -292,7 +297,7 @@ fn table(report: &Report) -> String {
         for share in &report.shares {
             let is_of_all = !share.name.contains('.');
             if is_of_all || share.rms[k] > 0.0 {
-                line("", &share.name, share.rms[k], share.percent[k]);
+                line("", share.name, share.rms[k], share.percent[k]);
             }
         }
     }

@@ -185,15 +185,17 @@ fn baked_arms_have_the_values_of_the_arm() {
 
 /// In single precision, but for sines and cosines, which are those of doubles rounded.
 fn in_singles(dag: &Dag, outputs: &[ExprId], bind: &dyn Fn(Symbol) -> f64) -> Vec<f64> {
+    #[expect(clippy::cast_possible_truncation, reason = "what is asked for")]
+    let single = |x: f64| x as f32;
     let mut values = vec![0.0_f32; dag.len()];
     for x in dag.reachable(outputs) {
         let of = |x: ExprId| values[x.index()];
         values[x.index()] = match dag.node(x) {
-            Node::Constant(value) => value.get() as f32,
-            Node::Symbol(symbol) => bind(symbol) as f32,
+            Node::Constant(value) => single(value.get()),
+            Node::Symbol(symbol) => single(bind(symbol)),
             Node::Add(p, q) => of(p) + of(q),
             Node::Mul(p, q) => of(p) * of(q),
-            Node::Call(function, p) => function.apply(f64::from(of(p))) as f32,
+            Node::Call(function, p) => single(function.apply(f64::from(of(p)))),
             other => panic!("{other:?} in an arm without effects"),
         };
     }

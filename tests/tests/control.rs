@@ -203,7 +203,7 @@ fn computed_torque_makes_double_integrators() -> Result<(), ControlError> {
     );
 
     // Shares lie between none and all, also at the desired velocity: rotors are always compensated.
-    let mut torque = |friction| {
+    let torque = |friction| {
         Ok::<_, ControlError>(
             control
                 .with_friction(friction)?

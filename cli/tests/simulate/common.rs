@@ -31,8 +31,7 @@ pub fn plant(compiled: Compiled, more: &[(&str, f64)]) -> InterpretedPlant {
     let value = |name: &str, status: Status| {
         let given = more.iter().find(|(end, _)| name.ends_with(end));
         match (given, status) {
-            (Some(&(_, value)), _) => value,
-            (None, Status::Nominal(value) | Status::Fixed(value)) => value,
+            (Some(&(_, value)), _) | (None, Status::Nominal(value) | Status::Fixed(value)) => value,
             (None, Status::Unknown) => panic!("a value for {name}"),
         }
     };

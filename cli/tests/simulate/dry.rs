@@ -145,7 +145,7 @@ fn friction_that_depends_on_the_load_holds_what_is_flat_enough() {
         arm.q()[0]
     };
     // The load of rest is -push: held while push <= 0.3 push + 1.
-    assert_eq!(run(1.4), 0.0);
+    assert!(run(1.4) == 0.0, "held arms do not creep");
     // ddq - push + (0.3 |ddq - push| + 1) = 0 with a load below zero.
     let push = 2.0;
     let acceleration = push - 1.0 / 0.7;

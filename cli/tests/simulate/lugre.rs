@@ -72,7 +72,13 @@ fn below_breakaway_force_and_way_make_a_loop() {
     let run = setting.run(block(BENT, 20.0), &mut pull, &still(&[0.0]), &mut |_| {});
     let (record, _) = run.expect("a motion");
     let (q, tau) = (&record.q[0], &record.tau[0]);
-    let sample = |time: f64| (time * 200.0).round() as usize;
+    let sample = |time: f64| {
+        record
+            .time
+            .iter()
+            .take_while(|&&t| t < time - 0.0025)
+            .count()
+    };
     let last = sample(2.0 * period)..sample(3.0 * period);
     let work: f64 = last.clone().map(|k| tau[k] * (q[k + 1] - q[k])).sum();
     let way = |range: std::ops::Range<usize>| {

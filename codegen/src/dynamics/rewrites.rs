@@ -179,9 +179,10 @@ fn chain(dag: &mut Dag, random: &mut Generator, text: &str) -> Chain {
 
 fn spec(convention: &str, gravity: [f64; 3], joints: &[String]) -> String {
     let joints = joints.iter().enumerate();
-    let joints: String = joints
+    let joints: Vec<String> = joints
         .map(|(k, joint)| format!("joint j{k}: {joint}\n"))
         .collect();
+    let joints = joints.concat();
     format!("robot Arm {{ gravity = {gravity:?}; convention = {convention};\n{joints}}}\n")
 }
 

@@ -55,6 +55,9 @@ const SHARES: [&[f64]; 6] = [
     ],
 ];
 
+/// The end of a step, and its error.
+type Step = (DVector<f64>, DVector<f64>);
+
 /// A step of `h` from `x` with slope `jacobian`, where the rate is `first` and `by_time` its slope by time: the end and the error.
 /// `None` where the matrix is singular.
 pub(super) fn step<E>(
@@ -63,7 +66,7 @@ pub(super) fn step<E>(
     x: &DVector<f64>,
     (first, jacobian, by_time): (&DVector<f64>, &DMatrix<f64>, &DVector<f64>),
     h: f64,
-) -> Result<Option<(DVector<f64>, DVector<f64>)>, E> {
+) -> Result<Option<Step>, E> {
     let mut matrix = -jacobian.clone();
     for k in 0..x.len() {
         matrix[(k, k)] += 1.0 / (h * GAMMA);

@@ -12,6 +12,9 @@ use super::trajectory::Trajectory;
 use crate::log::Channel;
 use crate::signal::resample::whole_steps;
 
+/// What most settings may be.
+const UP_TO_A_MILLION: &str = "positive and at most 1e6";
+
 /// A sampled control loop: what it runs at, and what its log is.
 ///
 /// The log has positions of its instants, and of torques the mean over its interval around each, as drives report it.
@@ -77,21 +80,23 @@ impl Default for Loop {
 impl Loop {
     fn check(&self, dof: usize, trajectory: &Trajectory) -> Result<(), SimulateError> {
         let settings = [
-            ("the rate of the controller", self.rate, 1e6),
-            ("the rate of the log", self.log_rate, 1e5),
-            ("the duration", self.duration, 1e6),
+            (
+                "the rate of the controller",
+                self.rate,
+                1e6,
+                UP_TO_A_MILLION,
+            ),
+            (
+                "the rate of the log",
+                self.log_rate,
+                1e5,
+                "positive and at most 1e5",
+            ),
+            ("the duration", self.duration, 1e6, UP_TO_A_MILLION),
         ];
-        for (what, value, most) in settings {
+        for (what, value, most, range) in settings {
             if !(value > 0.0 && value <= most) {
-                return Err(SimulateError::Setting {
-                    what,
-                    range: if most == 1e5 {
-                        "positive and at most 1e5"
-                    } else {
-                        "positive and at most 1e6"
-                    },
-                    value,
-                });
+                return Err(SimulateError::Setting { what, range, value });
             }
         }
         let sensors = &self.sensors;
@@ -154,7 +159,7 @@ impl Loop {
         while record.time.len() < samples {
             let tick = applied.len();
             let now = tick as f64 * period;
-            if tick % 256 == 0 {
+            if tick.is_multiple_of(256) {
                 progress(now);
             }
             let desired = trajectory.at(now);

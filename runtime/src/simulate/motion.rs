@@ -130,7 +130,7 @@ impl<P: Plant> Moving<P> {
         let mut arguments = vec![0.0; self.plant.switches()];
         if !arguments.is_empty() {
             self.with(time, x, |plant, at, _, _, _| {
-                plant.arguments(at, &mut arguments)
+                plant.arguments(at, &mut arguments);
             });
         }
         arguments

@@ -221,12 +221,11 @@ fn collect_into(dag: &mut Dag, sum: ExprId, term: ExprId) -> Option<ExprId> {
         let (c, s) = dag.coefficient(here);
         if s == t {
             let product = coefficient(dag, outer, c)?;
-            let collected = match t {
-                Some(t) => collected(dag, product, d, t)?,
-                None => {
-                    let sum = dag.sum_of_numbers(product, d);
-                    finite(dag, sum)?
-                }
+            let collected = if let Some(t) = t {
+                collected(dag, product, d, t)?
+            } else {
+                let sum = dag.sum_of_numbers(product, d);
+                finite(dag, sum)?
             };
             let other = dag.multiple(outer, other);
             return Some(dag.add(other, collected));
