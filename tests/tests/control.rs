@@ -37,7 +37,13 @@ where
 {
     let model = specs::named(&format!("pass/{spec}")).model();
     let mut random = generator(seed);
-    let standard = states::physical(&mut random, &model);
+    let mut standard = states::physical(&mut random, &model);
+    for (value, parameter) in standard.iter_mut().zip(model.standard_parameters()) {
+        // A coupling of rotors is weaker than they are, or nothing could move them.
+        if parameter.name.ends_with("gear_coupling.ia") {
+            *value *= 0.1;
+        }
+    }
     let state = states::state(&mut random, D);
     (
         R::from_standard(&Vector::from_column_slice(&standard)),
