@@ -76,7 +76,14 @@ fn arms_from_the_oracles_own_placements_agree() {
 #[test]
 fn quarter_turns_rounded_as_in_urdf_files_are_meant_exactly() {
     for_each_present(|oracle| {
-        assert_eq!(from_placements(oracle, 9), from_placements(oracle, 17));
+        // Their numbers as written differ.
+        let placements = |digits| -> Vec<_> {
+            let model = from_placements(oracle, digits);
+            let chain = model.chain().expect("the oracle's arms are chains");
+            let links = chain.links.iter();
+            links.map(|link| link.placement.clone()).collect()
+        };
+        assert_eq!(placements(9), placements(17));
     });
 }
 
