@@ -3,13 +3,18 @@
 //! Between events the sides of all jumps are held, so that steps are of high order. Where a velocity comes to zero, or a joint that
 //! stands breaks away, the step ends there, to rounding, and what sticks is decided anew. Where that is too often, or a step would
 //! have to be shorter than the floor, one implicit step of the first order over impulses is taken: no step is ever shorter.
+//!
+//! In: a [`Plant`], where it is, and a [`Drive`]. Out: where it is at later times.
 
-use nalgebra::{DMatrix, DVector};
+mod events;
+mod steps;
+
+use nalgebra::DVector;
 
 use super::error::SimulateError;
-use super::motion::{Drive, Moving, Side, ZERO};
+use super::motion::{Drive, Moving, Side};
 use super::plant::Plant;
-use super::{explicit, implicit};
+use steps::Start;
 
 /// How exact a motion is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,13 +53,6 @@ pub struct Work {
     /// Solutions for accelerations.
     pub evaluations: u64,
 }
-
-/// Stability of the explicit steps ends here, and so many steps beyond it are enough to know.
-const STIFF: f64 = 3.25;
-const STIFF_STEPS: u32 = 6;
-
-/// Implicit steps after which explicit ones are tried again.
-const TRIAL: u32 = 400;
 
 /// Events with less than a step of impulses between them, after which these take over, and how far such steps grow.
 const CROWD: u32 = 6;
@@ -107,23 +105,6 @@ pub struct Integrator<P> {
     reach: f64,
     last_event: f64,
     work: Work,
-}
-
-/// A trial of a step.
-struct Trial {
-    end: DVector<f64>,
-    /// Error over what is allowed.
-    error: f64,
-    stiffness: f64,
-    /// Rate at the end, where the step has it.
-    rate: Option<DVector<f64>>,
-}
-
-/// What the steps of one start share.
-struct Start {
-    rate: DVector<f64>,
-    /// For implicit steps: slopes by the state and by time.
-    slopes: Option<(DMatrix<f64>, DVector<f64>)>,
 }
 
 impl<P: Plant> Integrator<P> {
@@ -291,239 +272,5 @@ impl<P: Plant> Integrator<P> {
         }
         self.time = end;
         Ok(())
-    }
-
-    /// The start of further tries, if the kind of steps is the same.
-    fn same_start(&self, from: Start) -> Option<Start> {
-        (from.slopes.is_some() == self.is_stiff).then_some(from)
-    }
-
-    fn start(&mut self) -> Result<Start, SimulateError> {
-        if !self.is_stiff {
-            return Ok(Start {
-                rate: self.moving.rate(self.time, &self.x)?,
-                slopes: None,
-            });
-        }
-        let (rate, jacobian) = self.moving.linearized(self.time, &self.x)?;
-        let by_time = if self.moving.plant.is_timed() {
-            // Half of the digits; what depends on time is slow.
-            let ahead = 1e-7 * self.time.abs().max(1.0);
-            (self.moving.rate(self.time + ahead, &self.x)? - &rate) / ahead
-        } else {
-            DVector::zeros(rate.len())
-        };
-        Ok(Start {
-            rate,
-            slopes: Some((jacobian, by_time)),
-        })
-    }
-
-    fn trial(&mut self, from: &Start, h: f64) -> Result<Trial, SimulateError> {
-        let moving = &mut self.moving;
-        let rate = |time: f64, x: &DVector<f64>| moving.rate(time, x);
-        let (end, error, stiffness, rate) = match &from.slopes {
-            None => {
-                let step = explicit::step(rate, self.time, &self.x, &from.rate, h)?;
-                (step.end, step.error, step.stiffness, Some(step.rate))
-            }
-            Some((jacobian, by_time)) => {
-                let known = (&from.rate, jacobian, by_time);
-                let step = implicit::step(rate, self.time, &self.x, known, h)?;
-                let (end, error) = step.ok_or(SimulateError::NoInertia { time: self.time })?;
-                (end, error, 0.0, None)
-            }
-        };
-        let Tolerances {
-            relative, absolute, ..
-        } = self.tolerances;
-        let allowed = |k: usize| absolute + relative * self.x[k].abs().max(end[k].abs());
-        let sizes = error
-            .iter()
-            .enumerate()
-            .map(|(k, error)| error.abs() / allowed(k));
-        // A maximum that does not lose what is no number.
-        let error = sizes.fold(
-            0.0,
-            |most: f64, size| if size <= most { most } else { size },
-        );
-        Ok(Trial {
-            end,
-            error,
-            stiffness,
-            rate,
-        })
-    }
-
-    fn factor(&self, error: f64) -> f64 {
-        let order = if self.is_stiff { 4.0 } else { 5.0 };
-        (0.9 * error.max(1e-10).powf(-1.0 / order)).clamp(0.2, 5.0)
-    }
-
-    fn shorten(&mut self, h: f64, factor: f64) {
-        self.work.rejected += 1;
-        self.step = h * factor;
-        // Before the floor ends the explicit steps, implicit ones are tried.
-        if !self.is_stiff && self.step < 10.0 * self.tolerances.floor {
-            self.is_stiff = true;
-            self.implicit_steps = 0;
-        }
-    }
-
-    fn accept(&mut self, h: f64, left: f64, trial: &Trial) {
-        self.x.copy_from(&trial.end);
-        self.time += h;
-        let next = h * self.factor(trial.error);
-        // A step that ends with the interval says nothing against a longer one before it.
-        self.step = if h < left { next } else { next.max(self.step) };
-        if self.time - self.last_event > 4.0 * self.reach {
-            (self.crowd, self.reach) = (0, self.tolerances.floor);
-        }
-        if self.is_stiff {
-            self.work.implicit += 1;
-            self.implicit_steps += 1;
-            if self.implicit_steps >= TRIAL {
-                (self.is_stiff, self.stiff_steps) = (false, 0);
-            }
-        } else {
-            self.work.explicit += 1;
-            if trial.stiffness > STIFF {
-                self.stiff_steps += 1;
-            } else {
-                self.stiff_steps = self.stiff_steps.saturating_sub(1);
-            }
-            if self.stiff_steps >= STIFF_STEPS {
-                (self.is_stiff, self.implicit_steps) = (true, 0);
-            }
-        }
-    }
-
-    /// How far each switch is from the end of its side: negative beyond it.
-    fn margins(&mut self, time: f64, x: &DVector<f64>) -> Result<Vec<f64>, SimulateError> {
-        let arguments = self.moving.arguments(time, x);
-        if self.moving.holds_any() {
-            self.moving.rate(time, x)?;
-        }
-        let sides = self.moving.sides.iter().enumerate();
-        let margins = sides.map(|(k, side)| match side {
-            Side::Free(sign) => sign * arguments[k],
-            Side::Held => 1.0 - self.moving.shares[k].abs(),
-            // It follows those that hold with it.
-            Side::Shared(_) => 1.0,
-        });
-        Ok(margins.collect())
-    }
-
-    /// Switches whose side ends before the end of a step.
-    fn passed(&mut self, time: f64, end: &DVector<f64>) -> Result<Vec<usize>, SimulateError> {
-        if self.moving.sides.is_empty() {
-            return Ok(Vec::new());
-        }
-        let margins = self.margins(time, end)?;
-        let passed = |k: &usize| margins[*k] < -0.1 * ZERO;
-        Ok((0..margins.len()).filter(passed).collect())
-    }
-
-    /// Goes to the first of events in a step.
-    fn event(
-        &mut self,
-        from: &Start,
-        h: f64,
-        end: DVector<f64>,
-        passed: &[usize],
-    ) -> Result<(), SimulateError> {
-        let start = self.time;
-        let margin =
-            |integrator: &mut Self, share: f64| -> Result<(f64, DVector<f64>), SimulateError> {
-                let x = integrator.trial(from, share * h)?.end;
-                let margins = integrator.margins(start + share * h, &x)?;
-                let least = passed
-                    .iter()
-                    .map(|&k| margins[k])
-                    .fold(f64::INFINITY, f64::min);
-                Ok((least, x))
-            };
-        let margins = self.margins(start + h, &end)?;
-        let beyond = passed
-            .iter()
-            .map(|&k| margins[k])
-            .fold(f64::INFINITY, f64::min);
-        let (mut low, mut at_low) = (0.0, 0.0);
-        let (mut high, mut at_high, mut x) = (1.0, beyond, end);
-        // What has just begun to move has no margin yet: the first share at which it has one.
-        let begins = self.margins(start, &self.x.clone())?;
-        let least = passed
-            .iter()
-            .map(|&k| begins[k])
-            .fold(f64::INFINITY, f64::min);
-        if least > ZERO {
-            at_low = least;
-        } else {
-            let mut share = 0.5;
-            while share * h > 0.1 * self.tolerances.floor {
-                let (value, place) = margin(self, share)?;
-                if value > 0.0 {
-                    (low, at_low) = (share, value);
-                    break;
-                }
-                (high, at_high, x) = (share, value, place);
-                share *= 0.5;
-            }
-        }
-        // Illinois: secants that halve the weight of an end that stays.
-        let mut last = 0;
-        for _ in 0..80 {
-            if at_high.abs() < 1e-15 || (high - low) * h < 1e-15 * start.abs().max(1e-3) {
-                break;
-            }
-            let mut share = (low * at_high - high * at_low) / (at_high - at_low);
-            if !(share > low && share < high) {
-                share = 0.5 * (low + high);
-            }
-            let (value, place) = margin(self, share)?;
-            if value > 0.0 {
-                (low, at_low) = (share, value);
-                if last == 1 {
-                    at_high *= 0.5;
-                }
-                last = 1;
-            } else {
-                (high, at_high, x) = (share, value, place);
-                if last == -1 {
-                    at_low *= 0.5;
-                }
-                last = -1;
-            }
-        }
-        let at = high * h;
-        self.x = x;
-        self.time = start + at;
-        // The step is not to be blamed for the event.
-        self.step = self.step.max(h);
-        self.work.events += 1;
-        if at < self.reach && start - self.last_event <= self.reach {
-            self.crowd += 1;
-        }
-        self.last_event = self.time;
-        let margins = self.margins(self.time, &self.x.clone())?;
-        for &k in passed {
-            if let (Side::Free(sign), true) = (self.moving.sides[k], margins[k] <= ZERO) {
-                self.moving.sides[k] = Side::Free(-sign);
-            }
-        }
-        self.moving.settle(self.time, &mut self.x)
-    }
-
-    /// A step of impulses.
-    fn impulse(&mut self, left: f64) -> Result<(), SimulateError> {
-        let h = self.reach.min(left);
-        self.x = self.moving.impulse(self.time, &self.x, h)?;
-        self.time += h;
-        self.reach = (2.0 * self.reach).min(REACH * self.tolerances.floor);
-        self.step = self.step.max(8.0 * self.tolerances.floor);
-        self.crowd = self.crowd.saturating_sub(1);
-        self.last_event = self.time;
-        self.work.impulses += 1;
-        self.moving.settle(self.time, &mut self.x)
     }
 }
