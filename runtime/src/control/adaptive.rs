@@ -147,7 +147,7 @@ impl<A, const D: usize, const B: usize> Adaptive<A, D, B> {
             upper: Vector::repeat(f64::INFINITY),
             nominal,
             estimate: nominal,
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
         })
     }
 
@@ -204,20 +204,13 @@ impl<A, const D: usize, const B: usize> Adaptive<A, D, B> {
     /// The same within limits.
     ///
     /// # Errors
-    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// As that of [`Safety`].
-    pub fn with_safety<const S: usize, const H: usize, const M: usize, const I: usize>(
-        self,
-        safety: Safety<D>,
-    ) -> Result<Self, ControlError>
-    where
-        A: RobotModel<D, S, B, H, M, I>,
-    {
-        safety.check(&A::JOINTS)?;
+    /// That of [`Safety`].
+    pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
-            guard: Guard::new(safety),
+            guard: self.guard.within(safety)?,
             ..self
         })
     }

@@ -72,7 +72,7 @@ impl<A, const D: usize> ComputedTorque<A, D> {
             arm,
             gains,
             friction: Friction::full(),
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
         })
     }
 
@@ -100,38 +100,13 @@ impl<A, const D: usize> ComputedTorque<A, D> {
     /// The same within limits.
     ///
     /// # Errors
-    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::control::{ComputedTorque, Gains, Safety};
-    ///
-    /// let control = ComputedTorque::new(arms::two_link(), Gains::new(25.0, 0.7))?;
-    /// let refused = control.with_safety(Safety::new().torque([60.0, -25.0])).unwrap_err();
-    /// assert_eq!(
-    ///     refused.to_string(),
-    ///     "torque limit of joint `elbow` is -25 N m or N; give a positive, finite number"
-    /// );
-    /// # Ok::<(), robot_model::control::ControlError>(())
-    /// ```
-    pub fn with_safety<
-        const S: usize,
-        const B: usize,
-        const H: usize,
-        const M: usize,
-        const I: usize,
-    >(
-        self,
-        safety: Safety<D>,
-    ) -> Result<Self, ControlError>
-    where
-        A: RobotModel<D, S, B, H, M, I>,
-    {
-        safety.check(&A::JOINTS)?;
+    /// That of [`Safety`].
+    pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
-            guard: Guard::new(safety),
+            guard: self.guard.within(safety)?,
             ..self
         })
     }

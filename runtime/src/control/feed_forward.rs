@@ -74,45 +74,20 @@ impl<A, const D: usize> FeedForward<A, D> {
             arm,
             stiffness: stiffness.into(),
             damping: damping.into(),
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
         })
     }
 
     /// The same within limits.
     ///
     /// # Errors
-    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::control::{FeedForward, Safety};
-    ///
-    /// let control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
-    /// let refused = control.with_safety(Safety::new().position([1.0, -2.0], [-1.0, 2.0])).unwrap_err();
-    /// assert_eq!(
-    ///     refused.to_string(),
-    ///     "positions of joint `shoulder` from 1 to -1 are none; give the lower end first"
-    /// );
-    /// # Ok::<(), robot_model::control::ControlError>(())
-    /// ```
-    pub fn with_safety<
-        const S: usize,
-        const B: usize,
-        const H: usize,
-        const M: usize,
-        const I: usize,
-    >(
-        self,
-        safety: Safety<D>,
-    ) -> Result<Self, ControlError>
-    where
-        A: RobotModel<D, S, B, H, M, I>,
-    {
-        safety.check(&A::JOINTS)?;
+    /// That of [`Safety`].
+    pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
-            guard: Guard::new(safety),
+            guard: self.guard.within(safety)?,
             ..self
         })
     }

@@ -42,33 +42,20 @@ impl<A, const D: usize> GravityCompensation<A, D> {
     {
         Self {
             arm,
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
         }
     }
 
     /// The same within limits.
     ///
     /// # Errors
-    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Command`].
-    pub fn with_safety<
-        const S: usize,
-        const B: usize,
-        const H: usize,
-        const M: usize,
-        const I: usize,
-    >(
-        self,
-        safety: Safety<D>,
-    ) -> Result<Self, ControlError>
-    where
-        A: RobotModel<D, S, B, H, M, I>,
-    {
-        safety.check(&A::JOINTS)?;
+    /// That of [`Safety`].
+    pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
-            guard: Guard::new(safety),
+            guard: self.guard.within(safety)?,
             ..self
         })
     }

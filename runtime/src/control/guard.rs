@@ -1,6 +1,7 @@
 //! The frame of every cycle: look at what was read, run the law or hold the arm, stay within the limits.
 
 use super::command::{Command, Reason, Signal, Status};
+use super::error::ControlError;
 use super::safety::Safety;
 use crate::model::{RobotModel, Vector};
 use crate::scalar::Scalar;
@@ -9,14 +10,31 @@ use crate::state::State;
 /// Limits, and what the safe torque needs to know of earlier cycles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Guard<const D: usize> {
-    pub(super) safety: Safety<D>,
+    safety: Safety<D>,
+    /// Names of the joints, for what is said of limits.
+    joints: &'static [&'static str; D],
     /// The last position that was numbers inside of its limits.
     seen: Option<Vector<D>>,
 }
 
 impl<const D: usize> Guard<D> {
-    pub(super) fn new(safety: Safety<D>) -> Self {
-        Self { safety, seen: None }
+    /// Without limits.
+    pub(super) fn new(joints: &'static [&'static str; D]) -> Self {
+        Self {
+            safety: Safety::new(),
+            joints,
+            seen: None,
+        }
+    }
+
+    /// The same within limits, where these make sense, before its first cycle.
+    pub(super) fn within(self, safety: Safety<D>) -> Result<Self, ControlError> {
+        safety.check(self.joints)?;
+        Ok(Self {
+            safety,
+            seen: None,
+            ..self
+        })
     }
 
     /// One cycle: the law's torque where all that it reads is sound and its torque finite, the safe torque else.

@@ -71,7 +71,7 @@ impl<A, const D: usize> HandGuiding<A, D> {
             arm,
             damping: damping.into(),
             share: 1.0,
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
         })
     }
 
@@ -99,26 +99,13 @@ impl<A, const D: usize> HandGuiding<A, D> {
     /// The same within limits.
     ///
     /// # Errors
-    /// [`ControlError::Joint`], [`ControlError::EmptyRange`], [`ControlError::Number`], where a limit makes no sense.
+    /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
     /// That of [`Safety`].
-    pub fn with_safety<
-        const S: usize,
-        const B: usize,
-        const H: usize,
-        const M: usize,
-        const I: usize,
-    >(
-        self,
-        safety: Safety<D>,
-    ) -> Result<Self, ControlError>
-    where
-        A: RobotModel<D, S, B, H, M, I>,
-    {
-        safety.check(&A::JOINTS)?;
+    pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
-            guard: Guard::new(safety),
+            guard: self.guard.within(safety)?,
             ..self
         })
     }

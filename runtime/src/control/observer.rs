@@ -3,7 +3,6 @@
 use super::command::{Reason, Status};
 use super::error::{ControlError, POSITIVE, is_positive, number};
 use super::guard::{Guard, flaw, still};
-use super::safety::Safety;
 use crate::math;
 use crate::model::{RobotModel, Vector};
 use crate::state::State;
@@ -116,7 +115,7 @@ impl<A, const D: usize> MomentumObserver<A, D> {
             arm,
             seconds,
             decay: math::exp(-pole * seconds),
-            guard: Guard::new(Safety::new()),
+            guard: Guard::new(&A::JOINTS),
             residual: Vector::zeros(),
             last: None,
         })

@@ -24,6 +24,10 @@ const BRAKE: f64 = 10.0;
 ///   negative;
 /// - it is cut at the limits of torque, and zero as long as no position was read.
 ///
+/// Every controller takes them by its `with_safety`, which refuses what makes no sense: [`ControlError::Joint`] for a largest
+/// torque or speed that is not positive, [`ControlError::EmptyRange`] for ends of positions that are not in order,
+/// [`ControlError::Number`] for a brake that is negative or no finite number.
+///
 /// # Examples
 #[cfg_attr(feature = "derive", doc = "```")]
 #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
@@ -80,10 +84,19 @@ impl<const D: usize> Safety<D> {
     /// Largest torques, N m or N; of the safe torque too.
     ///
     /// # Examples
-    /// ```
-    /// use robot_model::control::Safety;
-    /// let panda = Safety::new().torque([87.0, 87.0, 87.0, 87.0, 12.0, 12.0, 12.0]);
-    /// # let _ = panda;
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{ComputedTorque, Gains, Safety};
+    ///
+    /// let control = ComputedTorque::new(arms::two_link(), Gains::new(25.0, 0.7))?;
+    /// assert!(control.with_safety(Safety::new().torque([60.0, 25.0])).is_ok());
+    /// let refused = control.with_safety(Safety::new().torque([60.0, -25.0])).unwrap_err();
+    /// assert_eq!(
+    ///     refused.to_string(),
+    ///     "torque limit of joint `elbow` is -25 N m or N; give a positive, finite number"
+    /// );
+    /// # Ok::<(), robot_model::control::ControlError>(())
     /// ```
     #[must_use]
     pub fn torque(self, largest: [f64; D]) -> Self {
@@ -112,10 +125,19 @@ impl<const D: usize> Safety<D> {
     /// Ends of the ranges of positions, rad or m: beyond them the arm is held.
     ///
     /// # Examples
-    /// ```
-    /// # use robot_model::control::Safety;
-    /// let limits = Safety::new().position([-2.0, -1.0], [2.0, 1.0]);
-    /// # let _ = limits;
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{FeedForward, Safety};
+    ///
+    /// let control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+    /// assert!(control.with_safety(Safety::new().position([-2.0, -1.0], [2.0, 1.0])).is_ok());
+    /// let refused = control.with_safety(Safety::new().position([1.0, -2.0], [-1.0, 2.0])).unwrap_err();
+    /// assert_eq!(
+    ///     refused.to_string(),
+    ///     "positions of joint `shoulder` from 1 to -1 are none; give the lower end first"
+    /// );
+    /// # Ok::<(), robot_model::control::ControlError>(())
     /// ```
     #[must_use]
     pub fn position(self, lower: [f64; D], upper: [f64; D]) -> Self {
