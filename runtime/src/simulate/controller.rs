@@ -2,6 +2,7 @@
 
 use super::error::SimulateError;
 use super::trajectory::Desired;
+use crate::control;
 
 /// What a controller knows of the arm.
 #[derive(Debug, Clone, Copy)]
@@ -51,12 +52,9 @@ pub trait InverseDynamics {
     );
 }
 
-/// How a joint comes back: natural frequency and damping of the error.
+/// How every joint comes back: natural frequency and damping of its error, with `kp` and `kd` of [`control::Gains`].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Gains {
-    frequency: f64,
-    damping: f64,
-}
+pub struct Gains(control::Gains<1>);
 
 impl Gains {
     /// Natural frequency in rad/s, and damping, 1 for critical.
@@ -84,18 +82,17 @@ impl Gains {
                 });
             }
         }
-        Ok(Self { frequency, damping })
+        Ok(Self(control::Gains::new(frequency, damping)))
     }
 
-    /// `w^2 (q_d - q) + 2 d w (dq_d - dq)`
+    /// `kp (q_d - q) + kd (dq_d - dq)`
     fn acceleration(self, joint: usize, measured: &Measured<'_>, desired: &Desired) -> f64 {
-        let w = self.frequency;
-        w * w * (desired.q[joint] - measured.q[joint])
-            + 2.0 * self.damping * w * (desired.dq[joint] - measured.dq[joint])
+        let (kp, kd) = (self.0.kp()[0], self.0.kd()[0]);
+        kp * (desired.q[joint] - measured.q[joint]) + kd * (desired.dq[joint] - measured.dq[joint])
     }
 }
 
-/// Every joint by itself: `tau = m (w^2 e + 2 d w de/dt)`.
+/// Every joint by itself: `tau = m (kp e + kd de/dt)`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pd {
     gains: Gains,
@@ -118,7 +115,7 @@ impl Controller for Pd {
     }
 }
 
-/// `tau = R(q, dq, ddq_d + w^2 e + 2 d w de/dt)` with the torque `R` of a model, and its friction at the wanted velocity, which
+/// `tau = R(q, dq, ddq_d + kp e + kd de/dt)` with the torque `R` of a model, and its friction at the wanted velocity, which
 /// does not chatter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComputedTorque<M> {
