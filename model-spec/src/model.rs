@@ -236,6 +236,8 @@ pub struct Limits {
     pub position: Option<(f64, f64)>,
     /// Largest speed, rad/s or m/s.
     pub velocity: Option<f64>,
+    /// Largest acceleration, rad/s^2 or m/s^2.
+    pub acceleration: Option<f64>,
     /// Largest torque, N m or N.
     pub torque: Option<f64>,
 }

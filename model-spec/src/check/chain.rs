@@ -179,18 +179,30 @@ pub(super) fn coordinate_dimension(kind: JointKind) -> Dimension {
 }
 
 pub(super) fn check_limits(settings: &Settings, kind: JointKind, errors: &mut Errors) -> Limits {
-    let (speed, torque) = match kind {
-        JointKind::Revolute => (Dimension::ANGULAR_SPEED, Dimension::TORQUE),
-        JointKind::Prismatic => (Dimension::SPEED, Dimension::FORCE),
+    let (speed, acceleration, torque) = match kind {
+        JointKind::Revolute => (
+            Dimension::ANGULAR_SPEED,
+            Dimension::ANGULAR_ACCELERATION,
+            Dimension::TORQUE,
+        ),
+        JointKind::Prismatic => (Dimension::SPEED, Dimension::ACCELERATION, Dimension::FORCE),
     };
+    let mut magnitude = |key, dimension| {
+        let value = settings.get(key);
+        optional(value, |v| positive(v, dimension), errors)
+    };
+    let velocity = magnitude("velocity", speed);
+    let acceleration = magnitude("acceleration", acceleration);
+    let torque = magnitude("torque", torque);
     Limits {
         position: optional(
             settings.get("position"),
             |v| value::range(v, coordinate_dimension(kind)),
             errors,
         ),
-        velocity: optional(settings.get("velocity"), |v| positive(v, speed), errors),
-        torque: optional(settings.get("torque"), |v| positive(v, torque), errors),
+        velocity,
+        acceleration,
+        torque,
     }
 }
 

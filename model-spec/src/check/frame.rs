@@ -10,10 +10,11 @@ use crate::model::{Convention, JointKind, Placement, Transform};
 use crate::suggest;
 use crate::transform::{rotation_rpy, rotation_x, rotation_z, snap};
 
-const COMMON_KEYS: [&str; 6] = [
+const COMMON_KEYS: [&str; 7] = [
     "offset",
     "position",
     "velocity",
+    "acceleration",
     "torque",
     "actuator_gain",
     "link",

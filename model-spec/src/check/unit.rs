@@ -18,6 +18,7 @@ impl Dimension {
     pub(super) const ACCELERATION: Self = Self::of(0, 1, -2, 0);
     pub(super) const SPEED: Self = Self::of(0, 1, -1, 0);
     pub(super) const ANGULAR_SPEED: Self = Self::of(0, 0, -1, 1);
+    pub(super) const ANGULAR_ACCELERATION: Self = Self::of(0, 0, -2, 1);
     pub(super) const FORCE: Self = Self::of(1, 1, -2, 0);
     pub(super) const TORQUE: Self = Self::of(1, 2, -2, 0);
     const TIME: Self = Self::of(0, 0, 1, 0);
@@ -94,7 +95,7 @@ impl Dimension {
 }
 
 /// Dimension, name, how to write it.
-const NAMES: [(Dimension, &str, &str); 11] = [
+const NAMES: [(Dimension, &str, &str); 12] = [
     (Dimension::NONE, "a plain number", "no unit"),
     (Dimension::ANGLE, "an angle", "`rad` or `deg`"),
     (Dimension::LENGTH, "a length", "`m`, `cm` or `mm`"),
@@ -107,6 +108,11 @@ const NAMES: [(Dimension, &str, &str); 11] = [
         Dimension::ANGULAR_SPEED,
         "an angular speed",
         "`rad/s` or `deg/s`",
+    ),
+    (
+        Dimension::ANGULAR_ACCELERATION,
+        "an angular acceleration",
+        "`rad/s^2` or `deg/s^2`",
     ),
     (Dimension::FORCE, "a force", "`N`"),
     (Dimension::TORQUE, "a torque", "`Nm`"),

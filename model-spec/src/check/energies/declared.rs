@@ -88,7 +88,13 @@ fn check_coordinate(
     let own = limits.iter().find(|limits| limits.name == coordinate.name);
     let (limits, actuator_gain) = own.map_or((Limits::default(), 1.0), |own| {
         let owner = format!("`limits {}`", own.name);
-        let keys = ["position", "velocity", "torque", "actuator_gain"];
+        let keys = [
+            "position",
+            "velocity",
+            "acceleration",
+            "torque",
+            "actuator_gain",
+        ];
         let settings = Settings::new(&own.settings, &owner, &keys, errors);
         (
             check_limits(&settings, kind, errors),
