@@ -337,7 +337,9 @@ impl Programs {
             Symbol::MeasuredTorque(joint) => state.measured_torque[joint],
             Symbol::Input(k) => state.inputs[&self.inputs[k]],
             Symbol::State(k) => state.states.get(&self.states[k]).copied().unwrap_or(0.0),
-            Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+            Symbol::Switch(_) | Symbol::Weight(_) => {
+                unreachable!("in equations of simulation and design alone")
+            }
         };
         // The load comes first: effects may depend on it.
         let load = self.rigid_torque.eval(&|symbol| bind(&[], symbol));

@@ -237,7 +237,9 @@ fn value(symbol: Symbol, state: &State, shapes: &[f64]) -> f64 {
         Symbol::State(k) => state.states[k],
         Symbol::Shape(k) => shapes[k],
         Symbol::Parameter(_) => unreachable!("checked in regressor::linearize"),
-        Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+        Symbol::Switch(_) | Symbol::Weight(_) => {
+            unreachable!("in equations of simulation and design alone")
+        }
     }
 }
 

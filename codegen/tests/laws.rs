@@ -79,9 +79,11 @@ impl Case {
             Symbol::Time => 0.7,
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(_) => 0.1,
-            Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) | Symbol::Switch(_) => {
-                0.3
-            }
+            Symbol::MeasuredTorque(_)
+            | Symbol::Input(_)
+            | Symbol::State(_)
+            | Symbol::Switch(_)
+            | Symbol::Weight(_) => 0.3,
         }
     }
 }

@@ -98,7 +98,9 @@ pub fn check(compiled: &Compiled) -> Result<(), &'static str> {
             Symbol::MeasuredTorque(j) => state.signals[(j + 31) % 64],
             Symbol::Input(k) => state.signals[(k + 41) % 64],
             Symbol::State(k) => state.signals[(k + 53) % 64],
-            Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+            Symbol::Switch(_) | Symbol::Weight(_) => {
+                unreachable!("in equations of simulation and design alone")
+            }
             Symbol::RigidTorque(j) => load[j],
             Symbol::Time => state.time,
             Symbol::Parameter(k) => parameters[k],

@@ -85,7 +85,9 @@ impl Interpreter {
             Symbol::MeasuredTorque(j) => state.measured_torque[j],
             Symbol::Input(k) => state.inputs[k],
             Symbol::State(k) => state.states[k],
-            Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+            Symbol::Switch(_) | Symbol::Weight(_) => {
+                unreachable!("in equations of simulation and design alone")
+            }
             Symbol::Time => state.time,
             Symbol::Parameter(k) => parameters[k],
             Symbol::Shape(k) => self.shapes[k],

@@ -71,7 +71,11 @@ impl Plant {
             Symbol::Parameter(k) => Operand::Constant(self.parameters[k]),
             Symbol::Shape(k) => Operand::Constant(self.shapes[k]),
             Symbol::RigidTorque(_) => unreachable!("inverse dynamics knows its own load"),
-            Symbol::MeasuredTorque(_) | Symbol::Input(_) | Symbol::State(_) | Symbol::Switch(_) => {
+            Symbol::MeasuredTorque(_)
+            | Symbol::Input(_)
+            | Symbol::State(_)
+            | Symbol::Switch(_)
+            | Symbol::Weight(_) => {
                 unreachable!("no effect of the plant reads a log or has a memory")
             }
         };

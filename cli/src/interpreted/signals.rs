@@ -47,7 +47,9 @@ impl<'a> Signals<'a> {
                 channel.map_or(Operand::Constant(0.0), Operand::Column)
             }
             Symbol::Parameter(_) => unreachable!("columns are free of parameters"),
-            Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+            Symbol::Switch(_) | Symbol::Weight(_) => {
+                unreachable!("in equations of simulation and design alone")
+            }
         }
     }
 }

@@ -261,6 +261,8 @@ pub fn place(
         Symbol::Time => Place::Argument("time"),
         Symbol::Parameter(k) => parameter(k),
         Symbol::Shape(k) => shape(k),
-        Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+        Symbol::Switch(_) | Symbol::Weight(_) => {
+            unreachable!("in equations of simulation and design alone")
+        }
     }
 }

@@ -33,17 +33,12 @@ impl Dag {
                 self.add(left, right)
             }
             Node::Power(base, exponent) => {
-                // d (b^e) = e b^(e-1) db + b^e ln(b) de. Not b^e e / b db, which is no number at b = 0.
-                let one = self.constant(1.0);
-                let lower = self.sub(exponent, one);
-                let lower = self.power(base, lower);
-                let slope = self.mul(exponent, lower);
+                let slope = self.power_by_base(base, exponent);
                 let from_base = self.mul(slope, of[base.index()]);
                 if self.is_zero(of[exponent.index()]) {
                     return from_base;
                 }
-                let ln = self.call(Function::Ln, base);
-                let growth = self.mul(x, ln);
+                let growth = self.power_by_exponent(x, base);
                 let from_exponent = self.mul(growth, of[exponent.index()]);
                 self.add(from_base, from_exponent)
             }
@@ -56,8 +51,27 @@ impl Dag {
         }
     }
 
+    /// `d (b^e) / db = e b^(e-1)`. Not `b^e e / b`, which is no number at `b = 0`.
+    pub(super) fn power_by_base(&mut self, base: ExprId, exponent: ExprId) -> ExprId {
+        let one = self.constant(1.0);
+        let lower = self.sub(exponent, one);
+        let lower = self.power(base, lower);
+        self.mul(exponent, lower)
+    }
+
+    /// `d (b^e) / de = b^e ln(b)`, where `power` is `b^e`.
+    pub(super) fn power_by_exponent(&mut self, power: ExprId, base: ExprId) -> ExprId {
+        let ln = self.call(Function::Ln, base);
+        self.mul(power, ln)
+    }
+
     /// `f'(inside)`, where `value` is `f(inside)`.
-    fn derivative_of_call(&mut self, function: Function, inside: ExprId, value: ExprId) -> ExprId {
+    pub(super) fn derivative_of_call(
+        &mut self,
+        function: Function,
+        inside: ExprId,
+        value: ExprId,
+    ) -> ExprId {
         match function {
             Function::Sin => self.call(Function::Cos, inside),
             Function::Cos => {

@@ -46,6 +46,7 @@ impl Names {
             Symbol::Input(k) => named(&self.inputs, "input", k),
             Symbol::State(k) => named(&self.states, "state", k),
             Symbol::Switch(k) => format!("switch{}", k + 1),
+            Symbol::Weight(k) => format!("weight{}", k + 1),
         };
         if style == Style::Text {
             return text;
@@ -56,7 +57,7 @@ impl Names {
             Symbol::Ddq(j) => latex_name(&self.coordinate(j), "\\ddot "),
             Symbol::RigidTorque(j) => format!("\\tau^{{\\mathrm{{rigid}}}}_{{{}}}", j + 1),
             Symbol::MeasuredTorque(j) => format!("\\tau^{{\\mathrm{{measured}}}}_{{{}}}", j + 1),
-            Symbol::Time => text,
+            Symbol::Time | Symbol::Weight(_) => text,
             Symbol::Parameter(_)
             | Symbol::Shape(_)
             | Symbol::Input(_)

@@ -12,6 +12,7 @@ mod diff;
 mod display;
 mod eval;
 mod node;
+mod pullback;
 mod rounding;
 pub mod rules;
 mod substitute;

@@ -29,6 +29,8 @@ pub enum Symbol {
     /// joint that sticks. By its index over the jumps that [`Dag::switched`](super::Dag::switched) has found; only in equations
     /// of simulation.
     Switch(usize),
+    /// Weight of an output, where a weighted sum of outputs is differentiated.
+    Weight(usize),
 }
 
 /// Functions of one argument.

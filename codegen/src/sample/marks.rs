@@ -86,7 +86,9 @@ fn usual(signal: Symbol, model: &Model) -> Vec<f64> {
         Symbol::Dq(_) | Symbol::State(_) => (-8, 2),
         Symbol::Ddq(_) | Symbol::RigidTorque(_) | Symbol::MeasuredTorque(_) => (-4, 4),
         Symbol::Input(_) | Symbol::Time | Symbol::Parameter(_) | Symbol::Shape(_) => (-2, 4),
-        Symbol::Switch(_) => unreachable!("switches are in equations of simulation alone"),
+        Symbol::Switch(_) | Symbol::Weight(_) => {
+            unreachable!("in equations of simulation and design alone")
+        }
     };
     let mut marks: Vec<f64> = (smallest..=largest)
         .step_by(2)

@@ -48,9 +48,11 @@ fn value(symbol: Symbol) -> f64 {
         Symbol::RigidTorque(k) => (4.9, k),
         Symbol::Shape(_) => return 0.1,
         Symbol::Time => return 0.7,
-        Symbol::MeasuredTorque(k) | Symbol::Input(k) | Symbol::State(k) | Symbol::Switch(k) => {
-            (5.3, k)
-        }
+        Symbol::MeasuredTorque(k)
+        | Symbol::Input(k)
+        | Symbol::State(k)
+        | Symbol::Switch(k)
+        | Symbol::Weight(k) => (5.3, k),
     };
     1.3 * (kind + 1.7 * k as f64).sin()
 }
