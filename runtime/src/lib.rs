@@ -5,6 +5,8 @@
 pub mod columns;
 pub mod control;
 #[cfg(feature = "std")]
+pub mod excite;
+#[cfg(feature = "std")]
 pub mod identify;
 pub mod link;
 #[cfg(feature = "std")]

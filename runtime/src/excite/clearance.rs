@@ -1,0 +1,146 @@
+//! Limits that are no straight lines in the coefficients: torques, and room around the arm.
+
+use super::function::Function;
+
+/// Takes a limit at an instant: its number, its slack, and pairs of an output and the slack's slope by it.
+pub type Tell<'a> = &'a mut dyn FnMut(usize, f64, &[(usize, f64)]);
+
+/// A limit on the outputs of a function: `slack >= 0` each, as a share of what is allowed, with its slopes by the outputs.
+pub trait Clearance: std::fmt::Debug + Sync {
+    /// What the limit is on.
+    fn function(&self) -> &dyn Function;
+
+    /// Tells each limit at an instant; `values` has one number an output.
+    fn slacks(&self, values: &[f64], tell: Tell<'_>);
+
+    /// A limit by its number, for people.
+    fn name(&self, which: usize) -> String;
+}
+
+/// Torques, each at most so large either way.
+pub struct TorqueLimits {
+    /// Torques of the nominal arm, one output a joint.
+    pub torque: Box<dyn Function>,
+    /// Limits, N m or N; infinite for none.
+    pub limits: Vec<f64>,
+    /// Names of the joints.
+    pub joints: Vec<String>,
+}
+
+impl std::fmt::Debug for TorqueLimits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("TorqueLimits")
+            .field("limits", &self.limits)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Clearance for TorqueLimits {
+    fn function(&self) -> &dyn Function {
+        &*self.torque
+    }
+
+    fn slacks(&self, values: &[f64], tell: Tell<'_>) {
+        for (joint, (torque, limit)) in values.iter().zip(&self.limits).enumerate() {
+            if limit.is_finite() {
+                tell(joint, 1.0 - torque / limit, &[(joint, -1.0 / limit)]);
+                tell(joint, 1.0 + torque / limit, &[(joint, 1.0 / limit)]);
+            }
+        }
+    }
+
+    fn name(&self, which: usize) -> String {
+        format!("torque of `{}`", self.joints[which])
+    }
+}
+
+/// A ball that moves with the arm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ball {
+    /// For messages: the link that it is on.
+    pub link: String,
+    /// Which link it is on, to tell neighbors: the number of the joint that moves it, from 0.
+    pub on: usize,
+    /// m
+    pub radius: f64,
+}
+
+/// Space that balls around the links may be in, and the distance that they keep from each other.
+pub struct Room {
+    /// Centers of the balls in the base frame, three outputs a ball, m.
+    pub centers: Box<dyn Function>,
+    /// The balls.
+    pub balls: Vec<Ball>,
+    /// Half spaces: `normal . p >= offset` for every point of a ball.
+    pub planes: Vec<([f64; 3], f64)>,
+    /// Least distance between balls of links that are no neighbors, m; none if absent.
+    pub apart: Option<f64>,
+}
+
+impl std::fmt::Debug for Room {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Room")
+            .field("balls", &self.balls)
+            .field("planes", &self.planes)
+            .field("apart", &self.apart)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Room {
+    /// Pairs of balls that keep a distance: those of one link and of neighbors touch anyway.
+    fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let count = if self.apart.is_some() {
+            self.balls.len()
+        } else {
+            0
+        };
+        (0..count)
+            .flat_map(move |i| (i + 1..count).map(move |k| (i, k)))
+            .filter(|&(i, k)| self.balls[i].on.abs_diff(self.balls[k].on) > 1)
+    }
+}
+
+impl Clearance for Room {
+    fn function(&self) -> &dyn Function {
+        &*self.centers
+    }
+
+    fn slacks(&self, values: &[f64], tell: Tell<'_>) {
+        let mut which = 0;
+        for (k, ball) in self.balls.iter().enumerate() {
+            for (normal, offset) in &self.planes {
+                let height: f64 = (0..3).map(|i| normal[i] * values[3 * k + i]).sum();
+                let slopes: [(usize, f64); 3] = std::array::from_fn(|i| (3 * k + i, normal[i]));
+                tell(which, height - offset - ball.radius, &slopes);
+                which += 1;
+            }
+        }
+        for (i, k) in self.pairs() {
+            let between: [f64; 3] = std::array::from_fn(|x| values[3 * i + x] - values[3 * k + x]);
+            let distance = between.iter().map(|d| d * d).sum::<f64>().sqrt();
+            let least = self.balls[i].radius + self.balls[k].radius + self.apart.unwrap_or(0.0);
+            let away = |x: usize| between[x] / distance.max(f64::MIN_POSITIVE);
+            let slopes: [(usize, f64); 6] = std::array::from_fn(|x| match x {
+                0..3 => (3 * i + x, away(x)),
+                _ => (3 * k + x - 3, -away(x - 3)),
+            });
+            tell(which, distance - least, &slopes);
+            which += 1;
+        }
+    }
+
+    fn name(&self, which: usize) -> String {
+        let planes = self.planes.len();
+        if which < self.balls.len() * planes {
+            let (normal, offset) = &self.planes[which % planes];
+            let link = &self.balls[which / planes].link;
+            return format!("ball on `{link}` beyond the plane {normal:?} . p = {offset}");
+        }
+        let pair = self.pairs().nth(which - self.balls.len() * planes);
+        let link = |k: usize| &self.balls[k].link;
+        pair.map_or_else(String::new, |(i, k)| {
+            format!("balls on `{}` and `{}`", link(i), link(k))
+        })
+    }
+}

@@ -1,0 +1,169 @@
+//! What a motion is worth, and whether it keeps the limits between the instants that it was designed on.
+
+use faer::{Mat, Side};
+
+use super::criterion::{Criterion, Rivals};
+use super::fourier::{Fourier, instants};
+use super::problem::{Problem, each_slack};
+use super::{ExciteError, Request};
+
+/// Instants of the grid on which limits are verified, per instant of the design's.
+const FINER: usize = 10;
+
+/// What is reserved beyond what a limit was missed by.
+const RESERVE: f64 = 1e-3;
+
+/// All criteria at a motion, over one period.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quality {
+    /// Condition number of the regressor in SI units, each joint's rows over its noise.
+    pub condition: f64,
+    /// The same with columns of unit length.
+    pub condition_of_unit_columns: f64,
+    /// `ln det` of the mean information matrix `Y^T W^2 Y` of a sample.
+    pub log_det: f64,
+    /// Square root of its smallest eigenvalue.
+    pub least_singular: f64,
+    /// `sum ln` of its diagonal: Hadamard's bound of `log_det`.
+    pub hadamard: f64,
+    /// Squared T-optimal distances of two effects, each from what the model and its rival can do; only of a design that separates.
+    pub distances: Option<[f64; 2]>,
+    /// By how much the worst limit is exceeded on a grid ten times as fine as the design's, as a share of it; 0 if none is.
+    pub violation: f64,
+    /// Which one, where one is.
+    pub violated: Option<String>,
+}
+
+impl Request {
+    /// All criteria at a motion, which may be any.
+    ///
+    /// # Errors
+    /// Columns that it does not excite.
+    pub fn quality(&self, motion: &Fourier) -> Result<Quality, ExciteError> {
+        let fine = motion.motion(&instants(motion.period, FINER * self.samples()));
+        let values = self.regressor.function.values(&fine);
+        let n = self.regressor.columns.len();
+        let samples = values.first().map_or(0, Vec::len);
+        let mut a = Mat::<f64>::zeros(n, n);
+        for joint in 0..self.joints.len() {
+            let mut rows = Mat::zeros(samples, n);
+            for (&(of, column), values) in self.regressor.entries.iter().zip(&values) {
+                if of == joint {
+                    for (s, value) in values.iter().enumerate() {
+                        rows[(s, column)] = value / self.noise[joint];
+                    }
+                }
+            }
+            a += rows.transpose() * &rows * faer::Scale(1.0 / samples as f64);
+        }
+        let length: Vec<f64> = (0..n).map(|k| a[(k, k)].sqrt()).collect();
+        let largest = length.iter().copied().fold(0.0, f64::max);
+        let silent: Vec<&str> = (0..n)
+            .filter(|&k| length[k].is_nan() || length[k] <= 1e-12 * largest)
+            .map(|k| self.regressor.columns[k].as_str())
+            .collect();
+        if !silent.is_empty() {
+            return Err(ExciteError::NotExcited(format!(
+                "`{}`",
+                silent.join("`, `")
+            )));
+        }
+        let unit = Mat::from_fn(n, n, |i, j| a[(i, j)] / (length[i] * length[j]));
+        let (raw, unit) = (eigenvalues(&a), eigenvalues(&unit));
+        let condition = |lambda: &[f64]| match (lambda.first(), lambda.last()) {
+            (Some(least), Some(most)) if *least > 0.0 => (most / least).sqrt(),
+            _ => f64::INFINITY,
+        };
+        let hadamard = 2.0 * length.iter().map(|x| x.ln()).sum::<f64>();
+        let distances = match &self.criterion {
+            Criterion::Separation(rivals) => distances(rivals, &a),
+            _ => None,
+        };
+        let (violation, violated) = self.violation(&fine);
+        Ok(Quality {
+            condition: condition(&raw),
+            condition_of_unit_columns: condition(&unit),
+            log_det: hadamard + unit.iter().map(|x| x.ln()).sum::<f64>(),
+            least_singular: raw.first().map_or(0.0, |x| x.max(0.0).sqrt()),
+            hadamard,
+            distances,
+            violation,
+            violated,
+        })
+    }
+
+    /// The worst limit at a motion: by how much, and which one.
+    fn violation(&self, motion: &crate::motion::Kinematics) -> (f64, Option<String>) {
+        let (mut worst, mut which) = (0.0_f64, None);
+        let mut tell = |excess: f64, name: &dyn Fn() -> String| {
+            // Rounding of sums of waves is no motion.
+            if excess > worst.max(1e-12) {
+                (worst, which) = (excess, Some(name()));
+            }
+        };
+        for (joint, name) in self.joints.iter().enumerate() {
+            let (middle, half) = self.limits.range(joint);
+            let signals = [
+                ("position", &motion.q[joint], middle, half),
+                (
+                    "velocity",
+                    &motion.dq[joint],
+                    0.0,
+                    self.limits.velocity[joint],
+                ),
+                (
+                    "acceleration",
+                    &motion.ddq[joint],
+                    0.0,
+                    self.limits.acceleration[joint],
+                ),
+            ];
+            for (what, values, middle, limit) in signals {
+                for x in values {
+                    tell((x - middle).abs() / limit - 1.0, &|| {
+                        format!("{what} of `{name}`")
+                    });
+                }
+            }
+        }
+        for clearance in &self.clearances {
+            each_slack(&**clearance, motion, &mut |k, slack| {
+                tell(-slack, &|| clearance.name(k));
+            });
+        }
+        (worst, which)
+    }
+
+    /// Reserves with which the fine grid would keep the clearances; `None` where it does.
+    pub(super) fn missing(&self, problem: &Problem<'_>, z: &[f64]) -> Option<Vec<f64>> {
+        let motion = problem.fourier(z);
+        let fine = motion.motion(&instants(self.period, FINER * self.samples()));
+        let mut is_missed = false;
+        let reserves = self.clearances.iter().zip(&problem.reserve);
+        let reserves = reserves
+            .map(|(clearance, reserve)| {
+                let mut least = f64::INFINITY;
+                each_slack(&**clearance, &fine, &mut |_, slack| {
+                    least = least.min(slack);
+                });
+                is_missed |= least < 0.0;
+                if least < 0.0 {
+                    reserve - least + RESERVE
+                } else {
+                    *reserve
+                }
+            })
+            .collect();
+        is_missed.then_some(reserves)
+    }
+}
+
+/// Ascending.
+fn eigenvalues(a: &Mat<f64>) -> Vec<f64> {
+    let found = a.self_adjoint_eigenvalues(Side::Lower);
+    found.unwrap_or_default()
+}
+
+fn distances(rivals: &Rivals, a: &Mat<f64>) -> Option<[f64; 2]> {
+    Some([rivals.distance(a, 0)?, rivals.distance(a, 1)?])
+}
