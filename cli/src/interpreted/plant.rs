@@ -51,6 +51,7 @@ impl Runner {
                 Symbol::State(k) => at.memory[k],
                 Symbol::Switch(k) => at.switches[k],
                 Symbol::Parameter(_) | Symbol::Shape(_) => continue,
+                Symbol::Weight(_) => unreachable!("a plant has no weights"),
             };
         }
         self.program.eval_in(&self.values, &mut self.scratch);
@@ -84,6 +85,8 @@ pub struct InterpretedPlant {
     arguments: Runner,
     jumps: Runner,
     energies: Runner,
+    /// Of which joints links are displaced, and by how much.
+    displaced: Option<(Vec<usize>, Runner)>,
     /// Made when the first implicit step asks for them.
     slopes: Option<Box<SlopeRunners>>,
     load: Vec<f64>,
@@ -108,7 +111,12 @@ impl InterpretedPlant {
         };
         let plant = compiled.plant();
         let runner = |program| Runner::new(program, &numbers);
+        let displaced = compiled.displacements().map(|block| {
+            let joints = block.entries.iter().map(|entry| entry.0).collect();
+            (joints, runner(block.program))
+        });
         Self {
+            displaced,
             dof: plant.dof,
             states: plant.states,
             switches: plant.switches,
@@ -232,6 +240,20 @@ impl Plant for InterpretedPlant {
         jumps.halves = matrix(found, 0, n, m);
         jumps.directions = matrix(found, n * m, m, n);
         jumps.drifts = DVector::from_fn(m, |k, _| found.output(2 * n * m + k));
+    }
+
+    fn is_displaced(&self) -> bool {
+        self.displaced.is_some()
+    }
+
+    fn displacements(&mut self, at: &Instant<'_>, displacements: &mut [f64]) {
+        self.carry(at);
+        if let Some((joints, runner)) = &mut self.displaced {
+            let found = runner.run(at, &self.load);
+            for (k, &joint) in joints.iter().enumerate() {
+                displacements[joint] = found.output(k);
+            }
+        }
     }
 
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {

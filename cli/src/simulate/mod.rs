@@ -20,7 +20,7 @@ use crate::interpreted::InterpretedPlant;
 use crate::output::{self, Files};
 use crate::parameters;
 use crate::progress::Progress;
-use crate::spec::compile_instantaneous;
+use crate::spec::compile;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
@@ -140,7 +140,7 @@ impl Simulate {
 
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
-        let compiled = compile_instantaneous(&self.spec)?;
+        let compiled = compile(&self.spec)?;
         let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
         let mut setting = self.set_up(&compiled, &trajectory)?;
         let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;
