@@ -12,6 +12,7 @@ mod emit;
 
 mod error;
 mod eval;
+mod excite;
 mod identify;
 mod import;
 mod json;
@@ -47,6 +48,7 @@ enum Verb {
     Show(show::Show),
     Emit(emit::Emit),
     Eval(eval::Eval),
+    Excite(excite::Excite),
     Import(import::Import),
     Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
@@ -62,6 +64,7 @@ impl Verb {
             Self::Show(verb) => verb.run(),
             Self::Emit(verb) => verb.run(),
             Self::Eval(verb) => verb.run(),
+            Self::Excite(verb) => verb.run(),
             Self::Import(verb) => verb.run(),
             Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),

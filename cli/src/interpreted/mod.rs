@@ -6,6 +6,7 @@
 
 mod band;
 mod candidate;
+mod function;
 mod measured;
 mod momentum;
 mod plant;
@@ -16,6 +17,7 @@ mod signals;
 mod states;
 
 pub use candidate::InterpretedCandidate;
+pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
 

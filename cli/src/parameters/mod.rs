@@ -59,6 +59,53 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
     Ok(values)
 }
 
+/// Values as far as they are known.
+pub(crate) struct Known {
+    /// Base parameters; what has no value counts as 0.
+    pub(crate) beta: Vec<f64>,
+    pub(crate) shapes: Vec<f64>,
+    /// Names of what has no value.
+    pub(crate) missing: Vec<String>,
+}
+
+/// What is known from a file, `more` by name and the spec.
+pub(crate) fn known(
+    compiled: &Compiled,
+    file: Option<&Path>,
+    more: &[(String, f64)],
+) -> Result<Known, Error> {
+    let (mut given, source) = match file {
+        Some(path) => (file::read(path)?, path.display().to_string()),
+        None => (BTreeMap::new(), compiled.model.source.clone()),
+    };
+    given.extend(more.iter().cloned());
+    let values = known_of(compiled, &given);
+    values.map_err(|reason| Error::Argument(format!("{source}: {reason}")))
+}
+
+fn known_of(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known, String> {
+    let base_names = &compiled.base.names;
+    let shape_names = compiled.shape_names();
+    let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
+    let shapes = shapes(compiled, given, &mut Vec::new())?;
+    let beta = if !base_names.is_empty() && base_names.iter().all(|name| given.contains_key(name)) {
+        base_names.iter().map(|name| given[name]).collect()
+    } else {
+        let linear = given.keys().filter(|name| !shape_names.contains(name));
+        let linear: Vec<&str> = linear.map(String::as_str).collect();
+        check_names(compiled, &linear)?;
+        let given = products(compiled, given, &mut from_spec)?;
+        let standard = standard(compiled, &given, &mut missing, &mut from_spec)?;
+        let standard: Vec<f64> = standard.iter().map(|value| value.unwrap_or(0.0)).collect();
+        compiled.base.beta(&standard)
+    };
+    Ok(Known {
+        beta,
+        shapes,
+        missing,
+    })
+}
+
 /// The values, and what no arm has among them.
 fn arm(
     compiled: &Compiled,

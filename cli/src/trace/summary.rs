@@ -5,6 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome};
 
+use super::doubt::doubt;
 use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
@@ -56,6 +57,9 @@ pub(crate) fn summary(closed: &Loop, text: &str) -> String {
     found
         .enumerate()
         .for_each(|(place, finding)| show(finding, place));
+    if verdict.outcome == Outcome::Explained {
+        out.push_str(&doubt(closed));
+    }
 
     if verdict.leads.len() >= MOST_EFFECTS {
         writeln!(

@@ -7,6 +7,7 @@ mod energies;
 mod equations;
 mod eval;
 mod every;
+mod excite;
 mod identify;
 mod import;
 mod outputs;

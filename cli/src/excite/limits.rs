@@ -1,0 +1,64 @@
+//! Limits of a motion: those of the spec, and those of the command line.
+
+use robot_model::excite::{Clearance, Limits, TorqueLimits};
+use robot_model_codegen::Differentiable;
+use robot_model_spec::Model;
+
+use crate::Error;
+use crate::interpreted::InterpretedFunction;
+
+/// Limits of a model's joints; `acceleration` has one number, or one a joint, for joints whose spec says none.
+pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, Error> {
+    let joints = &model.joints;
+    let mut limits = Limits::none(joints.len());
+    let given = per_joint("--acceleration", acceleration, joints.len())?;
+    for (k, joint) in joints.iter().enumerate() {
+        let own = &joint.limits;
+        limits.position[k] = own.position.unwrap_or(limits.position[k]);
+        limits.velocity[k] = own.velocity.unwrap_or(f64::INFINITY);
+        let other = given.as_ref().map_or(f64::INFINITY, |given| given[k]);
+        limits.acceleration[k] = own.acceleration.unwrap_or(other);
+        limits.torque[k] = own.torque.unwrap_or(f64::INFINITY);
+    }
+    Ok(limits)
+}
+
+/// One number a joint, of one for all or one each.
+fn per_joint(what: &str, given: Option<&[f64]>, dof: usize) -> Result<Option<Vec<f64>>, Error> {
+    match given {
+        None => Ok(None),
+        Some(&[one]) => Ok(Some(vec![one; dof])),
+        Some(each) if each.len() == dof => Ok(Some(each.to_vec())),
+        Some(each) => Err(Error::Argument(format!(
+            "{what} has {} numbers, the arm {dof} joints: give one for all, or one a joint",
+            each.len()
+        ))),
+    }
+}
+
+/// Limits on the torques of the nominal arm.
+pub(super) fn torque(
+    torque: Differentiable,
+    limits: &Limits,
+    joints: &[String],
+) -> Box<dyn Clearance> {
+    Box::new(TorqueLimits {
+        torque: Box::new(InterpretedFunction::new(torque, joints.len())),
+        limits: limits.torque.clone(),
+        joints: joints.to_vec(),
+    })
+}
+
+/// Torque noise: as given, else in proportion to torque limits, else the same for all.
+pub(super) fn noise(
+    given: Option<&[f64]>,
+    limits: &Limits,
+    joints: &[String],
+) -> Result<Vec<f64>, Error> {
+    if let Some(noise) = per_joint("--noise", given, joints.len())? {
+        return Ok(noise);
+    }
+    let is_known = limits.torque.iter().all(|limit| limit.is_finite());
+    let noise = |limit: &f64| if is_known { *limit } else { 1.0 };
+    Ok(limits.torque.iter().map(noise).collect())
+}

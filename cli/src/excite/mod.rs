@@ -1,0 +1,332 @@
+//! `robot-model excite`: the motion from which an arm is identified best.
+
+mod figure;
+mod interrupt;
+mod limits;
+mod output;
+mod room;
+mod separate;
+
+use std::cell::Cell;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use clap::{Args, ValueEnum};
+use robot_model::excite::{
+    Criterion, Ends, ExciteError, Progress as Search, Regressor, Request, Scaling,
+};
+use robot_model_codegen::{Compiled, Nominal};
+
+use crate::interpreted::InterpretedFunction;
+use crate::output::{Files, counted, names};
+use crate::parameters::{self, Known};
+use crate::progress::Progress;
+use crate::{Error, spec};
+
+use interrupt::Interrupt;
+
+/// Velocity within which dry friction turns round while a motion is looked for, as a share of a joint's velocity limit.
+const TURN: f64 = 0.01;
+
+/// Design the motion that identifies an arm best, within its limits.
+///
+/// The motion is a sum of harmonics that repeats every period, begins and ends at rest, and keeps the limits of the spec at all
+/// times: position, velocity and acceleration by a bound that holds between samples, torque and distances on a grid ten times as fine
+/// as the design's. The same seed gives the same motion, unless `--budget` or Ctrl-C stops the search: then the best motion so far
+/// is written.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model excite arm.robot --out motion.csv
+  robot-model excite arm.robot --criterion condition --period 10 --out motion.csv
+  robot-model excite arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow: c = 0.1' --out motion.csv")]
+pub(crate) struct Excite {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// The motion: `time,q1..qn,dq1..dqn,ddq1..ddqn`, one period.
+    #[arg(long, value_name = "TRAJ.csv")]
+    out: PathBuf,
+    /// What is wanted of the motion.
+    #[arg(long, value_enum, default_value_t)]
+    criterion: CriterionArgument,
+    /// Count columns of unit length: for the condition number and the smallest singular value.
+    #[arg(long)]
+    unit_columns: bool,
+    /// Time after which the motion repeats, s.
+    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    period: f64,
+    /// Waves a joint.
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    harmonics: usize,
+    /// How the motion begins and ends.
+    #[arg(long, value_enum, default_value_t)]
+    ends: EndsArgument,
+    /// Where it begins and ends, rad or m: `0,0.3,-1.2`.
+    #[arg(
+        long,
+        value_name = "Q1,..",
+        allow_hyphen_values = true,
+        value_delimiter = ',',
+        conflicts_with = "ends"
+    )]
+    pose: Option<Vec<f64>>,
+    /// Values by name, for torque limits and for friction that depends on the load; what the spec says where it is not given.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+    /// Standard deviation of each joint's torque noise, N m or N; in proportion to the torque limits where all joints have one, else 1.
+    #[arg(long, value_name = "S1,..", value_delimiter = ',')]
+    noise: Option<Vec<f64>>,
+    /// Limits of accelerations, for joints whose spec gives none, rad/s^2 or m/s^2: one for all, or one a joint.
+    #[arg(long, value_name = "A1,..", value_delimiter = ',')]
+    acceleration: Option<Vec<f64>>,
+    /// Balls on links, planes and the distance between balls, which the arm keeps.
+    #[arg(long, value_name = "ROOM.json")]
+    room: Option<PathBuf>,
+    /// An effect that is to be told from another, with what it is expected to be worth: `stribeck(vs = 0.1) on elbow: fs = 2`.
+    #[arg(long, value_name = "EFFECT", requires = "from")]
+    separate: Option<String>,
+    /// The other one.
+    #[arg(long, value_name = "EFFECT", requires = "separate")]
+    from: Option<String>,
+    /// Random motions to start from.
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    starts: usize,
+    /// Of the random motions.
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Stop after so many seconds with the best motion so far.
+    #[arg(long, value_name = "S")]
+    budget: Option<f64>,
+    /// Rate of the CSV file, Hz.
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    rate: f64,
+    /// The coefficients of the harmonics.
+    #[arg(long, value_name = "FILE.json")]
+    coefficients: Option<PathBuf>,
+    /// The motion drawn, with its limits.
+    #[arg(long, value_name = "FILE.svg")]
+    figure: Option<PathBuf>,
+    /// What the motion is worth.
+    #[arg(long, value_name = "FILE.json")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum CriterionArgument {
+    /// The volume of the parameters' confidence ellipsoid; it does not depend on units.
+    #[default]
+    DOptimal,
+    /// The condition number of the base regressor.
+    Condition,
+    /// Its smallest singular value.
+    EOptimal,
+    /// The lengths of its columns alone: does not see columns that look alike.
+    Hadamard,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum EndsArgument {
+    /// At rest, at a pose that is chosen.
+    #[default]
+    Rest,
+    /// In motion.
+    Free,
+}
+
+impl Excite {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let started = Instant::now();
+        let inputs = [
+            Some(&self.spec),
+            self.parameters.as_ref(),
+            self.room.as_ref(),
+        ];
+        let mut files = Files::reading(inputs.into_iter().flatten().map(PathBuf::as_path));
+        let out = files.claim(&self.out)?;
+        let coefficients = files.claim_if(self.coefficients.as_deref())?;
+        let figure = files.claim_if(self.figure.as_deref())?;
+        let json = files.claim_if(self.json.as_deref())?;
+        // A period that is none is told by whoever designs with it.
+        let is_long = self.period.is_finite() && self.rate * self.period > 1e7;
+        if self.rate.is_nan() || self.rate <= 0.0 || is_long {
+            return Err(Error::Argument(format!(
+                "--rate {}: a rate in Hz, for at most ten million samples",
+                self.rate
+            )));
+        }
+        let progress = Progress::new();
+        let (compiled, rivals) = match (&self.separate, &self.from) {
+            (Some(effect), Some(rival)) => {
+                let (compiled, rivals) = separate::rivals(&self.spec, effect, rival)?;
+                (compiled, Some(rivals))
+            }
+            _ => (spec::compile(&self.spec)?, None),
+        };
+        progress.step("compiling the regressor and its slopes");
+        let request = self.request(&compiled, rivals.as_ref(), &progress)?;
+        let design = search(&request, self.budget, started, &progress)?;
+        drop(progress);
+
+        out.commit(output::csv(&design.motion, self.rate).as_bytes())?;
+        if let Some(file) = coefficients {
+            file.commit(output::coefficients(&request, &design).as_bytes())?;
+        }
+        if let Some(file) = figure {
+            file.commit(figure::svg(&request, &design).as_bytes())?;
+        }
+        let seconds = started.elapsed().as_secs_f64();
+        if let Some(file) = json {
+            file.commit(output::report(&design, seconds).as_bytes())?;
+        }
+        crate::output::print(&output::summary(&request, &design, seconds))
+    }
+
+    fn request(
+        &self,
+        compiled: &Compiled,
+        rivals: Option<&separate::Expected>,
+        progress: &Progress,
+    ) -> Result<Request, Error> {
+        let joints: Vec<String> = compiled
+            .model
+            .joints
+            .iter()
+            .map(|joint| joint.name.clone())
+            .collect();
+        let limits = limits::of(&compiled.model, self.acceleration.as_deref())?;
+        let given = rivals.map_or(&[][..], |rivals| &rivals.sizes);
+        let Known {
+            beta,
+            shapes,
+            missing,
+        } = parameters::known(compiled, self.parameters.as_deref(), given)?;
+        let nominal = Nominal {
+            beta,
+            shapes,
+            turn: limits.velocity.iter().map(|speed| TURN * speed).collect(),
+        };
+        let columns = compiled.design_columns(&nominal);
+        if !columns.left_out.is_empty() {
+            let left_out: Vec<&str> = columns
+                .left_out
+                .iter()
+                .map(|&k| compiled.base.names[k].as_str())
+                .collect();
+            progress.note(&format!(
+                "note: not designed for {}: {} on more than the motion of the instant",
+                names(&left_out),
+                if left_out.len() == 1 {
+                    "it depends"
+                } else {
+                    "they depend"
+                },
+            ));
+        }
+        let criterion = match rivals {
+            Some(rivals) => rivals.criterion(compiled, &columns)?,
+            None => self.criterion.into(),
+        };
+        let dof = compiled.dof();
+        let mut clearances = Vec::new();
+        if limits.torque.iter().any(|limit| limit.is_finite()) {
+            if !missing.is_empty() {
+                let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
+                progress.note(&format!(
+                    "note: torque limits are kept by an arm without {}, which {} no value; give {} with `--parameters`",
+                    names(&missing),
+                    if missing.len() == 1 { "has" } else { "have" },
+                    if missing.len() == 1 { "it" } else { "them" },
+                ));
+            }
+            let torque = compiled.design_torque(&nominal);
+            clearances.push(limits::torque(torque, &limits, &joints));
+        }
+        if let Some(path) = &self.room {
+            clearances.push(room::read(path, compiled, &nominal)?);
+        }
+        let noise = limits::noise(self.noise.as_deref(), &limits, &joints)?;
+        Ok(Request {
+            regressor: Regressor {
+                columns: columns
+                    .columns
+                    .iter()
+                    .map(|&k| compiled.base.names[k].clone())
+                    .collect(),
+                entries: columns.entries,
+                function: Box::new(InterpretedFunction::new(columns.function, dof)),
+            },
+            joints,
+            limits,
+            clearances,
+            criterion,
+            scaling: if self.unit_columns {
+                Scaling::UnitLength
+            } else {
+                Scaling::Raw
+            },
+            noise,
+            period: self.period,
+            harmonics: self.harmonics,
+            ends: match (&self.pose, self.ends) {
+                (Some(pose), _) => Ends::At(pose.clone()),
+                (None, EndsArgument::Rest) => Ends::AtRest,
+                (None, EndsArgument::Free) => Ends::Free,
+            },
+            starts: self.starts,
+            seed: self.seed,
+        })
+    }
+}
+
+impl From<CriterionArgument> for Criterion {
+    fn from(argument: CriterionArgument) -> Self {
+        match argument {
+            CriterionArgument::DOptimal => Self::DOptimal,
+            CriterionArgument::Condition => Self::Condition,
+            CriterionArgument::EOptimal => Self::EOptimal,
+            CriterionArgument::Hadamard => Self::Hadamard,
+        }
+    }
+}
+
+/// Searches until it is done, the time is over, or somebody presses Ctrl-C.
+fn search(
+    request: &Request,
+    budget: Option<f64>,
+    started: Instant,
+    progress: &Progress,
+) -> Result<robot_model::excite::Design, Error> {
+    let budget = match budget {
+        Some(seconds) if !(seconds > 0.0 && seconds.is_finite()) => {
+            return Err(Error::Argument(format!(
+                "--budget {seconds}: a number of seconds"
+            )));
+        }
+        other => other.map(Duration::from_secs_f64),
+    };
+    let interrupted = Interrupt::watch();
+    let told = Cell::new(0);
+    let watch = |search: Search| {
+        if told.replace(search.start) != search.start {
+            let best = search
+                .best
+                .map_or_else(String::new, |best| format!(", best so far {best:.3}"));
+            progress.step(&format!(
+                "start {} of {}{best}",
+                search.start, request.starts
+            ));
+        }
+        !interrupted.is_pressed() && budget.is_none_or(|budget| started.elapsed() < budget)
+    };
+    let design = request.run(&watch).map_err(|error| refused(&error))?;
+    if design.stopped {
+        progress.note(&format!(
+            "note: stopped after {}",
+            counted(design.starts, "start")
+        ));
+    }
+    Ok(design)
+}
+
+fn refused(error: &ExciteError) -> Error {
+    Error::Argument(error.to_string())
+}

@@ -1,0 +1,170 @@
+//! What a design is written as.
+
+use std::fmt::Write;
+
+use robot_model::excite::{Design, Fourier, Request};
+use serde::Serialize;
+
+use crate::output::json;
+
+const PUT: &str = "a string takes all";
+
+/// One period, `time,q1..qn,dq1..dqn,ddq1..ddqn`; the last row is the first again.
+pub(super) fn csv(motion: &Fourier, rate: f64) -> String {
+    let steps = (motion.period * rate).ceil().max(1.0);
+    let mut text = String::from("time");
+    let dof = motion.coefficients.len();
+    for signal in ["q", "dq", "ddq"] {
+        for joint in 1..=dof {
+            write!(text, ",{signal}{joint}").expect(PUT);
+        }
+    }
+    text.push('\n');
+    let mut k = 0.0;
+    while k <= steps {
+        let time = (k / rate).min(motion.period);
+        write!(text, "{time}").expect(PUT);
+        let states: Vec<[f64; 3]> = (0..dof).map(|joint| motion.at(joint, time)).collect();
+        for order in 0..3 {
+            for state in &states {
+                write!(text, ",{:.12e}", state[order]).expect(PUT);
+            }
+        }
+        text.push('\n');
+        k += 1.0;
+    }
+    text
+}
+
+#[derive(Serialize)]
+struct Coefficients<'a> {
+    period: f64,
+    equation: &'static str,
+    joints: Vec<JointCoefficients<'a>>,
+}
+
+#[derive(Serialize)]
+struct JointCoefficients<'a> {
+    name: &'a str,
+    q0: f64,
+    a: &'a [f64],
+    b: &'a [f64],
+}
+
+/// The coefficients by joint.
+pub(super) fn coefficients(request: &Request, design: &Design) -> String {
+    let harmonics = design.motion.harmonics();
+    let joints = request.joints.iter().zip(&design.motion.coefficients);
+    json(&Coefficients {
+        period: design.motion.period,
+        equation: "q = q0 + sum_l a_l/(w l) sin(w l t) - b_l/(w l) cos(w l t), w = 2 pi / period",
+        joints: joints
+            .map(|(name, c)| JointCoefficients {
+                name,
+                q0: c[0],
+                a: &c[1..=harmonics],
+                b: &c[1 + harmonics..],
+            })
+            .collect(),
+    })
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    condition: f64,
+    condition_of_unit_columns: f64,
+    log_det: f64,
+    least_singular: f64,
+    hadamard: f64,
+    distances: Option<[f64; 2]>,
+    seconds: f64,
+    max_violation: f64,
+    violated: Option<&'a str>,
+    starts: usize,
+    stopped: bool,
+}
+
+/// What the motion is worth.
+pub(super) fn report(design: &Design, seconds: f64) -> String {
+    let quality = &design.quality;
+    json(&Report {
+        condition: quality.condition,
+        condition_of_unit_columns: quality.condition_of_unit_columns,
+        log_det: quality.log_det,
+        least_singular: quality.least_singular,
+        hadamard: quality.hadamard,
+        distances: quality.distances,
+        seconds,
+        max_violation: quality.violation,
+        violated: quality.violated.as_deref(),
+        starts: design.starts,
+        stopped: design.stopped,
+    })
+}
+
+/// The same for people.
+pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> String {
+    let quality = &design.quality;
+    let mut text = String::new();
+    writeln!(
+        text,
+        "{} columns, {} joints, {} harmonics of {} s; best of {} starts, {seconds:.1} s",
+        request.regressor.columns.len(),
+        request.joints.len(),
+        request.harmonics,
+        request.period,
+        design.starts,
+    )
+    .expect(PUT);
+    writeln!(
+        text,
+        "condition number of the regressor    {:.2}",
+        quality.condition
+    )
+    .expect(PUT);
+    writeln!(
+        text,
+        "  with columns of unit length        {:.2}",
+        quality.condition_of_unit_columns
+    )
+    .expect(PUT);
+    writeln!(
+        text,
+        "ln det of a sample's information     {:.3}",
+        quality.log_det
+    )
+    .expect(PUT);
+    writeln!(
+        text,
+        "  by the columns' lengths alone      {:.3}",
+        quality.hadamard
+    )
+    .expect(PUT);
+    writeln!(
+        text,
+        "smallest singular value of a sample  {:.3e}",
+        quality.least_singular
+    )
+    .expect(PUT);
+    if let Some([first, second]) = quality.distances {
+        writeln!(
+            text,
+            "what cannot be imitated, root mean square over torque noise: {:.3} of the first, {:.3} of the second",
+            first.sqrt(),
+            second.sqrt()
+        )
+        .expect(PUT);
+    }
+    match &quality.violated {
+        None => text.push_str("limits: kept, also on a grid ten times as fine\n"),
+        Some(limit) => {
+            writeln!(
+                text,
+                "limits: {limit} exceeded by {:.2e} of it",
+                quality.violation
+            )
+            .expect(PUT);
+        }
+    }
+    text
+}

@@ -1,0 +1,121 @@
+//! Space that the arm keeps: a file of balls, planes and a distance.
+//!
+//! `{"balls": [{"link": "elbow", "center": [0, 0, 0.1], "radius": 0.08}], "box": {"low": [-1, -1, 0], "high": [1, 1, 2]},
+//! "planes": [{"normal": [0, 0, 1], "offset": 0.02}], "apart": 0.03}`: centers in the axes of the link's frame, the rest in the
+//! base frame, in m. All but the balls may be left out.
+
+use std::path::Path;
+
+use robot_model::excite::{Ball, Clearance, Room};
+use robot_model_codegen::{Compiled, Nominal};
+use serde::Deserialize;
+
+use crate::interpreted::InterpretedFunction;
+use crate::output::names;
+use crate::{Error, json};
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    balls: Vec<BallOfFile>,
+    #[serde(rename = "box")]
+    within: Option<Box3>,
+    #[serde(default)]
+    planes: Vec<Plane>,
+    apart: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BallOfFile {
+    link: String,
+    #[serde(default)]
+    center: [f64; 3],
+    radius: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Box3 {
+    low: [f64; 3],
+    high: [f64; 3],
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Plane {
+    normal: [f64; 3],
+    offset: f64,
+}
+
+/// Reads the file.
+pub(super) fn read(
+    path: &Path,
+    compiled: &Compiled,
+    nominal: &Nominal,
+) -> Result<Box<dyn Clearance>, Error> {
+    let value = json::read(path)?;
+    let file: File = serde_json::from_value(value).map_err(|error| Error::json(path, &error))?;
+    let refused = |reason: String| Error::json(path, &reason);
+    let Some(chain) = compiled.model.chain() else {
+        return Err(refused(
+            "the robot has no links that balls could be on".to_owned(),
+        ));
+    };
+    let links: Vec<&str> = chain.links.iter().map(|link| link.name.as_str()).collect();
+    let mut balls = Vec::new();
+    let mut points = Vec::new();
+    for ball in file.balls {
+        let Some(on) = links.iter().position(|link| *link == ball.link) else {
+            return Err(refused(format!(
+                "no link `{}`; there are {}",
+                ball.link,
+                names(&links)
+            )));
+        };
+        if !(ball.radius >= 0.0 && ball.radius.is_finite()) {
+            return Err(refused(format!(
+                "a ball on `{}` has the radius {}",
+                ball.link, ball.radius
+            )));
+        }
+        points.push((on, ball.center));
+        balls.push(Ball {
+            link: ball.link,
+            on,
+            radius: ball.radius,
+        });
+    }
+    let mut planes = Vec::new();
+    for plane in file.planes {
+        let length = plane.normal.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if !(length > 0.0 && length.is_finite()) {
+            return Err(refused(format!(
+                "a plane has the normal {:?}",
+                plane.normal
+            )));
+        }
+        planes.push((plane.normal.map(|x| x / length), plane.offset / length));
+    }
+    if let Some(Box3 { low, high }) = file.within {
+        for axis in 0..3 {
+            if low[axis].is_nan() || high[axis].is_nan() || low[axis] >= high[axis] {
+                return Err(refused(
+                    "the box has no inside: `low` is below `high` in each axis".to_owned(),
+                ));
+            }
+            let unit = |sign: f64| std::array::from_fn(|k| if k == axis { sign } else { 0.0 });
+            planes.push((unit(1.0), low[axis]));
+            planes.push((unit(-1.0), -high[axis]));
+        }
+    }
+    let centers = compiled
+        .design_points(&points, nominal)
+        .ok_or_else(|| refused("the robot has no links that balls could be on".to_owned()))?;
+    Ok(Box::new(Room {
+        centers: Box::new(InterpretedFunction::new(centers, compiled.dof())),
+        balls,
+        planes,
+        apart: file.apart,
+    }))
+}

@@ -1,0 +1,168 @@
+//! Two effects that are to be told apart, as the command line says them.
+//!
+//! `stribeck(vs = 0.1) on elbow: fs = 2`: an effect as a spec declares it, then what it is expected to be worth, or 1: the best motion
+//! for an effect with one parameter does not depend on it. Both are declared in the spec, so that their columns are columns of the arm.
+
+use std::path::Path;
+
+use robot_model::excite::{Criterion, Rivals};
+use robot_model_codegen::{Compiled, DesignColumns, compile_model};
+use robot_model_spec::Model;
+use robot_model_spec::amend::{Amendment, amend};
+
+use crate::output::names;
+use crate::{Error, spec};
+
+/// A spec's effects, and the sizes that are expected of two of them.
+pub(super) struct Expected {
+    /// By parameter, of both.
+    pub(super) sizes: Vec<(String, f64)>,
+    /// How many are of the first.
+    of_first: usize,
+}
+
+/// The spec with both effects.
+pub(super) fn rivals(
+    path: &Path,
+    first: &str,
+    second: &str,
+) -> Result<(Compiled, Expected), Error> {
+    let source = path.display().to_string();
+    let said = [said(first)?, said(second)?];
+    if said[0].0.effect == said[1].0.effect && said[0].0.joints == said[1].0.joints {
+        return Err(Error::Argument(format!(
+            "`--separate` and `--from` are both `{}` on the same joints: nothing tells an effect from itself",
+            said[0].0.effect
+        )));
+    }
+    let text = spec::read_text(path)?;
+    let declared = robot_model_spec::load(&source, &text)?;
+    let amendments: Vec<Amendment> = said
+        .iter()
+        .map(|said| said.0.clone())
+        .filter(|amendment| place(&declared, amendment).is_none())
+        .collect();
+    let amended = amend(&source, &text, &amendments)?;
+    let model = robot_model_spec::load(&source, &amended)?;
+    let mut sizes = Vec::new();
+    let mut of_first = 0;
+    for (amendment, values) in &said {
+        let effect = place(&model, amendment).expect("declared, at last a moment ago");
+        let prefix = model.effect_name(effect);
+        let linear: Vec<&str> = model.effects[effect]
+            .definition
+            .linear
+            .iter()
+            .map(|parameter| parameter.name.as_str())
+            .collect();
+        let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+        if given.is_empty() {
+            sizes.extend(linear.iter().map(|name| (format!("{prefix}.{name}"), 1.0)));
+        } else if linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len() {
+            return Err(Error::Argument(format!(
+                "`{}` has {}: say what each is expected to be, as in `{} on ..: {} = 1`",
+                amendment.effect,
+                names(&linear),
+                amendment.effect,
+                linear.join(" = 1, ")
+            )));
+        }
+        sizes.extend(
+            values
+                .iter()
+                .map(|(name, value)| (format!("{prefix}.{name}"), *value)),
+        );
+        if of_first == 0 {
+            of_first = sizes.len();
+        }
+    }
+    let compiled = spec::clear(compile_model(&model))?;
+    Ok((compiled, Expected { sizes, of_first }))
+}
+
+/// The effect of a model that an amendment would declare.
+fn place(model: &Model, amendment: &Amendment) -> Option<usize> {
+    model.effects.iter().rposition(|declared| {
+        let joints = declared.joints.iter();
+        let joints = joints.map(|&joint| &model.joints[joint].name);
+        declared.definition.name == amendment.effect && joints.eq(&amendment.joints)
+    })
+}
+
+impl Expected {
+    /// The criterion in the columns of the design.
+    pub(super) fn criterion(
+        &self,
+        compiled: &Compiled,
+        columns: &DesignColumns,
+    ) -> Result<Criterion, Error> {
+        let place = |(name, size): &(String, f64)| {
+            let base = &compiled.base.names;
+            let found = columns.columns.iter().position(|&k| base[k] == *name);
+            found.map(|place| (place, *size)).ok_or_else(|| {
+                Error::Argument(format!(
+                    "no motion of this arm tells `{name}` apart by a column of its own: it regroups with other parameters, or follows from more than the motion of an instant"
+                ))
+            })
+        };
+        let places: Result<Vec<(usize, f64)>, Error> = self.sizes.iter().map(place).collect();
+        let mut first = places?;
+        let second = first.split_off(self.of_first);
+        Ok(Criterion::Separation(Rivals {
+            effects: [first, second],
+        }))
+    }
+}
+
+/// An effect with what its parameters are worth.
+fn said(text: &str) -> Result<(Amendment, Vec<(String, f64)>), Error> {
+    let refused = || {
+        Error::Argument(format!(
+            "`{text}` is no effect with its size: write `stribeck(vs = 0.1) on elbow: fs = 2`"
+        ))
+    };
+    let (declaration, sizes) = match text.split_once(':') {
+        Some((declaration, sizes)) => (declaration, Some(sizes)),
+        None => (text, None),
+    };
+    let (head, joints) = match declaration.split_once(" on ") {
+        Some((head, joints)) => (head, joints),
+        None => (declaration, ""),
+    };
+    let (effect, shapes) = match head.trim().split_once('(') {
+        Some((effect, shapes)) => (effect, shapes.trim().strip_suffix(')').ok_or_else(refused)?),
+        None => (head, ""),
+    };
+    let joints = joints.trim().trim_start_matches('(').trim_end_matches(')');
+    let joints = joints
+        .split(',')
+        .map(str::trim)
+        .filter(|joint| !joint.is_empty());
+    let amendment = Amendment {
+        effect: effect.trim().to_owned(),
+        joints: joints.map(str::to_owned).collect(),
+        shapes: pairs(shapes).ok_or_else(refused)?,
+    };
+    let sizes = match sizes {
+        Some(sizes) => pairs(sizes)
+            .filter(|sizes| !sizes.is_empty())
+            .ok_or_else(refused)?,
+        None => Vec::new(),
+    };
+    Ok((amendment, sizes))
+}
+
+/// `a = 1, b = 2`
+fn pairs(text: &str) -> Option<Vec<(String, f64)>> {
+    let parts = text
+        .split(',')
+        .map(str::trim)
+        .filter(|part| !part.is_empty());
+    parts
+        .map(|part| {
+            let (name, value) = part.split_once('=')?;
+            let value: f64 = value.trim().parse().ok()?;
+            value.is_finite().then(|| (name.trim().to_owned(), value))
+        })
+        .collect()
+}

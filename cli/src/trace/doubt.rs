@@ -1,0 +1,95 @@
+//! What the logs leave open: effects that would do as well as those that are named, and the experiment that tells them apart.
+
+use std::fmt::Write;
+
+use robot_model::columns::Arm;
+use robot_model::trace::{Alternative, Finding};
+use robot_model_spec::standard_effects;
+
+use super::report::effect;
+use crate::close_the_loop::Loop;
+
+const PUT: &str = "a string takes all";
+
+/// One line an alternative, and the command that designs the motion for the first doubt that has one.
+pub(super) fn doubt(closed: &Loop) -> String {
+    let mut out = String::new();
+    let alternatives = &closed.verdict.alternatives;
+    for alternative in alternatives {
+        writeln!(
+            out,
+            "  or {} on {} in place of {}: {:+.1} % error where it was not fitted",
+            alternative.kind,
+            joints(closed, &alternative.joints),
+            closed.verdict.findings[alternative.instead_of].kind,
+            alternative.worse_percent,
+        )
+        .expect(PUT);
+    }
+    let command = alternatives.iter().find_map(|rival| {
+        let place = rival.instead_of;
+        let finding = &closed.verdict.findings[place];
+        experiment(closed, finding, place, rival)
+    });
+    if let Some(command) = command {
+        writeln!(
+            out,
+            "  these logs do not settle it; the motion that does: {command}"
+        )
+        .expect(PUT);
+    }
+    out
+}
+
+/// The command; none where an effect follows from more than the motion of the instant, for which no motion is designed.
+fn experiment(
+    closed: &Loop,
+    finding: &Finding,
+    place: usize,
+    rival: &Alternative,
+) -> Option<String> {
+    let (own, other) = (name(&finding.kind)?, name(&rival.kind)?);
+    let values = effect(finding, closed, place).parameters;
+    let sizes: Vec<String> = own
+        .linear
+        .iter()
+        .filter_map(|linear| values.iter().find(|value| value.name == linear))
+        .map(|value| format!("{} = {:.3e}", value.name, value.value))
+        .collect();
+    Some(format!(
+        "robot-model excite {} --separate '{} on {}: {}' --from '{} on {}' --out next.csv",
+        closed.before.arm.compiled().model.source,
+        own.name,
+        joints(closed, &finding.joints),
+        sizes.join(", "),
+        other.name,
+        joints(closed, &rival.joints),
+    ))
+}
+
+struct OfMotion {
+    name: String,
+    linear: Vec<String>,
+}
+
+/// An effect of the language whose torque is one of the motion alone, by its name in reports.
+fn name(kind: &str) -> Option<OfMotion> {
+    let effects = standard_effects();
+    let effect = effects
+        .iter()
+        .find(|effect| effect.name.replace('_', "-") == kind)?;
+    let is_of_motion = effect.states.is_empty() && effect.inputs.is_empty();
+    (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
+        name: effect.name.clone(),
+        linear: effect.linear.iter().map(|p| p.name.clone()).collect(),
+    })
+}
+
+fn joints(closed: &Loop, joints: &[usize]) -> String {
+    let names = closed.before.arm.joints();
+    let joints: Vec<&str> = joints.iter().map(|&joint| names[joint].as_str()).collect();
+    match joints.as_slice() {
+        [joint] => (*joint).to_owned(),
+        several => format!("({})", several.join(", ")),
+    }
+}
