@@ -85,8 +85,6 @@ pub struct InterpretedPlant {
     arguments: Runner,
     jumps: Runner,
     energies: Runner,
-    /// Of which joints links are displaced, and by how much.
-    displaced: Option<(Vec<usize>, Runner)>,
     /// Made when the first implicit step asks for them.
     slopes: Option<Box<SlopeRunners>>,
     load: Vec<f64>,
@@ -111,12 +109,7 @@ impl InterpretedPlant {
         };
         let plant = compiled.plant();
         let runner = |program| Runner::new(program, &numbers);
-        let displaced = compiled.displacements().map(|block| {
-            let joints = block.entries.iter().map(|entry| entry.0).collect();
-            (joints, runner(block.program))
-        });
         Self {
-            displaced,
             dof: plant.dof,
             states: plant.states,
             switches: plant.switches,
@@ -240,20 +233,6 @@ impl Plant for InterpretedPlant {
         jumps.halves = matrix(found, 0, n, m);
         jumps.directions = matrix(found, n * m, m, n);
         jumps.drifts = DVector::from_fn(m, |k, _| found.output(2 * n * m + k));
-    }
-
-    fn is_displaced(&self) -> bool {
-        self.displaced.is_some()
-    }
-
-    fn displacements(&mut self, at: &Instant<'_>, displacements: &mut [f64]) {
-        self.carry(at);
-        if let Some((joints, runner)) = &mut self.displaced {
-            let found = runner.run(at, &self.load);
-            for (k, &joint) in joints.iter().enumerate() {
-                displacements[joint] = found.output(k);
-            }
-        }
     }
 
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {

@@ -20,7 +20,7 @@ use crate::interpreted::InterpretedPlant;
 use crate::output::{self, Files};
 use crate::parameters;
 use crate::progress::Progress;
-use crate::spec::compile;
+use crate::spec::compile_instantaneous;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
@@ -44,7 +44,7 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "FILE.csv", conflicts_with = "controller")]
     torque: Option<PathBuf>,
     /// Natural frequency of the controller's error, rad/s.
-    #[arg(long, value_name = "W", default_value_t = 20.0)]
+    #[arg(long, value_name = "W", default_value_t = 60.0)]
     frequency: f64,
     /// Damping of the controller's error.
     #[arg(long, value_name = "D", default_value_t = 1.0)]
@@ -140,7 +140,7 @@ impl Simulate {
 
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
-        let compiled = compile(&self.spec)?;
+        let compiled = compile_instantaneous(&self.spec)?;
         let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
         let mut setting = self.set_up(&compiled, &trajectory)?;
         let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;

@@ -218,22 +218,6 @@ impl<P: Plant> Integrator<P> {
         Ok(self.moving.ddq.as_slice().to_vec())
     }
 
-    /// Positions that the motors' encoders see at this instant, rad or m: those of the links, less what the load displaces them by.
-    ///
-    /// # Errors
-    /// As [`Self::advance`].
-    pub fn encoders(&mut self) -> Result<Vec<f64>, SimulateError> {
-        let mut positions = self.q().to_vec();
-        if self.moving.plant.is_displaced() {
-            self.accelerations()?;
-            let displacements = self.moving.displacements(self.time, &self.x);
-            for (position, displacement) in positions.iter_mut().zip(displacements) {
-                *position -= displacement;
-            }
-        }
-        Ok(positions)
-    }
-
     /// Moves on to `end`, s, under a torque that is held.
     ///
     /// # Errors

@@ -17,8 +17,7 @@ const UP_TO_A_MILLION: &str = "positive and at most 1e6";
 
 /// A sampled control loop: what it runs at, and what its log is.
 ///
-/// The log has positions of its instants, and of torques the mean over its interval around each, as drives report it. The controller
-/// closes its loop around the links; the log has the motors' side where a load displaces them.
+/// The log has positions of its instants, and of torques the mean over its interval around each, as drives report it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Loop {
     /// Samples of the controller, Hz.
@@ -204,8 +203,7 @@ impl Loop {
                 }
                 arm.advance(instant.max(arm.time()))?;
                 record.time.push(instant);
-                let encoders = arm.encoders()?;
-                self.sensors.positions(&encoders, &mut log_noise, &mut row);
+                self.sensors.positions(arm.q(), &mut log_noise, &mut row);
                 for joint in 0..dof {
                     record.q[joint].push(row[joint]);
                     let exact = self.sensors.are_exact();

@@ -135,15 +135,6 @@ impl<P: Plant> Moving<P> {
         arguments
     }
 
-    /// How far links are from where their encoders say, under the last accelerations.
-    pub fn displacements(&mut self, time: f64, x: &DVector<f64>) -> Vec<f64> {
-        let mut displacements = vec![0.0; self.plant.dof()];
-        self.with(time, x, |plant, at, _, _, _| {
-            plant.displacements(at, &mut displacements);
-        });
-        displacements
-    }
-
     fn held(&self) -> Vec<usize> {
         let sides = self.sides.iter().enumerate();
         let held = sides.filter(|(_, side)| **side == Side::Held);

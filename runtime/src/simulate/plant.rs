@@ -85,14 +85,6 @@ pub trait Plant {
     /// How the torque jumps.
     fn jumps(&mut self, _at: &Instant<'_>, _jumps: &mut Jumps) {}
 
-    /// Whether a load moves links away from where their encoders say.
-    fn is_displaced(&self) -> bool {
-        false
-    }
-
-    /// How far links are from where their encoders say, `n`, rad or m: what elasticity and backlash make of the load.
-    fn displacements(&mut self, _at: &Instant<'_>, _displacements: &mut [f64]) {}
-
     /// Slopes, for implicit steps.
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes);
 }
