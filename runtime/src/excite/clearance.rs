@@ -5,22 +5,33 @@ use super::function::Function;
 /// Takes a limit at an instant: its number, its slack, and pairs of an output and the slack's slope by it.
 pub type Tell<'a> = &'a mut dyn FnMut(usize, f64, &[(usize, f64)]);
 
-/// A limit on the outputs of a function: `slack >= 0` each, as a share of what is allowed, with its slopes by the outputs.
+/// A limit on the outputs of a function: `slack >= 0` each, with its slopes by the outputs. A torque's slack is a share of its limit,
+/// that of a room is in m.
 pub trait Clearance: std::fmt::Debug + Sync {
-    /// What the limit is on.
+    /// What the limit is on, with slopes that can be followed.
     fn function(&self) -> &dyn Function;
+
+    /// What is verified in the end: the same without anything smoothed.
+    fn exact(&self) -> &dyn Function {
+        self.function()
+    }
 
     /// Tells each limit at an instant; `values` has one number an output.
     fn slacks(&self, values: &[f64], tell: Tell<'_>);
 
     /// A limit by its number, for people.
     fn name(&self, which: usize) -> String;
+
+    /// A slack that is missing, for people.
+    fn amount(&self, slack: f64) -> String;
 }
 
 /// Torques, each at most so large either way.
 pub struct TorqueLimits {
     /// Torques of the nominal arm, one output a joint.
     pub torque: Box<dyn Function>,
+    /// The same with dry friction that jumps where `torque` has it turn round smoothly.
+    pub exact: Box<dyn Function>,
     /// Limits, N m or N; infinite for none.
     pub limits: Vec<f64>,
     /// Names of the joints.
@@ -40,6 +51,10 @@ impl Clearance for TorqueLimits {
         &*self.torque
     }
 
+    fn exact(&self) -> &dyn Function {
+        &*self.exact
+    }
+
     fn slacks(&self, values: &[f64], tell: Tell<'_>) {
         for (joint, (torque, limit)) in values.iter().zip(&self.limits).enumerate() {
             if limit.is_finite() {
@@ -51,6 +66,10 @@ impl Clearance for TorqueLimits {
 
     fn name(&self, which: usize) -> String {
         format!("torque of `{}`", self.joints[which])
+    }
+
+    fn amount(&self, slack: f64) -> String {
+        format!("{:.0} %", -100.0 * slack)
     }
 }
 
@@ -142,5 +161,9 @@ impl Clearance for Room {
         pair.map_or_else(String::new, |(i, k)| {
             format!("balls on `{}` and `{}`", link(i), link(k))
         })
+    }
+
+    fn amount(&self, slack: f64) -> String {
+        format!("{:.0} mm", -1000.0 * slack)
     }
 }

@@ -43,9 +43,50 @@ pub enum ExciteError {
         /// What was given.
         value: f64,
     },
-    /// Too few waves for a motion that begins at rest.
-    #[error("{0} harmonics are too few: a motion that begins and ends at rest has at least two")]
-    FewHarmonics(usize),
+    /// Too few waves for its ends, or more than a controller could follow.
+    #[error(
+        "{harmonics} harmonics are not from {least} to {most}: a motion that begins and ends at rest has at least two, one in motion at least one"
+    )]
+    Harmonics {
+        /// What was given.
+        harmonics: usize,
+        /// Fewest.
+        least: usize,
+        /// Most.
+        most: usize,
+    },
+    /// Nothing that a motion could tell.
+    #[error(
+        "no column of the regressor follows from the motion: nothing to design for; declare a link or an effect with unknown parameters"
+    )]
+    NoColumns,
+    /// Numbers for another arm.
+    #[error("{found} {what}, {expected} are needed")]
+    Size {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there have to be.
+        expected: usize,
+    },
+    /// Two effects that are none, or not two.
+    #[error(
+        "two effects are told apart by columns of their own with sizes that are not all zero: {0}"
+    )]
+    Rivals(&'static str),
+    /// A pose that is none, or beyond the limits.
+    #[error("the pose has joint `{joint}` at {position}, which is not within {low} .. {high}")]
+    Pose {
+        /// The joint.
+        joint: String,
+        /// Where it should begin.
+        position: f64,
+        /// Its limits.
+        low: f64,
+        /// Its limits.
+        high: f64,
+    },
     /// Noise that is no deviation.
     #[error("the torque noise of joint `{joint}` is {noise}; a standard deviation is positive")]
     Noise {
@@ -64,19 +105,19 @@ pub enum ExciteError {
     },
     /// No motion inside the limits was found.
     #[error(
-        "no motion keeps the limits: of {tries} random poses none does so at rest; the last one misses the limit on the {what} by {percent:.0} %"
+        "no motion keeps the limits: {poses} so, however small the motion; the last one misses the limit on the {what} by {by}"
     )]
     Infeasible {
         /// Poses that were tried.
-        tries: usize,
+        poses: String,
         /// The limit.
         what: String,
         /// By how much it is missed.
-        percent: f64,
+        by: String,
     },
     /// Parameters that no motion tells.
     #[error(
-        "no motion within these limits tells {0}: fix them in the spec, or widen the limits of the joints that move them"
+        "no motion within these limits tells {0}: fix them in the spec, widen the limits of the joints that move them, or, where they act with the load, give the arm's parameters"
     )]
     NotExcited(String),
 }

@@ -6,6 +6,8 @@
 //! Descent starts at random motions and stays inside the limits, so it may be stopped at any time; slopes of the criterion are exact.
 //! The same seed gives the same motion, unless it is stopped early.
 
+mod basis;
+mod check;
 mod clearance;
 mod criterion;
 mod error;
@@ -19,6 +21,7 @@ mod start;
 mod tests;
 mod verify;
 
+pub use basis::Basis;
 pub use clearance::{Ball, Clearance, Room, Tell, TorqueLimits};
 pub use criterion::{Criterion, Rivals, Scaling};
 pub use error::ExciteError;
@@ -28,7 +31,9 @@ pub use limits::Limits;
 pub use verify::Quality;
 
 use criterion::Sharpness;
+use fourier::Freedom;
 use problem::{Problem, Stage};
+use std::cell::Cell;
 
 /// Instants of a period per harmonic, on which the criterion is computed and limits are kept.
 const SAMPLES_PER_HARMONIC: usize = 40;
@@ -55,6 +60,8 @@ pub struct Request {
     pub clearances: Vec<Box<dyn Clearance>>,
     /// What is wanted of the motion.
     pub criterion: Criterion,
+    /// Parameters whose columns the criterion counts, in place of the regressor's own.
+    pub basis: Option<Basis>,
     /// Columns as the criterion counts them.
     pub scaling: Scaling,
     /// Standard deviation of each joint's torque noise, N m or N, or in proportion to it.
@@ -102,44 +109,49 @@ impl Request {
     pub fn run(&self, watch: &dyn Fn(Progress) -> bool) -> Result<Design, ExciteError> {
         self.check()?;
         let weights: Vec<f64> = self.noise.iter().map(|noise| 1.0 / noise).collect();
-        let mut problem = Problem::new(
-            &self.regressor,
-            &self.clearances,
-            &self.limits,
-            &self.criterion,
-            self.scaling,
-            &weights,
-            self.period,
-            self.harmonics,
-            &self.ends,
-            self.samples(),
-        );
+        let mut problem = Problem::new(self, &weights);
         let mut best: Option<(f64, Fourier)> = None;
-        let (mut starts, mut stopped) = (0, false);
+        let (mut starts, stopped) = (0, Cell::new(false));
         for start in 0..self.starts.max(1) {
             let value = |best: &Option<(f64, Fourier)>| best.as_ref().map(|best| best.0);
             let so_far = Progress {
                 start: start + 1,
                 best: value(&best),
             };
-            if best.is_some() && !watch(so_far) {
-                stopped = true;
+            let go_on = || {
+                stopped.set(stopped.get() || !watch(so_far));
+                !stopped.get()
+            };
+            if best.is_some() && !go_on() {
                 break;
             }
             starts += 1;
-            let go_on = || watch(so_far);
             let found = self.descend(&mut problem, start, &go_on)?;
             if value(&best).is_none_or(|best| found.0 < best) {
                 best = Some(found);
             }
         }
         let (_, motion) = best.expect("at least one start");
+        let quality = self.quality(&motion)?;
+        if !quality.condition_of_unit_columns.is_finite() {
+            return Err(ExciteError::NotExcited(
+                "the parameters from each other".to_owned(),
+            ));
+        }
         Ok(Design {
-            quality: self.quality(&motion)?,
+            quality,
             motion,
             starts,
-            stopped,
+            stopped: stopped.get(),
         })
+    }
+
+    /// Number of variables that the search has.
+    #[must_use]
+    pub fn variables(&self) -> usize {
+        let joints = 0..self.joints.len();
+        let freedom = |joint| Freedom::new(self.harmonics, self.period, &self.ends, joint);
+        joints.map(|joint| freedom(joint).len()).sum()
     }
 
     /// Instants of a period on the coarse grid.
@@ -147,65 +159,39 @@ impl Request {
         SAMPLES_PER_HARMONIC * self.harmonics
     }
 
-    /// One descent, with reserves that grow until the fine grid keeps all limits.
+    /// One descent.
     fn descend(
         &self,
         problem: &mut Problem<'_>,
         start: usize,
         go_on: &dyn Fn() -> bool,
     ) -> Result<(f64, Fourier), ExciteError> {
+        problem.reserve.fill(0.0);
         let inside = start::inside(self, problem, start)?;
         let mut z = inside.clone();
-        let last = STAGES.len() - 1;
-        for (k, &(barrier, sharpness, steps)) in STAGES.iter().enumerate() {
-            let stage = Stage {
-                barrier,
-                sharpness: Sharpness(sharpness),
-            };
+        let stages = STAGES.map(|(barrier, sharpness, steps)| {
+            let sharpness = Sharpness(sharpness);
+            (Stage { barrier, sharpness }, steps)
+        });
+        for (stage, steps) in stages {
             interior::descend(problem, &mut z, stage, steps, go_on);
-            if k < last {
-                continue;
+        }
+        let (last, steps) = stages[stages.len() - 1];
+        // Reserves grow until the fine grid keeps all limits; beyond what the start has of slack there is only the start.
+        while let Some(reserves) = self.missing(problem, &z) {
+            problem.reserve = reserves;
+            if !start::back_inside(problem, &inside, &mut z) {
+                z = inside;
+                break;
             }
-            while let Some(reserves) = self.missing(problem, &z) {
-                problem.reserve = reserves;
-                start::back_inside(problem, &inside, &mut z);
-                interior::descend(problem, &mut z, stage, steps, go_on);
-            }
+            interior::descend(problem, &mut z, last, steps, go_on);
         }
         let motion = problem.fourier(&z);
-        let a = problem.information_of(&problem.motion(&z));
+        let mut a = problem.information_of(&problem.motion(&z));
+        if let Some(basis) = &self.basis {
+            a = basis.information(&a);
+        }
         let exact = self.criterion.evaluate(&a, self.scaling, Sharpness(1e3));
         Ok((exact.map_or(f64::INFINITY, |valued| valued.value), motion))
-    }
-
-    fn check(&self) -> Result<(), ExciteError> {
-        let dof = self.joints.len();
-        self.limits.check(&self.joints)?;
-        let positive = [("period", self.period)];
-        for (what, value) in positive {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(ExciteError::NotPositive { what, value });
-            }
-        }
-        if self.harmonics < 2 {
-            return Err(ExciteError::FewHarmonics(self.harmonics));
-        }
-        for (joint, &noise) in self.joints.iter().zip(&self.noise) {
-            if !(noise > 0.0 && noise.is_finite()) {
-                return Err(ExciteError::Noise {
-                    joint: joint.clone(),
-                    noise,
-                });
-            }
-        }
-        if let Ends::At(position) = &self.ends
-            && position.len() != dof
-        {
-            return Err(ExciteError::Ends {
-                given: position.len(),
-                joints: dof,
-            });
-        }
-        Ok(())
     }
 }

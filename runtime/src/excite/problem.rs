@@ -2,10 +2,12 @@
 
 use faer::Mat;
 
+use super::Request;
+use super::basis::Basis;
 use super::clearance::Clearance;
-use super::criterion::{Criterion, Scaling, Sharpness};
-use super::fourier::{Ends, Fourier, Freedom, basis, instants};
-use super::function::{Regressor, add};
+use super::criterion::{Criterion, Scaling, Sharpness, Valued};
+use super::fourier::{Fourier, Freedom, basis, instants};
+use super::function::{Function, Regressor, add};
 use super::limits::{Limits, share};
 use crate::motion::Kinematics;
 
@@ -15,6 +17,7 @@ pub(super) struct Problem<'a> {
     pub clearances: &'a [Box<dyn Clearance>],
     pub limits: &'a Limits,
     pub criterion: &'a Criterion,
+    pub basis: Option<&'a Basis>,
     pub scaling: Scaling,
     /// What a joint's rows are multiplied by: one over the deviation of its torque noise.
     pub weights: &'a [f64],
@@ -62,22 +65,13 @@ impl Point {
 }
 
 impl<'a> Problem<'a> {
-    #[expect(clippy::too_many_arguments, reason = "called once, by name in order")]
-    pub(super) fn new(
-        regressor: &'a Regressor,
-        clearances: &'a [Box<dyn Clearance>],
-        limits: &'a Limits,
-        criterion: &'a Criterion,
-        scaling: Scaling,
-        weights: &'a [f64],
-        period: f64,
-        harmonics: usize,
-        ends: &Ends,
-        samples: usize,
-    ) -> Self {
+    /// `weights` are what joints' rows are multiplied by.
+    pub(super) fn new(request: &'a Request, weights: &'a [f64]) -> Self {
+        let (harmonics, period) = (request.harmonics, request.period);
+        let samples = request.samples();
         let dof = weights.len();
         let freedoms: Vec<Freedom> = (0..dof)
-            .map(|joint| Freedom::new(harmonics, period, ends, joint))
+            .map(|joint| Freedom::new(harmonics, period, &request.ends, joint))
             .collect();
         let rows: Vec<[Vec<f64>; 3]> = instants(period, samples)
             .into_iter()
@@ -94,12 +88,13 @@ impl<'a> Problem<'a> {
             freedoms.iter().map(of_joint).collect()
         });
         Self {
-            regressor,
-            reserve: vec![0.0; clearances.len()],
-            clearances,
-            limits,
-            criterion,
-            scaling,
+            regressor: &request.regressor,
+            clearances: &request.clearances,
+            limits: &request.limits,
+            criterion: &request.criterion,
+            basis: request.basis.as_ref(),
+            scaling: request.scaling,
+            reserve: vec![0.0; request.clearances.len()],
             weights,
             period,
             harmonics,
@@ -177,13 +172,18 @@ impl<'a> Problem<'a> {
                     .iter()
                     .map(|x| (x - middle).abs())
                     .fold(0.0, f64::max);
-                least = least.min(1.0 - most / bound);
+                least = lesser(least, 1.0 - most / bound);
             }
         }
         for (clearance, reserve) in self.clearances.iter().zip(&self.reserve) {
-            each_slack(&**clearance, motion, &mut |_, slack| {
-                least = least.min(slack - reserve);
-            });
+            each_slack(
+                &**clearance,
+                clearance.function(),
+                motion,
+                &mut |_, slack| {
+                    least = lesser(least, slack - reserve);
+                },
+            );
         }
         least
     }
@@ -220,7 +220,7 @@ impl<'a> Problem<'a> {
                 .filter(|&k| self.regressor.entries[k].0 == joint)
                 .collect();
             let weight = self.weights[joint] * scale;
-            let block = Mat::from_fn(values[0].len(), outputs.len(), |s, k| {
+            let block = Mat::from_fn(self.samples, outputs.len(), |s, k| {
                 weight * values[outputs[k]][s]
             });
             let gram = block.transpose() * &block;
@@ -250,7 +250,19 @@ impl<'a> Problem<'a> {
         let mut point = self.linear_barrier(z, &motion, stage.barrier)?;
         let values = self.regressor.function.values(&motion);
         let (a, rows) = self.information(&values);
-        let valued = self.criterion.evaluate(&a, self.scaling, stage.sharpness)?;
+        let valued = match self.basis {
+            None => self.criterion.evaluate(&a, self.scaling, stage.sharpness)?,
+            Some(basis) => {
+                let counted = basis.information(&a);
+                let valued = self
+                    .criterion
+                    .evaluate(&counted, self.scaling, stage.sharpness)?;
+                Valued {
+                    slopes: basis.pullback(&valued.slopes),
+                    ..valued
+                }
+            }
+        };
         // d value = tr(slopes dA) = 2 sum over rows of (Y slopes) . dY
         let mut weights = vec![Vec::new(); values.len()];
         let scale = 1.0 / (self.samples as f64).sqrt();
@@ -341,13 +353,23 @@ impl<'a> Problem<'a> {
     }
 }
 
-/// Slacks of a clearance at every instant of a motion.
+/// The smaller one; what is no number is none that is kept.
+pub(super) fn lesser(least: f64, slack: f64) -> f64 {
+    if slack.is_nan() {
+        f64::NEG_INFINITY
+    } else {
+        least.min(slack)
+    }
+}
+
+/// Slacks of a clearance at every instant of a motion; `function` is the clearance's, smooth or exact.
 pub(super) fn each_slack(
     clearance: &dyn Clearance,
+    function: &dyn Function,
     motion: &Kinematics,
     tell: &mut dyn FnMut(usize, f64),
 ) {
-    let values = clearance.function().values(motion);
+    let values = function.values(motion);
     let samples = values.first().map_or(0, Vec::len);
     for s in 0..samples {
         let now: Vec<f64> = values.iter().map(|output| output[s]).collect();

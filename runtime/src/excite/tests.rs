@@ -80,11 +80,13 @@ fn request(criterion: Criterion) -> Request {
         },
         clearances: vec![Box::new(TorqueLimits {
             torque: Box::new(Torque),
+            exact: Box::new(Torque),
             limits: vec![14.0, 12.0],
             joints: joints.clone(),
         })],
         joints,
         criterion,
+        basis: None,
         scaling: Scaling::Raw,
         noise: vec![1.0, 0.5],
         period: 5.0,
@@ -95,27 +97,49 @@ fn request(criterion: Criterion) -> Request {
     }
 }
 
+/// `Torque` with a peak that the smooth one does not have: half as much again.
+struct Peaked;
+
+impl Function for Peaked {
+    fn outputs(&self) -> usize {
+        2
+    }
+
+    fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
+        let plain = Torque.values(motion).into_iter();
+        plain
+            .map(|torque| torque.iter().map(|x| 1.5 * x).collect())
+            .collect()
+    }
+
+    fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
+        Torque.pullback(motion, weights)
+    }
+}
+
 fn always(_: Progress) -> bool {
     true
 }
 
 #[test]
 fn slopes_of_the_design_are_those_of_its_value() {
-    for criterion in [Criterion::DOptimal, Criterion::Condition] {
-        let request = request(criterion);
+    // Twice the gravity, and friction that is counted as the difference from inertia.
+    let names = (0..6).map(|k| format!("x{k}")).collect();
+    let mixed = Basis::new(names, |i, k| match (i, k) {
+        (1, 1) => 2.0,
+        (0, 2) => -1.0,
+        _ if i == k => 1.0,
+        _ => 0.0,
+    });
+    for (criterion, basis) in [
+        (Criterion::DOptimal, None),
+        (Criterion::Condition, None),
+        (Criterion::Condition, Some(mixed)),
+    ] {
+        let mut request = request(criterion);
+        request.basis = basis;
         let weights = [1.0, 2.0];
-        let problem = Problem::new(
-            &request.regressor,
-            &request.clearances,
-            &request.limits,
-            &request.criterion,
-            request.scaling,
-            &weights,
-            request.period,
-            request.harmonics,
-            &request.ends,
-            request.samples(),
-        );
+        let problem = Problem::new(&request, &weights);
         let z = start::inside(&request, &problem, 0).expect("room to move");
         let stage = Stage {
             barrier: 0.1,
@@ -179,7 +203,6 @@ fn the_condition_number_is_what_is_minimized_when_asked_for() {
     assert!(by_volume.quality.log_det > by_condition.quality.log_det);
 }
 
-/// Gravity against a spring would look alike in small motions: `sin(q)` of the shoulder against `dq` for the test.
 #[test]
 fn a_design_that_separates_drives_two_columns_apart() {
     let rivals = Rivals {
@@ -205,6 +228,37 @@ fn a_design_that_separates_drives_two_columns_apart() {
         worst(distances) > worst(of_other),
         "{distances:?} {of_other:?}"
     );
+}
+
+/// Reserves grow until what is verified is kept, and end where nothing is left but the start.
+#[test]
+fn what_is_kept_is_what_is_exact() {
+    for limits in [[14.0, 12.0], [9.5, 9.5]] {
+        let mut request = request(Criterion::DOptimal);
+        request.clearances = vec![Box::new(TorqueLimits {
+            torque: Box::new(Torque),
+            exact: Box::new(Peaked),
+            limits: limits.to_vec(),
+            joints: request.joints.clone(),
+        })];
+        let design = request.run(&always).expect("room to move");
+        assert!(design.quality.violation <= 0.0, "{:?}", design.quality);
+        let fine = design.motion.motion(&design.motion.instants(1200));
+        for (torque, limit) in Peaked.values(&fine).iter().zip(limits) {
+            assert!(torque.iter().all(|x| x.abs() <= limit), "{limit}");
+        }
+    }
+}
+
+#[test]
+fn the_only_start_is_stopped_too() {
+    let mut request = request(Criterion::DOptimal);
+    request.starts = 1;
+    let full = request.run(&always).expect("room");
+    assert!(!full.stopped);
+    let cut = request.run(&|_| false).expect("room");
+    assert!(cut.stopped && cut.starts == 1 && cut.quality.violation <= 0.0);
+    assert!(cut.quality.log_det < full.quality.log_det);
 }
 
 #[test]
@@ -237,11 +291,41 @@ fn what_leaves_no_motion_is_told() {
         request.limits.position[0] = (1.2, 2.0);
         request.clearances = vec![Box::new(TorqueLimits {
             torque: Box::new(Torque),
+            exact: Box::new(Torque),
             limits: vec![5.0, 12.0],
             joints: request.joints.clone(),
         })];
     });
     assert!(said.contains("torque of `shoulder`"), "{said}");
+    let said = refused(&|request| request.ends = Ends::At(vec![0.0, f64::NAN]));
+    assert!(said.contains("joint `elbow` at NaN"), "{said}");
+    let said = refused(&|request| request.ends = Ends::At(vec![2.1, 0.0]));
+    assert!(said.contains("not within -1 .. 2"), "{said}");
+    let said = refused(&|request| request.harmonics = 1);
+    assert!(said.contains("1 harmonics are not from 2"), "{said}");
+    let said = refused(&|request| request.harmonics = usize::MAX);
+    assert!(said.contains("to 100"), "{said}");
+    let said = refused(&|request| request.noise = vec![1.0]);
+    assert!(
+        said.contains("1 deviations of torque noise, 2 are needed"),
+        "{said}"
+    );
+    let said = refused(&|request| request.limits.velocity.clear());
+    assert!(said.contains("0 velocity limits"), "{said}");
+    let said = refused(&|request| request.regressor.entries[0] = (7, 0));
+    assert!(said.contains("5 entries inside the regressor"), "{said}");
+    let said = refused(&|request| request.regressor.columns.clear());
+    assert!(said.contains("nothing to design for"), "{said}");
+    for effects in [
+        [vec![(1, 0.0)], vec![(2, 1.0)]],
+        [vec![], vec![(2, 1.0)]],
+        [vec![(1, 1.0)], vec![(1, 1.0)]],
+        [vec![(1, 1.0)], vec![(9, 1.0)]],
+    ] {
+        let criterion = Criterion::Separation(Rivals { effects });
+        let said = refused(&|request| request.criterion = criterion.clone());
+        assert!(said.contains("two effects are told apart"), "{said}");
+    }
     let said = refused(&|request| request.regressor.entries[2] = (0, 1));
     assert!(said.contains("`p2`"), "{said}");
 }

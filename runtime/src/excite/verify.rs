@@ -2,9 +2,10 @@
 
 use faer::{Mat, Side};
 
+use super::check::size;
 use super::criterion::{Criterion, Rivals};
 use super::fourier::{Fourier, instants};
-use super::problem::{Problem, each_slack};
+use super::problem::{Problem, each_slack, lesser};
 use super::{ExciteError, Request};
 
 /// Instants of the grid on which limits are verified, per instant of the design's.
@@ -16,7 +17,7 @@ const RESERVE: f64 = 1e-3;
 /// All criteria at a motion, over one period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quality {
-    /// Condition number of the regressor in SI units, each joint's rows over its noise.
+    /// Condition number of the counted columns in SI units, each joint's rows over its noise.
     pub condition: f64,
     /// The same with columns of unit length.
     pub condition_of_unit_columns: f64,
@@ -28,7 +29,8 @@ pub struct Quality {
     pub hadamard: f64,
     /// Squared T-optimal distances of two effects, each from what the model and its rival can do; only of a design that separates.
     pub distances: Option<[f64; 2]>,
-    /// By how much the worst limit is exceeded on a grid ten times as fine as the design's, as a share of it; 0 if none is.
+    /// By how much the worst limit is exceeded on a grid ten times as fine as the design's, as a share of it, of a room in m; 0 if none
+    /// is.
     pub violation: f64,
     /// Which one, where one is.
     pub violated: Option<String>,
@@ -38,8 +40,14 @@ impl Request {
     /// All criteria at a motion, which may be any.
     ///
     /// # Errors
-    /// Columns that it does not excite.
+    /// Columns that it does not excite, a motion of another arm, and what [`Self::run`] refuses.
     pub fn quality(&self, motion: &Fourier) -> Result<Quality, ExciteError> {
+        self.check()?;
+        size(
+            "joints of the motion",
+            motion.coefficients.len(),
+            self.joints.len(),
+        )?;
         let fine = motion.motion(&instants(motion.period, FINER * self.samples()));
         let values = self.regressor.function.values(&fine);
         let n = self.regressor.columns.len();
@@ -56,11 +64,18 @@ impl Request {
             }
             a += rows.transpose() * &rows * faer::Scale(1.0 / samples as f64);
         }
+        let names = match &self.basis {
+            None => &self.regressor.columns,
+            Some(basis) => {
+                a = basis.information(&a);
+                &basis.names
+            }
+        };
         let length: Vec<f64> = (0..n).map(|k| a[(k, k)].sqrt()).collect();
         let largest = length.iter().copied().fold(0.0, f64::max);
         let silent: Vec<&str> = (0..n)
             .filter(|&k| length[k].is_nan() || length[k] <= 1e-12 * largest)
-            .map(|k| self.regressor.columns[k].as_str())
+            .map(|k| names[k].as_str())
             .collect();
         if !silent.is_empty() {
             return Err(ExciteError::NotExcited(format!(
@@ -96,6 +111,11 @@ impl Request {
     fn violation(&self, motion: &crate::motion::Kinematics) -> (f64, Option<String>) {
         let (mut worst, mut which) = (0.0_f64, None);
         let mut tell = |excess: f64, name: &dyn Fn() -> String| {
+            let excess = if excess.is_nan() {
+                f64::INFINITY
+            } else {
+                excess
+            };
             // Rounding of sums of waves is no motion.
             if excess > worst.max(1e-12) {
                 (worst, which) = (excess, Some(name()));
@@ -127,7 +147,7 @@ impl Request {
             }
         }
         for clearance in &self.clearances {
-            each_slack(&**clearance, motion, &mut |k, slack| {
+            each_slack(&**clearance, clearance.exact(), motion, &mut |k, slack| {
                 tell(-slack, &|| clearance.name(k));
             });
         }
@@ -143,8 +163,8 @@ impl Request {
         let reserves = reserves
             .map(|(clearance, reserve)| {
                 let mut least = f64::INFINITY;
-                each_slack(&**clearance, &fine, &mut |_, slack| {
-                    least = least.min(slack);
+                each_slack(&**clearance, clearance.exact(), &fine, &mut |_, slack| {
+                    least = lesser(least, slack);
                 });
                 is_missed |= least < 0.0;
                 if least < 0.0 {
