@@ -1,8 +1,9 @@
 //! Limits of a motion: those of the spec, and those of the command line.
 
 use robot_model::excite::{Clearance, Limits, TorqueLimits};
-use robot_model_codegen::Differentiable;
+use robot_model_codegen::{Compiled, Nominal};
 use robot_model_spec::Model;
+use robot_model_spec::model::JointKind;
 
 use crate::Error;
 use crate::interpreted::InterpretedFunction;
@@ -14,6 +15,12 @@ pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, 
     let given = per_joint("--acceleration", acceleration, joints.len())?;
     for (k, joint) in joints.iter().enumerate() {
         let own = &joint.limits;
+        if joint.kind == JointKind::Prismatic && own.position.is_none() {
+            return Err(Error::Argument(format!(
+                "{}: joint `{}` slides without position limits; write `position = .. m .. .. m` into its spec",
+                model.source, joint.name
+            )));
+        }
         limits.position[k] = own.position.unwrap_or(limits.position[k]);
         limits.velocity[k] = own.velocity.unwrap_or(f64::INFINITY);
         let other = given.as_ref().map_or(f64::INFINITY, |given| given[k]);
@@ -36,16 +43,25 @@ fn per_joint(what: &str, given: Option<&[f64]>, dof: usize) -> Result<Option<Vec
     }
 }
 
-/// Limits on the torques of the nominal arm.
-pub(super) fn torque(
-    torque: Differentiable,
-    limits: &Limits,
-    joints: &[String],
-) -> Box<dyn Clearance> {
+/// Limits on the torques of an arm: looked for with friction that turns round smoothly, verified with friction that jumps.
+pub(super) fn torque(compiled: &Compiled, arm: &Nominal, limits: &Limits) -> Box<dyn Clearance> {
+    let joints = compiled.model.joints.iter();
+    let joints: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
+    let jumping = Nominal {
+        turn: Vec::new(),
+        ..arm.clone()
+    };
+    let function = |arm: &Nominal| {
+        Box::new(InterpretedFunction::new(
+            compiled.design_torque(arm),
+            joints.len(),
+        ))
+    };
     Box::new(TorqueLimits {
-        torque: Box::new(InterpretedFunction::new(torque, joints.len())),
+        torque: function(arm),
+        exact: function(&jumping),
         limits: limits.torque.clone(),
-        joints: joints.to_vec(),
+        joints,
     })
 }
 

@@ -1,5 +1,6 @@
 //! `robot-model excite`: the motion from which an arm is identified best.
 
+mod columns;
 mod figure;
 mod interrupt;
 mod limits;
@@ -13,7 +14,8 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use robot_model::excite::{
-    Criterion, Ends, ExciteError, Progress as Search, Regressor, Request, Scaling,
+    Clearance, Criterion, Ends, ExciteError, Limits, Progress as Search, Regressor, Request,
+    Scaling,
 };
 use robot_model_codegen::{Compiled, Nominal};
 
@@ -46,11 +48,20 @@ pub(crate) struct Excite {
     #[arg(long, value_name = "TRAJ.csv")]
     out: PathBuf,
     /// What is wanted of the motion.
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, value_enum, default_value_t, conflicts_with = "separate")]
     criterion: CriterionArgument,
     /// Count columns of unit length: for the condition number and the smallest singular value.
     #[arg(long)]
     unit_columns: bool,
+    /// Count columns of these standard parameters, as many as there are base parameters: the condition number and the smallest
+    /// singular value depend on the choice.
+    #[arg(
+        long,
+        value_name = "NAME,..",
+        value_delimiter = ',',
+        conflicts_with = "separate"
+    )]
+    columns: Option<Vec<String>>,
     /// Time after which the motion repeats, s.
     #[arg(long, value_name = "S", default_value_t = 10.0)]
     period: f64,
@@ -88,8 +99,8 @@ pub(crate) struct Excite {
     #[arg(long, value_name = "EFFECT", requires = "separate")]
     from: Option<String>,
     /// Random motions to start from.
-    #[arg(long, value_name = "N", default_value_t = 8)]
-    starts: usize,
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    starts: u32,
     /// Of the random motions.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -175,7 +186,7 @@ impl Excite {
         }
         let seconds = started.elapsed().as_secs_f64();
         if let Some(file) = json {
-            file.commit(output::report(&design, seconds).as_bytes())?;
+            file.commit(output::report(&request, &design, seconds).as_bytes())?;
         }
         crate::output::print(&output::summary(&request, &design, seconds))
     }
@@ -193,12 +204,24 @@ impl Excite {
             .map(|joint| joint.name.clone())
             .collect();
         let limits = limits::of(&compiled.model, self.acceleration.as_deref())?;
-        let given = rivals.map_or(&[][..], |rivals| &rivals.sizes);
         let Known {
             beta,
             shapes,
             missing,
-        } = parameters::known(compiled, self.parameters.as_deref(), given)?;
+            guessed,
+        } = parameters::known(compiled, self.parameters.as_deref(), &[])?;
+        if !guessed.is_empty() {
+            let guessed: Vec<&str> = guessed.iter().map(String::as_str).collect();
+            progress.note(&format!(
+                "note: designed with the spec's first values of {}; give others with `--parameters`",
+                names(&guessed)
+            ));
+        }
+        if compiled.check_instantaneous().is_err() || compiled.delay().is_some() {
+            progress.note(
+                "note: what moves links along a motion, or makes torques late, is not designed for",
+            );
+        }
         let nominal = Nominal {
             beta,
             shapes,
@@ -225,24 +248,13 @@ impl Excite {
             Some(rivals) => rivals.criterion(compiled, &columns)?,
             None => self.criterion.into(),
         };
+        let basis = match &self.columns {
+            None => None,
+            Some(names) => Some(columns::basis(compiled, &columns, names)?),
+        };
         let dof = compiled.dof();
-        let mut clearances = Vec::new();
-        if limits.torque.iter().any(|limit| limit.is_finite()) {
-            if !missing.is_empty() {
-                let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
-                progress.note(&format!(
-                    "note: torque limits are kept by an arm without {}, which {} no value; give {} with `--parameters`",
-                    names(&missing),
-                    if missing.len() == 1 { "has" } else { "have" },
-                    if missing.len() == 1 { "it" } else { "them" },
-                ));
-            }
-            let torque = compiled.design_torque(&nominal);
-            clearances.push(limits::torque(torque, &limits, &joints));
-        }
-        if let Some(path) = &self.room {
-            clearances.push(room::read(path, compiled, &nominal)?);
-        }
+        let clearances =
+            self.clearances(compiled, rivals, &nominal, &limits, &missing, progress)?;
         let noise = limits::noise(self.noise.as_deref(), &limits, &joints)?;
         Ok(Request {
             regressor: Regressor {
@@ -258,6 +270,7 @@ impl Excite {
             limits,
             clearances,
             criterion,
+            basis,
             scaling: if self.unit_columns {
                 Scaling::UnitLength
             } else {
@@ -271,9 +284,50 @@ impl Excite {
                 (None, EndsArgument::Rest) => Ends::AtRest,
                 (None, EndsArgument::Free) => Ends::Free,
             },
-            starts: self.starts,
+            starts: self.starts as usize,
             seed: self.seed,
         })
+    }
+
+    /// Torque limits and the room, where there are some.
+    fn clearances(
+        &self,
+        compiled: &Compiled,
+        rivals: Option<&separate::Expected>,
+        nominal: &Nominal,
+        limits: &Limits,
+        missing: &[String],
+        progress: &Progress,
+    ) -> Result<Vec<Box<dyn Clearance>>, Error> {
+        let mut clearances = Vec::new();
+        if limits.torque.iter().any(|limit| limit.is_finite()) {
+            if !missing.is_empty() {
+                let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
+                progress.note(&format!(
+                    "note: torque limits are kept by an arm without {}, which {} no value; give {} with `--parameters`",
+                    names(&missing),
+                    if missing.len() == 1 { "has" } else { "have" },
+                    if missing.len() == 1 { "it" } else { "them" },
+                ));
+            }
+            // Whichever of two rivals is there, the limits are kept.
+            let arms = match rivals {
+                Some(rivals) => rivals.sizes().to_vec(),
+                None => vec![Vec::new()],
+            };
+            for sizes in arms {
+                let known = parameters::known(compiled, self.parameters.as_deref(), &sizes)?;
+                let arm = Nominal {
+                    beta: known.beta,
+                    ..nominal.clone()
+                };
+                clearances.push(limits::torque(compiled, &arm, limits));
+            }
+        }
+        if let Some(path) = &self.room {
+            clearances.push(room::read(path, compiled, nominal)?);
+        }
+        Ok(clearances)
     }
 }
 
@@ -301,15 +355,16 @@ fn search(
                 "--budget {seconds}: a number of seconds"
             )));
         }
-        other => other.map(Duration::from_secs_f64),
+        Some(seconds) => Some(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
+        None => None,
     };
     let interrupted = Interrupt::watch();
     let told = Cell::new(0);
     let watch = |search: Search| {
         if told.replace(search.start) != search.start {
-            let best = search
-                .best
-                .map_or_else(String::new, |best| format!(", best so far {best:.3}"));
+            let best = search.best.map_or_else(String::new, |best| {
+                format!(", best value of the criterion so far {best:.3}")
+            });
             progress.step(&format!(
                 "start {} of {}{best}",
                 search.start, request.starts

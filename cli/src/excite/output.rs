@@ -11,7 +11,8 @@ const PUT: &str = "a string takes all";
 
 /// One period, `time,q1..qn,dq1..dqn,ddq1..ddqn`; the last row is the first again.
 pub(super) fn csv(motion: &Fourier, rate: f64) -> String {
-    let steps = (motion.period * rate).ceil().max(1.0);
+    // A period that is whole in samples but for rounding has its last sample once.
+    let steps = (motion.period * rate - 1e-6).ceil().max(1.0);
     let mut text = String::from("time");
     let dof = motion.coefficients.len();
     for signal in ["q", "dq", "ddq"] {
@@ -77,6 +78,8 @@ struct Report<'a> {
     least_singular: f64,
     hadamard: f64,
     distances: Option<[f64; 2]>,
+    columns: usize,
+    variables: usize,
     seconds: f64,
     max_violation: f64,
     violated: Option<&'a str>,
@@ -85,7 +88,7 @@ struct Report<'a> {
 }
 
 /// What the motion is worth.
-pub(super) fn report(design: &Design, seconds: f64) -> String {
+pub(super) fn report(request: &Request, design: &Design, seconds: f64) -> String {
     let quality = &design.quality;
     json(&Report {
         condition: quality.condition,
@@ -93,7 +96,9 @@ pub(super) fn report(design: &Design, seconds: f64) -> String {
         log_det: quality.log_det,
         least_singular: quality.least_singular,
         hadamard: quality.hadamard,
-        distances: quality.distances,
+        distances: quality.distances.map(|each| each.map(f64::sqrt)),
+        columns: request.regressor.columns.len(),
+        variables: request.variables(),
         seconds,
         max_violation: quality.violation,
         violated: quality.violated.as_deref(),
@@ -108,9 +113,10 @@ pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> Strin
     let mut text = String::new();
     writeln!(
         text,
-        "{} columns, {} joints, {} harmonics of {} s; best of {} starts, {seconds:.1} s",
+        "{} columns, {} joints, {} variables, {} harmonics of {} s; best of {} starts, {seconds:.1} s",
         request.regressor.columns.len(),
         request.joints.len(),
+        request.variables(),
         request.harmonics,
         request.period,
         design.starts,
@@ -149,7 +155,7 @@ pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> Strin
     if let Some([first, second]) = quality.distances {
         writeln!(
             text,
-            "what cannot be imitated, root mean square over torque noise: {:.3} of the first, {:.3} of the second",
+            "what cannot be imitated, root mean square over `--noise`: {:.3e} of the first, {:.3e} of the second",
             first.sqrt(),
             second.sqrt()
         )

@@ -13,12 +13,14 @@ use robot_model_spec::amend::{Amendment, amend};
 use crate::output::names;
 use crate::{Error, spec};
 
-/// A spec's effects, and the sizes that are expected of two of them.
-pub(super) struct Expected {
-    /// By parameter, of both.
-    pub(super) sizes: Vec<(String, f64)>,
-    /// How many are of the first.
-    of_first: usize,
+/// Two effects of a spec.
+pub(super) struct Expected([OneOfTwo; 2]);
+
+/// Parameters with what they are expected to be worth.
+struct OneOfTwo {
+    sizes: Vec<(String, f64)>,
+    /// Whether the sizes were said; those that were not count as 1, and load no torque limit.
+    is_sized: bool,
 }
 
 /// The spec with both effects.
@@ -29,7 +31,7 @@ pub(super) fn rivals(
 ) -> Result<(Compiled, Expected), Error> {
     let source = path.display().to_string();
     let said = [said(first)?, said(second)?];
-    if said[0].0.effect == said[1].0.effect && said[0].0.joints == said[1].0.joints {
+    if said[0].0 == said[1].0 {
         return Err(Error::Argument(format!(
             "`--separate` and `--from` are both `{}` on the same joints: nothing tells an effect from itself",
             said[0].0.effect
@@ -44,21 +46,27 @@ pub(super) fn rivals(
         .collect();
     let amended = amend(&source, &text, &amendments)?;
     let model = robot_model_spec::load(&source, &amended)?;
-    let mut sizes = Vec::new();
-    let mut of_first = 0;
-    for (amendment, values) in &said {
-        let effect = place(&model, amendment).expect("declared, at last a moment ago");
+    let one = |(amendment, values): &(Amendment, Vec<(String, f64)>)| {
+        let effect = place(&model, amendment).ok_or_else(|| {
+            Error::Argument(format!(
+                "`{}` is declared for each joint by itself: name one, as in `{} on {}`",
+                amendment.effect, amendment.effect, model.joints[0].name
+            ))
+        })?;
         let prefix = model.effect_name(effect);
-        let linear: Vec<&str> = model.effects[effect]
-            .definition
-            .linear
-            .iter()
-            .map(|parameter| parameter.name.as_str())
-            .collect();
+        let linear = model.effects[effect].definition.linear.iter();
+        let linear: Vec<&str> = linear.map(|parameter| parameter.name.as_str()).collect();
+        if linear.is_empty() {
+            return Err(Error::Argument(format!(
+                "`{}` has no parameter that the torque is linear in: no motion is designed for it",
+                amendment.effect
+            )));
+        }
         let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
-        if given.is_empty() {
-            sizes.extend(linear.iter().map(|name| (format!("{prefix}.{name}"), 1.0)));
-        } else if linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len() {
+        let is_sized = !given.is_empty();
+        let is_other =
+            linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
+        if is_sized && is_other {
             return Err(Error::Argument(format!(
                 "`{}` has {}: say what each is expected to be, as in `{} on ..: {} = 1`",
                 amendment.effect,
@@ -67,17 +75,21 @@ pub(super) fn rivals(
                 linear.join(" = 1, ")
             )));
         }
-        sizes.extend(
-            values
-                .iter()
-                .map(|(name, value)| (format!("{prefix}.{name}"), *value)),
-        );
-        if of_first == 0 {
-            of_first = sizes.len();
-        }
-    }
+        let size = |name: &&str| {
+            let given = values.iter().find(|(known, _)| known == name);
+            (
+                format!("{prefix}.{name}"),
+                given.map_or(1.0, |given| given.1),
+            )
+        };
+        Ok(OneOfTwo {
+            sizes: linear.iter().map(size).collect(),
+            is_sized,
+        })
+    };
+    let both = [one(&said[0])?, one(&said[1])?];
     let compiled = spec::clear(compile_model(&model))?;
-    Ok((compiled, Expected { sizes, of_first }))
+    Ok((compiled, Expected(both)))
 }
 
 /// The effect of a model that an amendment would declare.
@@ -85,7 +97,13 @@ fn place(model: &Model, amendment: &Amendment) -> Option<usize> {
     model.effects.iter().rposition(|declared| {
         let joints = declared.joints.iter();
         let joints = joints.map(|&joint| &model.joints[joint].name);
-        declared.definition.name == amendment.effect && joints.eq(&amendment.joints)
+        let shapes = declared.definition.shapes.iter().zip(&declared.shapes);
+        let shapes = shapes.filter_map(|(shape, value)| Some((shape.name.as_str(), (*value)?)));
+        let shapes: Vec<(&str, f64)> = shapes.collect();
+        let is_said = |(name, value): &(String, f64)| shapes.contains(&(name.as_str(), *value));
+        declared.definition.name == amendment.effect
+            && joints.eq(&amendment.joints)
+            && amendment.shapes.iter().all(is_said)
     })
 }
 
@@ -105,12 +123,23 @@ impl Expected {
                 ))
             })
         };
-        let places: Result<Vec<(usize, f64)>, Error> = self.sizes.iter().map(place).collect();
-        let mut first = places?;
-        let second = first.split_off(self.of_first);
+        let places = |one: &OneOfTwo| -> Result<Vec<(usize, f64)>, Error> {
+            one.sizes.iter().map(place).collect()
+        };
         Ok(Criterion::Separation(Rivals {
-            effects: [first, second],
+            effects: [places(&self.0[0])?, places(&self.0[1])?],
         }))
+    }
+
+    /// What each is expected to be worth, where that was said.
+    pub(super) fn sizes(&self) -> [Vec<(String, f64)>; 2] {
+        [&self.0[0], &self.0[1]].map(|one| {
+            if one.is_sized {
+                one.sizes.clone()
+            } else {
+                Vec::new()
+            }
+        })
     }
 }
 

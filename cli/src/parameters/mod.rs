@@ -66,6 +66,8 @@ pub(crate) struct Known {
     pub(crate) shapes: Vec<f64>,
     /// Names of what has no value.
     pub(crate) missing: Vec<String>,
+    /// Names of shapes that have their first value.
+    pub(crate) guessed: Vec<String>,
 }
 
 /// What is known from a file, `more` by name and the spec.
@@ -87,7 +89,8 @@ fn known_of(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known,
     let base_names = &compiled.base.names;
     let shape_names = compiled.shape_names();
     let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
-    let shapes = shapes(compiled, given, &mut Vec::new())?;
+    let mut guessed = Vec::new();
+    let shapes = shapes(compiled, given, &mut guessed)?;
     let beta = if !base_names.is_empty() && base_names.iter().all(|name| given.contains_key(name)) {
         base_names.iter().map(|name| given[name]).collect()
     } else {
@@ -103,6 +106,7 @@ fn known_of(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known,
         beta,
         shapes,
         missing,
+        guessed,
     })
 }
 

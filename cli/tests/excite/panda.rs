@@ -28,6 +28,10 @@ fn one_start_is_better_than_finite_differences_are() {
     std::fs::write(folder.path().join("panda.robot"), arm).expect("a file");
     let raw = design(folder.path(), &arguments(&["--criterion", "condition"]));
     let [condition, unit] = REACHED;
+    assert_eq!(
+        (&raw["columns"], &raw["variables"]),
+        (&43.into(), &77.into())
+    );
     assert!(number(&raw, "max_violation") <= 0.0, "{raw}");
     assert!(number(&raw, "condition") < 0.75 * condition, "{raw}");
     assert!(

@@ -21,6 +21,7 @@ fn friction_is_excited_with_the_rigid_body() {
     std::fs::write(folder.path().join("puma.robot"), arm).expect("a file");
     let plain = ["puma.robot", "--ends", "free", "--starts", "1"];
     let report = design(folder.path(), &plain);
+    assert_eq!(report["variables"], 66, "{report}");
     assert!(number(&report, "max_violation") <= 0.0, "{report}");
     assert!(
         number(&report, "condition_of_unit_columns") < 20.0,
