@@ -95,9 +95,9 @@ fn story(clean: &Loop, worn: &Loop) -> String {
         "Two machines were built from it. Each moved for 30 s along a motion to fit and another to judge.\n",
     );
     add("\n== Machine 1 ==\n");
-    add(&trace::summary(clean, ARM));
+    add(&trace::summary(NAME, clean, ARM));
     add("\n== Machine 2 ==\n");
-    add(&trace::summary(worn, ARM));
+    add(&trace::summary(NAME, worn, ARM));
     write!(
         text,
         "\nThe truth: machine 1 is as its spec says; machine 2 has a Stribeck effect on its elbow, {} = {} N m, vs = {WORN_SPEED} rad/s.\n",

@@ -11,8 +11,8 @@ use crate::close_the_loop::Loop;
 
 const PUT: &str = "a string takes all";
 
-/// One line an alternative, and the command that designs the motion for the first doubt that has one.
-pub(super) fn doubt(closed: &Loop) -> String {
+/// One line an alternative, and for the spec at a path the command that designs the motion for the first doubt that has one.
+pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
     let mut out = String::new();
     let alternatives = &closed.verdict.alternatives;
     for alternative in alternatives {
@@ -29,7 +29,7 @@ pub(super) fn doubt(closed: &Loop) -> String {
     let command = alternatives.iter().find_map(|rival| {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
-        experiment(closed, finding, place, rival)
+        experiment(spec, closed, finding, place, rival)
     });
     if let Some(command) = command {
         writeln!(
@@ -43,6 +43,7 @@ pub(super) fn doubt(closed: &Loop) -> String {
 
 /// The command; none where an effect follows from more than the motion of the instant, for which no motion is designed.
 fn experiment(
+    spec: &str,
     closed: &Loop,
     finding: &Finding,
     place: usize,
@@ -50,26 +51,42 @@ fn experiment(
 ) -> Option<String> {
     let (own, other) = (name(&finding.kind)?, name(&rival.kind)?);
     let values = effect(finding, closed, place).parameters;
-    let sizes: Vec<String> = own
-        .linear
-        .iter()
-        .filter_map(|linear| values.iter().find(|value| value.name == linear))
-        .map(|value| format!("{} = {:.3e}", value.name, value.value))
-        .collect();
+    let said = |names: &[String]| -> Vec<String> {
+        let found = names
+            .iter()
+            .filter_map(|name| values.iter().find(|value| value.name == name));
+        found
+            .map(|value| format!("{} = {:.3e}", value.name, value.value))
+            .collect()
+    };
+    let shapes = match said(&own.shapes) {
+        shapes if shapes.is_empty() => String::new(),
+        shapes => format!("({})", shapes.join(", ")),
+    };
     Some(format!(
-        "robot-model excite {} --separate '{} on {}: {}' --from '{} on {}' --out next.csv",
-        closed.before.arm.compiled().model.source,
+        "robot-model excite {} --separate '{}{shapes} on {}: {}' --from '{} on {}' --out next.csv",
+        quoted(spec),
         own.name,
         joints(closed, &finding.joints),
-        sizes.join(", "),
+        said(&own.linear).join(", "),
         other.name,
         joints(closed, &rival.joints),
     ))
 }
 
+/// A path as a shell takes it.
+fn quoted(path: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
+    if path.chars().all(is_plain) {
+        return path.to_owned();
+    }
+    format!("'{}'", path.replace('\'', r"'\''"))
+}
+
 struct OfMotion {
     name: String,
     linear: Vec<String>,
+    shapes: Vec<String>,
 }
 
 /// An effect of the language whose torque is one of the motion alone, by its name in reports.
@@ -82,6 +99,7 @@ fn name(kind: &str) -> Option<OfMotion> {
     (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
         name: effect.name.clone(),
         linear: effect.linear.iter().map(|p| p.name.clone()).collect(),
+        shapes: effect.shapes.iter().map(|p| p.name.clone()).collect(),
     })
 }
 

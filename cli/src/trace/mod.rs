@@ -86,7 +86,7 @@ impl TraceArguments {
                 "the result",
             ),
         ];
-        let mut told = summary(&closed, &text);
+        let mut told = summary(&self.spec.display().to_string(), &closed, &text);
         for (file, content, what) in contents {
             if let (Some(file), Some(content)) = (file, content) {
                 let path = file.path().display().to_string();

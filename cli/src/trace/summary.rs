@@ -11,8 +11,8 @@ use crate::close_the_loop::Loop;
 use crate::diff::diff;
 use crate::output;
 
-/// The result for people: outcome, effects, the spec's change, errors before and after.
-pub(crate) fn summary(closed: &Loop, text: &str) -> String {
+/// The result for people, of the spec at a path: outcome, effects, the spec's change, errors before and after.
+pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let verdict = &closed.verdict;
     let mut out = match verdict.outcome {
         Outcome::NothingMissing => {
@@ -58,7 +58,7 @@ pub(crate) fn summary(closed: &Loop, text: &str) -> String {
         .enumerate()
         .for_each(|(place, finding)| show(finding, place));
     if verdict.outcome == Outcome::Explained {
-        out.push_str(&doubt(closed));
+        out.push_str(&doubt(spec, closed));
     }
 
     if verdict.leads.len() >= MOST_EFFECTS {
@@ -155,7 +155,7 @@ impl Column<'_> {
 #[cfg(test)]
 mod tests {
     use robot_model::log::Log;
-    use robot_model::trace::{MOST_EFFECTS, Outcome};
+    use robot_model::trace::{Alternative, MOST_EFFECTS, Outcome};
 
     use super::summary;
     use crate::close_the_loop::close;
@@ -188,14 +188,41 @@ mod tests {
             .first()
             .expect("dry friction")
             .clone();
-        assert!(summary(&closed, CART).starts_with("explained:\n  coulomb-friction on rail"));
+        assert!(
+            summary("cart.robot", &closed, CART)
+                .starts_with("explained:\n  coulomb-friction on rail")
+        );
+
+        // Another law that would do as well asks for another experiment.
+        closed.verdict.alternatives = vec![Alternative {
+            kind: "stribeck".to_owned(),
+            joints: vec![0],
+            instead_of: 0,
+            worse_percent: 0.4,
+        }];
+        let told = summary("my arms/cart.robot", &closed, CART);
+        assert!(
+            told.contains("or stribeck on rail in place of coulomb-friction: +0.4 % error"),
+            "{told}"
+        );
+        let command = "robot-model excite 'my arms/cart.robot' --separate 'coulomb_friction on rail: fc = 1.9";
+        let command = told
+            .find(command)
+            .or_else(|| told.find(&command.replace("1.9", "2.0")));
+        assert!(
+            command.is_some() && told.contains("--from 'stribeck on rail' --out next.csv"),
+            "{told}"
+        );
+        // No motion of the instant tells a memory.
+        "dahl".clone_into(&mut closed.verdict.alternatives[0].kind);
+        assert!(!summary("cart.robot", &closed, CART).contains("robot-model excite"));
 
         closed.verdict.outcome = Outcome::Unexplained;
         closed.verdict.findings.clear();
         closed.verdict.leads = vec![finding.clone()];
         CART.clone_into(&mut closed.amended);
         closed.changed = None;
-        let told = summary(&closed, CART);
+        let told = summary("cart.robot", &closed, CART);
         assert!(
             told.contains("pass the gates but do not account for its structure, so none is named\n  coulomb-friction on rail"),
             "{told}"
@@ -203,6 +230,6 @@ mod tests {
         assert!(!told.contains("the search stops"), "{told}");
 
         closed.verdict.leads = vec![finding; MOST_EFFECTS];
-        assert!(summary(&closed, CART).contains("the search stops at 6 effects"));
+        assert!(summary("cart.robot", &closed, CART).contains("the search stops at 6 effects"));
     }
 }
