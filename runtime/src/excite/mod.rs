@@ -47,6 +47,9 @@ const STAGES: [(f64, f64, usize); 4] = [
     (2e-4, 16.0, 100),
 ];
 
+/// Condition number of unit columns from which on its square is the rounding of a double: what is beyond tells nothing.
+const MOST_CONDITION: f64 = 1e7;
+
 /// A motion that is wanted.
 #[derive(Debug)]
 pub struct Request {
@@ -133,7 +136,8 @@ impl Request {
         }
         let (_, motion) = best.expect("at least one start");
         let quality = self.quality(&motion)?;
-        if !quality.condition_of_unit_columns.is_finite() {
+        let condition = quality.condition_of_unit_columns;
+        if condition.is_nan() || condition > MOST_CONDITION {
             return Err(ExciteError::NotExcited(
                 "the parameters from each other".to_owned(),
             ));
