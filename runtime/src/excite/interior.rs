@@ -1,5 +1,5 @@
-//! Descent inside the limits: a Newton method in which the barrier's curvature is exact and that of the criterion is learned from its
-//! slopes.
+//! Descent inside the limits: a Newton method in which the curvature of the barrier of position, velocity and acceleration is exact, and
+//! that of the rest is learned from its slopes.
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};

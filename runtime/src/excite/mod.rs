@@ -16,6 +16,7 @@ mod function;
 mod interior;
 mod limits;
 mod problem;
+mod slack;
 mod start;
 #[cfg(test)]
 mod tests;

@@ -4,7 +4,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::fourier::Ends;
-use super::problem::{Problem, each_slack, lesser};
+use super::problem::Problem;
+use super::slack::{each_slack, lesser};
 use super::{ExciteError, Request};
 
 /// Poses that are tried before limits are said to leave no motion.

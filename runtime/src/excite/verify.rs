@@ -5,7 +5,8 @@ use faer::{Mat, Side};
 use super::check::size;
 use super::criterion::{Criterion, Rivals};
 use super::fourier::{Fourier, instants};
-use super::problem::{Problem, each_slack, lesser};
+use super::problem::Problem;
+use super::slack::{each_slack, lesser};
 use super::{ExciteError, Request};
 
 /// Instants of the grid on which limits are verified, per instant of the design's.
