@@ -78,7 +78,7 @@ fn a_motion_at_the_limits_of_the_published_log_is_ten_times_better_conditioned()
         ("velocity", limits(&|joint| most(&rows, joint, speed))),
         ("acceleration", limits(&|joint| most(&rows, joint, bend))),
     ];
-    let mut arm = spec("run/tx40").replace(" link = ", "  link = ");
+    let mut arm = spec("run/tx40");
     std::fs::write(folder.path().join("plain.robot"), &arm).expect("a file");
     for (what, limits) in &of_log {
         let limits: Vec<&str> = limits.iter().map(String::as_str).collect();
