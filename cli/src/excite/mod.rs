@@ -50,8 +50,8 @@ pub(crate) struct Excite {
     /// What is wanted of the motion.
     #[arg(long, value_enum, default_value_t, conflicts_with = "separate")]
     criterion: CriterionArgument,
-    /// Count columns of unit length: for the condition number and the smallest singular value.
-    #[arg(long)]
+    /// Count columns of unit length: for `--criterion condition`, `e-optimal` and `hadamard`, which is constant then.
+    #[arg(long, conflicts_with = "separate")]
     unit_columns: bool,
     /// Count columns of these standard parameters, as many as there are base parameters: the condition number and the smallest
     /// singular value depend on the choice.
@@ -163,6 +163,13 @@ impl Excite {
                 "--rate {}: a rate in Hz, for at most ten million samples",
                 self.rate
             )));
+        }
+        if self.unit_columns && matches!(self.criterion, CriterionArgument::DOptimal) {
+            return Err(Error::Argument(
+                "`--unit-columns` are of the condition number and the smallest singular value; add `--criterion condition` or \
+                 `--criterion e-optimal`"
+                    .to_owned(),
+            ));
         }
         let progress = Progress::new();
         let (compiled, rivals) = match (&self.separate, &self.from) {

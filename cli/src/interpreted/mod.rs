@@ -15,6 +15,7 @@ mod rough;
 mod shape;
 mod signals;
 mod states;
+mod transmission;
 
 pub use candidate::InterpretedCandidate;
 pub use function::InterpretedFunction;

@@ -7,6 +7,9 @@ use robot_model_codegen::PlantSlopes;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Program, Scratch};
 
+use super::transmission::Transmissions;
+use crate::Error;
+
 /// A program with its constants in place, run one instant at a time.
 #[derive(Debug, Clone)]
 struct Runner {
@@ -68,12 +71,14 @@ fn matrix(scratch: &Scratch, first: usize, rows: usize, columns: usize) -> DMatr
 
 /// A compiled spec with numbers for all parameters, as a [`Plant`].
 ///
-/// The torque that a spec's effects call measured is that of the motors.
+/// The torque that a spec's effects call measured is that of the motors. Where links hang behind springs or gaps, effects are on the
+/// motors' side, as in the spec's equations; links are further degrees of freedom behind those of the joints.
 #[derive(Debug, Clone)]
 pub struct InterpretedPlant {
     compiled: Compiled,
     numbers: Numbers,
-    dof: usize,
+    joints: usize,
+    transmissions: Transmissions,
     states: usize,
     switches: usize,
     is_affine: bool,
@@ -88,7 +93,6 @@ pub struct InterpretedPlant {
     /// Made when the first implicit step asks for them.
     slopes: Option<Box<SlopeRunners>>,
     load: Vec<f64>,
-    mass: DMatrix<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -101,16 +105,21 @@ struct SlopeRunners {
 
 impl InterpretedPlant {
     /// The arm with base parameters `beta` and shape parameters `shapes`, each in their order.
-    #[must_use]
-    pub fn new(compiled: Compiled, beta: &[f64], shapes: &[f64]) -> Self {
+    ///
+    /// # Errors
+    /// [`Error`] where links are not where their encoders say, by other things than springs and gaps; where a motor with one has no
+    /// inertia.
+    pub fn new(compiled: Compiled, beta: &[f64], shapes: &[f64]) -> Result<Self, Error> {
         let numbers = Numbers {
             parameters: compiled.parameter_values(beta),
             shapes: shapes.to_vec(),
         };
+        let transmissions = Transmissions::new(&compiled, shapes)?;
         let plant = compiled.plant();
         let runner = |program| Runner::new(program, &numbers);
-        Self {
-            dof: plant.dof,
+        let mut found = Self {
+            joints: plant.dof,
+            transmissions,
             states: plant.states,
             switches: plant.switches,
             is_affine: plant.is_affine,
@@ -124,32 +133,42 @@ impl InterpretedPlant {
             energies: runner(compiled.energies()),
             slopes: None,
             load: vec![0.0; plant.dof],
-            mass: DMatrix::zeros(plant.dof, plant.dof),
             numbers,
             compiled,
+        };
+        found.check_motors()?;
+        Ok(found)
+    }
+
+    /// Motors that are parted from their links have an inertia of their own.
+    fn check_motors(&mut self) -> Result<(), Error> {
+        let joints: Vec<usize> = self.transmissions.joints().collect();
+        if joints.is_empty() {
+            return Ok(());
+        }
+        let q = vec![0.0; self.dof()];
+        let inertia = self.inertia_at(&q, &vec![0.0; self.compiled.model.inputs().len()]);
+        let bare = joints
+            .into_iter()
+            .find(|&joint| inertia[(joint, joint)] <= 0.0);
+        match bare {
+            None => Ok(()),
+            Some(joint) => {
+                let model = &self.compiled.model;
+                Err(Error::Argument(format!(
+                    "{}: the motor of joint {name} is parted from its link and has no inertia; declare `motor_inertia on {name}` with \
+                     `ia` above 0",
+                    model.source,
+                    name = model.joints[joint].name
+                )))
+            }
         }
     }
 
-    /// Kinetic and potential energy of the rigid body, J; the latter up to a constant.
-    pub fn energies(&mut self, q: &[f64], dq: &[f64]) -> [f64; 2] {
-        let at = Instant {
-            time: 0.0,
-            q,
-            dq,
-            ddq: &[],
-            memory: &[],
-            switches: &[],
-            torque: &[],
-            inputs: &[],
-        };
-        let found = self.energies.run(&at, &[]);
-        [found.output(0), found.output(1)]
-    }
-
-    /// Inertia that each joint moves alone at a position, with what effects add to it: the diagonal of `d tau / d ddq`.
-    #[must_use]
-    pub fn own_inertia(&mut self, q: &[f64], inputs: &[f64]) -> Vec<f64> {
-        let (still, memory) = (vec![0.0; self.dof], vec![0.0; self.states]);
+    /// `d tau / d ddq` where nothing moves, by all degrees of freedom.
+    fn inertia_at(&mut self, q: &[f64], inputs: &[f64]) -> DMatrix<f64> {
+        let dof = self.dof();
+        let (still, memory) = (vec![0.0; dof], vec![0.0; self.states]);
         let switches = vec![0.0; self.switches];
         let at = Instant {
             time: 0.0,
@@ -161,23 +180,95 @@ impl InterpretedPlant {
             torque: &still,
             inputs,
         };
-        let mut torque = DVector::zeros(self.dof);
-        let mut inertia = DMatrix::zeros(self.dof, self.dof);
+        let mut torque = DVector::zeros(dof);
+        let mut inertia = DMatrix::zeros(dof, dof);
         self.torque(&at, &mut torque, &mut inertia);
-        inertia.diagonal().as_slice().to_vec()
+        inertia
     }
 
-    fn carry(&mut self, at: &Instant<'_>) {
-        let rigid = self.rigid.run(at, &[]);
-        for (joint, load) in self.load.iter_mut().enumerate() {
-            *load = rigid.output(joint);
-        }
+    /// Kinetic and potential energy of the rigid body, J; the latter up to a constant. Motors and springs have theirs besides.
+    pub fn energies(&mut self, q: &[f64], dq: &[f64]) -> [f64; 2] {
+        let [q, dq] = [q, dq].map(|values| self.transmissions.of_links(values));
+        let at = Instant {
+            time: 0.0,
+            q: &q,
+            dq: &dq,
+            ddq: &[],
+            memory: &[],
+            switches: &[],
+            torque: &[],
+            inputs: &[],
+        };
+        let found = self.energies.run(&at, &[]);
+        [found.output(0), found.output(1)]
     }
+
+    /// Inertia that each joint moves alone at a position of the joints, with what effects add to it.
+    #[must_use]
+    pub fn own_inertia(&mut self, q: &[f64], inputs: &[f64]) -> Vec<f64> {
+        let q = self.transmissions.hang(q, |_| vec![0.0; q.len()]);
+        let inertia = self.inertia_at(&q, inputs);
+        self.transmissions.own_inertia(&inertia)
+    }
+
+    /// Torque of the rigid body where its links are, `n`.
+    fn rigid_torque(&mut self, at: &Instant<'_>) -> Vec<f64> {
+        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
+        let rigid = self.rigid.run(&of_links(at, &links), &[]);
+        (0..self.joints).map(|joint| rigid.output(joint)).collect()
+    }
+
+    fn mass_matrix(&mut self, at: &Instant<'_>) -> DMatrix<f64> {
+        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
+        matrix(
+            self.inertia.run(&of_links(at, &links), &[]),
+            0,
+            self.joints,
+            self.joints,
+        )
+    }
+
+    /// What joints carry, as effects see it; what is then missing at links behind transmissions.
+    fn carry(&mut self, at: &Instant<'_>) -> Vec<f64> {
+        self.load = self.rigid_torque(at);
+        self.transmissions.carry(at.q, &mut self.load)
+    }
+
+    /// Slopes that rows for the joints and for links behind transmissions have, from those of effects by the joints' quantity and by
+    /// the load: `by + by_load * load`, and the rests below.
+    fn with_effects(
+        &self,
+        by: DMatrix<f64>,
+        by_load: &DMatrix<f64>,
+        sides: DMatrix<f64>,
+    ) -> DMatrix<f64> {
+        let load = sides.rows(0, self.joints).into_owned();
+        let mut slopes = sides;
+        let mut top = slopes.rows_mut(0, self.joints);
+        top.gemm(1.0, by_load, &load, 1.0);
+        let mut own = top.columns_mut(0, self.joints);
+        own += by;
+        slopes
+    }
+}
+
+/// The instant as links have it.
+fn of_links<'a>(at: &Instant<'a>, links: &'a [Vec<f64>; 3]) -> Instant<'a> {
+    let [q, dq, ddq] = links;
+    Instant { q, dq, ddq, ..*at }
 }
 
 impl Plant for InterpretedPlant {
     fn dof(&self) -> usize {
-        self.dof
+        self.transmissions.dof()
+    }
+
+    fn joints(&self) -> usize {
+        self.joints
+    }
+
+    fn joint(&self, coordinate: usize) -> usize {
+        self.transmissions.joint(coordinate)
     }
 
     fn states(&self) -> usize {
@@ -196,19 +287,26 @@ impl Plant for InterpretedPlant {
         self.is_timed
     }
 
+    fn start(&mut self, joints: &Instant<'_>) -> Vec<f64> {
+        self.transmissions.hang(joints.q, |q| {
+            let rigid = self.rigid.run(&Instant { q, ..*joints }, &[]);
+            (0..self.joints).map(|joint| rigid.output(joint)).collect()
+        })
+    }
+
     fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-        let dof = self.dof;
-        self.carry(at);
-        self.mass = matrix(self.inertia.run(at, &[]), 0, dof, dof);
+        let n = self.joints;
+        let rests = self.carry(at);
+        let mass = self.mass_matrix(at);
         let effects = self.effects.run(at, &self.load);
-        for joint in 0..dof {
+        for joint in 0..n {
             torque[joint] = self.load[joint] + effects.output(joint);
         }
-        let by_acceleration = matrix(effects, dof, dof, dof);
-        let by_load = matrix(effects, dof + dof * dof, dof, dof);
-        inertia.copy_from(&self.mass);
-        *inertia += by_acceleration;
-        inertia.gemm(1.0, &by_load, &self.mass, 1.0);
+        torque.as_mut_slice()[n..].copy_from_slice(&rests);
+        let (by_acceleration, by_load) =
+            (matrix(effects, n, n, n), matrix(effects, n + n * n, n, n));
+        let sides = self.transmissions.slopes(&mass, at.q, false);
+        *inertia = self.with_effects(by_acceleration, &by_load, sides);
     }
 
     fn rates(&mut self, at: &Instant<'_>, rates: &mut [f64]) {
@@ -227,16 +325,16 @@ impl Plant for InterpretedPlant {
     }
 
     fn jumps(&mut self, at: &Instant<'_>, jumps: &mut Jumps) {
-        let (n, m) = (self.dof, self.switches);
+        let (n, m, dof) = (self.joints, self.switches, self.dof());
         self.carry(at);
         let found = self.jumps.run(at, &self.load);
-        jumps.halves = matrix(found, 0, n, m);
-        jumps.directions = matrix(found, n * m, m, n);
+        jumps.halves = matrix(found, 0, n, m).resize_vertically(dof, 0.0);
+        jumps.directions = matrix(found, n * m, m, n).resize_horizontally(dof, 0.0);
         jumps.drifts = DVector::from_fn(m, |k, _| found.output(2 * n * m + k));
     }
 
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {
-        let (n, p) = (self.dof, self.states);
+        let (n, p, dof) = (self.joints, self.states, self.dof());
         let mut runners = self.slopes.take().unwrap_or_else(|| {
             let PlantSlopes {
                 rigid_by_position,
@@ -253,30 +351,42 @@ impl Plant for InterpretedPlant {
             })
         });
         self.carry(at);
-        self.mass = matrix(self.inertia.run(at, &[]), 0, n, n);
         let by_load = matrix(self.effects.run(at, &self.load), n + n * n, n, n);
+        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
+        let there = of_links(at, &links);
         let rigid = [
-            matrix(runners.rigid_by_position.run(at, &[]), 0, n, n),
+            matrix(runners.rigid_by_position.run(&there, &[]), 0, n, n),
             // The velocity torque `C dq` is quadratic, with `C` half its slope.
-            matrix(runners.coriolis.run(at, &[]), 0, n, n) * 2.0,
+            matrix(runners.coriolis.run(&there, &[]), 0, n, n) * 2.0,
+            self.mass_matrix(at),
         ];
+        let sides = [true, false, false].into_iter().zip(&rigid);
+        let sides: Vec<DMatrix<f64>> = sides
+            .map(|(is_position, rigid)| self.transmissions.slopes(rigid, at.q, is_position))
+            .collect();
+        let loads: Vec<DMatrix<f64>> = sides
+            .iter()
+            .map(|sides| sides.rows(0, n).into_owned())
+            .collect();
         let effects = runners.effects.run(at, &self.load);
-        for (k, rigid) in rigid.iter().enumerate() {
-            slopes.torque[k] = matrix(effects, k * n * n, n, n) + rigid + &by_load * rigid;
-        }
-        slopes.torque[2] = matrix(effects, 2 * n * n, n, p);
         let rates = runners.rates.run(at, &self.load);
-        let by_load = matrix(rates, 3 * p * n, p, n);
-        for (k, rigid) in rigid.iter().enumerate() {
-            slopes.rates[k] = matrix(rates, k * p * n, p, n) + &by_load * rigid;
+        let rates_by_load = matrix(rates, 3 * p * n, p, n);
+        let rates_by = |k: usize| {
+            let own = matrix(rates, k * p * n, p, n).resize_horizontally(dof, 0.0);
+            own + &rates_by_load * &loads[k]
+        };
+        for (k, sides) in sides.into_iter().take(2).enumerate() {
+            slopes.torque[k] = self.with_effects(matrix(effects, k * n * n, n, n), &by_load, sides);
+            slopes.rates[k] = rates_by(k);
         }
-        slopes.rates_by_acceleration = matrix(rates, 2 * p * n, p, n) + by_load * &self.mass;
+        slopes.torque[2] = matrix(effects, 2 * n * n, n, p).resize_vertically(dof, 0.0);
+        slopes.rates_by_acceleration = rates_by(2);
         slopes.rates[2] = matrix(rates, 4 * p * n, p, p);
         self.slopes = Some(runners);
     }
 }
 
-/// What a controller believes of the arm: effects' states are at rest in it.
+/// What a controller believes of the arm: effects' states are at rest in it, and links where their motors are.
 impl InverseDynamics for InterpretedPlant {
     fn inverse_dynamics(
         &mut self,
@@ -287,7 +397,7 @@ impl InverseDynamics for InterpretedPlant {
     ) {
         let memory = vec![0.0; self.states];
         let mut switches = vec![0.0; self.switches];
-        let still = vec![0.0; self.dof];
+        let still = vec![0.0; self.joints];
         let mut at = Instant {
             time: measured.time,
             q: measured.q,
@@ -298,7 +408,8 @@ impl InverseDynamics for InterpretedPlant {
             torque: &still,
             inputs: measured.inputs,
         };
-        self.carry(&at);
+        let rigid = self.rigid.run(&at, &[]);
+        let load: Vec<f64> = (0..self.joints).map(|joint| rigid.output(joint)).collect();
         at.dq = sliding;
         let arguments = self.arguments.run(&at, &[]);
         for (k, switch) in switches.iter_mut().enumerate() {
@@ -310,9 +421,9 @@ impl InverseDynamics for InterpretedPlant {
             };
         }
         at.switches = &switches;
-        let effects = self.effects.run(&at, &self.load);
+        let effects = self.effects.run(&at, &load);
         for (joint, torque) in torque.iter_mut().enumerate() {
-            *torque = self.load[joint] + effects.output(joint);
+            *torque = load[joint] + effects.output(joint);
         }
     }
 }

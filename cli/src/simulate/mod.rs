@@ -13,6 +13,7 @@ use robot_model::simulate::{
 };
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
+use robot_model_spec::model::{Joint, JointKind};
 use serde::Serialize;
 
 use crate::Error;
@@ -20,7 +21,7 @@ use crate::interpreted::InterpretedPlant;
 use crate::output::{self, Files};
 use crate::parameters;
 use crate::progress::Progress;
-use crate::spec::compile_instantaneous;
+use crate::spec::compile;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
@@ -140,7 +141,7 @@ impl Simulate {
 
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
-        let compiled = compile_instantaneous(&self.spec)?;
+        let compiled = compile(&self.spec)?;
         let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
         let mut setting = self.set_up(&compiled, &trajectory)?;
         let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;
@@ -151,8 +152,11 @@ impl Simulate {
             })[0];
         }
         let mut controller = self.controller(&compiled, &plant, &trajectory, &setting)?;
+        let is_free = self.controller == ControllerArgument::None
+            && self.torque.is_none()
+            && compiled.model.effects.is_empty();
         let start = trajectory.at(0.0);
-        let before = plant.energies(&start.q, &start.dq);
+        let before = is_free.then(|| plant.energies(&start.q, &start.dq));
 
         let mut told = 0.0;
         let mut tell = |time: f64| {
@@ -167,18 +171,18 @@ impl Simulate {
         let run = setting.run(plant, controller.as_mut(), &trajectory, &mut tell);
         let (record, mut end) =
             run.map_err(|error| Error::Argument(format!("{}: {error}", compiled.model.source)))?;
-        let (q, dq) = (end.q().to_vec(), end.dq().to_vec());
-        let after = end.plant_mut().energies(&q, &dq);
-        let is_free = self.controller == ControllerArgument::None
-            && self.torque.is_none()
-            && compiled.model.effects.is_empty();
-        let drift = (after[0] + after[1] - before[0] - before[1]).abs();
-        let scale = before[0].max(after[0]).max((after[1] - before[1]).abs());
+        let drift = before.map(|before| {
+            let (q, dq) = (end.q().to_vec(), end.dq().to_vec());
+            let after = end.plant_mut().energies(&q, &dq);
+            let changed = (after[0] + after[1] - before[0] - before[1]).abs();
+            let scale = before[0].max(after[0]).max((after[1] - before[1]).abs());
+            if scale > 0.0 { changed / scale } else { 0.0 }
+        });
         let report = Report {
             samples: record.time.len(),
             seconds: setting.duration,
             tracking_error: record.tracking.clone(),
-            energy_drift: is_free.then(|| if scale > 0.0 { drift / scale } else { 0.0 }),
+            energy_drift: drift,
             events: record.work.events,
             explicit_steps: record.work.explicit,
             implicit_steps: record.work.implicit,
@@ -187,12 +191,7 @@ impl Simulate {
             evaluations: record.work.evaluations,
         };
         let text = csv(&record);
-        let joints = compiled
-            .model
-            .joints
-            .iter()
-            .map(|joint| joint.name.as_str());
-        let said = summary(&self.out, &report, joints);
+        let said = summary(&self.out, &report, &compiled.model.joints);
         out.commit(text.as_bytes())?;
         if let Some(json) = json {
             json.commit(output::json(&report).as_bytes())?;
@@ -273,7 +272,7 @@ impl Simulate {
 /// The arm with the values of a file, or of its spec; its shape parameters.
 fn arm(compiled: &Compiled, file: Option<&Path>) -> Result<(InterpretedPlant, Vec<f64>), Error> {
     let values = parameters::resolve(compiled, file)?;
-    let plant = InterpretedPlant::new(compiled.clone(), &values.beta, &values.shapes);
+    let plant = InterpretedPlant::new(compiled.clone(), &values.beta, &values.shapes)?;
     Ok((plant, values.shapes))
 }
 
@@ -303,15 +302,23 @@ fn csv(record: &Record) -> String {
     text
 }
 
-fn summary<'a>(out: &Path, report: &Report, joints: impl Iterator<Item = &'a str>) -> String {
+fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
     let mut text = format!(
         "{}: {} samples of {} s\n",
         out.display(),
         report.samples,
         report.seconds
     );
-    for (joint, error) in joints.zip(&report.tracking_error) {
-        let _ = writeln!(text, "largest tracking error of {joint}: {error:.3e}");
+    for (joint, error) in joints.iter().zip(&report.tracking_error) {
+        let unit = match joint.kind {
+            JointKind::Prismatic => "m",
+            JointKind::Revolute => "rad",
+        };
+        let _ = writeln!(
+            text,
+            "largest tracking error of {}: {error:.3e} {unit}",
+            joint.name
+        );
     }
     if let Some(drift) = report.energy_drift {
         let _ = writeln!(text, "relative drift of energy: {drift:.1e}");

@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use robot_model::columns::Arm;
 use robot_model::trace::{Alternative, Finding};
+use robot_model_spec::model::{EffectLeaf, Signal};
 use robot_model_spec::standard_effects;
 
 use super::report::effect;
@@ -95,7 +96,13 @@ fn name(kind: &str) -> Option<OfMotion> {
     let effect = effects
         .iter()
         .find(|effect| effect.name.replace('_', "-") == kind)?;
-    let is_of_motion = effect.states.is_empty() && effect.inputs.is_empty();
+    let is_more = |leaf: &EffectLeaf| match leaf {
+        EffectLeaf::Time | EffectLeaf::Input(_) | EffectLeaf::State(_) => true,
+        EffectLeaf::Signal(signal, _) => *signal == Signal::MeasuredTorque,
+        EffectLeaf::Linear(_) | EffectLeaf::Shape(_) | EffectLeaf::Binding(_) => false,
+    };
+    let mut torques = effect.torques.iter();
+    let is_of_motion = !torques.any(|torque| effect.reads(&torque.value, &is_more));
     (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
         name: effect.name.clone(),
         linear: effect.linear.iter().map(|p| p.name.clone()).collect(),

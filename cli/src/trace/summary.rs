@@ -213,9 +213,16 @@ mod tests {
             command.is_some() && told.contains("--from 'stribeck on rail' --out next.csv"),
             "{told}"
         );
-        // No motion of the instant tells a memory.
-        "dahl".clone_into(&mut closed.verdict.alternatives[0].kind);
-        assert!(!summary("cart.robot", &closed, CART).contains("robot-model excite"));
+        // No motion of the instant tells a memory, a channel, time or what motors deliver.
+        for kind in [
+            "dahl",
+            "temperature-viscous",
+            "parameter-drift",
+            "torque-saturation",
+        ] {
+            kind.clone_into(&mut closed.verdict.alternatives[0].kind);
+            assert!(!summary("cart.robot", &closed, CART).contains("robot-model excite"));
+        }
 
         closed.verdict.outcome = Outcome::Unexplained;
         closed.verdict.findings.clear();

@@ -44,7 +44,7 @@ pub fn plant(compiled: Compiled, more: &[(&str, f64)]) -> InterpretedPlant {
             *shape = *value;
         }
     }
-    InterpretedPlant::new(compiled, &beta, &shapes)
+    InterpretedPlant::new(compiled, &beta, &shapes).expect("sound")
 }
 
 pub fn released(plant: InterpretedPlant, q: &[f64], dq: &[f64]) -> Integrator<InterpretedPlant> {

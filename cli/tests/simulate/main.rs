@@ -4,4 +4,5 @@ mod common;
 mod conservation;
 mod dry;
 mod lugre;
+mod soft;
 mod twin;

@@ -178,6 +178,44 @@ fn an_arm_is_let_go_or_pushed() {
     assert!(said.contains("drift of energy"), "{said}");
 }
 
+/// A motor and its link swing against each other, and the log tells the inertia of the one from that of the other.
+#[test]
+fn a_spring_in_the_transmission_is_simulated_and_identified() {
+    let folder = folder();
+    let effects = "viscous_friction on rail; motor_inertia on rail; joint_elasticity(stiffness = 2000) on rail;";
+    folder.write(
+        "soft.robot",
+        &CART.replace("viscous_friction on rail;", effects),
+    );
+    folder.write(
+        "soft.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.motor_inertia.ia": 1}"#,
+    );
+    let mut motion = String::from("time,q1\n");
+    for k in 0..=4000 {
+        let t = f64::from(k) / 200.0;
+        let q = 0.2 * (1.3 * t).sin() + 0.02 * (11.0 * t).sin() + 0.01 * (19.0 * t).sin();
+        writeln!(motion, "{t},{q}").expect("a string takes all");
+    }
+    folder.write("fast.csv", &motion);
+    let files = ["--trajectory", "fast.csv", "--out", "log.csv"];
+    let sensors = ["--encoder-bits", "20", "--torque-noise", "0.01"];
+    let run = ["simulate", "soft.robot", "--parameters", "soft.json"];
+    folder.succeed(&[&run[..], &files, &sensors].concat());
+    folder.succeed(&["identify", "soft.robot", "log.csv", "--json", "fit.json"]);
+    let fit = json(&folder.read("fit.json"));
+    let found = fit["parameters"].as_array().expect("a list").iter();
+    let values: Vec<(&str, f64)> = found
+        .map(|found| (&found["name"], found["value"].as_f64()))
+        .map(|(name, value)| (name.as_str().expect("a name"), value.expect("a value")))
+        .collect();
+    // Inertia of the motor and of its link are two numbers.
+    for (name, value) in [("cart.m", 3.0), ("rail.motor_inertia.ia", 1.0)] {
+        let found = values.iter().find(|(found, _)| *found == name);
+        close(found.expect("a parameter").1, value, 0.02 * value);
+    }
+}
+
 #[test]
 fn what_cannot_be_simulated_is_told() {
     let folder = folder();
@@ -190,7 +228,11 @@ fn what_cannot_be_simulated_is_told() {
         "soft.robot",
         &CART.replace("viscous_friction", "joint_elasticity(stiffness = 1000)"),
     );
-    assert!(refuse("soft.robot", &[]).contains("`joint_elasticity` moves a link"));
+    let said = refuse("soft.robot", &[]);
+    assert!(
+        said.contains("the motor of joint rail is parted from its link and has no inertia"),
+        "{said}"
+    );
     folder.write(
         "warm.robot",
         &CART.replace("viscous_friction", "temperature_viscous(beta = 0.1)"),

@@ -7,7 +7,7 @@ use super::error::SimulateError;
 use super::integrate::{Integrator, Tolerances, Work};
 use super::motion::Drive;
 use super::noise::{Noise, Sensors};
-use super::plant::Plant;
+use super::plant::{Instant, Plant};
 use super::trajectory::Trajectory;
 use crate::log::Channel;
 use crate::signal::resample::whole_steps;
@@ -137,10 +137,10 @@ impl Loop {
         trajectory: &Trajectory,
         progress: &mut dyn FnMut(f64),
     ) -> Result<(Record, Integrator<P>), SimulateError> {
-        let dof = plant.dof();
+        let dof = plant.joints();
         self.check(dof, trajectory)?;
         let start = trajectory.at(0.0);
-        let mut arm = Integrator::new(plant, &start.q, &start.dq, self.tolerances)?;
+        let mut arm = self.stand(plant, trajectory)?;
         let period = 1.0 / self.rate;
         let samples = whole_steps(self.duration * self.log_rate + 1e-9) + 1;
         let mut record = Record {
@@ -166,14 +166,11 @@ impl Loop {
             for (joint, most) in record.tracking.iter_mut().enumerate() {
                 *most = most.max((desired.q[joint] - arm.q()[joint]).abs());
             }
-            self.sensors.positions(arm.q(), &mut noise, &mut measured);
+            self.sensors
+                .positions(&arm.q()[..dof], &mut noise, &mut measured);
             self.velocities(&arm, &measured, last.as_deref(), &mut dq);
             last = Some(measured.clone());
-            let inputs_at = |time: f64| -> Vec<f64> {
-                let inputs = self.inputs.iter();
-                inputs.map(|&k| trajectory.channel(k, time)).collect()
-            };
-            let inputs = inputs_at(now);
+            let inputs = self.inputs_at(trajectory, now);
             let mut torque = vec![0.0; dof];
             let measurement = Measured {
                 time: now,
@@ -185,7 +182,7 @@ impl Loop {
             controller.torque(&measurement, &desired, &mut torque);
             waiting.push_back(torque);
             let torque = waiting.pop_front().unwrap_or_default();
-            let after = inputs_at(now + period);
+            let after = self.inputs_at(trajectory, now + period);
             let rates = inputs.iter().zip(after).map(|(x, y)| (y - x) / period);
             arm.drive(Drive {
                 torque: torque.clone(),
@@ -203,7 +200,8 @@ impl Loop {
                 }
                 arm.advance(instant.max(arm.time()))?;
                 record.time.push(instant);
-                self.sensors.positions(arm.q(), &mut log_noise, &mut row);
+                self.sensors
+                    .positions(&arm.q()[..dof], &mut log_noise, &mut row);
                 for joint in 0..dof {
                     record.q[joint].push(row[joint]);
                     let exact = self.sensors.are_exact();
@@ -231,6 +229,34 @@ impl Loop {
         Ok((record, arm))
     }
 
+    /// What effects read from outside.
+    fn inputs_at(&self, trajectory: &Trajectory, time: f64) -> Vec<f64> {
+        let inputs = self.inputs.iter();
+        inputs.map(|&k| trajectory.channel(k, time)).collect()
+    }
+
+    /// A plant at the start of a trajectory; what hangs on its joints moves as they do.
+    fn stand<P: Plant>(
+        &self,
+        mut plant: P,
+        trajectory: &Trajectory,
+    ) -> Result<Integrator<P>, SimulateError> {
+        let start = trajectory.at(0.0);
+        let (memory, switches) = (vec![0.0; plant.states()], vec![0.0; plant.switches()]);
+        let q = plant.start(&Instant {
+            time: 0.0,
+            q: &start.q,
+            dq: &start.dq,
+            ddq: &start.ddq,
+            memory: &memory,
+            switches: &switches,
+            torque: &vec![0.0; start.q.len()],
+            inputs: &self.inputs_at(trajectory, 0.0),
+        });
+        let dq: Vec<f64> = (0..q.len()).map(|k| start.dq[plant.joint(k)]).collect();
+        Integrator::new(plant, &q, &dq, self.tolerances)
+    }
+
     /// Velocities as a controller has them.
     fn velocities<P: Plant>(
         &self,
@@ -240,7 +266,7 @@ impl Loop {
         dq: &mut [f64],
     ) {
         if self.sensors.are_exact() {
-            dq.copy_from_slice(arm.dq());
+            dq.copy_from_slice(&arm.dq()[..dq.len()]);
             return;
         }
         let Some(last) = last else {

@@ -238,7 +238,7 @@ impl<P: Plant> Moving<P> {
         Some(if k < 2 * dof {
             SimulateError::Unbounded {
                 time,
-                joint: k % dof + 1,
+                joint: self.plant.joint(k % dof) + 1,
             }
         } else {
             SimulateError::UnboundedState {

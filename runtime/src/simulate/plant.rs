@@ -17,7 +17,7 @@ pub struct Instant<'a> {
     pub memory: &'a [f64],
     /// Where jumps stand, -1 to 1.
     pub switches: &'a [f64],
-    /// Torque of the motors, N m or N.
+    /// Torque of the motors, N m or N; 0 where a degree of freedom has none.
     pub torque: &'a [f64],
     /// Channels from outside, such as a temperature.
     pub inputs: &'a [f64],
@@ -47,11 +47,26 @@ pub struct Slopes {
 
 /// An arm to be simulated: `tau = f(q, dq, ddq, z, s, ..)`, solved for `ddq` by whoever simulates it.
 ///
-/// `n` joints, `p` internal states `z` of effects, `m` switches `s`. A switch is the sign of a continuous `g(q, dq, time)` where the
+/// `n` degrees of freedom, `p` internal states `z` of effects, `m` switches `s`. A switch is the sign of a continuous `g(q, dq, time)` where the
 /// torque jumps, as dry friction does where a joint turns round; the torque is affine in each. A plant without jumps has none.
 pub trait Plant {
     /// Degrees of freedom, `n`.
     fn dof(&self) -> usize;
+
+    /// Joints, with a motor and an encoder each: the first of the degrees of freedom. Others are links behind springs.
+    fn joints(&self) -> usize {
+        self.dof()
+    }
+
+    /// The joint that a degree of freedom belongs to.
+    fn joint(&self, coordinate: usize) -> usize {
+        coordinate
+    }
+
+    /// Positions of all degrees of freedom where joints stand and move as at an instant, and what hangs on them hangs quietly.
+    fn start(&mut self, joints: &Instant<'_>) -> Vec<f64> {
+        joints.q.to_vec()
+    }
 
     /// Internal states, `p`.
     fn states(&self) -> usize {

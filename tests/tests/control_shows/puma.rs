@@ -101,7 +101,7 @@ fn derived(effect: &str) -> InterpretedPlant {
             *shape = SPEED;
         }
     }
-    InterpretedPlant::new(compiled, &beta, &shapes)
+    InterpretedPlant::new(compiled, &beta, &shapes).expect("sound")
 }
 
 /// Bits of the encoders: a thousand counts a turn of the motors are about as many at the joints.

@@ -5,6 +5,7 @@ mod motion;
 mod refusals;
 mod rivals;
 mod stopped;
+mod verdict;
 
 use crate::common::{Folder, PENDULUM};
 

@@ -164,3 +164,49 @@ fn columns_of_other_parameters_are_counted() {
     assert!(refuse(&twice).contains("no motion tells these parameters apart"));
     assert!(refuse(&rigid("lower.mass")).contains("no standard parameter `lower.mass`"));
 }
+
+/// A spring is not designed for; what only the spring tells from the rest is left out, and the rest has its motion.
+#[test]
+fn an_arm_with_a_spring_has_a_motion_as_a_stiff_one() {
+    let folder = folder();
+    let soft = "motor_inertia on upper; joint_elasticity(stiffness = 1000) on upper; }";
+    let text = super::arm().replace(
+        "coulomb_friction on all; }",
+        &format!("coulomb_friction on all; {soft}"),
+    );
+    folder.write("soft.robot", &text);
+    let stiff = text.replace(" joint_elasticity(stiffness = 1000) on upper;", "");
+    folder.write("stiff.robot", &stiff);
+    let design = |spec: &str| {
+        let run = [
+            "excite",
+            spec,
+            "--parameters",
+            "friction.json",
+            "--out",
+            "out.csv",
+        ];
+        folder.run(&[&run[..], &SMALL].concat())
+    };
+    folder.write(
+        "friction.json",
+        &super::FRICTION.replacen('{', r#"{"upper.motor_inertia.ia": 0.1, "#, 1),
+    );
+    let soft = design("soft.robot");
+    assert_eq!(soft.code, Some(0), "{}", soft.stderr);
+    assert!(
+        soft.stderr.contains("what moves links along a motion"),
+        "{}",
+        soft.stderr
+    );
+    assert!(
+        soft.stderr
+            .contains("not designed for `upper.motor_inertia.ia`"),
+        "{}",
+        soft.stderr
+    );
+    let stiff = design("stiff.robot");
+    assert_eq!(stiff.code, Some(0), "{}", stiff.stderr);
+    let columns = |said: &str| said.split_once(" columns").map(|part| part.0.to_owned());
+    assert_eq!(columns(&soft.stdout), columns(&stiff.stdout));
+}

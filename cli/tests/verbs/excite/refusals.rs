@@ -21,6 +21,10 @@ fn what_leaves_no_design_is_told() {
         (["--pose", "0,9"], "joint `lower` at 9, which is not within"),
         (["--pose", "nan,0"], "joint `upper` at NaN"),
         (["--columns", "upper.m"], "names 1 parameter"),
+        (
+            ["--unit-columns", "--seed=1"],
+            "add `--criterion condition`",
+        ),
         (["--json", "arm.robot"], "same file as the input"),
     ] {
         let said = refused(&arguments);

@@ -1,0 +1,160 @@
+//! Springs and gaps between motors and links.
+
+use robot_model::simulate::{Integrator, Loop, Torques, Trajectory};
+use robot_model_cli::interpreted::InterpretedPlant;
+
+use crate::common::{compiled, plant, released};
+
+/// Inertia of motor and link, kg m^2, and the spring between them.
+const MOTOR: f64 = 0.3;
+const LINK: f64 = 0.2;
+const STIFFNESS: f64 = 500.0;
+
+/// A link of mass 1 at a radius on a vertical or a horizontal axis, with effects.
+fn text(gravity: &str, effects: &str) -> String {
+    format!(
+        "robot Arm {{
+            gravity = [{gravity}];
+            convention = standard_dh;
+            joint turn: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link turn {{ mass = 1; com = [0, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, {izz}]; }}
+            motor_inertia on turn;
+            {effects}
+        }}",
+        izz = LINK - 0.16
+    )
+}
+
+fn soft(gravity: &str, effects: &str) -> InterpretedPlant {
+    plant(
+        compiled(&text(gravity, effects)),
+        &[("motor_inertia.ia", MOTOR), ("coulomb_friction.fc", 30.0)],
+    )
+}
+
+fn spring(more: &str) -> String {
+    format!("joint_elasticity(stiffness = {STIFFNESS}) on turn; {more}")
+}
+
+#[test]
+fn motor_and_link_swing_against_each_other() {
+    let bent = 0.02;
+    let mut arm = released(soft("0, 0, -9.81", &spring("")), &[bent, 0.0], &[0.0, 0.0]);
+    let omega = (STIFFNESS * (1.0 / MOTOR + 1.0 / LINK)).sqrt();
+    for k in 1..=40 {
+        let time = 0.05 * f64::from(k);
+        arm.advance(time).expect("a motion");
+        // The common center stands.
+        let lead = bent * (omega * time).cos();
+        let center = bent * MOTOR / (MOTOR + LINK);
+        let expected = [
+            center + lead * LINK / (MOTOR + LINK),
+            center - lead * MOTOR / (MOTOR + LINK),
+        ];
+        for (found, expected) in arm.q().iter().zip(expected) {
+            assert!(
+                (found - expected).abs() < 1e-7,
+                "{time}: {found} {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_hangs_on_a_spring_starts_where_it_hangs() {
+    let arm = soft("0, -9.81, 0", &spring("backlash(half_gap = 0.01) on turn;"));
+    let times = vec![0.0, 0.3, 0.6, 1.0];
+    let q0 = 0.3;
+    let wanted = Trajectory::new(times.clone(), vec![vec![q0; 4]], vec![], vec![], vec![])
+        .expect("a motion");
+    // The motor's torque holds it, so nothing moves.
+    let mut q = q0;
+    for _ in 0..100 {
+        q = q0 - 9.81 * 0.4 * f64::cos(q) / STIFFNESS - 0.01;
+    }
+    let holds = 9.81 * 0.4 * q.cos();
+    let mut torque = Torques::new(times, vec![vec![holds; 4]]).expect("torques");
+    let (record, end) = Loop::default()
+        .run(arm, &mut torque, &wanted, &mut |_| ())
+        .expect("a log");
+    assert_eq!(record.q.len(), 1, "the encoder is the motor's");
+    assert!((end.q()[0] - q0).abs() < 1e-9, "{:?}", end.q());
+    assert!((end.q()[1] - q).abs() < 1e-9, "{:?} {q}", end.q());
+}
+
+/// Energy of both sides and of the spring between them.
+fn energy(arm: &Integrator<InterpretedPlant>, half_gap: f64) -> f64 {
+    let lead = arm.q()[0] - arm.q()[1];
+    let stretch = (lead.abs() - half_gap).max(0.0);
+    let moving = MOTOR * arm.dq()[0].powi(2) + LINK * arm.dq()[1].powi(2);
+    0.5 * (moving + STIFFNESS * stretch * stretch)
+}
+
+#[test]
+fn a_link_crosses_its_gap_freely_and_bounces() {
+    let half_gap = 0.05;
+    let effects = spring(&format!("backlash(half_gap = {half_gap}) on turn;"));
+    let mut arm = released(soft("0, 0, -9.81", &effects), &[0.0, 0.0], &[0.0, 1.0]);
+    let start = energy(&arm, half_gap);
+    arm.advance(0.04).expect("a motion");
+    assert!(
+        (arm.q()[1] - 0.04).abs() < 1e-12 && arm.q()[0] == 0.0,
+        "{:?}",
+        arm.q()
+    );
+    let mut sides = [false; 2];
+    for k in 1..=500 {
+        arm.advance(0.04 + 0.01 * f64::from(k)).expect("a motion");
+        assert!((energy(&arm, half_gap) - start).abs() < 1e-6 * start);
+        let momentum = MOTOR * arm.dq()[0] + LINK * arm.dq()[1];
+        assert!((momentum - LINK).abs() < 1e-7);
+        let lead = arm.q()[0] - arm.q()[1];
+        sides[usize::from(lead > 0.0)] |= lead.abs() > half_gap;
+    }
+    assert_eq!(sides, [true; 2], "both sides are met");
+}
+
+#[test]
+fn a_motor_that_sticks_leaves_its_link_swinging() {
+    let effects = spring("coulomb_friction on turn;");
+    let bent = 0.02;
+    let mut arm = released(soft("0, 0, -9.81", &effects), &[0.0, bent], &[0.0, 0.0]);
+    let omega = (STIFFNESS / LINK).sqrt();
+    for k in 1..=20 {
+        let time = 0.05 * f64::from(k);
+        arm.advance(time).expect("a motion");
+        assert!(arm.q()[0] == 0.0, "friction is on the motor's side");
+        assert!((arm.q()[1] - bent * (omega * time).cos()).abs() < 1e-7);
+    }
+}
+
+/// What the arm says in place of a simulation.
+fn refused(effects: &str) -> String {
+    let text = text("0, 0, -9.81", effects).replace(&format!("motor_inertia on turn;"), "");
+    let arm = compiled(&text);
+    let beta = vec![0.5; arm.base.kept.len()];
+    let shapes = robot_model_codegen::base::shape_values(&arm.model);
+    let refusal = InterpretedPlant::new(arm, &beta, &shapes);
+    refusal.expect_err("no plant").to_string()
+}
+
+#[test]
+fn what_no_motion_follows_from_is_refused() {
+    let said = refused("joint_elasticity(stiffness = 500) on turn;");
+    assert!(
+        said.contains("has no inertia; declare `motor_inertia on turn`"),
+        "{said}"
+    );
+    let said = refused("motor_inertia on turn; backlash(half_gap = 0.01) on turn;");
+    assert!(
+        said.contains("declare `joint_elasticity` beside `backlash`"),
+        "{said}"
+    );
+    let said = refused(
+        "effect wobble(j) { shape a = 0.01; position(j) = a * sin(q(j)); } wobble on turn;",
+    );
+    assert!(
+        said.contains("only springs and gaps are simulated"),
+        "{said}"
+    );
+}
