@@ -18,8 +18,7 @@ fn text(gravity: &str, effects: &str) -> String {
             convention = standard_dh;
             joint turn: revolute {{ a = 0.4; alpha = 0; d = 0; }}
             link turn {{ mass = 1; com = [0, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, {izz}]; }}
-            motor_inertia on turn;
-            {effects}
+            effects {{ motor_inertia on turn; {effects} }}
         }}",
         izz = LINK - 0.16
     )
@@ -128,10 +127,10 @@ fn a_motor_that_sticks_leaves_its_link_swinging() {
     }
 }
 
-/// What the arm says in place of a simulation.
-fn refused(effects: &str) -> String {
-    let text = text("0, 0, -9.81", effects).replace(&format!("motor_inertia on turn;"), "");
-    let arm = compiled(&text);
+/// What an arm with these effects, after definitions of its own, says in place of a simulation.
+fn refused(definitions: &str, effects: &str) -> String {
+    let text = text("0, 0, -9.81", effects).replacen("motor_inertia on turn; ", "", 1);
+    let arm = compiled(&format!("{definitions}\n{text}"));
     let beta = vec![0.5; arm.base.kept.len()];
     let shapes = robot_model_codegen::base::shape_values(&arm.model);
     let refusal = InterpretedPlant::new(arm, &beta, &shapes);
@@ -140,21 +139,25 @@ fn refused(effects: &str) -> String {
 
 #[test]
 fn what_no_motion_follows_from_is_refused() {
-    let said = refused("joint_elasticity(stiffness = 500) on turn;");
-    assert!(
-        said.contains("has no inertia; declare `motor_inertia on turn`"),
-        "{said}"
-    );
-    let said = refused("motor_inertia on turn; backlash(half_gap = 0.01) on turn;");
-    assert!(
-        said.contains("declare `joint_elasticity` beside `backlash`"),
-        "{said}"
-    );
-    let said = refused(
-        "effect wobble(j) { shape a = 0.01; position(j) = a * sin(q(j)); } wobble on turn;",
-    );
-    assert!(
-        said.contains("only springs and gaps are simulated"),
-        "{said}"
-    );
+    let wobble = "effect wobble(j) { shape a in 0.01 .. 1; position(j) = a * sin(q(j)); }";
+    for (definitions, effects, word) in [
+        (
+            "",
+            "joint_elasticity(stiffness = 500) on turn;",
+            "has no inertia; declare `motor_inertia on turn`",
+        ),
+        (
+            "",
+            "motor_inertia on turn; backlash(half_gap = 0.01) on turn;",
+            "declare `joint_elasticity` beside `backlash`",
+        ),
+        (
+            wobble,
+            "motor_inertia on turn; wobble on turn;",
+            "only springs and gaps are simulated",
+        ),
+    ] {
+        let said = refused(definitions, effects);
+        assert!(said.contains(word), "{said}");
+    }
 }
