@@ -52,6 +52,18 @@ pub struct BaseForm {
 }
 
 impl BaseForm {
+    /// Every parameter that moves anything and is not fixed, for itself.
+    pub(crate) fn ungrouped(&self, standard: &[StandardParameter]) -> Self {
+        let is_out = |k: &usize| self.fixed.contains(k) || self.unidentifiable.contains(k);
+        let kept: Vec<usize> = (0..standard.len()).filter(|k| !is_out(k)).collect();
+        Self {
+            names: kept.iter().map(|&k| standard[k].name.clone()).collect(),
+            combinations: kept.iter().map(|&k| vec![(k, 1.0)]).collect(),
+            kept,
+            ..self.clone()
+        }
+    }
+
     /// Writes lumps as the combinations of standard parameters that they are; until here each is its representative.
     pub(crate) fn spell_out(
         &mut self,

@@ -58,33 +58,48 @@ pub struct Compiled {
 /// [`BaseForm::rank`](base::BaseForm::rank).
 #[must_use]
 pub fn compile_model(model: &Model) -> Compiled {
-    assemble(model, None)
+    assemble(model, &Parameters::Base)
 }
 
-/// `arm` is base parameters that are known already, and numbers for them.
-fn assemble(model: &Model, arm: Option<(&BaseForm, &[f64])>) -> Compiled {
+/// What equations are written in.
+enum Parameters<'a> {
+    /// Base parameters, to be found.
+    Base,
+    /// Numbers for base parameters that are known already.
+    Baked(&'a BaseForm, &'a [f64]),
+    /// Standard parameters, each for itself, of an arm whose base parameters are known.
+    Standard(&'a BaseForm),
+}
+
+fn assemble(model: &Model, parameters: &Parameters<'_>) -> Compiled {
     let mut dag = Dag::new();
     let standard = model.standard_parameters();
     let dof = model.joints.len();
     let energies = model.energies();
     let written = energies.map(|energies| energy::written(&mut dag, energies, dof));
-    let lumps = energies.and_then(|energies| lumps::collect(&mut dag, energies, dof));
+    let lumps = match parameters {
+        Parameters::Standard(_) => None,
+        Parameters::Base | Parameters::Baked(..) => {
+            energies.and_then(|energies| lumps::collect(&mut dag, energies, dof))
+        }
+    };
     let linear = regressor::linearize(&mut dag, model, written.as_ref());
     let form = lumps.as_ref().map(|lumps| &lumps.form);
     let candidates = match form {
         Some(form) => regressor::linearize(&mut dag, model, Some(form)),
         None => linear.clone(),
     };
-    let base = if let Some((base, _)) = arm {
-        base.clone()
-    } else {
-        let mut base = base::reduce(&dag, model, &candidates);
-        if let Some(lumps) = &lumps {
-            base.spell_out(model, &standard, &lumps.lumps);
+    let (base, baked) = match *parameters {
+        Parameters::Base => {
+            let mut base = base::reduce(&dag, model, &candidates);
+            if let Some(lumps) = &lumps {
+                base.spell_out(model, &standard, &lumps.lumps);
+            }
+            (base, None)
         }
-        base
+        Parameters::Baked(base, beta) => (base.clone(), Some(beta.to_vec())),
+        Parameters::Standard(base) => (base.ungrouped(&standard), None),
     };
-    let baked = arm.map(|(_, beta)| beta.to_vec());
     let values = base_values(&standard, &base, baked.as_deref());
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
     let computed = dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values);
@@ -247,6 +262,24 @@ impl Compiled {
         self.model.is_rigid(&self.standard[self.base.kept[column]])
     }
 
+    /// Base parameters that are of the rigid body and of effects together, by name: an inertia of a link and that of its motor.
+    #[must_use]
+    pub fn mixed(&self) -> Vec<&str> {
+        let is_rigid = |&(k, _): &(usize, f64)| self.model.is_rigid(&self.standard[k]);
+        let combinations = self.base.names.iter().zip(&self.base.combinations);
+        let mixed = combinations.filter(|(_, combination)| {
+            combination.iter().any(is_rigid) && !combination.iter().all(is_rigid)
+        });
+        mixed.map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// The same arm in standard parameters, each for itself: for numbers that are known one by one, where those of a motor and of
+    /// its link are not the same thing. An identification needs base parameters.
+    #[must_use]
+    pub fn ungrouped(&self) -> Self {
+        assemble(&self.model, &Parameters::Standard(&self.base))
+    }
+
     /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`](crate::expr::Symbol::Parameter).
     /// Parameters that are not kept have 0.
     #[must_use]
@@ -298,7 +331,7 @@ impl Compiled {
                 *shape = Some(*value);
             }
         }
-        Ok(assemble(&model, Some((&self.base, beta))))
+        Ok(assemble(&model, &Parameters::Baked(&self.base, beta)))
     }
 
     /// The internal states of the declared effects, one entry per effect that has some; slopes are added to `dag`, a copy of

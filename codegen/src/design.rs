@@ -3,7 +3,7 @@
 //! In: expressions of the forms. Out: a [`Differentiable`], whose programs read positions, velocities, accelerations and
 //! weights, and nothing else: parameters and shapes are numbers, dry friction turns round within a small velocity.
 
-use crate::compiled::{Compiled, compile_model};
+use crate::compiled::Compiled;
 use crate::expr::{Dag, ExprId, Function, Node, Symbol};
 use crate::interpreter::Program;
 
@@ -37,7 +37,7 @@ pub struct DesignColumns {
     /// The entries.
     pub function: Differentiable,
     /// Base parameters whose columns follow from more than the motion of the instant, by their index: memory, channels, torque
-    /// that is measured, time; those of an arm whose links move against their motors that are one with others where they do not.
+    /// that is measured, time.
     pub left_out: Vec<usize>,
 }
 
@@ -46,14 +46,13 @@ impl Compiled {
     #[must_use]
     pub fn design_columns(&self, nominal: &Nominal) -> DesignColumns {
         let mut dag = self.dag.clone();
-        let stiff = self.kept_where_stiff();
         let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         let (mut entries, mut outputs) = (Vec::new(), Vec::new());
         for (column, &kept) in self.base.kept.iter().enumerate() {
             let of_column = self.computed_candidates.column(&self.dag, kept);
             let (joints, expressions): (Vec<usize>, Vec<ExprId>) = of_column.unzip();
             let expressions = self.of_motion(&mut dag, &expressions, nominal);
-            if stiff.contains(&kept) && is_of_motion(&dag, &expressions) {
+            if is_of_motion(&dag, &expressions) {
                 entries.extend(joints.into_iter().map(|joint| (joint, columns.len())));
                 outputs.extend(expressions);
                 columns.push(column);
@@ -67,27 +66,6 @@ impl Compiled {
             function: self.differentiable(dag, &outputs),
             left_out,
         }
-    }
-
-    /// Standard parameters that are kept where links are where their motors are.
-    fn kept_where_stiff(&self) -> Vec<usize> {
-        if self.check_instantaneous().is_ok() {
-            return self.base.kept.clone();
-        }
-        let mut model = self.model.clone();
-        model
-            .effects
-            .retain(|effect| !effect.definition.moves_links());
-        let stiff = compile_model(&model);
-        let names: Vec<&str> = stiff
-            .base
-            .kept
-            .iter()
-            .map(|&k| stiff.standard[k].name.as_str())
-            .collect();
-        let kept = self.base.kept.iter().copied();
-        kept.filter(|&k| names.contains(&self.standard[k].name.as_str()))
-            .collect()
     }
 
     /// The torque of the nominal arm, as far as the motion tells it: one output a joint. What remembers counts as unbent, what

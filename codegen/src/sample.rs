@@ -6,13 +6,9 @@
 //! Columns of a chain are analytic: what holds near any state holds at all. Effects are not. One may sleep at usual states,
 //! another look like a third there; so states are also drawn between every two neighbours among the numbers that its
 //! equations contain, and powers of ten.
-//!
-//! Where effects move links along a motion, links are elsewhere than the motors that other effects are at: inertia of the one is
-//! not that of the other, however stiff the spring between them.
 
 mod marks;
 mod scaling;
-mod sides;
 
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::StandardParameter;
@@ -23,7 +19,6 @@ use crate::regressor::LinearForm;
 use crate::rounded::Rounded;
 use marks::Deck;
 use scaling::Scaled;
-use sides::Sides;
 
 /// Usual states are this many times as many as the parameters, over the degrees of freedom.
 const OVERSAMPLING: usize = 3;
@@ -134,7 +129,9 @@ pub fn sample(
     let usual = OVERSAMPLING * parameters.len().div_ceil(dof) + 16;
     let marks = VISITS * deck.intervals();
 
-    let mut sides = Sides::new(dag, model, parameters, &entries);
+    let roots: Vec<ExprId> = entries.iter().map(|entry| entry.2).collect();
+    let order = dag.reachable(&roots);
+    let mut values = vec![Rounded::ZERO; dag.len()];
     let mut rows: Vec<(usize, Vec<Rounded>)> = Vec::new();
     let mut failure = None;
     for (kinds, wanted) in [
@@ -147,22 +144,21 @@ pub fn sample(
                 break;
             }
             let kind = kinds[attempt % 2];
-            let mut draw = || draw(model, kind, attempt, &mut generator, &mut deck);
-            let state = draw();
-            let motors = sides.are_two().then(|| sides.motors(&state, draw()));
-            let values = sides.evaluate(dag, [&state, motors.as_ref().unwrap_or(&state)], &shapes);
-            if let Some(place) = values.iter().position(|x| !x.value.is_finite()) {
-                let name = &parameters[entries[place].1].name;
-                failure.get_or_insert_with(|| no_number(model, name, &state));
+            let state = draw(model, kind, attempt, &mut generator, &mut deck);
+            let bind = |symbol: Symbol| value(symbol, &state, &shapes);
+            dag.evaluate_rounded(&order, &bind, &mut values);
+            let not_finite = entries
+                .iter()
+                .find(|entry| !values[entry.2.index()].value.is_finite());
+            if let Some(&(_, k, _)) = not_finite {
+                failure.get_or_insert_with(|| no_number(model, &parameters[k].name, &state));
                 continue;
             }
             found += 1;
             for joint in 0..dof {
                 let mut row = vec![Rounded::ZERO; parameters.len()];
-                for (entry, value) in entries.iter().zip(&values) {
-                    if entry.0 == joint {
-                        row[entry.1] = *value;
-                    }
+                for &(_, k, x) in entries.iter().filter(|entry| entry.0 == joint) {
+                    row[k] = values[x.index()];
                 }
                 rows.push((joint, row));
             }

@@ -108,7 +108,7 @@ impl InterpretedPlant {
     ///
     /// # Errors
     /// [`Error`] where links are not where their encoders say, by other things than springs and gaps; where a motor with one has no
-    /// inertia.
+    /// inertia; where base parameters are those of motors and links together, see [`Compiled::ungrouped`].
     pub fn new(compiled: Compiled, beta: &[f64], shapes: &[f64]) -> Result<Self, Error> {
         let numbers = Numbers {
             parameters: compiled.parameter_values(beta),

@@ -4,9 +4,10 @@
 //! that the other way round: both sides have an inertia and a place of their own, and the torque between them follows from how far
 //! the motor is ahead.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
+use robot_model_spec::model::Act;
 
 use crate::Error;
 
@@ -41,77 +42,103 @@ impl Transmission {
             self.stiffness
         }
     }
+}
 
-    /// How far the motor is ahead under a torque.
-    fn lead(&self, torque: f64) -> f64 {
-        let gap = if torque == 0.0 { 0.0 } else { self.half_gap };
-        torque / self.stiffness + gap.copysign(torque)
+/// Loads of all joints at once, so that none passes for another's.
+fn tell_apart(joint: usize) -> f64 {
+    1.0 + 0.1 * joint as f64
+}
+
+/// A step against a slope of an energy with curvature `slopes`, which is raised until the energy is a valley. `None` where there is
+/// nothing to go down.
+fn downhill(slopes: &DMatrix<f64>, slope: &DVector<f64>) -> Option<DVector<f64>> {
+    if slope.amax() == 0.0 {
+        return None;
     }
+    let size = slopes.amax().max(slope.amax());
+    let raised = std::iter::successors(Some(0.0), |raised: &f64| {
+        Some((10.0 * raised).max(1e-9 * size))
+    });
+    raised.take(16).find_map(|raised| {
+        let matrix = slopes + DMatrix::identity(slope.len(), slope.len()) * raised;
+        let step = matrix.cholesky()?.solve(&-slope);
+        step.iter().all(|x| x.is_finite()).then_some(step)
+    })
 }
 
 impl Transmissions {
     /// What the displacements of a spec are, for these shapes.
     pub fn new(compiled: &Compiled, shapes: &[f64]) -> Result<Self, Error> {
-        let joints = compiled.dof();
         let mut found = Self {
-            joints,
+            joints: compiled.dof(),
             all: Vec::new(),
         };
         let Some(block) = compiled.displacements() else {
             return Ok(found);
         };
-        let refuse = |joint: usize, why: &str| {
-            let model = &compiled.model;
-            let name = &model.joints[joint].name;
-            Error::Argument(format!("{}: joint {name}: {why}", model.source))
-        };
-        let symbols = block.program.symbols();
-        let follows_the_load = symbols
+        let model = &compiled.model;
+        let refuse = |what: &str| Err(Error::Argument(format!("{}: {what}", model.source)));
+        if let Some(name) = compiled.mixed().first() {
+            return refuse(&format!(
+                "motors and links move apart, and base parameter `{name}` is of both; give standard parameters, whose values are \
+                 known one by one"
+            ));
+        }
+        let mut acts = model
+            .effects
             .iter()
-            .all(|symbol| matches!(symbol, Symbol::RigidTorque(_) | Symbol::Shape(_)));
-        let under = |load: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            .flat_map(|effect| &effect.definition.acts);
+        if acts.any(|act| matches!(act, Act::Force { .. })) {
+            return refuse(
+                "a force of the world on an arm with springs or gaps is not simulated; declare one or the other",
+            );
+        }
+        // A load that a displacement does not follow, or anything else that it reads, is no number.
+        let under = |load: f64| -> Vec<f64> {
             block.program.eval(&|symbol| match symbol {
-                Symbol::RigidTorque(joint) => load(joint),
+                Symbol::RigidTorque(joint) => load * tell_apart(joint),
                 Symbol::Shape(k) => shapes[k],
                 _ => f64::NAN,
             })
         };
-        let (one, two) = (under(&|_| 1.0), under(&|_| 2.0));
-        // Loads of both signs that no joint shares with another.
-        let probe = |joint: usize| if joint % 2 == 0 { 40.0 } else { -3.0 } + 0.7 * joint as f64;
-        let probes = [under(&probe), under(&|joint| -probe(joint))];
+        let (one, two) = (under(1.0), under(2.0));
+        let loads = (-6..=9).map(|power| 1.7 * 10_f64.powi(power));
+        let probes: Vec<(f64, Vec<f64>)> = loads
+            .flat_map(|load| [load, -load])
+            .map(|load| (load, under(load)))
+            .collect();
         for (k, &(joint, _)) in block.entries.iter().enumerate() {
-            let compliance = one[k] - two[k];
-            let half_gap = -one[k] - compliance;
-            // Digits of a difference: a gap of nothing has none left.
-            let half_gap = if half_gap.abs() <= 1e-12 * compliance.abs() {
+            let name = &model.joints[joint].name;
+            let compliance = (one[k] - two[k]) / tell_apart(joint);
+            let half_gap = two[k] - 2.0 * one[k];
+            // What is left of a difference is rounding.
+            let half_gap = if half_gap.abs() <= 1e-12 * one[k].abs() {
                 0.0
             } else {
                 half_gap
             };
-            let fits = probes.iter().zip([1.0, -1.0]).all(|(found, sign)| {
-                let load = sign * probe(joint);
+            let fits = probes.iter().all(|(load, found)| {
+                let load = load * tell_apart(joint);
                 let expected = -compliance * load - half_gap * load.signum();
                 (found[k] - expected).abs() <= 1e-9 * expected.abs()
             });
-            if !follows_the_load || !fits || compliance < 0.0 || half_gap < 0.0 {
-                return Err(refuse(
-                    joint,
-                    "only springs and gaps are simulated, `position(j) = -rigid_torque(j)/k - b * sign(rigid_torque(j))`; another \
-                     displacement can be identified, not simulated",
+            if !fits || compliance < 0.0 || half_gap < 0.0 {
+                return refuse(&format!(
+                    "joint {name}: only springs and gaps are simulated, `position(j) = -rigid_torque(j)/k - b * \
+                     sign(rigid_torque(j))`; another displacement can be identified, not simulated"
                 ));
             }
-            if compliance == 0.0 {
-                return Err(refuse(
+            if compliance > 0.0 {
+                found.all.push(Transmission {
                     joint,
-                    "teeth without any give are not simulated; declare `joint_elasticity` beside `backlash`",
+                    stiffness: 1.0 / compliance,
+                    half_gap,
+                });
+            } else if half_gap > 0.0 {
+                return refuse(&format!(
+                    "joint {name}: teeth without any give are not simulated; declare `joint_elasticity` beside `backlash`"
                 ));
             }
-            found.all.push(Transmission {
-                joint,
-                stiffness: 1.0 / compliance,
-                half_gap,
-            });
         }
         Ok(found)
     }
@@ -189,25 +216,51 @@ impl Transmissions {
         slopes
     }
 
-    /// Positions of all where links hang behind motors that are at `motors`: `torque` is that of the rigid body with links at a
-    /// position.
+    /// Positions of all where links hang quietly behind motors that are at `motors`; `torque` is that of the rigid body with its
+    /// links at a position. Where several places are quiet, one whose energy is least around it.
     pub fn hang(&self, motors: &[f64], mut torque: impl FnMut(&[f64]) -> Vec<f64>) -> Vec<f64> {
-        /// Springs that are softer than gravity is steep are never done; they start near enough.
-        const ROUNDS: usize = 50;
+        /// Newton's steps, and rad or m that are no step.
+        const STEPS: usize = 200;
+        const STILL: f64 = 1e-13;
+        /// For slopes of the rigid body's torque.
+        const NEAR: f64 = 1e-6;
+        let count = self.all.len();
         let mut q = motors.to_vec();
         q.extend(self.joints().map(|joint| motors[joint]));
-        for _ in 0..ROUNDS {
-            if self.all.is_empty() {
+        // What pulls links away, the slope of the energy by their positions.
+        let mut pull = |q: &[f64]| -> DVector<f64> {
+            let mut load = torque(&self.of_links(q));
+            DVector::from_vec(self.carry(q, &mut load))
+        };
+        let mut now = pull(&q);
+        for _ in 0..STEPS {
+            let mut slopes = DMatrix::zeros(count, count);
+            for k in 0..count {
+                let mut side = |sign: f64| {
+                    let mut near = q.clone();
+                    near[self.joints + k] += sign * NEAR;
+                    pull(&near)
+                };
+                slopes.set_column(k, &((side(1.0) - side(-1.0)) / (2.0 * NEAR)));
+            }
+            let slopes = (&slopes + slopes.transpose()) * 0.5;
+            let Some(mut step) = downhill(&slopes, &now) else {
                 break;
+            };
+            // Not beyond the lowest place along the step.
+            let mut next = q.clone();
+            loop {
+                for k in 0..count {
+                    next[self.joints + k] = q[self.joints + k] + step[k];
+                }
+                now = pull(&next);
+                if now.dot(&step) <= 1e-9 * now.norm() * step.norm() || step.amax() <= STILL {
+                    break;
+                }
+                step *= 0.5;
             }
-            let load = torque(&self.of_links(&q));
-            let mut moved = 0.0_f64;
-            for (k, one) in self.all.iter().enumerate() {
-                let link = motors[one.joint] - one.lead(load[one.joint]);
-                moved = moved.max((link - q[self.joints + k]).abs());
-                q[self.joints + k] = link;
-            }
-            if moved < 1e-14 {
+            q = next;
+            if step.amax() <= STILL {
                 break;
             }
         }

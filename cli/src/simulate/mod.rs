@@ -11,15 +11,15 @@ use robot_model::simulate::{
     ComputedTorque, Controller, Desired, Gains, Loop, Measured, Pd, Record, Sensors, Torques,
     Trajectory,
 };
-use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::{Compiled, Given};
 use robot_model_spec::model::{Joint, JointKind};
 use serde::Serialize;
 
 use crate::Error;
 use crate::interpreted::InterpretedPlant;
 use crate::output::{self, Files};
-use crate::parameters;
+use crate::parameters::{self, Values};
 use crate::progress::Progress;
 use crate::spec::compile;
 
@@ -271,9 +271,23 @@ impl Simulate {
 
 /// The arm with the values of a file, or of its spec; its shape parameters.
 fn arm(compiled: &Compiled, file: Option<&Path>) -> Result<(InterpretedPlant, Vec<f64>), Error> {
-    let values = parameters::resolve(compiled, file)?;
-    let plant = InterpretedPlant::new(compiled.clone(), &values.beta, &values.shapes)?;
-    Ok((plant, values.shapes))
+    let plant = |compiled: Compiled, values: Values| {
+        let plant = InterpretedPlant::new(compiled, &values.beta, &values.shapes)?;
+        Ok((plant, values.shapes))
+    };
+    let parts = compiled.displacements().is_some() && !compiled.mixed().is_empty();
+    if !parts {
+        return plant(compiled.clone(), parameters::resolve(compiled, file)?);
+    }
+    // Motors and links move apart: numbers for both together do not do, and are told.
+    let ungrouped = compiled.ungrouped();
+    match parameters::resolve(&ungrouped, file) {
+        Ok(values) => plant(ungrouped, values),
+        Err(error) => match parameters::resolve(compiled, file) {
+            Ok(values) if values.given == Given::Base => plant(compiled.clone(), values),
+            _ => Err(error),
+        },
+    }
 }
 
 /// `time,q1..,dq1..,tau1..[,extra]`

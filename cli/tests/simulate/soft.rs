@@ -1,6 +1,7 @@
 //! Springs and gaps between motors and links.
 
-use robot_model::simulate::{Integrator, Loop, Torques, Trajectory};
+use nalgebra::{DMatrix, DVector};
+use robot_model::simulate::{Instant, Integrator, Loop, Plant, Slopes, Torques, Trajectory};
 use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{compiled, plant, released};
@@ -25,8 +26,11 @@ fn text(gravity: &str, effects: &str) -> String {
 }
 
 fn soft(gravity: &str, effects: &str) -> InterpretedPlant {
+    // Inertia of the link and that of its motor are one base parameter.
+    let arm = compiled(&text(gravity, effects));
+    assert_eq!(arm.mixed(), ["turn.izzr"]);
     plant(
-        compiled(&text(gravity, effects)),
+        arm.ungrouped(),
         &[("motor_inertia.ia", MOTOR), ("coulomb_friction.fc", 30.0)],
     )
 }
@@ -81,6 +85,44 @@ fn what_hangs_on_a_spring_starts_where_it_hangs() {
     assert!((end.q()[1] - q).abs() < 1e-9, "{:?} {q}", end.q());
 }
 
+/// Where a link hangs whose motor is at `motor`, from straight down.
+fn hangs(spring: &str, motor: f64) -> f64 {
+    let down = -0.5 * std::f64::consts::PI;
+    let mut arm = soft("0, -9.81, 0", spring);
+    let q = arm.start(&Instant {
+        time: 0.0,
+        q: &[down + motor],
+        dq: &[0.0],
+        ddq: &[0.0],
+        memory: &[],
+        switches: &[],
+        torque: &[0.0],
+        inputs: &[],
+    });
+    q[1] - down
+}
+
+#[test]
+fn a_link_hangs_where_its_energy_is_least() {
+    // A spring that is softer than gravity is steep: k (m - l) = m g r sin l.
+    let found = hangs("joint_elasticity(stiffness = 3) on turn;", 0.1);
+    let rest = 3.0 * (0.1 - found) - 9.81 * 0.4 * found.sin();
+    assert!(found > 0.0 && rest.abs() < 1e-9, "{found} {rest}");
+    // Upside down it falls to a side, and hangs on its spring there.
+    let upside = std::f64::consts::PI - 0.01;
+    let found = hangs("joint_elasticity(stiffness = 3) on turn;", upside);
+    let rest = 3.0 * (upside - found) - 9.81 * 0.4 * found.sin();
+    assert!(found < upside && rest.abs() < 1e-9, "{found} {rest}");
+    assert!(3.0 + 9.81 * 0.4 * found.cos() > 0.0, "it is no crest");
+    // Inside a gap it hangs straight down.
+    let found = hangs(&spring("backlash(half_gap = 0.02) on turn;"), 0.001);
+    assert!(found.abs() < 1e-9, "{found}");
+    // Teeth that touch carry it.
+    let found = hangs(&spring("backlash(half_gap = 0.02) on turn;"), 0.5);
+    let rest = STIFFNESS * (0.5 - found - 0.02) - 9.81 * 0.4 * found.sin();
+    assert!(rest.abs() < 1e-9, "{found} {rest}");
+}
+
 /// Energy of both sides and of the spring between them.
 fn energy(arm: &Integrator<InterpretedPlant>, half_gap: f64) -> f64 {
     let lead = arm.q()[0] - arm.q()[1];
@@ -130,7 +172,7 @@ fn a_motor_that_sticks_leaves_its_link_swinging() {
 /// What an arm with these effects, after definitions of its own, says in place of a simulation.
 fn refused(definitions: &str, effects: &str) -> String {
     let text = text("0, 0, -9.81", effects).replacen("motor_inertia on turn; ", "", 1);
-    let arm = compiled(&format!("{definitions}\n{text}"));
+    let arm = compiled(&format!("{definitions}\n{text}")).ungrouped();
     let beta = vec![0.5; arm.base.kept.len()];
     let shapes = robot_model_codegen::base::shape_values(&arm.model);
     let refusal = InterpretedPlant::new(arm, &beta, &shapes);
@@ -160,4 +202,111 @@ fn what_no_motion_follows_from_is_refused() {
         let said = refused(definitions, effects);
         assert!(said.contains(word), "{said}");
     }
+}
+
+/// Everything at once: a spring with play on the second of two joints, friction that remembers and friction that loads bend.
+fn mixed() -> InterpretedPlant {
+    let text = "robot Arm {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
+        joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
+        link upper { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+        link lower { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
+        effects {
+            motor_inertia on lower;
+            joint_elasticity(stiffness = 300) on lower;
+            backlash(half_gap = 0.01) on lower;
+            encoder_offset(offset = 0.05) on lower;
+            dahl on lower;
+            load_dependent_friction on all;
+        }
+    }";
+    let more = [
+        ("motor_inertia.ia", 0.1),
+        ("dahl.fc", 0.7),
+        ("dahl.d", 0.05),
+        ("load_dependent_friction.mu", 0.1),
+    ];
+    plant(compiled(text).ungrouped(), &more)
+}
+
+/// Positions, velocities, accelerations and the state of all at an instant: of two motors and a link.
+type State = [Vec<f64>; 4];
+
+fn at<'a>([q, dq, ddq, memory]: &'a State, switches: &'a [f64]) -> Instant<'a> {
+    Instant {
+        time: 0.0,
+        q,
+        dq,
+        ddq,
+        memory,
+        switches,
+        torque: &[0.0; 3],
+        inputs: &[],
+    }
+}
+
+#[test]
+fn slopes_of_both_sides_are_those_of_differences() {
+    const STEP: f64 = 1e-6;
+    let mut arm = mixed();
+    assert_eq!((arm.dof(), arm.joints(), arm.states()), (3, 2, 1));
+    assert_eq!([0, 1, 2].map(|k| arm.joint(k)), [0, 1, 1]);
+    let switches = vec![0.6; arm.switches()];
+    let state: State = [
+        vec![0.3, -0.4, -0.53],
+        vec![0.7, -0.9, 0.4],
+        vec![1.1, 2.3, -0.6],
+        vec![0.004],
+    ];
+    // Torque and rates beside each other.
+    let value = |arm: &mut InterpretedPlant, state: &State| -> DVector<f64> {
+        let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
+        arm.torque(&at(state, &switches), &mut torque, &mut inertia);
+        let mut rates = [0.0];
+        arm.rates(&at(state, &switches), &mut rates);
+        torque.push(rates[0])
+    };
+    let mut difference = |part: usize| -> DMatrix<f64> {
+        let columns: Vec<DVector<f64>> = (0..state[part].len())
+            .map(|k| {
+                let [up, down] = [STEP, -STEP].map(|step| {
+                    let mut state = state.clone();
+                    state[part][k] += step;
+                    value(&mut arm, &state)
+                });
+                (up - down) / (2.0 * STEP)
+            })
+            .collect();
+        DMatrix::from_columns(&columns)
+    };
+    let differences = [0, 1, 2, 3].map(&mut difference);
+    let mut slopes = Slopes::zeros(&arm);
+    arm.slopes(&at(&state, &switches), &mut slopes);
+    let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
+    arm.torque(&at(&state, &switches), &mut torque, &mut inertia);
+    let Slopes {
+        torque: [q, dq, z],
+        rates: [rates_q, rates_dq, rates_z],
+        rates_by_acceleration,
+    } = slopes;
+    for (found, (torque, rates)) in differences.iter().zip([
+        (q, rates_q),
+        (dq, rates_dq),
+        (inertia, rates_by_acceleration),
+        (z, rates_z),
+    ]) {
+        let expected = DMatrix::from_fn(4, found.ncols(), |i, j| {
+            if i < 3 { torque[(i, j)] } else { rates[(0, j)] }
+        });
+        let size = expected.amax().max(1.0);
+        assert!(
+            (found - &expected).amax() < 1e-6 * size,
+            "{found} {expected}"
+        );
+    }
+    // The spring is stretched and everything has a part in it.
+    assert!(differences[0][(1, 2)] < -200.0 && differences[0][(2, 0)] != 0.0);
+    assert!(differences[2][(1, 1)] > 0.0 && differences[3][(1, 0)] != 0.0);
 }

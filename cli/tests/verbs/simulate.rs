@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::{CART, Folder, close, json, numbers};
+use crate::common::{CART, Folder, PENDULUM, close, json, numbers};
 
 const VALUES: &str =
     r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.coulomb_friction.fc": 2}"#;
@@ -178,29 +178,34 @@ fn an_arm_is_let_go_or_pushed() {
     assert!(said.contains("drift of energy"), "{said}");
 }
 
-/// A motor and its link swing against each other, and the log tells the inertia of the one from that of the other.
+/// A motor and its link swing against each other, and the log tells how stiff the spring between them is.
 #[test]
 fn a_spring_in_the_transmission_is_simulated_and_identified() {
     let folder = folder();
-    let effects = "viscous_friction on rail; motor_inertia on rail; joint_elasticity(stiffness = 2000) on rail;";
-    folder.write(
-        "soft.robot",
-        &CART.replace("viscous_friction on rail;", effects),
-    );
+    let soft = |shape: &str| {
+        let effects = format!(
+            "viscous_friction on all; motor_inertia on lower; joint_elasticity{shape} on lower;"
+        );
+        PENDULUM.replace("\n}\n", &format!("\n    effects {{ {effects} }}\n}}\n"))
+    };
+    folder.write("true.robot", &soft("(stiffness = 300)"));
+    folder.write("soft.robot", &soft(""));
     folder.write(
         "soft.json",
-        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.motor_inertia.ia": 1}"#,
+        r#"{"upper.viscous_friction.fv": 0.5, "lower.viscous_friction.fv": 0.5, "lower.motor_inertia.ia": 0.1}"#,
     );
-    let mut motion = String::from("time,q1\n");
+    let mut motion = String::from("time,q1,q2\n");
     for k in 0..=4000 {
         let t = f64::from(k) / 200.0;
-        let q = 0.2 * (1.3 * t).sin() + 0.02 * (11.0 * t).sin() + 0.01 * (19.0 * t).sin();
-        writeln!(motion, "{t},{q}").expect("a string takes all");
+        let upper = 0.6 * (1.3 * t + 0.3).sin() + 0.3 * (3.1 * t).sin();
+        let slow = 0.7 * (1.9 * t + 0.3).sin() + 0.1 * (13.0 * t).sin();
+        let lower = slow + 0.06 * (23.0 * t + 0.3).sin();
+        writeln!(motion, "{t},{upper},{lower}").expect("a string takes all");
     }
     folder.write("fast.csv", &motion);
+    let run = ["simulate", "true.robot", "--parameters", "soft.json"];
     let files = ["--trajectory", "fast.csv", "--out", "log.csv"];
     let sensors = ["--encoder-bits", "20", "--torque-noise", "0.01"];
-    let run = ["simulate", "soft.robot", "--parameters", "soft.json"];
     folder.succeed(&[&run[..], &files, &sensors].concat());
     folder.succeed(&["identify", "soft.robot", "log.csv", "--json", "fit.json"]);
     let fit = json(&folder.read("fit.json"));
@@ -209,11 +214,31 @@ fn a_spring_in_the_transmission_is_simulated_and_identified() {
         .map(|found| (&found["name"], found["value"].as_f64()))
         .map(|(name, value)| (name.as_str().expect("a name"), value.expect("a value")))
         .collect();
-    // Inertia of the motor and of its link are two numbers.
-    for (name, value) in [("cart.m", 3.0), ("rail.motor_inertia.ia", 1.0)] {
+    for (name, value) in [
+        ("lower.mxr", 0.2),
+        ("lower.viscous_friction.fv", 0.5),
+        ("lower.motor_inertia.ia", 0.1),
+        ("lower.joint_elasticity.stiffness", 300.0),
+    ] {
         let found = values.iter().find(|(found, _)| *found == name);
         close(found.expect("a parameter").1, value, 0.02 * value);
     }
+
+    // What is of motor and link together does not do.
+    let effects = "motor_inertia on rail; joint_elasticity(stiffness = 2000) on rail;";
+    let cart = CART.replace("viscous_friction on rail;", effects);
+    folder.write("cart.robot", &cart);
+    folder.write("both.json", r#"{"cart.mr": 4}"#);
+    let run = ["simulate", "cart.robot", "--parameters", "both.json"];
+    let files = ["--trajectory", "wanted.csv", "--out", "other.csv"];
+    let said = folder.refuse(&[&run[..], &files].concat());
+    assert!(
+        said.contains("base parameter `cart.mr` is of both"),
+        "{said}"
+    );
+    folder.write("each.json", r#"{"cart.m": 3, "rail.motor_inertia.ia": 1}"#);
+    let run = ["simulate", "cart.robot", "--parameters", "each.json"];
+    folder.succeed(&[&run[..], &files].concat());
 }
 
 #[test]
@@ -221,13 +246,19 @@ fn what_cannot_be_simulated_is_told() {
     let folder = folder();
     let refuse = |spec: &str, more: &[&str]| {
         let files = ["--trajectory", "wanted.csv", "--out", "log.csv"];
-        let arguments = ["simulate", spec, "--parameters", "values.json"];
+        let values = if spec == "soft.robot" {
+            "bare.json"
+        } else {
+            "values.json"
+        };
+        let arguments = ["simulate", spec, "--parameters", values];
         folder.refuse(&[&arguments[..], &files, more].concat())
     };
     folder.write(
         "soft.robot",
         &CART.replace("viscous_friction", "joint_elasticity(stiffness = 1000)"),
     );
+    folder.write("bare.json", r#"{"cart.m": 3}"#);
     let said = refuse("soft.robot", &[]);
     assert!(
         said.contains("the motor of joint rail is parted from its link and has no inertia"),

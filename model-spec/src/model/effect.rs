@@ -92,14 +92,9 @@ impl EffectDefinition {
     /// `q, dq, ddq` at that instant.
     #[must_use]
     pub fn moves_links(&self) -> bool {
-        self.moved_links().next().is_some()
-    }
-
-    /// The places, among the joints of a declaration, of those whose links do so.
-    pub fn moved_links(&self) -> impl Iterator<Item = usize> {
-        self.acts.iter().filter_map(|act| match act {
-            Act::Position { joint, value } => (!self.is_constant(value)).then_some(*joint),
-            Act::Force { .. } | Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => None,
+        self.acts.iter().any(|act| match act {
+            Act::Position { value, .. } => !self.is_constant(value),
+            Act::Force { .. } | Act::Body { .. } | Act::Tilt { .. } | Act::Delay { .. } => false,
         })
     }
 

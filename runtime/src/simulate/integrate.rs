@@ -205,7 +205,9 @@ impl<P: Plant> Integrator<P> {
 
     /// From here on torque and inputs are these; degrees of freedom without a motor have no torque.
     pub fn drive(&mut self, mut drive: Drive) {
-        drive.torque.resize(self.moving.plant.dof(), 0.0);
+        if drive.torque.len() == self.moving.plant.joints() {
+            drive.torque.resize(self.moving.plant.dof(), 0.0);
+        }
         self.moving.drive = drive;
     }
 
