@@ -235,6 +235,10 @@ impl Excite {
             turn: limits.velocity.iter().map(|speed| TURN * speed).collect(),
         };
         let columns = compiled.design_columns(&nominal);
+        let jumping = compiled.design_columns(&Nominal {
+            turn: Vec::new(),
+            ..nominal.clone()
+        });
         if !columns.left_out.is_empty() {
             let left_out: Vec<&str> = columns
                 .left_out
@@ -272,6 +276,7 @@ impl Excite {
                     .collect(),
                 entries: columns.entries,
                 function: Box::new(InterpretedFunction::new(columns.function, dof)),
+                exact: Box::new(InterpretedFunction::new(jumping.function, dof)),
             },
             joints,
             limits,
@@ -308,8 +313,16 @@ impl Excite {
     ) -> Result<Vec<Box<dyn Clearance>>, Error> {
         let mut clearances = Vec::new();
         if limits.torque.iter().any(|limit| limit.is_finite()) {
+            let said: Vec<(String, f64)> = rivals
+                .iter()
+                .flat_map(|rivals| rivals.sizes().concat())
+                .collect();
+            let missing: Vec<&str> = missing
+                .iter()
+                .map(String::as_str)
+                .filter(|name| said.iter().all(|(said, _)| said != name))
+                .collect();
             if !missing.is_empty() {
-                let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
                 progress.note(&format!(
                     "note: torque limits are kept by an arm without {}, which {} no value; give {} with `--parameters`",
                     names(&missing),
@@ -359,7 +372,7 @@ fn search(
     let budget = match budget {
         Some(seconds) if !(seconds > 0.0 && seconds.is_finite()) => {
             return Err(Error::Argument(format!(
-                "--budget {seconds}: a number of seconds"
+                "--budget {seconds}: a positive number of seconds"
             )));
         }
         Some(seconds) => Some(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),

@@ -109,6 +109,18 @@ pub(super) fn read(
             planes.push((unit(-1.0), -high[axis]));
         }
     }
+    if file
+        .apart
+        .is_some_and(|apart| apart.is_nan() || apart < 0.0)
+    {
+        return Err(refused("`apart` is a distance, 0 or more".to_owned()));
+    }
+    if balls.is_empty() || (planes.is_empty() && file.apart.is_none()) {
+        return Err(refused(
+            "it keeps nothing: write `balls`, and `box`, `planes` or the distance that they keep from each other, `\"apart\": 0.02`"
+                .to_owned(),
+        ));
+    }
     let centers = compiled
         .design_points(&points, nominal)
         .ok_or_else(|| refused("the robot has no links that balls could be on".to_owned()))?;

@@ -12,6 +12,7 @@ mod momentum;
 mod plant;
 mod program;
 mod rough;
+mod runner;
 mod shape;
 mod signals;
 mod states;

@@ -4,70 +4,10 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, InverseDynamics, Jumps, Measured, Plant, Slopes};
 use robot_model_codegen::Compiled;
 use robot_model_codegen::PlantSlopes;
-use robot_model_codegen::expr::Symbol;
-use robot_model_codegen::interpreter::{Program, Scratch};
 
+use super::runner::{Numbers, Runner, matrix};
 use super::transmission::Transmissions;
 use crate::Error;
-
-/// A program with its constants in place, run one instant at a time.
-#[derive(Debug, Clone)]
-struct Runner {
-    program: Program,
-    scratch: Scratch,
-    values: Vec<f64>,
-}
-
-/// Numbers for the parameters of an arm.
-#[derive(Debug, Clone)]
-struct Numbers {
-    /// As [`Compiled::parameter_values`] gives them.
-    parameters: Vec<f64>,
-    shapes: Vec<f64>,
-}
-
-impl Runner {
-    fn new(program: Program, numbers: &Numbers) -> Self {
-        let constant = |symbol: &Symbol| match *symbol {
-            Symbol::Parameter(k) => numbers.parameters[k],
-            Symbol::Shape(k) => numbers.shapes[k],
-            _ => 0.0,
-        };
-        Self {
-            scratch: program.scratch(),
-            values: program.symbols().iter().map(constant).collect(),
-            program,
-        }
-    }
-
-    /// `load` is the torque of the rigid body, where the program reads it.
-    fn run(&mut self, at: &Instant<'_>, load: &[f64]) -> &Scratch {
-        for (value, symbol) in self.values.iter_mut().zip(self.program.symbols()) {
-            *value = match *symbol {
-                Symbol::Q(joint) => at.q[joint],
-                Symbol::Dq(joint) => at.dq[joint],
-                Symbol::Ddq(joint) => at.ddq[joint],
-                Symbol::RigidTorque(joint) => load[joint],
-                Symbol::MeasuredTorque(joint) => at.torque[joint],
-                Symbol::Time => at.time,
-                Symbol::Input(k) => at.inputs[k],
-                Symbol::State(k) => at.memory[k],
-                Symbol::Switch(k) => at.switches[k],
-                Symbol::Parameter(_) | Symbol::Shape(_) => continue,
-                Symbol::Weight(_) => unreachable!("a plant has no weights"),
-            };
-        }
-        self.program.eval_in(&self.values, &mut self.scratch);
-        &self.scratch
-    }
-}
-
-/// The outputs from `first` on, row by row.
-fn matrix(scratch: &Scratch, first: usize, rows: usize, columns: usize) -> DMatrix<f64> {
-    DMatrix::from_fn(rows, columns, |row, column| {
-        scratch.output(first + row * columns + column)
-    })
-}
 
 /// A compiled spec with numbers for all parameters, as a [`Plant`].
 ///
@@ -203,12 +143,24 @@ impl InterpretedPlant {
         [found.output(0), found.output(1)]
     }
 
-    /// Inertia that each joint moves alone at a position of the joints, with what effects add to it.
+    /// Inertia that each joint moves at a position while all others are free, `1 / (A^-1)_jj`, with what effects add to it; infinite
+    /// where that is none.
     #[must_use]
-    pub fn own_inertia(&mut self, q: &[f64], inputs: &[f64]) -> Vec<f64> {
+    pub fn free_inertia(&mut self, q: &[f64], inputs: &[f64]) -> Vec<f64> {
         let q = self.transmissions.hang(q, |_| vec![0.0; q.len()]);
         let inertia = self.inertia_at(&q, inputs);
-        self.transmissions.own_inertia(&inertia)
+        let inverse = self.transmissions.of_joints(&inertia).try_inverse();
+        let free = |joint: usize| {
+            let inverse = inverse
+                .as_ref()
+                .map_or(0.0, |inverse| inverse[(joint, joint)]);
+            if inverse > 0.0 {
+                1.0 / inverse
+            } else {
+                f64::INFINITY
+            }
+        };
+        (0..self.joints).map(free).collect()
     }
 
     /// Torque of the rigid body where its links are, `n`.

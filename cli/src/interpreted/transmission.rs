@@ -267,19 +267,14 @@ impl Transmissions {
         q
     }
 
-    /// What each joint moves of an inertia of all degrees of freedom, its link with it.
-    pub fn own_inertia(&self, inertia: &DMatrix<f64>) -> Vec<f64> {
-        let own = self.links().into_iter().enumerate().map(|(joint, link)| {
-            let sides: &[usize] = if joint == link {
-                &[joint]
-            } else {
-                &[joint, link]
-            };
-            let entries = sides
-                .iter()
-                .flat_map(|&row| sides.iter().map(move |&column| (row, column)));
-            entries.map(|entry| inertia[entry]).sum()
-        });
-        own.collect()
+    /// An inertia of all degrees of freedom as joints move it, links with them.
+    pub fn of_joints(&self, inertia: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut moved = DMatrix::zeros(self.joints, self.joints);
+        for row in 0..self.dof() {
+            for column in 0..self.dof() {
+                moved[(self.joint(row), self.joint(column))] += inertia[(row, column)];
+            }
+        }
+        moved
     }
 }

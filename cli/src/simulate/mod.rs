@@ -1,19 +1,17 @@
 //! `robot-model simulate`: the log of an arm that moves under a controller.
 
+mod record;
 mod table;
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use robot_model::simulate::{
-    ComputedTorque, Controller, Desired, Gains, Loop, Measured, Pd, Record, Sensors, Torques,
-    Trajectory,
+    ComputedTorque, Controller, Desired, Gains, Loop, Measured, Pd, Sensors, Torques, Trajectory,
 };
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::{Compiled, Given};
-use robot_model_spec::model::{Joint, JointKind};
 use serde::Serialize;
 
 use crate::Error;
@@ -85,7 +83,7 @@ pub(crate) struct Simulate {
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 enum ControllerArgument {
-    /// Each joint by itself, with gains for the inertia that it has at the start.
+    /// Each joint by itself, with gains for the least inertia that it has along the motion, all other joints free.
     #[default]
     Pd,
     /// The torque of the model for what is wanted, and PD on the error.
@@ -190,8 +188,11 @@ impl Simulate {
             rejected_steps: record.work.rejected,
             evaluations: record.work.evaluations,
         };
-        let text = csv(&record);
-        let said = summary(&self.out, &report, &compiled.model.joints);
+        for note in record::beyond_limits(&compiled.model, &trajectory, &record) {
+            progress.note(&note);
+        }
+        let text = record::csv(&record);
+        let said = record::summary(&self.out, &report, &compiled.model.joints);
         out.commit(text.as_bytes())?;
         if let Some(json) = json {
             json.commit(output::json(&report).as_bytes())?;
@@ -253,9 +254,7 @@ impl Simulate {
         Ok(match self.controller {
             ControllerArgument::None => Box::new(Idle),
             ControllerArgument::Pd => {
-                let inputs = setting.inputs.iter();
-                let inputs: Vec<f64> = inputs.map(|&k| trajectory.channel(k, 0.0)).collect();
-                let inertia = plant.clone().own_inertia(&trajectory.at(0.0).q, &inputs);
+                let inertia = least_inertia(plant, trajectory, setting);
                 Box::new(Pd::new(gains()?, inertia))
             }
             ControllerArgument::ComputedTorque => {
@@ -267,6 +266,28 @@ impl Simulate {
             }
         })
     }
+}
+
+/// The least inertia of each joint along a motion, all others free: what its sampled controller has to be soft enough for.
+fn least_inertia(plant: &InterpretedPlant, trajectory: &Trajectory, setting: &Loop) -> Vec<f64> {
+    /// Poses along the motion.
+    const POSES: u32 = 100;
+    let mut plant = plant.clone();
+    let mut least = vec![f64::INFINITY; trajectory.dof()];
+    for pose in 0..=POSES {
+        let time = trajectory.duration() * f64::from(pose) / f64::from(POSES);
+        let inputs = setting.inputs.iter();
+        let inputs: Vec<f64> = inputs.map(|&k| trajectory.channel(k, time)).collect();
+        let here = plant.free_inertia(&trajectory.at(time).q, &inputs);
+        for (least, here) in least.iter_mut().zip(here) {
+            *least = least.min(here);
+        }
+    }
+    // A joint without any inertia has no motion, which the simulation says.
+    least
+        .into_iter()
+        .map(|x| if x.is_finite() { x } else { 0.0 })
+        .collect()
 }
 
 /// The arm with the values of a file, or of its spec; its shape parameters.
@@ -288,63 +309,4 @@ fn arm(compiled: &Compiled, file: Option<&Path>) -> Result<(InterpretedPlant, Ve
             _ => Err(error),
         },
     }
-}
-
-/// `time,q1..,dq1..,tau1..[,extra]`
-fn csv(record: &Record) -> String {
-    let mut text = String::from("time");
-    for (stem, columns) in [("q", &record.q), ("dq", &record.dq), ("tau", &record.tau)] {
-        for joint in 1..=columns.len() {
-            let _ = write!(text, ",{stem}{joint}");
-        }
-    }
-    for channel in &record.extra {
-        let _ = write!(text, ",{}", channel.name);
-    }
-    text.push('\n');
-    let columns = record.q.iter().chain(&record.dq).chain(&record.tau);
-    let columns: Vec<&Vec<f64>> = columns
-        .chain(record.extra.iter().map(|channel| &channel.values))
-        .collect();
-    for (k, time) in record.time.iter().enumerate() {
-        let _ = write!(text, "{time}");
-        for column in &columns {
-            let _ = write!(text, ",{}", column[k]);
-        }
-        text.push('\n');
-    }
-    text
-}
-
-fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
-    let mut text = format!(
-        "{}: {} samples of {} s\n",
-        out.display(),
-        report.samples,
-        report.seconds
-    );
-    for (joint, error) in joints.iter().zip(&report.tracking_error) {
-        let unit = match joint.kind {
-            JointKind::Prismatic => "m",
-            JointKind::Revolute => "rad",
-        };
-        let _ = writeln!(
-            text,
-            "largest tracking error of {}: {error:.3e} {unit}",
-            joint.name
-        );
-    }
-    if let Some(drift) = report.energy_drift {
-        let _ = writeln!(text, "relative drift of energy: {drift:.1e}");
-    }
-    let _ = writeln!(
-        text,
-        "{} events; {} explicit, {} implicit and {} impulse steps, {} rejected",
-        report.events,
-        report.explicit_steps,
-        report.implicit_steps,
-        report.impulse_steps,
-        report.rejected_steps
-    );
-    text
 }

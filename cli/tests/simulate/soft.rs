@@ -231,6 +231,31 @@ fn mixed() -> InterpretedPlant {
     plant(compiled(text).ungrouped(), &more)
 }
 
+#[test]
+fn gains_are_for_motors_with_their_links() {
+    let whole = soft("0, 0, -9.81", &spring("")).free_inertia(&[0.3], &[]);
+    assert!((whole[0] - MOTOR - LINK).abs() < 1e-12, "{whole:?}");
+    // Of two joints: what one moves while the other is free, `M_11 - M_12^2 / M_22`.
+    let mut arm = mixed();
+    let q = [0.3, -0.4];
+    let state: State = [
+        vec![q[0], q[1], q[1]],
+        vec![0.0; 3],
+        vec![0.0; 3],
+        vec![0.0],
+    ];
+    let (mut torque, mut m) = (DVector::zeros(3), DMatrix::zeros(3, 3));
+    let switches = vec![0.0; arm.switches()];
+    arm.torque(&at(&state, &switches), &mut torque, &mut m);
+    let (one, both, other) = (m[(0, 0)], m[(0, 2)], m[(1, 1)] + m[(2, 2)]);
+    assert!(m[(1, 1)] > 0.09 && m[(2, 2)] > 0.04 && both > 0.05);
+    let free = arm.free_inertia(&q, &[]);
+    assert!(
+        (free[0] - (one - both * both / other)).abs() < 1e-12,
+        "{free:?}"
+    );
+}
+
 /// Positions, velocities, accelerations and the state of all at an instant: of two motors and a link.
 type State = [Vec<f64>; 4];
 

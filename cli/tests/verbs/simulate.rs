@@ -242,6 +242,39 @@ fn a_spring_in_the_transmission_is_simulated_and_identified() {
 }
 
 #[test]
+fn what_is_wanted_beyond_limits_is_told() {
+    let folder = folder();
+    let limits = "link = cart; position = -0.1 m .. 0.1 m; velocity = 0.2; torque = 0.5;";
+    folder.write("narrow.robot", &dry().replace("link = cart;", limits));
+    let run = |spec: &str| {
+        let files = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+        let said = folder.run(&[&["simulate", spec], &BASICS[2..], &files].concat());
+        assert_eq!(said.code, Some(0), "{}", said.stderr);
+        said.stderr
+    };
+    let said = run("narrow.robot");
+    for what in [
+        "wanted at position",
+        "wanted at velocity",
+        "driven with torque",
+    ] {
+        assert!(said.contains(what), "{said}");
+    }
+    assert!(!run("dry.robot").contains("beyond"));
+}
+
+#[test]
+fn a_motion_that_blows_up_leaves_no_log() {
+    let folder = folder();
+    // So few samples and so many before the torque acts push the wrong way.
+    let more = ["--rate", "20", "--delay", "4", "--frequency", "30"];
+    let files = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let said = folder.refuse(&[&BASICS[..4], &more, &files].concat());
+    assert!(said.contains("beyond all bounds"), "{said}");
+    assert!(!folder.files().contains(&"log.csv".to_owned()));
+}
+
+#[test]
 fn what_cannot_be_simulated_is_told() {
     let folder = folder();
     let refuse = |spec: &str, more: &[&str]| {

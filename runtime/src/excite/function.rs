@@ -21,8 +21,10 @@ pub struct Regressor {
     pub columns: Vec<String>,
     /// `(joint, column)` of each output.
     pub entries: Vec<(usize, usize)>,
-    /// The entries.
+    /// The entries, smooth: what a search follows.
     pub function: Box<dyn Function>,
+    /// The entries with friction that jumps: what a motion is worth.
+    pub exact: Box<dyn Function>,
 }
 
 impl std::fmt::Debug for Regressor {

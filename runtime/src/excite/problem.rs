@@ -239,9 +239,9 @@ impl<'a> Problem<'a> {
         (a, rows)
     }
 
-    /// The information matrix of a motion.
+    /// The information matrix of a motion, with friction that jumps.
     pub(super) fn information_of(&self, motion: &Kinematics) -> Mat<f64> {
-        let values = self.regressor.function.values(motion);
+        let values = self.regressor.exact.values(motion);
         self.information(&values).0
     }
 

@@ -71,6 +71,7 @@ fn request(criterion: Criterion) -> Request {
             columns: (0..6).map(|k| format!("p{k}")).collect(),
             entries: (0..6).map(|k| (k / 3, k)).collect(),
             function: Box::new(Pendulums),
+            exact: Box::new(Pendulums),
         },
         limits: Limits {
             position: vec![(-1.0, 2.0), (-0.5, 0.7)],
@@ -115,6 +116,36 @@ impl Function for Peaked {
     fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
         Torque.pullback(motion, weights)
     }
+}
+
+/// Columns twice as long as the smooth ones say.
+struct Doubled;
+
+impl Function for Doubled {
+    fn outputs(&self) -> usize {
+        6
+    }
+
+    fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
+        let plain = Pendulums.values(motion).into_iter();
+        plain
+            .map(|column| column.iter().map(|x| 2.0 * x).collect())
+            .collect()
+    }
+
+    fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
+        Pendulums.pullback(motion, weights)
+    }
+}
+
+#[test]
+fn what_a_motion_is_worth_is_told_by_exact_columns() {
+    let mut request = request(Criterion::DOptimal);
+    let plain = request.run(&always).expect("room to move");
+    request.regressor.exact = Box::new(Doubled);
+    let quality = request.quality(&plain.motion).expect("columns");
+    let more = quality.log_det - plain.quality.log_det;
+    assert!((more - 12.0 * 2_f64.ln()).abs() < 1e-9, "{more}");
 }
 
 fn always(_: Progress) -> bool {

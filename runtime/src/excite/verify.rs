@@ -50,7 +50,7 @@ impl Request {
             self.joints.len(),
         )?;
         let fine = motion.motion(&instants(motion.period, FINER * self.samples()));
-        let values = self.regressor.function.values(&fine);
+        let values = self.regressor.exact.values(&fine);
         let n = self.regressor.columns.len();
         let samples = values.first().map_or(0, Vec::len);
         let mut a = Mat::<f64>::zeros(n, n);

@@ -16,7 +16,7 @@ pub enum SimulateError {
     },
     /// The load of a joint and friction that depends on it drive each other up.
     #[error(
-        "at {time:.6} s the accelerations have no solution: the load and friction that depends on it drive each other up; make that friction smaller"
+        "at {time:.6} s the accelerations have no solution: the load and friction that depends on it drive each other up, or the motion is beyond all bounds; make that friction smaller, or the controller softer"
     )]
     NoAcceleration {
         /// Time, s.

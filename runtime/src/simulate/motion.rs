@@ -231,10 +231,11 @@ impl<P: Plant> Moving<P> {
 
     /// The first entry of a state that is no number.
     pub fn unbounded(&self, time: f64, x: &DVector<f64>) -> Option<SimulateError> {
-        /// Nothing that an arm does is as large.
-        const MOST: f64 = 1e9;
+        /// Nothing that an arm does is as large: no position and no velocity, no state of an effect.
+        const MOST: [f64; 2] = [1e5, 1e9];
         let dof = self.plant.dof();
-        let k = x.iter().position(|x| x.is_nan() || x.abs() > MOST)?;
+        let most = |k: usize| MOST[usize::from(k >= 2 * dof)];
+        let k = (0..x.len()).find(|&k| x[k].is_nan() || x[k].abs() > most(k))?;
         Some(if k < 2 * dof {
             SimulateError::Unbounded {
                 time,

@@ -94,6 +94,14 @@ fn links_stay_in_their_room() {
             r#"{"balls": [], "box": {"low": [0, 0, 0], "high": [1, 0, 1]}}"#,
             "no inside",
         ),
+        (
+            r#"{"balls": [{"link": "lower", "radius": 0.1}]}"#,
+            "it keeps nothing",
+        ),
+        (
+            r#"{"balls": [{"link": "lower", "radius": 0.1}], "apart": -1}"#,
+            "`apart` is a distance",
+        ),
         (r#"{"bals": []}"#, "bals"),
         ("{", "line 1"),
     ] {

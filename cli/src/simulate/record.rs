@@ -1,0 +1,117 @@
+//! What a simulation leaves: its log, and what is said of it.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use robot_model::simulate::{Desired, Record, Trajectory};
+use robot_model_spec::Model;
+use robot_model_spec::model::{Joint, JointKind};
+
+use super::Report;
+
+/// `time,q1..,dq1..,tau1..[,extra]`
+pub(super) fn csv(record: &Record) -> String {
+    let mut text = String::from("time");
+    for (stem, columns) in [("q", &record.q), ("dq", &record.dq), ("tau", &record.tau)] {
+        for joint in 1..=columns.len() {
+            let _ = write!(text, ",{stem}{joint}");
+        }
+    }
+    for channel in &record.extra {
+        let _ = write!(text, ",{}", channel.name);
+    }
+    text.push('\n');
+    let columns = record.q.iter().chain(&record.dq).chain(&record.tau);
+    let columns: Vec<&Vec<f64>> = columns
+        .chain(record.extra.iter().map(|channel| &channel.values))
+        .collect();
+    for (k, time) in record.time.iter().enumerate() {
+        let _ = write!(text, "{time}");
+        for column in &columns {
+            let _ = write!(text, ",{}", column[k]);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+pub(super) fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
+    let mut text = format!(
+        "{}: {} samples of {} s\n",
+        out.display(),
+        report.samples,
+        report.seconds
+    );
+    for (joint, error) in joints.iter().zip(&report.tracking_error) {
+        let unit = match joint.kind {
+            JointKind::Prismatic => "m",
+            JointKind::Revolute => "rad",
+        };
+        let _ = writeln!(
+            text,
+            "largest tracking error of {}: {error:.3e} {unit}",
+            joint.name
+        );
+    }
+    if let Some(drift) = report.energy_drift {
+        let _ = writeln!(text, "relative drift of energy: {drift:.1e}");
+    }
+    let _ = writeln!(
+        text,
+        "{} events; {} explicit, {} implicit and {} impulse steps, {} rejected",
+        report.events,
+        report.explicit_steps,
+        report.implicit_steps,
+        report.impulse_steps,
+        report.rejected_steps
+    );
+    text
+}
+
+/// Joints that are wanted, or were driven, beyond the limits of the spec.
+pub(super) fn beyond_limits(
+    model: &Model,
+    trajectory: &Trajectory,
+    record: &Record,
+) -> Vec<String> {
+    let mut notes = Vec::new();
+    for (k, joint) in model.joints.iter().enumerate() {
+        let limits = &joint.limits;
+        let wanted = |part: fn(&Desired) -> &Vec<f64>| {
+            record
+                .time
+                .iter()
+                .map(move |&time| (time, part(&trajectory.at(time))[k]))
+        };
+        let (low, high) = limits
+            .position
+            .unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let speed = limits.velocity.unwrap_or(f64::INFINITY);
+        let most = limits.torque.unwrap_or(f64::INFINITY) / joint.actuator_gain.abs();
+        // A design that goes to its limits goes there but for rounding.
+        let is_out = |x: f64, low: f64, high: f64| {
+            x < low - 1e-6 * low.abs() || x > high + 1e-6 * high.abs()
+        };
+        let position = wanted(|at| &at.q).find(|(_, q)| is_out(*q, low, high));
+        let velocity = wanted(|at| &at.dq).find(|(_, dq)| is_out(*dq, -speed, speed));
+        let mut torque = record
+            .time
+            .iter()
+            .copied()
+            .zip(record.tau[k].iter().copied());
+        let torque = torque.find(|(_, tau)| is_out(*tau, -most, most));
+        for (what, found) in [
+            ("is wanted at position", position),
+            ("is wanted at velocity", velocity),
+            ("was driven with torque", torque),
+        ] {
+            if let Some((time, value)) = found {
+                notes.push(format!(
+                    "note: joint {} {what} {value:.4} at {time} s, beyond its limit",
+                    joint.name
+                ));
+            }
+        }
+    }
+    notes
+}
