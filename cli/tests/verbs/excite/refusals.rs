@@ -14,7 +14,7 @@ fn what_leaves_no_design_is_told() {
     for (arguments, word) in [
         (["--noise", "1,2,3"], "3 numbers, the arm 2 joints"),
         (["--noise", "0"], "a standard deviation is positive"),
-        (["--budget", "0"], "a number of seconds"),
+        (["--budget", "0"], "a positive number of seconds"),
         (["--rate", "0"], "a rate in Hz"),
         (["--rate", "NaN"], "a rate in Hz"),
         (["--pose", "0.1"], "1 positions, the arm 2 joints"),

@@ -52,9 +52,10 @@ fn what_a_log_leaves_open_the_next_experiment_settles() {
     folder.write("values.json", VALUES);
     let measure = |motion: &str, log: &str| {
         let files = ["--trajectory", motion, "--out", log];
-        let sensors = ["--encoder-bits", "18", "--torque-noise", "0.02"];
+        let sensors = ["--encoder-bits", "18", "--torque-noise", "0.03"];
         let run = ["simulate", "true.robot", "--parameters", "values.json"];
-        folder.succeed(&[&run[..], &files, &sensors].concat());
+        let drive = ["--controller", "computed-torque"];
+        folder.succeed(&[&run[..], &files, &sensors, &drive].concat());
     };
     let trace = |logs: &[&str]| -> (String, Value) {
         let rest = ["--validate", "other.log", "--json", "trace.json"];
