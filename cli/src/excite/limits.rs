@@ -3,7 +3,7 @@
 use robot_model::excite::{Clearance, Limits, TorqueLimits};
 use robot_model_codegen::{Compiled, Nominal};
 use robot_model_spec::Model;
-use robot_model_spec::model::JointKind;
+use robot_model_spec::model::{Joint, JointKind};
 
 use crate::Error;
 use crate::interpreted::InterpretedFunction;
@@ -13,6 +13,18 @@ pub(super) fn of(model: &Model, acceleration: Option<&[f64]>) -> Result<Limits, 
     let joints = &model.joints;
     let mut limits = Limits::none(joints.len());
     let given = per_joint("--acceleration", acceleration, joints.len())?;
+    let is_limited = |joint: &Joint| joint.limits.acceleration.is_some();
+    if given.iter().flatten().any(|x| x.is_nan() || *x <= 0.0) {
+        return Err(Error::Argument(
+            "--acceleration: a limit is positive".to_owned(),
+        ));
+    }
+    if given.is_some() && joints.iter().all(is_limited) {
+        return Err(Error::Argument(format!(
+            "--acceleration is for joints whose spec says none, and {} says one for each; change it there",
+            model.source
+        )));
+    }
     for (k, joint) in joints.iter().enumerate() {
         let own = &joint.limits;
         if joint.kind == JointKind::Prismatic && own.position.is_none() {

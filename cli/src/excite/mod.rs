@@ -1,6 +1,7 @@
 //! `robot-model excite`: the motion from which an arm is identified best.
 
 mod columns;
+mod criterion;
 mod figure;
 mod interrupt;
 mod limits;
@@ -14,8 +15,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
 use robot_model::excite::{
-    Clearance, Criterion, Ends, ExciteError, Limits, Progress as Search, Regressor, Request,
-    Scaling,
+    Clearance, Ends, ExciteError, Limits, Progress as Search, Regressor, Request,
 };
 use robot_model_codegen::{Compiled, Nominal};
 
@@ -25,6 +25,7 @@ use crate::parameters::{self, Known};
 use crate::progress::Progress;
 use crate::{Error, spec};
 
+use criterion::CriterionArgument;
 use interrupt::Interrupt;
 
 /// Velocity within which dry friction turns round while a motion is looked for, as a share of a joint's velocity limit.
@@ -50,7 +51,7 @@ pub(crate) struct Excite {
     /// What is wanted of the motion.
     #[arg(long, value_enum, default_value_t, conflicts_with = "separate")]
     criterion: CriterionArgument,
-    /// Count columns of unit length: for `--criterion condition`, `e-optimal` and `hadamard`, which is constant then.
+    /// Count columns of unit length: for `--criterion condition` and `e-optimal`.
     #[arg(long, conflicts_with = "separate")]
     unit_columns: bool,
     /// Count columns of these standard parameters, as many as there are base parameters: the condition number and the smallest
@@ -122,19 +123,6 @@ pub(crate) struct Excite {
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum CriterionArgument {
-    /// The volume of the parameters' confidence ellipsoid; it does not depend on units.
-    #[default]
-    DOptimal,
-    /// The condition number of the base regressor.
-    Condition,
-    /// Its smallest singular value.
-    EOptimal,
-    /// The lengths of its columns alone: does not see columns that look alike.
-    Hadamard,
-}
-
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
 enum EndsArgument {
     /// At rest, at a pose that is chosen.
     #[default]
@@ -163,13 +151,6 @@ impl Excite {
                 "--rate {}: a rate in Hz, for at most ten million samples",
                 self.rate
             )));
-        }
-        if self.unit_columns && matches!(self.criterion, CriterionArgument::DOptimal) {
-            return Err(Error::Argument(
-                "`--unit-columns` are of the condition number and the smallest singular value; add `--criterion condition` or \
-                 `--criterion e-optimal`"
-                    .to_owned(),
-            ));
         }
         let progress = Progress::new();
         let (compiled, rivals) = match (&self.separate, &self.from) {
@@ -204,6 +185,7 @@ impl Excite {
         rivals: Option<&separate::Expected>,
         progress: &Progress,
     ) -> Result<Request, Error> {
+        let scaling = self.criterion.scaling(self.unit_columns)?;
         let joints: Vec<String> = compiled
             .model
             .joints
@@ -283,11 +265,7 @@ impl Excite {
             clearances,
             criterion,
             basis,
-            scaling: if self.unit_columns {
-                Scaling::UnitLength
-            } else {
-                Scaling::Raw
-            },
+            scaling,
             noise,
             period: self.period,
             harmonics: self.harmonics,
@@ -348,17 +326,6 @@ impl Excite {
             clearances.push(room::read(path, compiled, nominal)?);
         }
         Ok(clearances)
-    }
-}
-
-impl From<CriterionArgument> for Criterion {
-    fn from(argument: CriterionArgument) -> Self {
-        match argument {
-            CriterionArgument::DOptimal => Self::DOptimal,
-            CriterionArgument::Condition => Self::Condition,
-            CriterionArgument::EOptimal => Self::EOptimal,
-            CriterionArgument::Hadamard => Self::Hadamard,
-        }
     }
 }
 

@@ -26,10 +26,14 @@ fn what_leaves_no_design_is_told() {
             "add `--criterion condition`",
         ),
         (["--json", "arm.robot"], "same file as the input"),
+        (["--acceleration", "5"], "says one for each"),
+        (["--acceleration", "0"], "a limit is positive"),
     ] {
         let said = refused(&arguments);
         assert!(said.contains(word), "{arguments:?}: {said}");
     }
+    let unit = ["--criterion", "hadamard", "--unit-columns"];
+    assert!(refused(&unit).contains("the same for every motion"));
     let said = folder.refuse(&["excite", "cart.robot", "--out", "out.csv"]);
     assert!(said.contains("`rail` has no velocity limit"), "{said}");
     for period in ["0", "inf", "NaN"] {
