@@ -6,3 +6,4 @@ mod dry;
 mod lugre;
 mod soft;
 mod twin;
+mod ungrouped;
