@@ -155,7 +155,7 @@ pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> Strin
     if let Some([first, second]) = quality.distances {
         writeln!(
             text,
-            "what cannot be imitated, root mean square over `--noise`: {:.3e} of the first, {:.3e} of the second",
+            "what cannot be imitated, root mean square over the noise (`--noise`, else the torque limits, else 1): {:.3e} of the first, {:.3e} of the second",
             first.sqrt(),
             second.sqrt()
         )

@@ -41,6 +41,9 @@ fn read(path: &Path) -> Result<Table, Error> {
     };
     let header = reader.headers().map_err(unreadable)?;
     let names: Vec<String> = header.iter().map(str::to_owned).collect();
+    if names.len() == 1 && names[0].contains([';', '\t']) {
+        return Err(refused(path, "its columns are to be parted by commas"));
+    }
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
             return Err(refused(

@@ -278,14 +278,19 @@ fn a_motion_that_blows_up_leaves_no_log() {
 fn what_cannot_be_simulated_is_told() {
     let folder = folder();
     let refuse = |spec: &str, more: &[&str]| {
-        let files = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+        let files = ["--out", "log.csv"];
+        let wanted: &[&str] = if more.contains(&"--trajectory") {
+            &[]
+        } else {
+            &["--trajectory", "wanted.csv"]
+        };
         let values = if spec == "soft.robot" {
             "bare.json"
         } else {
             "values.json"
         };
         let arguments = ["simulate", spec, "--parameters", values];
-        folder.refuse(&[&arguments[..], &files, more].concat())
+        folder.refuse(&[&arguments[..], &files, wanted, more].concat())
     };
     folder.write(
         "soft.robot",
@@ -297,6 +302,9 @@ fn what_cannot_be_simulated_is_told() {
         said.contains("the motor of joint rail is parted from its link and has no inertia"),
         "{said}"
     );
+    folder.write("semicolons.csv", "time;q1\n0;0\n1;0\n");
+    let said = refuse("dry.robot", &["--trajectory", "semicolons.csv"]);
+    assert!(said.contains("parted by commas"), "{said}");
     folder.write(
         "warm.robot",
         &CART.replace("viscous_friction", "temperature_viscous(beta = 0.1)"),
