@@ -262,17 +262,6 @@ impl Compiled {
         self.model.is_rigid(&self.standard[self.base.kept[column]])
     }
 
-    /// Base parameters that are of the rigid body and of effects together, by name: an inertia of a link and that of its motor.
-    #[must_use]
-    pub fn mixed(&self) -> Vec<&str> {
-        let is_rigid = |&(k, _): &(usize, f64)| self.model.is_rigid(&self.standard[k]);
-        let combinations = self.base.names.iter().zip(&self.base.combinations);
-        let mixed = combinations.filter(|(_, combination)| {
-            combination.iter().any(is_rigid) && !combination.iter().all(is_rigid)
-        });
-        mixed.map(|(name, _)| name.as_str()).collect()
-    }
-
     /// The same arm in standard parameters, each for itself: for numbers that are known one by one, where those of a motor and of
     /// its link are not the same thing. An identification needs base parameters.
     #[must_use]

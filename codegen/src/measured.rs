@@ -85,6 +85,18 @@ impl Compiled {
         (!block.entries.is_empty()).then_some(block)
     }
 
+    /// Base parameters that are of the rigid body and of effects together, by name: an inertia of a link and that of its
+    /// motor, which are two where links move against their motors.
+    #[must_use]
+    pub fn mixed(&self) -> Vec<&str> {
+        let is_rigid = |&(k, _): &(usize, f64)| self.model.is_rigid(&self.standard[k]);
+        let combinations = self.base.names.iter().zip(&self.base.combinations);
+        let mixed = combinations.filter(|(_, combination)| {
+            combination.iter().any(is_rigid) && !combination.iter().all(is_rigid)
+        });
+        mixed.map(|(name, _)| name.as_str()).collect()
+    }
+
     /// Seconds by which the log's torques are late, one output; reads shapes. `None` where they are not.
     #[must_use]
     pub fn delay(&self) -> Option<Program> {

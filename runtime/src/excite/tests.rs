@@ -98,43 +98,24 @@ fn request(criterion: Criterion) -> Request {
     }
 }
 
-/// `Torque` with a peak that the smooth one does not have: half as much again.
-struct Peaked;
+/// A function whose values are so many times those that the smooth one has.
+struct Larger<F>(f64, F);
 
-impl Function for Peaked {
+impl<F: Function> Function for Larger<F> {
     fn outputs(&self) -> usize {
-        2
+        self.1.outputs()
     }
 
     fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
-        let plain = Torque.values(motion).into_iter();
-        plain
-            .map(|torque| torque.iter().map(|x| 1.5 * x).collect())
-            .collect()
+        let mut values = self.1.values(motion);
+        for value in values.iter_mut().flatten() {
+            *value *= self.0;
+        }
+        values
     }
 
     fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
-        Torque.pullback(motion, weights)
-    }
-}
-
-/// Columns twice as long as the smooth ones say.
-struct Doubled;
-
-impl Function for Doubled {
-    fn outputs(&self) -> usize {
-        6
-    }
-
-    fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
-        let plain = Pendulums.values(motion).into_iter();
-        plain
-            .map(|column| column.iter().map(|x| 2.0 * x).collect())
-            .collect()
-    }
-
-    fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
-        Pendulums.pullback(motion, weights)
+        self.1.pullback(motion, weights)
     }
 }
 
@@ -142,7 +123,7 @@ impl Function for Doubled {
 fn what_a_motion_is_worth_is_told_by_exact_columns() {
     let mut request = request(Criterion::DOptimal);
     let plain = request.run(&always).expect("room to move");
-    request.regressor.exact = Box::new(Doubled);
+    request.regressor.exact = Box::new(Larger(2.0, Pendulums));
     let quality = request.quality(&plain.motion).expect("columns");
     let more = quality.log_det - plain.quality.log_det;
     assert!((more - 12.0 * 2_f64.ln()).abs() < 1e-9, "{more}");
@@ -268,14 +249,14 @@ fn what_is_kept_is_what_is_exact() {
         let mut request = request(Criterion::DOptimal);
         request.clearances = vec![Box::new(TorqueLimits {
             torque: Box::new(Torque),
-            exact: Box::new(Peaked),
+            exact: Box::new(Larger(1.5, Torque)),
             limits: limits.to_vec(),
             joints: request.joints.clone(),
         })];
         let design = request.run(&always).expect("room to move");
         assert!(design.quality.violation <= 0.0, "{:?}", design.quality);
         let fine = design.motion.motion(&design.motion.instants(1200));
-        for (torque, limit) in Peaked.values(&fine).iter().zip(limits) {
+        for (torque, limit) in Larger(1.5, Torque).values(&fine).iter().zip(limits) {
             assert!(torque.iter().all(|x| x.abs() <= limit), "{limit}");
         }
     }
