@@ -93,7 +93,7 @@ impl Transmissions {
                 "a force of the world on an arm with springs or gaps is not simulated; declare one or the other",
             );
         }
-        // A load that a displacement does not follow, or anything else that it reads, is no number.
+        // Whatever a displacement reads beside loads is no number, so that it fits nothing.
         let under = |load: f64| -> Vec<f64> {
             block.program.eval(&|symbol| match symbol {
                 Symbol::RigidTorque(joint) => load * tell_apart(joint),

@@ -20,6 +20,21 @@ pub fn spec(name: &str, with_effects: bool) -> Compiled {
     compiled(&text)
 }
 
+/// A double pendulum.
+pub fn pendulum(effects: &str) -> Compiled {
+    compiled(&format!(
+        "robot Pendulum {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint upper: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            joint lower: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link upper {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+            link lower {{ mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
+            effects {{ {effects} }}
+        }}"
+    ))
+}
+
 pub fn compiled(text: &str) -> Compiled {
     let model =
         robot_model_spec::load("test.robot", text).unwrap_or_else(|errors| panic!("{errors}"));

@@ -3,7 +3,7 @@
 use robot_model::simulate::Integrator;
 use robot_model_cli::interpreted::InterpretedPlant;
 
-use crate::common::{compiled, plant, released, spec};
+use crate::common::{pendulum, plant, released, spec};
 
 /// Largest change of the energy over ten seconds, relative to the largest kinetic energy.
 fn drift(mut arm: Integrator<InterpretedPlant>) -> f64 {
@@ -27,15 +27,7 @@ fn drift(mut arm: Integrator<InterpretedPlant>) -> f64 {
 
 #[test]
 fn a_double_pendulum_that_tumbles_keeps_its_energy() {
-    let text = "robot Pendulum {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
-        joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
-        link upper { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
-        link lower { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
-    }";
-    let arm = released(plant(compiled(text), &[]), &[1.3, 0.8], &[0.0, 0.0]);
+    let arm = released(plant(pendulum(""), &[]), &[1.3, 0.8], &[0.0, 0.0]);
     let drift = drift(arm);
     assert!(drift < 1e-8, "{drift:e}");
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, Integrator, Loop, Plant, Slopes, Torques, Trajectory};
 use robot_model_cli::interpreted::InterpretedPlant;
 
-use crate::common::{compiled, plant, released};
+use crate::common::{compiled, pendulum, plant, released};
 
 /// Inertia of motor and link, kg m^2, and the spring between them.
 const MOTOR: f64 = 0.3;
@@ -198,6 +198,21 @@ fn what_no_motion_follows_from_is_refused() {
             "motor_inertia on turn; wobble on turn;",
             "only springs and gaps are simulated",
         ),
+        // A spring up to a load that no log has.
+        (
+            "effect stop(j) {
+                shape k in 20 .. 1000;
+                let more = if abs(rigid_torque(j)) > 1e5 { rigid_torque(j) / k } else { 0 };
+                position(j) = -rigid_torque(j) / k - more;
+            }",
+            "motor_inertia on turn; stop on turn;",
+            "only springs and gaps are simulated",
+        ),
+        (
+            "",
+            "motor_inertia on turn; joint_elasticity on turn; external_force on turn;",
+            "a force of the world",
+        ),
     ] {
         let said = refused(definitions, effects);
         assert!(said.contains(word), "{said}");
@@ -206,29 +221,21 @@ fn what_no_motion_follows_from_is_refused() {
 
 /// Everything at once: a spring with play on the second of two joints, friction that remembers and friction that loads bend.
 fn mixed() -> InterpretedPlant {
-    let text = "robot Arm {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
-        joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
-        link upper { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
-        link lower { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
-        effects {
-            motor_inertia on lower;
-            joint_elasticity(stiffness = 300) on lower;
-            backlash(half_gap = 0.01) on lower;
-            encoder_offset(offset = 0.05) on lower;
-            dahl on lower;
-            load_dependent_friction on all;
-        }
-    }";
+    let arm = pendulum(
+        "motor_inertia on lower;
+        joint_elasticity(stiffness = 300) on lower;
+        backlash(half_gap = 0.01) on lower;
+        encoder_offset(offset = 0.05) on lower;
+        dahl on lower;
+        load_dependent_friction on all;",
+    );
     let more = [
         ("motor_inertia.ia", 0.1),
         ("dahl.fc", 0.7),
         ("dahl.d", 0.05),
         ("load_dependent_friction.mu", 0.1),
     ];
-    plant(compiled(text).ungrouped(), &more)
+    plant(arm.ungrouped(), &more)
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A two-link arm whose equations stand here, integrated in tiny steps.
 
-use crate::common::{compiled, plant, released};
+use crate::common::{pendulum, plant, released};
 
 /// Lagrange's equations: lengths, masses at the middle of the links, inertias about it.
 const LENGTH: f64 = 0.5;
@@ -35,15 +35,7 @@ fn rate(x: [f64; 4]) -> [f64; 4] {
 
 #[test]
 fn runge_and_kutta_in_tiny_steps_agree() {
-    let text = "robot Pendulum {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint upper: revolute { a = 0.5; alpha = 0; d = 0; }
-        joint lower: revolute { a = 0.4; alpha = 0; d = 0; }
-        link upper { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
-        link lower { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
-    }";
-    let mut arm = released(plant(compiled(text), &[]), &[0.4, -0.7], &[0.3, -0.2]);
+    let mut arm = released(plant(pendulum(""), &[]), &[0.4, -0.7], &[0.3, -0.2]);
     arm.advance(2.0).expect("a motion");
     let mut x = [0.4, -0.7, 0.3, -0.2];
     let steps = 40_000;
