@@ -1,18 +1,36 @@
-//! Functions of the motion alone with their slopes: what a design of experiments moves.
+//! Functions of the motion with their slopes: what a design of experiments moves.
 //!
-//! In: expressions of the forms. Out: a [`Differentiable`], whose programs read positions, velocities, accelerations and
-//! weights, and nothing else: parameters and shapes are numbers, dry friction turns round within a small velocity.
+//! In: expressions of the forms. Out: a [`Differentiable`], whose programs read positions, velocities, accelerations, the internal
+//! states that follow from them, and weights, and nothing else: parameters and shapes are numbers, measured torque is that of the
+//! nominal arm, dry friction turns round within a small velocity.
+
+mod smooth;
 
 use crate::compiled::Compiled;
-use crate::expr::{Dag, ExprId, Function, Node, Symbol};
+use crate::expr::{Dag, ExprId, Symbol};
 use crate::interpreter::Program;
+use crate::states::{self, StateEquations, StateProgram};
+
+use smooth::smoothed;
 
 /// Outputs and the slopes of their weighted sum.
 #[derive(Debug, Clone)]
 pub struct Differentiable {
-    /// Reads `q, dq, ddq`.
+    /// Reads `q, dq, ddq` and the states of [`Self::memory`].
     pub values: Program,
-    /// `d (sum_k weight_k * output_k)` by every `q`, then `dq`, then `ddq`; reads [`Symbol::Weight`] too.
+    /// `d (sum_k weight_k * output_k)` by every `q`, then `dq`, then `ddq`, then by the states of [`Self::memory`]; reads
+    /// [`Symbol::Weight`] too.
+    pub pullback: Program,
+    /// The effects whose states the outputs read.
+    pub memory: Vec<Remembering>,
+}
+
+/// The states of an effect, `dz/dt = f(z, q, dq, ddq)`, with the slopes of what steps them.
+#[derive(Debug, Clone)]
+pub struct Remembering {
+    /// `f` and `df/dz`.
+    pub states: StateProgram,
+    /// As [`Differentiable::pullback`], of the outputs of [`StateProgram::program`]; its last slopes are by these states.
     pub pullback: Program,
 }
 
@@ -27,34 +45,66 @@ pub struct Nominal {
     pub turn: Vec<f64>,
 }
 
+/// What a column of a design is the column of, by its index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DesignColumn {
+    /// A base parameter.
+    Parameter(usize),
+    /// A shape: the slope of the nominal arm's torque by it.
+    Shape(usize),
+}
+
 /// Columns that a design can move, with those that it cannot.
 #[derive(Debug, Clone)]
 pub struct DesignColumns {
-    /// Base parameters that are designed for, by their index.
-    pub columns: Vec<usize>,
+    /// What is designed for.
+    pub columns: Vec<DesignColumn>,
     /// `(joint, place in columns)` of each output.
     pub entries: Vec<(usize, usize)>,
     /// The entries.
     pub function: Differentiable,
-    /// Base parameters whose columns follow from more than the motion of the instant, by their index: memory, channels, torque
-    /// that is measured, time.
-    pub left_out: Vec<usize>,
+    /// Columns that follow from more than the motion: channels, time.
+    pub left_out: Vec<DesignColumn>,
+}
+
+impl DesignColumn {
+    /// Its name.
+    #[must_use]
+    pub fn name(self, compiled: &Compiled) -> String {
+        match self {
+            Self::Parameter(column) => compiled.base.names[column].clone(),
+            Self::Shape(shape) => compiled.shape_names().swap_remove(shape),
+        }
+    }
 }
 
 impl Compiled {
-    /// The base regressor as functions of the motion.
+    /// The base regressor as functions of the motion, and columns of some shapes beside it, for small changes of these.
     #[must_use]
-    pub fn design_columns(&self, nominal: &Nominal) -> DesignColumns {
+    pub fn design_columns(&self, nominal: &Nominal, shapes: &[usize]) -> DesignColumns {
         let mut dag = self.dag.clone();
-        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
-        let (mut entries, mut outputs) = (Vec::new(), Vec::new());
+        let mut candidates = Vec::new();
         for (column, &kept) in self.base.kept.iter().enumerate() {
             let of_column = self.computed_candidates.column(&self.dag, kept);
-            let (joints, expressions): (Vec<usize>, Vec<ExprId>) = of_column.unzip();
+            candidates.push((DesignColumn::Parameter(column), of_column.collect()));
+        }
+        for &shape in shapes {
+            let torques = &self.computed.inverse_dynamics;
+            let slopes = dag.derivatives(torques, Symbol::Shape(shape));
+            let entries: Vec<(usize, ExprId)> = slopes.into_iter().enumerate().collect();
+            candidates.push((DesignColumn::Shape(shape), entries));
+        }
+        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
+        let (mut entries, mut outputs) = (Vec::new(), Vec::new());
+        for (column, of_column) in candidates {
+            let (joints, expressions): (Vec<usize>, Vec<ExprId>) = of_column.into_iter().unzip();
             let expressions = self.of_motion(&mut dag, &expressions, nominal);
-            if is_of_motion(&dag, &expressions) {
-                entries.extend(joints.into_iter().map(|joint| (joint, columns.len())));
-                outputs.extend(expressions);
+            if self.is_of_motion(&mut dag, &expressions, nominal) {
+                let entered = joints.into_iter().zip(expressions);
+                for (joint, entry) in entered.filter(|&(_, entry)| !dag.is_zero(entry)) {
+                    entries.push((joint, columns.len()));
+                    outputs.push(entry);
+                }
                 columns.push(column);
             } else {
                 left_out.push(column);
@@ -63,20 +113,18 @@ impl Compiled {
         DesignColumns {
             columns,
             entries,
-            function: self.differentiable(dag, &outputs),
+            function: self.differentiable(dag, &outputs, nominal),
             left_out,
         }
     }
 
-    /// The torque of the nominal arm, as far as the motion tells it: one output a joint. What remembers counts as unbent, what
-    /// reads channels as 0.
+    /// The torque of the nominal arm, as far as the motion tells it: one output a joint. What reads channels counts as 0.
     #[must_use]
     pub fn design_torque(&self, nominal: &Nominal) -> Differentiable {
         let mut dag = self.dag.clone();
-        let outputs = self.of_motion(&mut dag, &self.computed.inverse_dynamics, nominal);
-        let zero = dag.zero();
-        let outputs = dag.substitute(&outputs, &|symbol| (!is_motion(symbol)).then_some(zero));
-        self.differentiable(dag, &outputs)
+        let outputs = self.nominal_torque(&mut dag);
+        let outputs = self.of_motion(&mut dag, &outputs, nominal);
+        self.differentiable(dag, &outputs, nominal)
     }
 
     /// Places of points that move with links, `(link, position in its frame in m)`, in the base frame: three outputs a point. `None` for
@@ -99,13 +147,31 @@ impl Compiled {
             }
         }
         let outputs = self.of_motion(&mut dag, &outputs, nominal);
-        Some(self.differentiable(dag, &outputs))
+        Some(self.differentiable(dag, &outputs, nominal))
     }
 
-    /// `expressions` with numbers for parameters and shapes, the arm's own load, and friction that turns round smoothly.
+    /// The torque of the arm with its own load, without what reads channels, time or measured torque.
+    fn nominal_torque(&self, dag: &mut Dag) -> Vec<ExprId> {
+        let zero = dag.zero();
+        let is_more = |symbol| !is_motion(symbol) && !is_number(symbol) && !is_of_effects(symbol);
+        dag.substitute(&self.computed.inverse_dynamics, &|symbol| {
+            is_more(symbol).then_some(zero)
+        })
+    }
+
+    /// `expressions` with numbers for parameters and shapes, the arm's own load and torque, and friction that turns round smoothly.
     fn of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> Vec<ExprId> {
-        let loads = self.dynamics.rigid_torque.clone();
-        let loaded = dag.substitute(expressions, &|symbol| match symbol {
+        let mut measured = expressions.to_vec();
+        let is_measured = |symbol: &Symbol| matches!(symbol, Symbol::MeasuredTorque(_));
+        if dag.symbols(expressions).iter().any(is_measured) {
+            let torques = self.nominal_torque(dag);
+            measured = dag.substitute(expressions, &|symbol| match symbol {
+                Symbol::MeasuredTorque(joint) => Some(torques[joint]),
+                _ => None,
+            });
+        }
+        let loads = &self.dynamics.rigid_torque;
+        let loaded = dag.substitute(&measured, &|symbol| match symbol {
             Symbol::RigidTorque(joint) => Some(loads[joint]),
             _ => None,
         });
@@ -120,60 +186,76 @@ impl Compiled {
         smoothed(dag, &numbers, &nominal.turn)
     }
 
-    fn differentiable(&self, mut dag: Dag, outputs: &[ExprId]) -> Differentiable {
-        let dof = self.dof();
-        let symbols: Vec<Symbol> = [Symbol::Q, Symbol::Dq, Symbol::Ddq]
-            .into_iter()
-            .flat_map(|signal| (0..dof).map(signal))
-            .collect();
+    /// Whether expressions follow from a motion, by way of states or not.
+    fn is_of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> bool {
+        let symbols = dag.symbols(expressions);
+        let rates: Vec<ExprId> = symbols.iter().filter_map(|&symbol| self.rate(symbol)).collect();
+        let rates = self.of_motion(dag, &rates, nominal);
+        let mut all = symbols.into_iter().chain(dag.symbols(&rates));
+        all.all(|symbol| is_motion(symbol) || matches!(symbol, Symbol::State(_)))
+    }
+
+    fn rate(&self, symbol: Symbol) -> Option<ExprId> {
+        match symbol {
+            Symbol::State(k) => Some(self.dynamics.state_rates[k]),
+            _ => None,
+        }
+    }
+
+    fn differentiable(
+        &self,
+        mut dag: Dag,
+        outputs: &[ExprId],
+        nominal: &Nominal,
+    ) -> Differentiable {
+        let is_read = dag.symbols(outputs);
+        let rates = self.of_motion(&mut dag, &self.dynamics.state_rates, nominal);
+        let effects = self.model.effects.iter();
+        let counts = effects.map(|effect| effect.definition.states.len());
+        let mut parts = states::equations(&mut dag, &rates, counts);
+        parts.retain(|part| part.symbols().any(|state| is_read.contains(&state)));
+        let states = parts.iter().flat_map(StateEquations::symbols);
+        let pullback = self.pullback(&mut dag, outputs, states);
+        let memory = parts.iter().map(|part| {
+            let outputs = [&part.rates[..], &part.jacobian].concat();
+            Remembering {
+                states: part.program(&dag),
+                pullback: self.pullback(&mut dag, &outputs, part.symbols()),
+            }
+        });
+        Differentiable {
+            memory: memory.collect(),
+            values: Program::new(&dag, outputs),
+            pullback,
+        }
+    }
+
+    fn pullback(
+        &self,
+        dag: &mut Dag,
+        outputs: &[ExprId],
+        states: impl Iterator<Item = Symbol>,
+    ) -> Program {
+        let signals = [Symbol::Q, Symbol::Dq, Symbol::Ddq].into_iter();
+        let signals = signals.flat_map(|signal| (0..self.dof()).map(signal));
+        let symbols: Vec<Symbol> = signals.chain(states).collect();
         let weights: Vec<ExprId> = (0..outputs.len())
             .map(|k| dag.symbol(Symbol::Weight(k)))
             .collect();
         let slopes = dag.pullback(outputs, &weights, &symbols);
-        Differentiable {
-            values: Program::new(&dag, outputs),
-            pullback: Program::new(&dag, &slopes),
-        }
+        Program::new(dag, &slopes)
     }
-}
-
-/// `tanh(g / turn)` for each `sign(g)` of a velocity.
-fn smoothed(dag: &mut Dag, expressions: &[ExprId], turn: &[f64]) -> Vec<ExprId> {
-    let mut known: std::collections::HashMap<ExprId, ExprId> = std::collections::HashMap::new();
-    for x in dag.reachable(expressions) {
-        let of = |operand: ExprId| known[&operand];
-        let new = match dag.node(x) {
-            Node::Constant(_) | Node::Symbol(_) => x,
-            Node::Add(p, q) => dag.add(of(p), of(q)),
-            Node::Mul(p, q) => dag.mul(of(p), of(q)),
-            Node::Power(p, q) => dag.power(of(p), of(q)),
-            Node::Select(condition, p, q) => dag.select(of(condition), of(p), of(q)),
-            Node::Call(Function::Sign, p) => {
-                let inside = of(p);
-                let symbols = dag.symbols(&[inside]);
-                let turns = symbols.iter().filter_map(|symbol| match symbol {
-                    Symbol::Dq(joint) => turn.get(*joint).copied(),
-                    _ => None,
-                });
-                match turns.reduce(f64::min) {
-                    Some(turn) => {
-                        let scaled = dag.scale(1.0 / turn, inside);
-                        dag.call(Function::Tanh, scaled)
-                    }
-                    None => dag.call(Function::Sign, inside),
-                }
-            }
-            Node::Call(function, p) => dag.call(function, of(p)),
-        };
-        known.insert(x, new);
-    }
-    expressions.iter().map(|x| known[x]).collect()
-}
-
-fn is_of_motion(dag: &Dag, expressions: &[ExprId]) -> bool {
-    dag.symbols(expressions).into_iter().all(is_motion)
 }
 
 fn is_motion(symbol: Symbol) -> bool {
     matches!(symbol, Symbol::Q(_) | Symbol::Dq(_) | Symbol::Ddq(_))
+}
+
+fn is_number(symbol: Symbol) -> bool {
+    matches!(symbol, Symbol::Parameter(_) | Symbol::Shape(_))
+}
+
+/// What effects read that follows from the motion.
+fn is_of_effects(symbol: Symbol) -> bool {
+    matches!(symbol, Symbol::State(_) | Symbol::RigidTorque(_))
 }

@@ -73,6 +73,11 @@ impl StateEquations {
         }
     }
 
+    /// The states.
+    pub fn symbols(&self) -> impl Iterator<Item = Symbol> + use<> {
+        (self.first..self.first + self.rates.len()).map(Symbol::State)
+    }
+
     /// To run.
     #[must_use]
     pub fn program(&self, dag: &Dag) -> StateProgram {

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 use robot_model::excite::Basis;
-use robot_model_codegen::{Compiled, DesignColumns};
+use robot_model_codegen::{Compiled, DesignColumn, DesignColumns};
 
 use crate::Error;
 use crate::output::counted;
@@ -34,8 +34,11 @@ pub(super) fn basis(
         })?);
     }
     let matrix = DMatrix::from_fn(count, count, |row, column| {
-        let combination = &compiled.base.combinations[columns.columns[row]];
-        let part = combination.iter().find(|part| part.0 == chosen[column]);
+        let DesignColumn::Parameter(base) = columns.columns[row] else {
+            return 0.0;
+        };
+        let mut combination = compiled.base.combinations[base].iter();
+        let part = combination.find(|part| part.0 == chosen[column]);
         part.map_or(0.0, |part| part.1)
     });
     let singular = matrix.singular_values();

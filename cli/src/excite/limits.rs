@@ -56,7 +56,12 @@ fn per_joint(what: &str, given: Option<&[f64]>, dof: usize) -> Result<Option<Vec
 }
 
 /// Limits on the torques of an arm: looked for with friction that turns round smoothly, verified with friction that jumps.
-pub(super) fn torque(compiled: &Compiled, arm: &Nominal, limits: &Limits) -> Box<dyn Clearance> {
+pub(super) fn torque(
+    compiled: &Compiled,
+    arm: &Nominal,
+    limits: &Limits,
+    period: f64,
+) -> Box<dyn Clearance> {
     let joints = compiled.model.joints.iter();
     let joints: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
     let jumping = Nominal {
@@ -67,6 +72,7 @@ pub(super) fn torque(compiled: &Compiled, arm: &Nominal, limits: &Limits) -> Box
         Box::new(InterpretedFunction::new(
             compiled.design_torque(arm),
             joints.len(),
+            period,
         ))
     };
     Box::new(TorqueLimits {

@@ -216,20 +216,19 @@ impl Excite {
             shapes,
             turn: limits.velocity.iter().map(|speed| TURN * speed).collect(),
         };
-        let columns = compiled.design_columns(&nominal);
-        let jumping = compiled.design_columns(&Nominal {
+        let shapes = rivals.map_or_else(Vec::new, separate::Expected::shapes);
+        let columns = compiled.design_columns(&nominal, &shapes);
+        let jumping = Nominal {
             turn: Vec::new(),
             ..nominal.clone()
-        });
+        };
+        let jumping = compiled.design_columns(&jumping, &shapes);
         if !columns.left_out.is_empty() {
-            let left_out: Vec<&str> = columns
-                .left_out
-                .iter()
-                .map(|&k| compiled.base.names[k].as_str())
-                .collect();
+            let left_out = columns.left_out.iter();
+            let left_out: Vec<String> = left_out.map(|column| column.name(compiled)).collect();
             progress.note(&format!(
-                "note: not designed for {}: {} on more than the motion of the instant",
-                names(&left_out),
+                "note: not designed for {}: {} on more than the motion",
+                names(&left_out.iter().map(String::as_str).collect::<Vec<_>>()),
                 if left_out.len() == 1 {
                     "it depends"
                 } else {
@@ -245,20 +244,18 @@ impl Excite {
             None => None,
             Some(names) => Some(columns::basis(compiled, &columns, names)?),
         };
-        let dof = compiled.dof();
+        let function =
+            |programs| InterpretedFunction::new(programs, compiled.dof(), self.period);
         let clearances =
             self.clearances(compiled, rivals, &nominal, &limits, &missing, progress)?;
+        let of_columns = columns.columns.iter();
         let noise = limits::noise(self.noise.as_deref(), &limits, &joints)?;
         Ok(Request {
             regressor: Regressor {
-                columns: columns
-                    .columns
-                    .iter()
-                    .map(|&k| compiled.base.names[k].clone())
-                    .collect(),
+                columns: of_columns.map(|column| column.name(compiled)).collect(),
                 entries: columns.entries,
-                function: Box::new(InterpretedFunction::new(columns.function, dof)),
-                exact: Box::new(InterpretedFunction::new(jumping.function, dof)),
+                function: Box::new(function(columns.function)),
+                exact: Box::new(function(jumping.function)),
             },
             joints,
             limits,
@@ -290,24 +287,22 @@ impl Excite {
         progress: &Progress,
     ) -> Result<Vec<Box<dyn Clearance>>, Error> {
         let mut clearances = Vec::new();
-        if limits.torque.iter().any(|limit| limit.is_finite()) {
-            let said: Vec<(String, f64)> = rivals
-                .iter()
-                .flat_map(|rivals| rivals.sizes().concat())
-                .collect();
-            let missing: Vec<&str> = missing
-                .iter()
-                .map(String::as_str)
-                .filter(|name| said.iter().all(|(said, _)| said != name))
-                .collect();
-            if !missing.is_empty() {
-                progress.note(&format!(
-                    "note: torque limits are kept by an arm without {}, which {} no value; give {} with `--parameters`",
-                    names(&missing),
-                    if missing.len() == 1 { "has" } else { "have" },
-                    if missing.len() == 1 { "it" } else { "them" },
-                ));
-            }
+        let is_limited = limits.torque.iter().any(|limit| limit.is_finite());
+        let reads_load = rivals.is_some_and(separate::Expected::read_load);
+        let said = rivals.map_or_else(Vec::new, |rivals| rivals.sizes().concat());
+        let missing = missing.iter().map(String::as_str);
+        let missing: Vec<&str> = missing
+            .filter(|name| said.iter().all(|(said, _)| said != name))
+            .collect();
+        if (is_limited || reads_load) && !missing.is_empty() {
+            progress.note(&format!(
+                "note: torques are those of an arm without {}, which {} no value; give {} with `--parameters`",
+                names(&missing),
+                if missing.len() == 1 { "has" } else { "have" },
+                if missing.len() == 1 { "it" } else { "them" },
+            ));
+        }
+        if is_limited {
             // Whichever of two rivals is there, the limits are kept.
             let arms = match rivals {
                 Some(rivals) => rivals.sizes().to_vec(),
@@ -319,11 +314,11 @@ impl Excite {
                     beta: known.beta,
                     ..nominal.clone()
                 };
-                clearances.push(limits::torque(compiled, &arm, limits));
+                clearances.push(limits::torque(compiled, &arm, limits, self.period));
             }
         }
         if let Some(path) = &self.room {
-            clearances.push(room::read(path, compiled, nominal)?);
+            clearances.push(room::read(path, compiled, nominal, self.period)?);
         }
         Ok(clearances)
     }

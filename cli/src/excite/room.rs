@@ -53,6 +53,7 @@ pub(super) fn read(
     path: &Path,
     compiled: &Compiled,
     nominal: &Nominal,
+    period: f64,
 ) -> Result<Box<dyn Clearance>, Error> {
     let value = json::read(path)?;
     let file: File = serde_json::from_value(value).map_err(|error| Error::json(path, &error))?;
@@ -125,7 +126,7 @@ pub(super) fn read(
         .design_points(&points, nominal)
         .ok_or_else(|| refused("the robot has no links that balls could be on".to_owned()))?;
     Ok(Box::new(Room {
-        centers: Box::new(InterpretedFunction::new(centers, compiled.dof())),
+        centers: Box::new(InterpretedFunction::new(centers, compiled.dof(), period)),
         balls,
         planes,
         apart: file.apart,

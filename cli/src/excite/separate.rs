@@ -8,6 +8,7 @@ use std::path::Path;
 use robot_model::excite::{Criterion, Rivals};
 use robot_model_codegen::{Compiled, DesignColumns, compile_model};
 use robot_model_spec::Model;
+use robot_model_spec::model::{Act, Effect, EffectLeaf, Signal};
 use robot_model_spec::amend::{Amendment, amend};
 
 use crate::output::names;
@@ -16,11 +17,16 @@ use crate::{Error, spec};
 /// Two effects of a spec.
 pub(super) struct Expected([OneOfTwo; 2]);
 
-/// Parameters with what they are expected to be worth.
+/// An effect with what its columns are expected to be worth, by name.
 struct OneOfTwo {
+    /// Linear parameters; shapes of an effect that has none.
     sizes: Vec<(String, f64)>,
-    /// Whether the sizes were said; those that were not count as 1, and load no torque limit.
+    /// Whether linear parameters have sizes that were said; those that were not count as 1, and load no torque limit.
     is_sized: bool,
+    /// Places of the shapes whose slopes are its columns.
+    shapes: Vec<usize>,
+    /// Whether its torque depends on that of the arm.
+    reads_load: bool,
 }
 
 /// The spec with both effects.
@@ -46,50 +52,96 @@ pub(super) fn rivals(
         .collect();
     let amended = amend(&source, &text, &amendments)?;
     let model = robot_model_spec::load(&source, &amended)?;
-    let one = |(amendment, values): &(Amendment, Vec<(String, f64)>)| {
-        let effect = place(&model, amendment).ok_or_else(|| {
-            Error::Argument(format!(
-                "`{}` is declared for each joint by itself: name one, as in `{} on {}`",
-                amendment.effect, amendment.effect, model.joints[0].name
-            ))
-        })?;
-        let prefix = model.effect_name(effect);
-        let linear = model.effects[effect].definition.linear.iter();
-        let linear: Vec<&str> = linear.map(|parameter| parameter.name.as_str()).collect();
-        if linear.is_empty() {
-            return Err(Error::Argument(format!(
-                "`{}` has no parameter that the torque is linear in: no motion is designed for it",
-                amendment.effect
-            )));
-        }
-        let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
-        let is_sized = !given.is_empty();
-        let is_other =
-            linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
-        if is_sized && is_other {
-            return Err(Error::Argument(format!(
-                "`{}` has {}: say what each is expected to be, as in `{} on ..: {} = 1`",
-                amendment.effect,
-                names(&linear),
-                amendment.effect,
-                linear.join(" = 1, ")
-            )));
-        }
-        let size = |name: &&str| {
-            let given = values.iter().find(|(known, _)| known == name);
-            (
-                format!("{prefix}.{name}"),
-                given.map_or(1.0, |given| given.1),
-            )
-        };
-        Ok(OneOfTwo {
-            sizes: linear.iter().map(size).collect(),
-            is_sized,
-        })
-    };
-    let both = [one(&said[0])?, one(&said[1])?];
+    let [first, second] = &said;
+    let both = [
+        one(&model, &first.0, &first.1)?,
+        one(&model, &second.0, &second.1)?,
+    ];
     let compiled = spec::clear(compile_model(&model))?;
     Ok((compiled, Expected(both)))
+}
+
+/// An effect of a model, with what was said of its linear parameters.
+fn one(
+    model: &Model,
+    amendment: &Amendment,
+    values: &[(String, f64)],
+) -> Result<OneOfTwo, Error> {
+    let name = &amendment.effect;
+    let index = place(model, amendment).ok_or_else(|| {
+        Error::Argument(format!(
+            "`{name}` is declared for each joint by itself: name one, as in `{name} on {}`",
+            model.joints[0].name
+        ))
+    })?;
+    let prefix = model.effect_name(index);
+    let Effect {
+        definition, shapes, ..
+    } = &model.effects[index];
+    let is_load = |leaf: &EffectLeaf| {
+        let loads = [Signal::RigidTorque, Signal::MeasuredTorque];
+        matches!(leaf, EffectLeaf::Signal(signal, _) if loads.contains(signal))
+    };
+    let mut equations = definition.equations();
+    let reads_load = equations.any(|value| definition.reads(value, &is_load));
+    let linear = definition.linear.iter();
+    let linear: Vec<&str> = linear.map(|parameter| parameter.name.as_str()).collect();
+    if !linear.is_empty() {
+        return Ok(OneOfTwo {
+            sizes: sizes(&prefix, name, &linear, values)?,
+            is_sized: !values.is_empty(),
+            shapes: Vec::new(),
+            reads_load,
+        });
+    }
+    let is_late = |act: &Act| matches!(act, Act::Delay { .. });
+    if definition.moves_links() || definition.acts.iter().any(is_late) {
+        return Err(Error::Argument(format!(
+            "`{name}` moves links along a motion, or makes torques late: no motion is designed for it"
+        )));
+    }
+    let first = model.effects[..index].iter();
+    let first: usize = first.map(|effect| effect.shapes.len()).sum();
+    let names = definition.shapes.iter().map(|shape| &shape.name);
+    let said = names.zip(shapes).map(|(shape, value)| match value {
+        Some(value) if values.is_empty() => Ok((format!("{prefix}.{shape}"), *value)),
+        _ => Err(Error::Argument(format!(
+            "`{name}` has no parameter that the torque is linear in: say what it is expected to be, as in `{name}({shape} = ..) on ..`"
+        ))),
+    });
+    Ok(OneOfTwo {
+        sizes: said.collect::<Result<_, Error>>()?,
+        is_sized: false,
+        shapes: (first..first + shapes.len()).collect(),
+        reads_load: true,
+    })
+}
+
+/// Linear parameters with what was said of them; 1 where nothing was.
+fn sizes(
+    prefix: &str,
+    effect: &str,
+    linear: &[&str],
+    values: &[(String, f64)],
+) -> Result<Vec<(String, f64)>, Error> {
+    let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
+    let is_other =
+        linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
+    if !given.is_empty() && is_other {
+        return Err(Error::Argument(format!(
+            "`{effect}` has {}: say what each is expected to be, as in `{effect} on ..: {} = 1`",
+            names(linear),
+            linear.join(" = 1, ")
+        )));
+    }
+    let size = |name: &&str| {
+        let given = values.iter().find(|(known, _)| known == name);
+        (
+            format!("{prefix}.{name}"),
+            given.map_or(1.0, |given| given.1),
+        )
+    };
+    Ok(linear.iter().map(size).collect())
 }
 
 /// The effect of a model that an amendment would declare.
@@ -115,11 +167,11 @@ impl Expected {
         columns: &DesignColumns,
     ) -> Result<Criterion, Error> {
         let place = |(name, size): &(String, f64)| {
-            let base = &compiled.base.names;
-            let found = columns.columns.iter().position(|&k| base[k] == *name);
+            let mut known = columns.columns.iter();
+            let found = known.position(|column| column.name(compiled) == *name);
             found.map(|place| (place, *size)).ok_or_else(|| {
                 Error::Argument(format!(
-                    "no motion of this arm tells `{name}` apart by a column of its own: it regroups with other parameters, or follows from more than the motion of an instant"
+                    "no motion of this arm tells `{name}` apart by a column of its own: it regroups with other parameters, or follows from more than the motion, as time and channels are"
                 ))
             })
         };
@@ -129,6 +181,16 @@ impl Expected {
         Ok(Criterion::Separation(Rivals {
             effects: [places(&self.0[0])?, places(&self.0[1])?],
         }))
+    }
+
+    /// Shapes whose slopes are columns, by their index.
+    pub(super) fn shapes(&self) -> Vec<usize> {
+        self.0.iter().flat_map(|one| one.shapes.clone()).collect()
+    }
+
+    /// Whether one of the torques depends on that of the arm.
+    pub(super) fn read_load(&self) -> bool {
+        self.0.iter().any(|one| one.reads_load)
     }
 
     /// What each is expected to be worth, where that was said.

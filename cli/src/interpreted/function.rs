@@ -6,18 +6,33 @@ use robot_model_codegen::Differentiable;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
 
-/// Outputs of programs that read a motion, and their slopes.
+use super::orbit::Orbit;
+
+/// Outputs of programs that read a motion over one period, and their slopes. Effects with states have them as they are once the
+/// motion has repeated for long.
 #[derive(Debug, Clone)]
 pub struct InterpretedFunction {
     programs: Differentiable,
     dof: usize,
+    period: f64,
 }
 
 impl InterpretedFunction {
-    /// Puts programs of an arm with `dof` joints behind the trait.
+    /// Puts programs of an arm with `dof` joints behind the trait, for motions over `period` seconds.
     #[must_use]
-    pub fn new(programs: Differentiable, dof: usize) -> Self {
-        Self { programs, dof }
+    pub fn new(programs: Differentiable, dof: usize, period: f64) -> Self {
+        Self {
+            programs,
+            dof,
+            period,
+        }
+    }
+
+    fn orbits(&self, motion: &Kinematics) -> Vec<Orbit<'_>> {
+        let orders = [&motion.q, &motion.dq, &motion.ddq];
+        let signals: Vec<&[f64]> = orders.into_iter().flatten().map(Vec::as_slice).collect();
+        let parts = self.programs.memory.iter();
+        parts.map(|part| Orbit::new(part, self.period, &signals)).collect()
     }
 }
 
@@ -27,25 +42,40 @@ impl Function for InterpretedFunction {
     }
 
     fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
-        run(&self.programs.values, motion, &[])
+        run(&self.programs.values, motion, &self.orbits(motion), &[])
     }
 
     fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
-        let mut slopes = run(&self.programs.pullback, motion, weights);
+        let orbits = self.orbits(motion);
+        let mut slopes = run(&self.programs.pullback, motion, &orbits, weights);
+        let mut by_state = slopes.split_off(3 * self.dof);
+        for (orbit, part) in orbits.iter().zip(&self.programs.memory) {
+            let rest = by_state.split_off(part.states.count);
+            orbit.pull_back(&by_state, &mut slopes);
+            by_state = rest;
+        }
         let ddq = slopes.split_off(2 * self.dof);
         let dq = slopes.split_off(self.dof);
         Kinematics { q: slopes, dq, ddq }
     }
 }
 
-fn run(program: &Program, motion: &Kinematics, weights: &[Vec<f64>]) -> Vec<Vec<f64>> {
+fn run(
+    program: &Program,
+    motion: &Kinematics,
+    orbits: &[Orbit<'_>],
+    weights: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
     let samples = motion.q.first().map_or(0, Vec::len);
+    let states: Vec<(usize, Vec<f64>)> = orbits.iter().flat_map(Orbit::columns).collect();
     let mut out = vec![Vec::new(); program.outputs()];
+    let state = |wanted: usize| states.iter().find(|(state, _)| *state == wanted);
     let bind = |symbol| match symbol {
         Symbol::Q(joint) => Operand::Column(&motion.q[joint]),
         Symbol::Dq(joint) => Operand::Column(&motion.dq[joint]),
         Symbol::Ddq(joint) => Operand::Column(&motion.ddq[joint]),
         Symbol::Weight(k) => Operand::Column(&weights[k]),
+        Symbol::State(k) => Operand::Column(&state(k).expect("read states have orbits").1),
         _ => unreachable!("the compiler keeps functions of the motion alone"),
     };
     program.eval_batch(samples, &bind, &mut out);

@@ -9,6 +9,7 @@ mod candidate;
 mod function;
 mod measured;
 mod momentum;
+mod orbit;
 mod plant;
 mod program;
 mod rough;
