@@ -189,7 +189,10 @@ impl Compiled {
     /// Whether expressions follow from a motion, by way of states or not.
     fn is_of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> bool {
         let symbols = dag.symbols(expressions);
-        let rates: Vec<ExprId> = symbols.iter().filter_map(|&symbol| self.rate(symbol)).collect();
+        let rates: Vec<ExprId> = symbols
+            .iter()
+            .filter_map(|&symbol| self.rate(symbol))
+            .collect();
         let rates = self.of_motion(dag, &rates, nominal);
         let mut all = symbols.into_iter().chain(dag.symbols(&rates));
         all.all(|symbol| is_motion(symbol) || matches!(symbol, Symbol::State(_)))

@@ -193,12 +193,13 @@ impl Excite {
             .map(|joint| joint.name.clone())
             .collect();
         let limits = limits::of(&compiled.model, self.acceleration.as_deref())?;
+        let expected = rivals.map_or_else(Vec::new, separate::Expected::shape_values);
         let Known {
             beta,
             shapes,
             missing,
             guessed,
-        } = parameters::known(compiled, self.parameters.as_deref(), &[])?;
+        } = parameters::known(compiled, self.parameters.as_deref(), &expected)?;
         if !guessed.is_empty() {
             let guessed: Vec<&str> = guessed.iter().map(String::as_str).collect();
             progress.note(&format!(
@@ -244,8 +245,7 @@ impl Excite {
             None => None,
             Some(names) => Some(columns::basis(compiled, &columns, names)?),
         };
-        let function =
-            |programs| InterpretedFunction::new(programs, compiled.dof(), self.period);
+        let function = |programs| InterpretedFunction::new(programs, compiled.dof(), self.period);
         let clearances =
             self.clearances(compiled, rivals, &nominal, &limits, &missing, progress)?;
         let of_columns = columns.columns.iter();
@@ -303,12 +303,14 @@ impl Excite {
             ));
         }
         if is_limited {
+            let expected = rivals.map_or_else(Vec::new, separate::Expected::shape_values);
             // Whichever of two rivals is there, the limits are kept.
             let arms = match rivals {
                 Some(rivals) => rivals.sizes().to_vec(),
                 None => vec![Vec::new()],
             };
-            for sizes in arms {
+            for mut sizes in arms {
+                sizes.extend(expected.iter().cloned());
                 let known = parameters::known(compiled, self.parameters.as_deref(), &sizes)?;
                 let arm = Nominal {
                     beta: known.beta,
@@ -344,7 +346,8 @@ fn search(
     let told = Cell::new(0);
     let watch = |search: Search| {
         if told.replace(search.start) != search.start {
-            let best = search.best.map_or_else(String::new, |best| {
+            let best = search.best.filter(|best| best.is_finite());
+            let best = best.map_or_else(String::new, |best| {
                 format!(", best value of the criterion so far {best:.3}")
             });
             progress.step(&format!(

@@ -8,8 +8,8 @@ use std::path::Path;
 use robot_model::excite::{Criterion, Rivals};
 use robot_model_codegen::{Compiled, DesignColumns, compile_model};
 use robot_model_spec::Model;
-use robot_model_spec::model::{Act, Effect, EffectLeaf, Signal};
 use robot_model_spec::amend::{Amendment, amend};
+use robot_model_spec::model::{Act, Effect, EffectLeaf, Signal};
 
 use crate::output::names;
 use crate::{Error, spec};
@@ -19,6 +19,8 @@ pub(super) struct Expected([OneOfTwo; 2]);
 
 /// An effect with what its columns are expected to be worth, by name.
 struct OneOfTwo {
+    /// Its place in the model.
+    effect: usize,
     /// Linear parameters; shapes of an effect that has none.
     sizes: Vec<(String, f64)>,
     /// Whether linear parameters have sizes that were said; those that were not count as 1, and load no torque limit.
@@ -51,22 +53,22 @@ pub(super) fn rivals(
         .filter(|amendment| place(&declared, amendment).is_none())
         .collect();
     let amended = amend(&source, &text, &amendments)?;
-    let model = robot_model_spec::load(&source, &amended)?;
+    let mut model = robot_model_spec::load(&source, &amended)?;
     let [first, second] = &said;
     let both = [
         one(&model, &first.0, &first.1)?,
         one(&model, &second.0, &second.1)?,
     ];
+    // A shape that is given is a number in the equations: those that are columns are symbols.
+    for one in both.iter().filter(|one| !one.shapes.is_empty()) {
+        model.effects[one.effect].shapes.fill(None);
+    }
     let compiled = spec::clear(compile_model(&model))?;
     Ok((compiled, Expected(both)))
 }
 
 /// An effect of a model, with what was said of its linear parameters.
-fn one(
-    model: &Model,
-    amendment: &Amendment,
-    values: &[(String, f64)],
-) -> Result<OneOfTwo, Error> {
+fn one(model: &Model, amendment: &Amendment, values: &[(String, f64)]) -> Result<OneOfTwo, Error> {
     let name = &amendment.effect;
     let index = place(model, amendment).ok_or_else(|| {
         Error::Argument(format!(
@@ -88,6 +90,7 @@ fn one(
     let linear: Vec<&str> = linear.map(|parameter| parameter.name.as_str()).collect();
     if !linear.is_empty() {
         return Ok(OneOfTwo {
+            effect: index,
             sizes: sizes(&prefix, name, &linear, values)?,
             is_sized: !values.is_empty(),
             shapes: Vec::new(),
@@ -102,17 +105,31 @@ fn one(
     }
     let first = model.effects[..index].iter();
     let first: usize = first.map(|effect| effect.shapes.len()).sum();
-    let names = definition.shapes.iter().map(|shape| &shape.name);
-    let said = names.zip(shapes).map(|(shape, value)| match value {
-        Some(value) if values.is_empty() => Ok((format!("{prefix}.{shape}"), *value)),
-        _ => Err(Error::Argument(format!(
-            "`{name}` has no parameter that the torque is linear in: say what it is expected to be, as in `{name}({shape} = ..) on ..`"
-        ))),
-    });
+    let names: Vec<&str> = definition
+        .shapes
+        .iter()
+        .map(|shape| shape.name.as_str())
+        .collect();
+    let pairs = names.iter().zip(shapes);
+    let pairs = pairs.filter_map(|(shape, value)| Some((format!("{prefix}.{shape}"), (*value)?)));
+    let sizes: Vec<(String, f64)> = pairs.collect();
+    if sizes.len() < shapes.len() || !values.is_empty() {
+        let on = if definition.joints.is_empty() {
+            ""
+        } else {
+            " on .."
+        };
+        return Err(Error::Argument(format!(
+            "`{name}` has no parameter that the torque is linear in: say what it is expected to be, as in `{name}({} = 0.01){on}`",
+            names.join(" = 0.01, ")
+        )));
+    }
+    let count = shapes.len();
     Ok(OneOfTwo {
-        sizes: said.collect::<Result<_, Error>>()?,
+        effect: index,
+        sizes,
         is_sized: false,
-        shapes: (first..first + shapes.len()).collect(),
+        shapes: (first..first + count).collect(),
         reads_load: true,
     })
 }
@@ -125,8 +142,7 @@ fn sizes(
     values: &[(String, f64)],
 ) -> Result<Vec<(String, f64)>, Error> {
     let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
-    let is_other =
-        linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
+    let is_other = linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
     if !given.is_empty() && is_other {
         return Err(Error::Argument(format!(
             "`{effect}` has {}: say what each is expected to be, as in `{effect} on ..: {} = 1`",
@@ -186,6 +202,12 @@ impl Expected {
     /// Shapes whose slopes are columns, by their index.
     pub(super) fn shapes(&self) -> Vec<usize> {
         self.0.iter().flat_map(|one| one.shapes.clone()).collect()
+    }
+
+    /// What these are expected to be.
+    pub(super) fn shape_values(&self) -> Vec<(String, f64)> {
+        let of_shapes = self.0.iter().filter(|one| !one.shapes.is_empty());
+        of_shapes.flat_map(|one| one.sizes.clone()).collect()
     }
 
     /// Whether one of the torques depends on that of the arm.

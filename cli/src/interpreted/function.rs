@@ -32,7 +32,9 @@ impl InterpretedFunction {
         let orders = [&motion.q, &motion.dq, &motion.ddq];
         let signals: Vec<&[f64]> = orders.into_iter().flatten().map(Vec::as_slice).collect();
         let parts = self.programs.memory.iter();
-        parts.map(|part| Orbit::new(part, self.period, &signals)).collect()
+        parts
+            .map(|part| Orbit::new(part, self.period, &signals))
+            .collect()
     }
 }
 

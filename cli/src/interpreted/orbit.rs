@@ -34,7 +34,11 @@ impl<'a> Orbit<'a> {
         let samples = signals.first().map_or(0, |signal| signal.len());
         let middles = signals.iter().map(|signal| {
             let next = signal.iter().cycle().skip(1);
-            signal.iter().zip(next).map(|(x, y)| 0.5 * (x + y)).collect()
+            signal
+                .iter()
+                .zip(next)
+                .map(|(x, y)| 0.5 * (x + y))
+                .collect()
         });
         let mut orbit = Self {
             part,

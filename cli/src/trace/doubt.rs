@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use robot_model::columns::Arm;
 use robot_model::trace::{Alternative, Finding};
-use robot_model_spec::model::{EffectLeaf, Signal};
+use robot_model_spec::model::EffectLeaf;
 use robot_model_spec::standard_effects;
 
 use super::report::effect;
@@ -42,7 +42,7 @@ pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
     out
 }
 
-/// The command; none where an effect follows from more than the motion of the instant, for which no motion is designed.
+/// The command; none where an effect follows from more than the motion, for which none is designed.
 fn experiment(
     spec: &str,
     closed: &Loop,
@@ -90,19 +90,22 @@ struct OfMotion {
     shapes: Vec<String>,
 }
 
-/// An effect of the language whose torque is one of the motion alone, by its name in reports.
+/// An effect of the language whose torque is one of the motion, by its name in reports.
 fn name(kind: &str) -> Option<OfMotion> {
     let effects = standard_effects();
     let effect = effects
         .iter()
         .find(|effect| effect.name.replace('_', "-") == kind)?;
     let is_more = |leaf: &EffectLeaf| match leaf {
-        EffectLeaf::Time | EffectLeaf::Input(_) | EffectLeaf::State(_) => true,
-        EffectLeaf::Signal(signal, _) => *signal == Signal::MeasuredTorque,
-        EffectLeaf::Linear(_) | EffectLeaf::Shape(_) | EffectLeaf::Binding(_) => false,
+        EffectLeaf::Time | EffectLeaf::Input(_) => true,
+        EffectLeaf::Signal(..)
+        | EffectLeaf::State(_)
+        | EffectLeaf::Linear(_)
+        | EffectLeaf::Shape(_)
+        | EffectLeaf::Binding(_) => false,
     };
-    let mut torques = effect.torques.iter();
-    let is_of_motion = !torques.any(|torque| effect.reads(&torque.value, &is_more));
+    let mut equations = effect.equations();
+    let is_of_motion = !equations.any(|value| effect.reads(value, &is_more));
     (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
         name: effect.name.clone(),
         linear: effect.linear.iter().map(|p| p.name.clone()).collect(),

@@ -139,9 +139,13 @@ impl Request {
         let quality = self.quality(&motion)?;
         let condition = quality.condition_of_unit_columns;
         if condition.is_nan() || condition > MOST_CONDITION {
-            return Err(ExciteError::NotExcited(
-                "the parameters from each other".to_owned(),
-            ));
+            let what = match self.criterion {
+                Criterion::Separation(_) => {
+                    "one of the two effects from what the arm's own parameters imitate"
+                }
+                _ => "the parameters from each other",
+            };
+            return Err(ExciteError::NotExcited(what.to_owned()));
         }
         Ok(Design {
             quality,

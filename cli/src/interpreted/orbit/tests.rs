@@ -35,7 +35,9 @@ fn motion(samples: usize) -> Kinematics {
             };
             waves.into_iter().map(part).sum::<f64>() * scale
         };
-        (0..samples).map(|k| at(PERIOD * k as f64 / samples as f64)).collect()
+        (0..samples)
+            .map(|k| at(PERIOD * k as f64 / samples as f64))
+            .collect()
     };
     let both = |order| vec![wave(order, 0.7), wave(order, 1.0)];
     Kinematics {
@@ -115,7 +117,10 @@ fn a_period_begins_as_the_last_one_ended() {
         let most = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         (0.98..=1.0).contains(&most)
     };
-    let z = friction.iter().find(is_share).expect("a column of Dahl's friction");
+    let z = friction
+        .iter()
+        .find(is_share)
+        .expect("a column of Dahl's friction");
     let mut worst = 0.0_f64;
     for sample in 0..samples {
         let before = (sample + samples - 1) % samples;

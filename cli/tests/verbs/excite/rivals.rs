@@ -2,19 +2,40 @@
 
 use serde_json::Value;
 
-use super::{ARM, SMALL, folder};
+use super::{ARM, FRICTION, SMALL, folder};
 use crate::common::{json, numbers};
 
 /// Two kinds of friction that look alike in a motion of one speed.
 #[test]
 fn a_motion_tells_two_effects_apart() {
-    let folder = folder();
-    let rivals = [
-        "--separate",
+    best_beats_drawn(
         "quadratic_viscous on lower: c = 0.1",
-        "--from",
         "cubic_viscous on lower: c = 0.05",
-    ];
+    );
+}
+
+/// Friction that builds up over a distance, and friction that falls with speed.
+#[test]
+fn a_motion_tells_an_effect_with_memory() {
+    best_beats_drawn(
+        "dahl(d = 0.05) on lower: fc = 0.5",
+        "stribeck(vs = 0.1) on lower: fs = 0.3",
+    );
+}
+
+/// Neither has a linear parameter alone: an angle, and a share of the arm's own torque.
+#[test]
+fn a_motion_tells_an_angle_and_a_gain() {
+    best_beats_drawn(
+        "encoder_offset(offset = 0.02) on upper",
+        "torque_gain on upper: excess = 0.1",
+    );
+}
+
+fn best_beats_drawn(first: &str, second: &str) {
+    let folder = folder();
+    folder.write("friction.json", &with_bodies());
+    let rivals = ["--separate", first, "--from", second];
     let design = |more: &[&str], report: &str| -> Value {
         let files = ["--out", "out.csv", "--json", report];
         folder.succeed(&[&ARM[..], &SMALL, more, &files].concat());
@@ -32,6 +53,32 @@ fn a_motion_tells_two_effects_apart() {
     assert_eq!(apart["max_violation"], 0.0);
 }
 
+/// Friction and bodies.
+fn with_bodies() -> String {
+    let bodies = r#"{"upper.m": 3, "upper.mx": -0.9, "upper.my": 0, "upper.izz": 0.3, "lower.m": 1.5, "lower.mx": -0.3,
+        "lower.my": 0, "lower.izz": 0.08, "#;
+    FRICTION.replace('{', bodies)
+}
+
+/// The offset of a last joint turns its link: no motion tells it from a link that was built so.
+#[test]
+fn an_effect_that_the_arm_imitates_is_told() {
+    let folder = folder();
+    folder.write("friction.json", &with_bodies());
+    let rivals = [
+        "--separate",
+        "encoder_offset(offset = 0.02) on lower",
+        "--from",
+        "torque_offset on lower",
+    ];
+    let out = ["--out", "out.csv"];
+    let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &out].concat());
+    assert!(
+        said.contains("from what the arm's own parameters imitate"),
+        "{said}"
+    );
+}
+
 #[test]
 fn rivals_that_are_none_are_told() {
     let folder = folder();
@@ -45,7 +92,12 @@ fn rivals_that_are_none_are_told() {
         (
             "backlash(half_gap = 0.001) on lower",
             cubic,
-            "no parameter that the torque is linear in",
+            "moves links along a motion",
+        ),
+        (
+            "encoder_offset on lower",
+            cubic,
+            "as in `encoder_offset(offset = 0.01) on ..`",
         ),
         (
             "quadratic_viscous on lower: c = 0",
@@ -62,7 +114,7 @@ fn rivals_that_are_none_are_told() {
         ("sticktion on lower: fs = 1", cubic, "sticktion"),
         ("quadratic_viscous on wrist: c = 1", cubic, "wrist"),
         (
-            "dahl on lower: fc = 1",
+            "parameter_drift on lower: fv = 1",
             cubic,
             "follows from more than the motion",
         ),
