@@ -138,7 +138,7 @@ fn is_closed<'z>(
     after: &DVector<f64>,
     all: impl Iterator<Item = &'z DVector<f64>>,
 ) -> bool {
-    let largest = all.map(|z| z.amax()).fold(0.0, f64::max);
+    let largest = all.map(DVector::amax).fold(0.0, f64::max);
     (after - before).amax() <= CLOSED * largest
 }
 
