@@ -52,6 +52,8 @@ enum MethodArgument {
     /// Least squares weighted by each joint's residual.
     #[default]
     Wls,
+    /// The same, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
+    Physical,
 }
 
 impl From<MethodArgument> for Method {
@@ -59,6 +61,7 @@ impl From<MethodArgument> for Method {
         match method {
             MethodArgument::Ls => Self::Ls,
             MethodArgument::Wls => Self::Wls,
+            MethodArgument::Physical => Self::Physical,
         }
     }
 }
@@ -112,6 +115,20 @@ struct Report<'a> {
     rank: usize,
     unexcited: &'a [String],
     bands_hz: [f64; 3],
+    /// Of `physical` only.
+    possible: Option<PossibleReport<'a>>,
+}
+
+/// The possible arm, with its standard parameters.
+#[derive(Serialize)]
+struct PossibleReport<'a> {
+    standard: Vec<Parameter<'a>>,
+    /// `relative_percent` without the constraint.
+    relative_percent_unconstrained: &'a [f64],
+    /// Links and parameters on the border of what is possible.
+    border: &'a [String],
+    steps: usize,
+    gap: f64,
 }
 
 #[derive(Serialize)]
@@ -272,11 +289,7 @@ fn report<'a>(
             std: measured.then_some(parameter.std),
         }
     });
-    let shapes = estimate.shapes.iter().map(|(name, value)| Parameter {
-        name,
-        value: Some(*value),
-        std: None,
-    });
+    let shapes = estimate.shapes.iter().map(known);
     let (domain, corner) = match estimate.form {
         Form::Acceleration => ("raw", None),
         Form::Filtered { corner } => ("filtered", Some(corner)),
@@ -299,6 +312,22 @@ fn report<'a>(
             estimate.bands.smooth_hz,
             estimate.bands.wide_hz,
         ],
+        possible: estimate.possible.as_ref().map(|possible| PossibleReport {
+            standard: possible.standard.iter().map(known).collect(),
+            relative_percent_unconstrained: &possible.unconstrained_percent,
+            border: &possible.border,
+            steps: possible.steps,
+            gap: possible.gap,
+        }),
+    }
+}
+
+/// A value without a deviation.
+fn known((name, value): &(String, f64)) -> Parameter<'_> {
+    Parameter {
+        name,
+        value: Some(*value),
+        std: None,
     }
 }
 

@@ -33,6 +33,7 @@
 //! assert_eq!(torque, [[3.0, 4.0]]);
 //! ```
 
+use crate::identify::PossibleArms;
 use crate::motion::Motion;
 
 /// An unknown that least squares solves for.
@@ -113,6 +114,11 @@ pub trait Arm: Columns {
         _estimate: &[f64],
     ) -> Vec<Vec<f64>> {
         Vec::new()
+    }
+
+    /// The arms that can be, in standard parameters; `None` where nothing says what bodies the unknowns are made of.
+    fn possible_arms(&self) -> Option<PossibleArms> {
+        None
     }
 }
 

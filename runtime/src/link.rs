@@ -1,5 +1,7 @@
 //! What a struct of links is made of: inertial parameters, and the parameters of effects beside them.
 
+use nalgebra::{Matrix3, Matrix4, Vector3};
+
 /// The ten inertial parameters of a link, about the origin of the link's frame.
 ///
 /// # Examples
@@ -51,6 +53,66 @@ impl Inertial {
     #[must_use]
     pub fn com(&self) -> Option<[f64; 3]> {
         (self.mass != 0.0).then(|| self.first_moments.map(|moment| moment / self.mass))
+    }
+
+    /// Second moments of mass about the center of mass, `S - m c c^T`, kg m^2: how far the body extends along each direction.
+    /// `None` where the mass is zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Inertial;
+    /// let rod = Inertial::about_com(1.2, [0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.016, 0.0, 0.016]);
+    /// let extent = rod.second_moments().expect("it has a mass");
+    /// assert!((extent[(0, 0)] - 0.016).abs() < 1e-12 && extent[(1, 1)].abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn second_moments(&self) -> Option<Matrix3<f64>> {
+        let about_origin = self.pseudo_inertia();
+        let moments = about_origin.fixed_view::<3, 3>(0, 0);
+        let first = Vector3::from(self.first_moments);
+        (self.mass != 0.0).then(|| moments - first * first.transpose() / self.mass)
+    }
+
+    /// The pseudo-inertia `[[S, h], [h^T, m]]` with the second moments of mass `S = tr(I)/2 1 - I` (kg m^2), the first ones `h`
+    /// (kg m) and the mass `m`, all about the origin of the link's frame. A body can have these parameters where it is
+    /// positive semidefinite, and only there.
+    ///
+    /// Source: Wensing, Kim, Slotine 2018, Linear matrix inequalities for physically consistent inertial parameter
+    /// identification.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Inertial;
+    /// let rod = Inertial::about_com(1.2, [0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.016, 0.0, 0.016]);
+    /// let least = |inertial: Inertial| inertial.pseudo_inertia().symmetric_eigenvalues().min();
+    /// assert!(least(rod) > -1e-12);
+    /// // Twice the moment about x that any spread along y and z could give.
+    /// let impossible = Inertial { inertia: [0.1, 0.0, 0.0, 0.016, 0.0, 0.016], ..rod };
+    /// assert!(least(impossible) < -0.01);
+    /// ```
+    #[must_use]
+    pub fn pseudo_inertia(&self) -> Matrix4<f64> {
+        let [ixx, ixy, ixz, iyy, iyz, izz] = self.inertia;
+        let [hx, hy, hz] = self.first_moments;
+        let half = 0.5 * (ixx + iyy + izz);
+        Matrix4::new(
+            half - ixx,
+            -ixy,
+            -ixz,
+            hx,
+            -ixy,
+            half - iyy,
+            -iyz,
+            hy,
+            -ixz,
+            -iyz,
+            half - izz,
+            hz,
+            hx,
+            hy,
+            hz,
+            self.mass,
+        )
     }
 }
 

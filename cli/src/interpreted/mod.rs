@@ -11,6 +11,7 @@ mod measured;
 mod momentum;
 mod orbit;
 mod plant;
+mod possible;
 mod program;
 mod rough;
 mod runner;
@@ -25,6 +26,7 @@ pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
+use robot_model::identify::PossibleArms;
 use robot_model::motion::Motion;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
@@ -188,6 +190,10 @@ impl Arm for InterpretedArm {
             Symbol::Parameter(k) => Operand::Constant(parameters[k]),
             other => signals.bind(&motion.smooth, other),
         })
+    }
+
+    fn possible_arms(&self) -> Option<PossibleArms> {
+        possible::possible_arms(&self.compiled)
     }
 
     fn transmitted_torque(

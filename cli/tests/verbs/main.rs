@@ -12,5 +12,6 @@ mod identify;
 mod import;
 mod outputs;
 mod parameters;
+mod possible;
 mod simulate;
 mod trace;

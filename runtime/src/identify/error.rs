@@ -46,6 +46,11 @@ pub enum IdentifyError {
         /// Unknowns.
         unknowns: usize,
     },
+    /// Nothing says what bodies the unknowns are made of.
+    #[error(
+        "a robot that says its energies has no links whose bodies could be possible; identify it by another method"
+    )]
+    NoBodies,
     /// The signals cannot be filtered.
     #[error(transparent)]
     Signal(#[from] SignalError),

@@ -8,7 +8,8 @@ use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, prepare};
 
 use super::least_squares::Solution;
-use super::stack::{Stack, torque_of};
+use super::possible::Possible;
+use super::stack::{Stack, norm, percent, torque_of};
 use super::{IdentifyError, Method, load_motion};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
@@ -83,6 +84,8 @@ pub struct Estimate {
     pub samples: usize,
     /// Names of the joints.
     pub joints: Vec<String>,
+    /// The arm that was found where only possible ones were looked at: [`Method::Physical`].
+    pub possible: Option<Possible>,
 }
 
 impl Estimate {
@@ -106,12 +109,7 @@ impl Estimate {
                 std: *std,
             })
             .collect();
-        let residuals = stack.residuals(&solution.estimate);
-        let relative_percent = residuals
-            .iter()
-            .zip(&stack.joints)
-            .map(|(residual, rows)| percent(norm(residual), norm(&rows.tau)))
-            .collect();
+        let relative_percent = stack.relative_percent(&solution.estimate);
         Self {
             method,
             form,
@@ -129,6 +127,7 @@ impl Estimate {
             relative_percent,
             samples: stack.samples(),
             joints: arm.joints().to_vec(),
+            possible: None,
         }
     }
 
@@ -261,18 +260,6 @@ fn spread(values: &[f64], stride: usize, count: usize) -> Vec<f64> {
         .collect()
 }
 
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|v| v * v).sum::<f64>().sqrt()
-}
-
-fn percent(part: f64, whole: f64) -> f64 {
-    if whole > 0.0 {
-        100.0 * part / whole
-    } else {
-        0.0
-    }
-}
-
 impl fmt::Display for Estimate {
     /// The table that a paper would print.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -317,6 +304,9 @@ impl fmt::Display for Estimate {
             self.bands.shared_hz,
             self.method.name()
         )?;
+        if let Some(possible) = &self.possible {
+            write!(f, "{possible}")?;
+        }
         if self.unexcited.is_empty() {
             return Ok(());
         }

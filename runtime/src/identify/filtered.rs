@@ -14,6 +14,7 @@ use crate::motion::Motion;
 use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_velocities};
 
 use super::estimate::{Errors, Estimate, Form};
+use super::possible::PossibleArms;
 use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands};
 
 /// An arm whose columns and torques have passed `L`.
@@ -50,19 +51,11 @@ impl Identify {
         };
         let filtered = FilteredArm::new(arm, bands, corner);
         let mut prepared = filtered.prepare_all(logs)?;
-        let (solution, shapes, stack) = self.solve(&filtered, &mut prepared, None)?;
+        let solved = self.solve(&filtered, &mut prepared, None)?;
         let form = Form::Filtered {
             corner: filtered.corner,
         };
-        Ok(Estimate::new(
-            arm,
-            self.method,
-            form,
-            bands,
-            &solution,
-            shapes,
-            &stack,
-        ))
+        self.estimate(&filtered, form, bands, solved)
     }
 
     /// As for the usual form: `L` weakens the model's torque and what it leaves alike, so their ratio is the same.
@@ -247,6 +240,10 @@ impl Arm for FilteredArm<'_> {
         series
             .map(|(p, h)| Self::filtered(motion, filter, Some(p), Some(&h)))
             .collect()
+    }
+
+    fn possible_arms(&self) -> Option<PossibleArms> {
+        self.arm.possible_arms()
     }
 
     /// Nothing that passed `L` reads a load.

@@ -148,7 +148,7 @@ impl Factors {
     }
 
     /// The factor of all joints' rows, each divided by its scale.
-    fn stacked(&self, scale: &[f64]) -> Mat<f64> {
+    pub(super) fn stacked(&self, scale: &[f64]) -> Mat<f64> {
         let rows = self.joints.iter().map(Mat::nrows).sum();
         let mut all = Mat::zeros(rows, self.unknowns + 1);
         let mut start = 0;

@@ -21,12 +21,14 @@ mod error;
 mod estimate;
 mod filtered;
 mod least_squares;
+mod possible;
 mod shapes;
 mod stack;
 
 pub use error::IdentifyError;
 pub use estimate::{Errors, Estimate, Form, Identified};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+pub use possible::{Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
@@ -43,6 +45,9 @@ pub enum Method {
     /// Weighted least squares: each joint's rows are divided by the standard deviation of its residual.
     #[default]
     Wls,
+    /// [`Self::Wls`], and of all estimates the one nearest to it that an arm can have: each link's pseudo-inertia positive
+    /// definite, friction and rotors not negative.
+    Physical,
 }
 
 impl Method {
@@ -52,6 +57,7 @@ impl Method {
         match self {
             Self::Ls => "ls",
             Self::Wls => "wls",
+            Self::Physical => "physical",
         }
     }
 }
@@ -84,16 +90,27 @@ impl Identify {
             None => self.choose_bands(arm, logs)?,
         };
         let mut prepared = prepare_all(logs, &bands)?;
-        let (solution, shapes, stack) = self.solve(arm, &mut prepared, None)?;
-        Ok(Estimate::new(
-            arm,
-            self.method,
-            Form::Acceleration,
-            bands,
-            &solution,
-            shapes,
-            &stack,
-        ))
+        let solved = self.solve(arm, &mut prepared, None)?;
+        self.estimate(arm, Form::Acceleration, bands, solved)
+    }
+
+    /// What was found, made possible where that is wanted.
+    fn estimate(
+        &self,
+        arm: &dyn Arm,
+        form: Form,
+        bands: Bands,
+        (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
+    ) -> Result<Estimate, IdentifyError> {
+        let possible = match self.method {
+            Method::Physical => Some(possible::make(arm, &mut solution, &stack)?),
+            Method::Ls | Method::Wls => None,
+        };
+        let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, &stack);
+        Ok(Estimate {
+            possible,
+            ..estimate
+        })
     }
 
     /// A first estimate over a wide band shows how far the model's torque reaches.
@@ -168,7 +185,7 @@ impl Identify {
         let factors = Factors::new(stack);
         let solve = |correlation: &[f64]| match self.method {
             Method::Ls => factors.ordinary(correlation),
-            Method::Wls => factors.weighted(correlation),
+            Method::Wls | Method::Physical => factors.weighted(correlation),
         };
         let first = solve(&vec![1.0; dof]);
         if first.unexcited.len() == unknowns && unknowns > 0 {

@@ -149,6 +149,28 @@ impl Stack {
             })
             .collect()
     }
+
+    /// `100 || residual || / || tau ||` per joint.
+    #[must_use]
+    pub fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {
+        let residuals = self.residuals(estimate);
+        let pairs = residuals.iter().zip(&self.joints);
+        pairs
+            .map(|(residual, rows)| percent(norm(residual), norm(&rows.tau)))
+            .collect()
+    }
+}
+
+pub(super) fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|v| v * v).sum::<f64>().sqrt()
+}
+
+pub(super) fn percent(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 {
+        100.0 * part / whole
+    } else {
+        0.0
+    }
 }
 
 /// `target -= factor * values`
