@@ -1,8 +1,8 @@
 //! Functions of the motion with their slopes: what a design of experiments moves.
 //!
 //! In: expressions of the forms. Out: a [`Differentiable`], whose programs read positions, velocities, accelerations, the internal
-//! states that follow from them, and weights, and nothing else: parameters and shapes are numbers, measured torque is that of the
-//! nominal arm, dry friction turns round within a small velocity.
+//! states that follow from them, and weights, and nothing else: parameters and shapes are numbers, dry friction turns round
+//! within a small velocity.
 
 mod smooth;
 
@@ -54,6 +54,16 @@ pub enum DesignColumn {
     Shape(usize),
 }
 
+/// Two effects that are to be told apart, in columns.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct RivalColumns {
+    /// Shapes whose slopes are columns.
+    pub shapes: Vec<usize>,
+    /// Base parameters whose columns read the torque of the nominal arm where they read measured torque. All others that read it
+    /// are left out.
+    pub loaded: Vec<usize>,
+}
+
 /// Columns that a design can move, with those that it cannot.
 #[derive(Debug, Clone)]
 pub struct DesignColumns {
@@ -79,27 +89,36 @@ impl DesignColumn {
 }
 
 impl Compiled {
-    /// The base regressor as functions of the motion, and columns of some shapes beside it, for small changes of these.
+    /// The base regressor as functions of the motion, with what two rivals have of columns beside it.
     #[must_use]
-    pub fn design_columns(&self, nominal: &Nominal, shapes: &[usize]) -> DesignColumns {
+    pub fn design_columns(&self, nominal: &Nominal, rivals: &RivalColumns) -> DesignColumns {
         let mut dag = self.dag.clone();
+        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
         let mut candidates = Vec::new();
         for (column, &kept) in self.base.kept.iter().enumerate() {
             let of_column = self.computed_candidates.column(&self.dag, kept);
-            candidates.push((DesignColumn::Parameter(column), of_column.collect()));
+            let (joints, mut entries): (Vec<usize>, Vec<ExprId>) = of_column.unzip();
+            if rivals.loaded.contains(&column) {
+                entries = self.loaded_by_torque(&mut dag, &entries);
+            }
+            candidates.push((DesignColumn::Parameter(column), joints, entries));
         }
-        for &shape in shapes {
-            let torques = &self.computed.inverse_dynamics;
-            let slopes = dag.derivatives(torques, Symbol::Shape(shape));
-            let entries: Vec<(usize, ExprId)> = slopes.into_iter().enumerate().collect();
-            candidates.push((DesignColumn::Shape(shape), entries));
+        for &shape in &rivals.shapes {
+            let column = DesignColumn::Shape(shape);
+            // The slope by way of a state is that of a whole motion.
+            if self.states_read(&mut dag, Symbol::Shape(shape)) {
+                left_out.push(column);
+                continue;
+            }
+            let slopes = dag.derivatives(&self.computed.inverse_dynamics, Symbol::Shape(shape));
+            candidates.push((column, (0..slopes.len()).collect(), slopes));
         }
-        let (mut columns, mut left_out) = (Vec::new(), Vec::new());
+        let remembered = self.remembered(&mut dag, nominal);
         let (mut entries, mut outputs) = (Vec::new(), Vec::new());
-        for (column, of_column) in candidates {
-            let (joints, expressions): (Vec<usize>, Vec<ExprId>) = of_column.into_iter().unzip();
+        for (column, joints, expressions) in candidates {
             let expressions = self.of_motion(&mut dag, &expressions, nominal);
-            if self.is_of_motion(&mut dag, &expressions, nominal) {
+            let mut symbols = dag.symbols(&expressions).into_iter();
+            if symbols.all(|symbol| is_motion(symbol) || remembered.contains(&symbol)) {
                 let entered = joints.into_iter().zip(expressions);
                 for (joint, entry) in entered.filter(|&(_, entry)| !dag.is_zero(entry)) {
                     entries.push((joint, columns.len()));
@@ -118,12 +137,19 @@ impl Compiled {
         }
     }
 
-    /// The torque of the nominal arm, as far as the motion tells it: one output a joint. What reads channels counts as 0.
+    /// The torque of the nominal arm, as far as the motion tells it: one output a joint. Time, channels, measured torque and
+    /// states that follow from those count as 0.
     #[must_use]
     pub fn design_torque(&self, nominal: &Nominal) -> Differentiable {
         let mut dag = self.dag.clone();
         let outputs = self.nominal_torque(&mut dag);
         let outputs = self.of_motion(&mut dag, &outputs, nominal);
+        let remembered = self.remembered(&mut dag, nominal);
+        let zero = dag.zero();
+        let outputs = dag.substitute(&outputs, &|symbol| {
+            let is_known = is_motion(symbol) || remembered.contains(&symbol);
+            (!is_known).then_some(zero)
+        });
         self.differentiable(dag, &outputs, nominal)
     }
 
@@ -150,31 +176,39 @@ impl Compiled {
         Some(self.differentiable(dag, &outputs, nominal))
     }
 
-    /// The torque of the arm with its own load, without what reads channels, time or measured torque.
+    /// The torque of the arm with its own load; time, channels and measured torque are 0.
     fn nominal_torque(&self, dag: &mut Dag) -> Vec<ExprId> {
         let zero = dag.zero();
-        let is_more = |symbol| !is_motion(symbol) && !is_number(symbol) && !is_of_effects(symbol);
         dag.substitute(&self.computed.inverse_dynamics, &|symbol| {
-            is_more(symbol).then_some(zero)
+            let is_more = matches!(
+                symbol,
+                Symbol::Time | Symbol::Input(_) | Symbol::MeasuredTorque(_)
+            );
+            is_more.then_some(zero)
         })
     }
 
-    /// `expressions` with numbers for parameters and shapes, the arm's own load and torque, and friction that turns round smoothly.
-    fn of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> Vec<ExprId> {
-        let mut measured = expressions.to_vec();
-        let is_measured = |symbol: &Symbol| matches!(symbol, Symbol::MeasuredTorque(_));
-        if dag.symbols(expressions).iter().any(is_measured) {
-            let torques = self.nominal_torque(dag);
-            measured = dag.substitute(expressions, &|symbol| match symbol {
-                Symbol::MeasuredTorque(joint) => Some(torques[joint]),
-                _ => None,
-            });
-        }
+    /// `expressions` with the torque of the arm in place of the measured one.
+    fn loaded_by_torque(&self, dag: &mut Dag, expressions: &[ExprId]) -> Vec<ExprId> {
+        let torques = self.nominal_torque(dag);
+        dag.substitute(expressions, &|symbol| match symbol {
+            Symbol::MeasuredTorque(joint) => Some(torques[joint]),
+            _ => None,
+        })
+    }
+
+    /// `expressions` with the arm's own load.
+    fn loaded(&self, dag: &mut Dag, expressions: &[ExprId]) -> Vec<ExprId> {
         let loads = &self.dynamics.rigid_torque;
-        let loaded = dag.substitute(&measured, &|symbol| match symbol {
+        dag.substitute(expressions, &|symbol| match symbol {
             Symbol::RigidTorque(joint) => Some(loads[joint]),
             _ => None,
-        });
+        })
+    }
+
+    /// `expressions` with numbers for parameters and shapes, the arm's own load, and friction that turns round smoothly.
+    fn of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> Vec<ExprId> {
+        let loaded = self.loaded(dag, expressions);
         let values = self.parameter_values(&nominal.beta);
         let parameters: Vec<ExprId> = values.iter().map(|&value| dag.constant(value)).collect();
         let shapes: Vec<ExprId> = nominal.shapes.iter().map(|&x| dag.constant(x)).collect();
@@ -186,23 +220,35 @@ impl Compiled {
         smoothed(dag, &numbers, &nominal.turn)
     }
 
-    /// Whether expressions follow from a motion, by way of states or not.
-    fn is_of_motion(&self, dag: &mut Dag, expressions: &[ExprId], nominal: &Nominal) -> bool {
-        let symbols = dag.symbols(expressions);
-        let rates: Vec<ExprId> = symbols
-            .iter()
-            .filter_map(|&symbol| self.rate(symbol))
-            .collect();
-        let rates = self.of_motion(dag, &rates, nominal);
-        let mut all = symbols.into_iter().chain(dag.symbols(&rates));
-        all.all(|symbol| is_motion(symbol) || matches!(symbol, Symbol::State(_)))
+    /// Rates of each effect's states, as functions of the motion.
+    fn rates(&self, dag: &mut Dag, nominal: &Nominal) -> Vec<StateEquations> {
+        let rates = self.of_motion(dag, &self.dynamics.state_rates, nominal);
+        let effects = self.model.effects.iter();
+        let counts = effects.map(|effect| effect.definition.states.len());
+        states::equations(dag, &rates, counts)
     }
 
-    fn rate(&self, symbol: Symbol) -> Option<ExprId> {
-        match symbol {
+    /// States that follow from the motion and from other states of their own effect alone.
+    fn remembered(&self, dag: &mut Dag, nominal: &Nominal) -> Vec<Symbol> {
+        let mut parts = self.rates(dag, nominal);
+        parts.retain(|part| {
+            let own: Vec<Symbol> = part.symbols().collect();
+            let mut symbols = dag.symbols(&part.rates).into_iter();
+            symbols.all(|symbol| is_motion(symbol) || own.contains(&symbol))
+        });
+        parts.iter().flat_map(StateEquations::symbols).collect()
+    }
+
+    /// Whether a state that the torque reads depends on a symbol.
+    fn states_read(&self, dag: &mut Dag, symbol: Symbol) -> bool {
+        let read = dag.symbols(&self.computed.inverse_dynamics);
+        let states = read.into_iter().filter_map(|symbol| match symbol {
             Symbol::State(k) => Some(self.dynamics.state_rates[k]),
             _ => None,
-        }
+        });
+        let rates: Vec<ExprId> = states.collect();
+        let rates = self.loaded(dag, &rates);
+        dag.symbols(&rates).contains(&symbol)
     }
 
     fn differentiable(
@@ -212,19 +258,13 @@ impl Compiled {
         nominal: &Nominal,
     ) -> Differentiable {
         let is_read = dag.symbols(outputs);
-        let rates = self.of_motion(&mut dag, &self.dynamics.state_rates, nominal);
-        let effects = self.model.effects.iter();
-        let counts = effects.map(|effect| effect.definition.states.len());
-        let mut parts = states::equations(&mut dag, &rates, counts);
+        let mut parts = self.rates(&mut dag, nominal);
         parts.retain(|part| part.symbols().any(|state| is_read.contains(&state)));
         let states = parts.iter().flat_map(StateEquations::symbols);
         let pullback = self.pullback(&mut dag, outputs, states);
-        let memory = parts.iter().map(|part| {
-            let outputs = [&part.rates[..], &part.jacobian].concat();
-            Remembering {
-                states: part.program(&dag),
-                pullback: self.pullback(&mut dag, &outputs, part.symbols()),
-            }
+        let memory = parts.iter().map(|part| Remembering {
+            states: part.program(&dag),
+            pullback: self.pullback(&mut dag, &part.outputs(), part.symbols()),
         });
         Differentiable {
             memory: memory.collect(),
@@ -252,13 +292,4 @@ impl Compiled {
 
 fn is_motion(symbol: Symbol) -> bool {
     matches!(symbol, Symbol::Q(_) | Symbol::Dq(_) | Symbol::Ddq(_))
-}
-
-fn is_number(symbol: Symbol) -> bool {
-    matches!(symbol, Symbol::Parameter(_) | Symbol::Shape(_))
-}
-
-/// What effects read that follows from the motion.
-fn is_of_effects(symbol: Symbol) -> bool {
-    matches!(symbol, Symbol::State(_) | Symbol::RigidTorque(_))
 }

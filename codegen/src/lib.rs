@@ -37,6 +37,6 @@ pub use alone::{EffectColumns, effect_columns};
 pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
-pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering};
+pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use measured::NotInstantaneous;
 pub use plant::{Plant, PlantSlopes};

@@ -73,15 +73,21 @@ impl StateEquations {
         }
     }
 
-    /// The states.
+    /// The states, in their order.
     pub fn symbols(&self) -> impl Iterator<Item = Symbol> + use<> {
         (self.first..self.first + self.rates.len()).map(Symbol::State)
+    }
+
+    /// The rates, then the Jacobian row by row.
+    #[must_use]
+    pub fn outputs(&self) -> Vec<ExprId> {
+        [&self.rates[..], &self.jacobian].concat()
     }
 
     /// To run.
     #[must_use]
     pub fn program(&self, dag: &Dag) -> StateProgram {
-        let outputs = [&self.rates[..], &self.jacobian].concat();
+        let outputs = self.outputs();
         StateProgram {
             first: self.first,
             count: self.rates.len(),

@@ -35,7 +35,7 @@ pub(super) fn basis(
     }
     let matrix = DMatrix::from_fn(count, count, |row, column| {
         let DesignColumn::Parameter(base) = columns.columns[row] else {
-            return 0.0;
+            unreachable!("`--columns` is not of two effects, which alone have columns of shapes");
         };
         let mut combination = compiled.base.combinations[base].iter();
         let part = combination.find(|part| part.0 == chosen[column]);

@@ -29,8 +29,9 @@ struct Panel {
 /// The picture as SVG.
 pub(super) fn svg(request: &Request, design: &Design) -> String {
     let motion = &design.motion;
-    let mut time = motion.instants(SAMPLES);
-    time.push(motion.period);
+    let time: Vec<f64> = (0..=SAMPLES)
+        .map(|k| motion.period * k as f64 / SAMPLES as f64)
+        .collect();
     let kinematics = motion.motion(&time);
     let joints = request.joints.len();
     let mut text = String::new();

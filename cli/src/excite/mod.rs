@@ -21,7 +21,7 @@ use robot_model_codegen::{Compiled, Nominal};
 
 use crate::interpreted::InterpretedFunction;
 use crate::output::{Files, counted, names};
-use crate::parameters::{self, Known};
+use crate::parameters;
 use crate::progress::Progress;
 use crate::{Error, spec};
 
@@ -38,10 +38,13 @@ const TURN: f64 = 0.01;
 /// as the design's. The same seed gives the same motion, unless `--budget` or Ctrl-C stops the search: then the best motion so far
 /// is written.
 #[derive(Debug, Args)]
-#[command(after_help = "Examples:
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
   robot-model excite arm.robot --out motion.csv
   robot-model excite arm.robot --criterion condition --period 10 --out motion.csv
-  robot-model excite arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow: c = 0.1' --out motion.csv")]
+  robot-model excite arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow: c = 0.1' --out motion.csv"
+)]
 pub(crate) struct Excite {
     /// The `.robot` file.
     spec: PathBuf,
@@ -81,7 +84,8 @@ pub(crate) struct Excite {
         conflicts_with = "ends"
     )]
     pose: Option<Vec<f64>>,
-    /// Values by name, for torque limits and for friction that depends on the load; what the spec says where it is not given.
+    /// Values by name, for torque limits and for what depends on the arm's own torque: friction of the load, gains, offsets of
+    /// encoders; what the spec says where it is not given.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
     /// Standard deviation of each joint's torque noise, N m or N; in proportion to the torque limits where all joints have one, else 1.
@@ -193,13 +197,9 @@ impl Excite {
             .map(|joint| joint.name.clone())
             .collect();
         let limits = limits::of(&compiled.model, self.acceleration.as_deref())?;
-        let expected = rivals.map_or_else(Vec::new, separate::Expected::shape_values);
-        let Known {
-            beta,
-            shapes,
-            missing,
-            guessed,
-        } = parameters::known(compiled, self.parameters.as_deref(), &expected)?;
+        let expected = rivals.map_or_else(Vec::new, separate::Expected::shapes);
+        let known = parameters::known(compiled, self.parameters.as_deref(), &expected)?;
+        let guessed = &known.guessed;
         if !guessed.is_empty() {
             let guessed: Vec<&str> = guessed.iter().map(String::as_str).collect();
             progress.note(&format!(
@@ -213,17 +213,18 @@ impl Excite {
             );
         }
         let nominal = Nominal {
-            beta,
-            shapes,
+            beta: known.beta.clone(),
+            shapes: known.shapes.clone(),
             turn: limits.velocity.iter().map(|speed| TURN * speed).collect(),
         };
-        let shapes = rivals.map_or_else(Vec::new, separate::Expected::shapes);
-        let columns = compiled.design_columns(&nominal, &shapes);
+        let beside = rivals.map(|rivals| rivals.columns(compiled));
+        let beside = beside.unwrap_or_default();
+        let columns = compiled.design_columns(&nominal, &beside);
         let jumping = Nominal {
             turn: Vec::new(),
             ..nominal.clone()
         };
-        let jumping = compiled.design_columns(&jumping, &shapes);
+        let jumping = compiled.design_columns(&jumping, &beside);
         if !columns.left_out.is_empty() {
             let left_out = columns.left_out.iter();
             let left_out: Vec<String> = left_out.map(|column| column.name(compiled)).collect();
@@ -238,7 +239,7 @@ impl Excite {
             ));
         }
         let criterion = match rivals {
-            Some(rivals) => rivals.criterion(compiled, &columns)?,
+            Some(rivals) => rivals.criterion(compiled, &columns, &known)?,
             None => self.criterion.into(),
         };
         let basis = match &self.columns {
@@ -246,15 +247,28 @@ impl Excite {
             Some(names) => Some(columns::basis(compiled, &columns, names)?),
         };
         let function = |programs| InterpretedFunction::new(programs, compiled.dof(), self.period);
-        let clearances =
-            self.clearances(compiled, rivals, &nominal, &limits, &missing, progress)?;
+        let followed = function(columns.function);
+        if let Some(state) = followed.restless_state() {
+            return Err(Error::Argument(format!(
+                "the state `{}` does not settle where a motion repeats: no motion is designed with its effect; take that out of the spec",
+                compiled.model.states()[state]
+            )));
+        }
+        let clearances = self.clearances(
+            compiled,
+            rivals,
+            &nominal,
+            &limits,
+            &known.missing,
+            progress,
+        )?;
         let of_columns = columns.columns.iter();
         let noise = limits::noise(self.noise.as_deref(), &limits, &joints)?;
         Ok(Request {
             regressor: Regressor {
                 columns: of_columns.map(|column| column.name(compiled)).collect(),
                 entries: columns.entries,
-                function: Box::new(function(columns.function)),
+                function: Box::new(followed),
                 exact: Box::new(function(jumping.function)),
             },
             joints,
@@ -289,11 +303,12 @@ impl Excite {
         let mut clearances = Vec::new();
         let is_limited = limits.torque.iter().any(|limit| limit.is_finite());
         let reads_load = rivals.is_some_and(separate::Expected::read_load);
-        let said = rivals.map_or_else(Vec::new, |rivals| rivals.sizes().concat());
-        let missing = missing.iter().map(String::as_str);
-        let missing: Vec<&str> = missing
-            .filter(|name| said.iter().all(|(said, _)| said != name))
+        let said: Vec<&str> = rivals
+            .into_iter()
+            .flat_map(separate::Expected::parameters)
             .collect();
+        let missing = missing.iter().map(String::as_str);
+        let missing: Vec<&str> = missing.filter(|name| !said.contains(name)).collect();
         if (is_limited || reads_load) && !missing.is_empty() {
             progress.note(&format!(
                 "note: torques are those of an arm without {}, which {} no value; give {} with `--parameters`",
@@ -303,18 +318,17 @@ impl Excite {
             ));
         }
         if is_limited {
-            let expected = rivals.map_or_else(Vec::new, separate::Expected::shape_values);
             // Whichever of two rivals is there, the limits are kept.
             let arms = match rivals {
-                Some(rivals) => rivals.sizes().to_vec(),
+                Some(rivals) => rivals.arms(compiled).to_vec(),
                 None => vec![Vec::new()],
             };
-            for mut sizes in arms {
-                sizes.extend(expected.iter().cloned());
-                let known = parameters::known(compiled, self.parameters.as_deref(), &sizes)?;
+            for values in arms {
+                let known = parameters::known(compiled, self.parameters.as_deref(), &values)?;
                 let arm = Nominal {
                     beta: known.beta,
-                    ..nominal.clone()
+                    shapes: known.shapes,
+                    turn: nominal.turn.clone(),
                 };
                 clearances.push(limits::torque(compiled, &arm, limits, self.period));
             }

@@ -152,10 +152,11 @@ pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> Strin
         quality.least_singular
     )
     .expect(PUT);
-    if let Some([first, second]) = quality.distances {
+    if let (Some([first, second]), Some(shares)) = (quality.distances, quality.shares) {
+        let [share, other] = shares.map(|share| 100.0 * share.sqrt());
         writeln!(
             text,
-            "what cannot be imitated, root mean square over the noise (`--noise`, else the torque limits, else 1): {:.3e} of the first, {:.3e} of the second",
+            "what cannot be imitated, root mean square over the noise (`--noise`, else the torque limits, else 1): {:.3e} of the first ({share:.1} % of it), {:.3e} of the second ({other:.1} %)",
             first.sqrt(),
             second.sqrt()
         )

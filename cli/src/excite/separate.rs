@@ -1,32 +1,43 @@
-//! Two effects that are to be told apart, as the command line says them.
+//! Two effects that are to be told apart.
 //!
 //! `stribeck(vs = 0.1) on elbow: fs = 2`: an effect as a spec declares it, then what it is expected to be worth, or 1: the best motion
 //! for an effect with one parameter does not depend on it. Both are declared in the spec, so that their columns are columns of the arm.
+//! An effect without a linear parameter, `encoder_offset(offset = 0.02) on elbow`, has those of its shapes.
 
+mod said;
+
+use std::ops::Range;
 use std::path::Path;
 
 use robot_model::excite::{Criterion, Rivals};
-use robot_model_codegen::{Compiled, DesignColumns, compile_model};
+use robot_model_codegen::{Compiled, DesignColumn, DesignColumns, RivalColumns, compile_model};
 use robot_model_spec::Model;
 use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::model::{Act, Effect, EffectLeaf, Signal};
 
 use crate::output::names;
+use crate::parameters::Known;
 use crate::{Error, spec};
+
+use said::{Sizes, said};
 
 /// Two effects of a spec.
 pub(super) struct Expected([OneOfTwo; 2]);
 
-/// An effect with what its columns are expected to be worth, by name.
+/// An effect with what is expected of it, by name.
 struct OneOfTwo {
     /// Its place in the model.
     effect: usize,
-    /// Linear parameters; shapes of an effect that has none.
-    sizes: Vec<(String, f64)>,
+    /// Its name, for messages.
+    name: String,
+    /// Linear parameters; none where its shapes are its columns.
+    linear: Sizes,
     /// Whether linear parameters have sizes that were said; those that were not count as 1, and load no torque limit.
     is_sized: bool,
-    /// Places of the shapes whose slopes are its columns.
-    shapes: Vec<usize>,
+    /// Values of shapes that were said or are in the spec.
+    shapes: Sizes,
+    /// All its shapes.
+    places: Range<usize>,
     /// Whether its torque depends on that of the arm.
     reads_load: bool,
 }
@@ -39,12 +50,6 @@ pub(super) fn rivals(
 ) -> Result<(Compiled, Expected), Error> {
     let source = path.display().to_string();
     let said = [said(first)?, said(second)?];
-    if said[0].0 == said[1].0 {
-        return Err(Error::Argument(format!(
-            "`--separate` and `--from` are both `{}` on the same joints: nothing tells an effect from itself",
-            said[0].0.effect
-        )));
-    }
     let text = spec::read_text(path)?;
     let declared = robot_model_spec::load(&source, &text)?;
     let amendments: Vec<Amendment> = said
@@ -52,6 +57,15 @@ pub(super) fn rivals(
         .map(|said| said.0.clone())
         .filter(|amendment| place(&declared, amendment).is_none())
         .collect();
+    let alike = || {
+        Error::Argument(format!(
+            "`--separate` and `--from` are both `{}` on the same joints: nothing tells an effect from itself",
+            said[0].0.effect
+        ))
+    };
+    if said[0].0 == said[1].0 {
+        return Err(alike());
+    }
     let amended = amend(&source, &text, &amendments)?;
     let mut model = robot_model_spec::load(&source, &amended)?;
     let [first, second] = &said;
@@ -59,15 +73,18 @@ pub(super) fn rivals(
         one(&model, &first.0, &first.1)?,
         one(&model, &second.0, &second.1)?,
     ];
+    if both[0].effect == both[1].effect {
+        return Err(alike());
+    }
     // A shape that is given is a number in the equations: those that are columns are symbols.
-    for one in both.iter().filter(|one| !one.shapes.is_empty()) {
+    for one in both.iter().filter(|one| one.linear.is_empty()) {
         model.effects[one.effect].shapes.fill(None);
     }
     let compiled = spec::clear(compile_model(&model))?;
     Ok((compiled, Expected(both)))
 }
 
-/// An effect of a model, with what was said of its linear parameters.
+/// An effect of a model, with what was said of it.
 fn one(model: &Model, amendment: &Amendment, values: &[(String, f64)]) -> Result<OneOfTwo, Error> {
     let name = &amendment.effect;
     let index = place(model, amendment).ok_or_else(|| {
@@ -80,57 +97,47 @@ fn one(model: &Model, amendment: &Amendment, values: &[(String, f64)]) -> Result
     let Effect {
         definition, shapes, ..
     } = &model.effects[index];
-    let is_load = |leaf: &EffectLeaf| {
-        let loads = [Signal::RigidTorque, Signal::MeasuredTorque];
-        matches!(leaf, EffectLeaf::Signal(signal, _) if loads.contains(signal))
-    };
-    let mut equations = definition.equations();
-    let reads_load = equations.any(|value| definition.reads(value, &is_load));
-    let linear = definition.linear.iter();
-    let linear: Vec<&str> = linear.map(|parameter| parameter.name.as_str()).collect();
-    if !linear.is_empty() {
-        return Ok(OneOfTwo {
-            effect: index,
-            sizes: sizes(&prefix, name, &linear, values)?,
-            is_sized: !values.is_empty(),
-            shapes: Vec::new(),
-            reads_load,
-        });
-    }
     let is_late = |act: &Act| matches!(act, Act::Delay { .. });
     if definition.moves_links() || definition.acts.iter().any(is_late) {
         return Err(Error::Argument(format!(
             "`{name}` moves links along a motion, or makes torques late: no motion is designed for it"
         )));
     }
-    let first = model.effects[..index].iter();
-    let first: usize = first.map(|effect| effect.shapes.len()).sum();
-    let names: Vec<&str> = definition
-        .shapes
-        .iter()
-        .map(|shape| shape.name.as_str())
-        .collect();
-    let pairs = names.iter().zip(shapes);
-    let pairs = pairs.filter_map(|(shape, value)| Some((format!("{prefix}.{shape}"), (*value)?)));
-    let sizes: Vec<(String, f64)> = pairs.collect();
-    if sizes.len() < shapes.len() || !values.is_empty() {
-        let on = if definition.joints.is_empty() {
-            ""
-        } else {
-            " on .."
-        };
+    if definition.linear.is_empty() && shapes.is_empty() {
         return Err(Error::Argument(format!(
-            "`{name}` has no parameter that the torque is linear in: say what it is expected to be, as in `{name}({} = 0.01){on}`",
-            names.join(" = 0.01, ")
+            "`{name}` has no parameter: nothing of it is unknown"
         )));
     }
-    let count = shapes.len();
+    let is_load = |leaf: &EffectLeaf| {
+        let loads = [Signal::RigidTorque, Signal::MeasuredTorque];
+        matches!(leaf, EffectLeaf::Signal(signal, _) if loads.contains(signal))
+    };
+    let rates = definition.states.iter();
+    let rates = rates.map(|state| &definition.bindings[state.rate].value);
+    let mut equations = definition.equations().chain(rates);
+    let reads_load = equations.any(|value| definition.reads(value, &is_load));
+    let linear: Vec<&str> = definition
+        .linear
+        .iter()
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    let first = model.effects[..index].iter();
+    let first: usize = first.map(|effect| effect.shapes.len()).sum();
+    let in_spec = definition.shapes.iter().zip(shapes);
+    let known = in_spec.filter_map(|(shape, value)| {
+        let mut said = amendment.shapes.iter();
+        let said = said.find(|(name, _)| *name == shape.name);
+        let value = said.map(|said| said.1).or(*value)?;
+        Some((format!("{prefix}.{}", shape.name), value))
+    });
     Ok(OneOfTwo {
         effect: index,
-        sizes,
-        is_sized: false,
-        shapes: (first..first + count).collect(),
-        reads_load: true,
+        name: name.clone(),
+        linear: sizes(&prefix, name, &linear, values)?,
+        is_sized: !values.is_empty(),
+        shapes: known.collect(),
+        places: first..first + shapes.len(),
+        reads_load: reads_load || linear.is_empty(),
     })
 }
 
@@ -140,12 +147,17 @@ fn sizes(
     effect: &str,
     linear: &[&str],
     values: &[(String, f64)],
-) -> Result<Vec<(String, f64)>, Error> {
+) -> Result<Sizes, Error> {
     let given: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
     let is_other = linear.iter().any(|name| !given.contains(name)) || given.len() != linear.len();
+    if linear.is_empty() && !given.is_empty() {
+        return Err(Error::Argument(format!(
+            "`{effect}` has no parameter that the torque is linear in: say its shapes, as in `{effect}(.. = 0.01) on ..`"
+        )));
+    }
     if !given.is_empty() && is_other {
         return Err(Error::Argument(format!(
-            "`{effect}` has {}: say what each is expected to be, as in `{effect} on ..: {} = 1`",
+            "`{effect}` has {}: say what each is expected to be, as in `{effect} on ..: {} = 1`, or none of them",
             names(linear),
             linear.join(" = 1, ")
         )));
@@ -160,54 +172,92 @@ fn sizes(
     Ok(linear.iter().map(size).collect())
 }
 
-/// The effect of a model that an amendment would declare.
+/// The effect of a model that an amendment would declare; one whose shapes are open stands for any.
 fn place(model: &Model, amendment: &Amendment) -> Option<usize> {
-    model.effects.iter().rposition(|declared| {
+    let is_it = |declared: &Effect, may_be_open: bool| {
         let joints = declared.joints.iter();
         let joints = joints.map(|&joint| &model.joints[joint].name);
-        let shapes = declared.definition.shapes.iter().zip(&declared.shapes);
-        let shapes = shapes.filter_map(|(shape, value)| Some((shape.name.as_str(), (*value)?)));
-        let shapes: Vec<(&str, f64)> = shapes.collect();
-        let is_said = |(name, value): &(String, f64)| shapes.contains(&(name.as_str(), *value));
+        let is_said = |(name, said): &(String, f64)| {
+            let mut shapes = declared.definition.shapes.iter().zip(&declared.shapes);
+            let found = shapes.find(|(shape, _)| shape.name == *name);
+            found.is_some_and(|(_, value)| {
+                value.map_or(may_be_open, |value| value.to_bits() == said.to_bits())
+            })
+        };
         declared.definition.name == amendment.effect
             && joints.eq(&amendment.joints)
             && amendment.shapes.iter().all(is_said)
-    })
+    };
+    let place = |may_be_open| {
+        let mut effects = model.effects.iter();
+        effects.rposition(|declared| is_it(declared, may_be_open))
+    };
+    place(false).or_else(|| place(true))
+}
+
+impl OneOfTwo {
+    fn is_of_shapes(&self) -> bool {
+        self.linear.is_empty()
+    }
 }
 
 impl Expected {
+    /// What the columns of both are, beside those of the arm.
+    pub(super) fn columns(&self, compiled: &Compiled) -> RivalColumns {
+        let of_shapes = self.0.iter().filter(|one| one.is_of_shapes());
+        let linear = self.0.iter().flat_map(|one| &one.linear);
+        let base = &compiled.base.names;
+        RivalColumns {
+            shapes: of_shapes.flat_map(|one| one.places.clone()).collect(),
+            loaded: linear
+                .filter_map(|(name, _)| base.iter().position(|base| base == name))
+                .collect(),
+        }
+    }
+
     /// The criterion in the columns of the design.
     pub(super) fn criterion(
         &self,
         compiled: &Compiled,
         columns: &DesignColumns,
+        known: &Known,
     ) -> Result<Criterion, Error> {
-        let place = |(name, size): &(String, f64)| {
-            let mut known = columns.columns.iter();
-            let found = known.position(|column| column.name(compiled) == *name);
-            found.map(|place| (place, *size)).ok_or_else(|| {
+        let shape_names = compiled.shape_names();
+        let place = |column: Option<DesignColumn>, name: &str, size: f64| {
+            let found = column.and_then(|column| columns.columns.iter().position(|k| *k == column));
+            found.map(|place| (place, size)).ok_or_else(|| {
                 Error::Argument(format!(
                     "no motion of this arm tells `{name}` apart by a column of its own: it regroups with other parameters, or follows from more than the motion, as time and channels are"
                 ))
             })
         };
         let places = |one: &OneOfTwo| -> Result<Vec<(usize, f64)>, Error> {
-            one.sizes.iter().map(place).collect()
+            if one.is_of_shapes() {
+                let mut all = Vec::new();
+                for shape in one.places.clone() {
+                    let name = &shape_names[shape];
+                    if known.guessed.contains(name) {
+                        return Err(one.without_a_value(&shape_names[one.places.clone()]));
+                    }
+                    let column = Some(DesignColumn::Shape(shape));
+                    all.push(place(column, name, known.shapes[shape])?);
+                }
+                return Ok(all);
+            }
+            let linear = one.linear.iter().map(|(name, size)| {
+                let base = compiled.base.names.iter().position(|base| base == name);
+                place(base.map(DesignColumn::Parameter), name, *size)
+            });
+            linear.collect()
         };
         Ok(Criterion::Separation(Rivals {
             effects: [places(&self.0[0])?, places(&self.0[1])?],
         }))
     }
 
-    /// Shapes whose slopes are columns, by their index.
-    pub(super) fn shapes(&self) -> Vec<usize> {
+    /// What is expected of shapes where both are there.
+    pub(super) fn shapes(&self) -> Sizes {
         self.0.iter().flat_map(|one| one.shapes.clone()).collect()
-    }
-
-    /// What these are expected to be.
-    pub(super) fn shape_values(&self) -> Vec<(String, f64)> {
-        let of_shapes = self.0.iter().filter(|one| !one.shapes.is_empty());
-        of_shapes.flat_map(|one| one.sizes.clone()).collect()
     }
 
     /// Whether one of the torques depends on that of the arm.
@@ -215,67 +265,41 @@ impl Expected {
         self.0.iter().any(|one| one.reads_load)
     }
 
-    /// What each is expected to be worth, where that was said.
-    pub(super) fn sizes(&self) -> [Vec<(String, f64)>; 2] {
-        [&self.0[0], &self.0[1]].map(|one| {
-            if one.is_sized {
-                one.sizes.clone()
-            } else {
-                Vec::new()
+    /// Values of the arm that has the one and not the other, for each of both: shapes, and linear parameters that were said.
+    pub(super) fn arms(&self, compiled: &Compiled) -> [Sizes; 2] {
+        let shape_names = compiled.shape_names();
+        [(0, 1), (1, 0)].map(|(own, other)| {
+            let (own, other) = (&self.0[own], &self.0[other]);
+            let mut values = self.shapes();
+            if other.is_of_shapes() {
+                let names = &shape_names[other.places.clone()];
+                values.retain(|(name, _)| !names.contains(name));
+                values.extend(names.iter().map(|name| (name.clone(), 0.0)));
             }
+            if own.is_sized {
+                values.extend(own.linear.iter().cloned());
+            }
+            values
         })
+    }
+
+    /// Parameters that were said or stand for 1: none of them is missing.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = &str> {
+        let sized = self.0.iter().filter(|one| one.is_sized);
+        sized.flat_map(|one| one.linear.iter().map(|(name, _)| name.as_str()))
     }
 }
 
-/// An effect with what its parameters are worth.
-fn said(text: &str) -> Result<(Amendment, Vec<(String, f64)>), Error> {
-    let refused = || {
+impl OneOfTwo {
+    fn without_a_value(&self, shapes: &[String]) -> Error {
+        let last = |name: &String| name.rsplit('.').next().unwrap_or_default().to_owned();
+        let shapes: Vec<String> = shapes.iter().map(last).collect();
+        let on = if shapes.is_empty() { "" } else { " on .." };
         Error::Argument(format!(
-            "`{text}` is no effect with its size: write `stribeck(vs = 0.1) on elbow: fs = 2`"
+            "`{}` has no parameter that the torque is linear in: say what it is expected to be, as in `{}({} = 0.01){on}`",
+            self.name,
+            self.name,
+            shapes.join(" = 0.01, ")
         ))
-    };
-    let (declaration, sizes) = match text.split_once(':') {
-        Some((declaration, sizes)) => (declaration, Some(sizes)),
-        None => (text, None),
-    };
-    let (head, joints) = match declaration.split_once(" on ") {
-        Some((head, joints)) => (head, joints),
-        None => (declaration, ""),
-    };
-    let (effect, shapes) = match head.trim().split_once('(') {
-        Some((effect, shapes)) => (effect, shapes.trim().strip_suffix(')').ok_or_else(refused)?),
-        None => (head, ""),
-    };
-    let joints = joints.trim().trim_start_matches('(').trim_end_matches(')');
-    let joints = joints
-        .split(',')
-        .map(str::trim)
-        .filter(|joint| !joint.is_empty());
-    let amendment = Amendment {
-        effect: effect.trim().to_owned(),
-        joints: joints.map(str::to_owned).collect(),
-        shapes: pairs(shapes).ok_or_else(refused)?,
-    };
-    let sizes = match sizes {
-        Some(sizes) => pairs(sizes)
-            .filter(|sizes| !sizes.is_empty())
-            .ok_or_else(refused)?,
-        None => Vec::new(),
-    };
-    Ok((amendment, sizes))
-}
-
-/// `a = 1, b = 2`
-fn pairs(text: &str) -> Option<Vec<(String, f64)>> {
-    let parts = text
-        .split(',')
-        .map(str::trim)
-        .filter(|part| !part.is_empty());
-    parts
-        .map(|part| {
-            let (name, value) = part.split_once('=')?;
-            let value: f64 = value.trim().parse().ok()?;
-            value.is_finite().then(|| (name.trim().to_owned(), value))
-        })
-        .collect()
+    }
 }

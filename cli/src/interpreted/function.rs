@@ -9,7 +9,7 @@ use robot_model_codegen::interpreter::{Operand, Program};
 use super::orbit::Orbit;
 
 /// Outputs of programs that read a motion over one period, and their slopes. Effects with states have them as they are once the
-/// motion has repeated for long.
+/// motion has repeated for ever.
 #[derive(Debug, Clone)]
 pub struct InterpretedFunction {
     programs: Differentiable,
@@ -28,14 +28,44 @@ impl InterpretedFunction {
         }
     }
 
-    fn orbits(&self, motion: &Kinematics) -> Vec<Orbit<'_>> {
-        let orders = [&motion.q, &motion.dq, &motion.ddq];
-        let signals: Vec<&[f64]> = orders.into_iter().flatten().map(Vec::as_slice).collect();
+    /// The first state that does not settle where a motion repeats: that remembers for ever, or grows.
+    #[must_use]
+    pub fn restless_state(&self) -> Option<usize> {
+        const SAMPLES: usize = 200;
+        let omega = std::f64::consts::TAU / self.period;
+        let wave = |joint: usize, order: i32| -> Vec<f64> {
+            let omega = omega * (joint + 1) as f64;
+            let turn = f64::from(order) * std::f64::consts::FRAC_PI_2;
+            let at = |k: usize| {
+                let phase = joint as f64 + turn;
+                let share = k as f64 / SAMPLES as f64;
+                omega.powi(order) * (omega * self.period * share + phase).sin()
+            };
+            (0..SAMPLES).map(at).collect()
+        };
+        let all = |order| (0..self.dof).map(|joint| wave(joint, order)).collect();
+        let motion = Kinematics {
+            q: all(0),
+            dq: all(1),
+            ddq: all(2),
+        };
+        let signals = signals(&motion);
+        let orbits = self.orbits(&signals);
+        let restless = orbits.iter().find(|orbit| !orbit.settles());
+        restless.map(Orbit::first_state)
+    }
+
+    fn orbits<'a>(&'a self, signals: &'a [&'a [f64]]) -> Vec<Orbit<'a>> {
         let parts = self.programs.memory.iter();
         parts
-            .map(|part| Orbit::new(part, self.period, &signals))
+            .map(|part| Orbit::new(part, self.period, signals))
             .collect()
     }
+}
+
+fn signals(motion: &Kinematics) -> Vec<&[f64]> {
+    let orders = [&motion.q, &motion.dq, &motion.ddq];
+    orders.into_iter().flatten().map(Vec::as_slice).collect()
 }
 
 impl Function for InterpretedFunction {
@@ -44,11 +74,13 @@ impl Function for InterpretedFunction {
     }
 
     fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>> {
-        run(&self.programs.values, motion, &self.orbits(motion), &[])
+        let signals = signals(motion);
+        run(&self.programs.values, motion, &self.orbits(&signals), &[])
     }
 
     fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics {
-        let orbits = self.orbits(motion);
+        let signals = signals(motion);
+        let orbits = self.orbits(&signals);
         let mut slopes = run(&self.programs.pullback, motion, &orbits, weights);
         let mut by_state = slopes.split_off(3 * self.dof);
         for (orbit, part) in orbits.iter().zip(&self.programs.memory) {

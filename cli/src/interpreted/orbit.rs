@@ -1,8 +1,11 @@
 //! Internal states of effects along a motion that repeats, and slopes of what reads them.
 //!
-//! In: a motion over one period. Out: the states at each sample as they are once the motion has repeated for long, by the steps of
-//! [`robot_model::memory::step`] with signals at the middle of two samples; and, by the same steps backward, how a weighted sum
-//! of these states changes with the motion.
+//! In: a motion over one period. Out: the states at each sample as they are once the motion has repeated for ever, by the steps of
+//! [`robot_model::memory::step`] with signals at their middles; and, by the same steps backward, how a weighted sum of these states
+//! changes with the motion.
+//!
+//! Where the period ends as it began is solved for: `z0 += (1 - M)^-1 (z_end - z0)`, with `M` the product of the steps' slopes, which
+//! is exact where rates are affine in the states. Backward it is the same with `M^T`.
 
 use nalgebra::{DMatrix, DVector};
 use robot_model::memory::step;
@@ -11,135 +14,213 @@ use robot_model_codegen::Remembering;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Program, Scratch};
 
-/// Rounds after which states that do not come round are taken as they are.
+use super::states::fill;
+
+/// Steps of a period, at least: between samples there are as many as that takes, so that a search on few samples sees what a
+/// verification on many does.
+const STEPS: usize = 2000;
+
+/// Rounds after which a period is taken as it is.
 const ROUNDS: usize = 20;
 
-/// Difference from round to round that is none, as a share of the largest state.
+/// Difference from end to beginning that is none, as a share of the largest state.
 const CLOSED: f64 = 1e-10;
+
+/// Of what was different before a period, the share that is left after it where a state forgets.
+const FORGETFUL: f64 = 1.0 - 1e-6;
 
 /// The states of one effect along one period.
 pub(super) struct Orbit<'a> {
     part: &'a Remembering,
-    /// Seconds from sample to sample.
+    /// `q`, `dq` and `ddq` of all joints, `[signal][sample]`.
+    signals: &'a [&'a [f64]],
+    /// Steps from sample to sample.
+    substeps: usize,
+    /// Seconds of a step.
     interval: f64,
-    /// `q`, `dq` and `ddq` of all joints between each sample and the next, `[signal][sample]`.
-    middles: Vec<Vec<f64>>,
-    /// `[sample][state]`
+    /// Before each step, and after the last.
     states: Vec<DVector<f64>>,
+    /// `M`
+    round: DMatrix<f64>,
 }
 
 impl<'a> Orbit<'a> {
     /// `signals` are `q`, `dq` and `ddq` of all joints, as samples of a period of `period` seconds.
-    pub(super) fn new(part: &'a Remembering, period: f64, signals: &[&[f64]]) -> Self {
+    pub(super) fn new(part: &'a Remembering, period: f64, signals: &'a [&'a [f64]]) -> Self {
         let samples = signals.first().map_or(0, |signal| signal.len());
-        let middles = signals.iter().map(|signal| {
-            let next = signal.iter().cycle().skip(1);
-            signal
-                .iter()
-                .zip(next)
-                .map(|(x, y)| 0.5 * (x + y))
-                .collect()
-        });
+        let substeps = STEPS.div_ceil(samples.max(1));
+        let count = part.states.count;
+        let steps = samples * substeps;
         let mut orbit = Self {
             part,
-            interval: period / samples as f64,
-            middles: middles.collect(),
-            states: vec![DVector::zeros(part.states.count); samples],
+            signals,
+            substeps,
+            interval: period / steps as f64,
+            states: vec![DVector::zeros(count); steps + 1],
+            round: DMatrix::identity(count, count),
         };
-        let mut runner = Runner::new(&part.states.program);
-        let mut z = DVector::zeros(part.states.count);
         for _ in 0..ROUNDS {
-            let before = z.clone();
-            for sample in 0..samples {
-                orbit.states[sample].copy_from(&z);
-                let (rate, jacobian) = orbit.rate(&mut runner, sample);
-                step(&mut z, orbit.interval, &rate, &jacobian);
-            }
-            if is_closed(&before, &z, orbit.states.iter()) {
+            orbit.go_round();
+            let missing = &orbit.states[steps] - &orbit.states[0];
+            let largest = orbit.states.iter().map(DVector::amax).fold(0.0, f64::max);
+            if missing.amax() <= CLOSED * largest {
                 break;
             }
+            let Some(change) = closing(&orbit.round, &missing) else {
+                break;
+            };
+            orbit.states[0] += change;
         }
         orbit
+    }
+
+    /// Steps once round from the first state, and multiplies the slopes of the steps.
+    fn go_round(&mut self) {
+        let count = self.part.states.count;
+        let mut runner = Runner::new(&self.part.states.program);
+        self.round = DMatrix::identity(count, count);
+        for k in 0..self.states.len() - 1 {
+            let (rate, jacobian) = self.rate(&mut runner, k);
+            let mut z = self.states[k].clone();
+            step(&mut z, self.interval, &rate, &jacobian);
+            self.states[k + 1] = z;
+            // A change moves on as `dz/dt = J z`.
+            for mut change in self.round.column_iter_mut() {
+                let mut moved = change.clone_owned();
+                step(&mut moved, self.interval, &(&jacobian * &change), &jacobian);
+                change.copy_from(&moved);
+            }
+        }
+    }
+
+    /// Whether what is different before a round is less so after it.
+    pub(super) fn settles(&self) -> bool {
+        let values = self.round.complex_eigenvalues();
+        values.iter().all(|value| value.norm() < FORGETFUL)
+    }
+
+    /// The number of its first state.
+    pub(super) fn first_state(&self) -> usize {
+        self.part.states.first
     }
 
     /// The states by their numbers, `[sample]` each.
     pub(super) fn columns(&self) -> impl Iterator<Item = (usize, Vec<f64>)> + '_ {
         (0..self.part.states.count).map(|k| {
-            let column = self.states.iter().map(|z| z[k]).collect();
+            let at_samples = self.states.iter().step_by(self.substeps);
+            let samples = self.states.len() / self.substeps;
+            let column = at_samples.take(samples).map(|z| z[k]).collect();
             (self.part.states.first + k, column)
         })
     }
 
     /// Adds to `slopes`, `[signal][sample]`, those of a sum of states, `weights[state][sample]`.
     pub(super) fn pull_back(&self, weights: &[Vec<f64>], slopes: &mut [Vec<f64>]) {
-        let (samples, count) = (self.states.len(), self.part.states.count);
-        let mut runner = Runner::new(&self.part.states.program);
-        let mut backward = Runner::new(&self.part.pullback);
-        let mut by_state = DVector::zeros(count);
-        let mut by_middle = vec![vec![0.0; samples]; slopes.len()];
+        let mut by_end = DVector::zeros(self.part.states.count);
+        let back = self.round.transpose();
+        let mut added = self.go_back(weights, by_end.clone());
         for _ in 0..ROUNDS {
-            let before = by_state.clone();
-            let mut largest: Vec<DVector<f64>> = Vec::with_capacity(samples);
-            for sample in (0..samples).rev() {
-                let (rate, jacobian) = self.rate(&mut runner, sample);
-                let by_step = pull_back_step(self.interval, &rate, &jacobian, &by_state);
-                backward.run(&|symbol| match symbol {
-                    Symbol::Weight(output) => by_step[output],
-                    other => self.signal(sample, other),
-                });
-                for (k, slopes) in by_middle.iter_mut().enumerate() {
-                    slopes[sample] = backward.finite(k);
-                }
-                for k in 0..count {
-                    by_state[k] += backward.finite(slopes.len() + k) + weights[k][sample];
-                }
-                largest.push(by_state.clone());
-            }
-            if is_closed(&before, &by_state, largest.iter()) {
+            let missing = &added.by_beginning - &by_end;
+            if missing.amax() <= CLOSED * added.largest {
                 break;
             }
+            let Some(change) = closing(&back, &missing) else {
+                break;
+            };
+            by_end += change;
+            added = self.go_back(weights, by_end.clone());
         }
-        for (slopes, by_middle) in slopes.iter_mut().zip(&by_middle) {
-            for (sample, slope) in by_middle.iter().enumerate() {
-                slopes[sample] += 0.5 * slope;
-                slopes[(sample + 1) % samples] += 0.5 * slope;
+        for (slopes, added) in slopes.iter_mut().zip(added.slopes) {
+            slopes.iter_mut().zip(added).for_each(|(s, x)| *s += x);
+        }
+    }
+
+    /// Once round backward, from slopes by the last state.
+    fn go_back(&self, weights: &[Vec<f64>], mut by_state: DVector<f64>) -> Round {
+        let samples = self.states.len() / self.substeps;
+        let mut runner = Runner::new(&self.part.states.program);
+        let mut backward = Runner::new(&self.part.pullback);
+        let mut slopes = vec![vec![0.0; samples]; self.signals.len()];
+        let mut largest = by_state.amax();
+        for k in (0..self.states.len() - 1).rev() {
+            let (rate, jacobian) = self.rate(&mut runner, k);
+            let by_step = pull_back_step(self.interval, &rate, &jacobian, &by_state);
+            backward.run(&|symbol| match symbol {
+                Symbol::Weight(output) => by_step[output],
+                other => self.signal(k, other),
+            });
+            let (sample, share) = self.middle(k);
+            for (number, slopes) in slopes.iter_mut().enumerate() {
+                let slope = backward.finite(number);
+                slopes[sample] += (1.0 - share) * slope;
+                slopes[(sample + 1) % samples] += share * slope;
             }
+            for state in 0..by_state.len() {
+                by_state[state] += backward.finite(self.signals.len() + state);
+                if k % self.substeps == 0 {
+                    by_state[state] += weights[state][sample];
+                }
+            }
+            largest = largest.max(by_state.amax());
+        }
+        Round {
+            by_beginning: by_state,
+            slopes,
+            largest,
         }
     }
 
-    /// The rates and their slopes by the states, from a sample to the next.
-    fn rate(&self, runner: &mut Runner<'_>, sample: usize) -> (DVector<f64>, DMatrix<f64>) {
-        let count = self.part.states.count;
-        runner.run(&|symbol| self.signal(sample, symbol));
-        let output = |k: usize| runner.scratch.output(k);
-        (
-            DVector::from_fn(count, |row, _| output(row)),
-            DMatrix::from_fn(count, count, |row, column| {
-                output(count + row * count + column)
-            }),
-        )
+    /// The sample before a step's middle, and the share of the way to the next.
+    fn middle(&self, k: usize) -> (usize, f64) {
+        let share = ((k % self.substeps) as f64 + 0.5) / self.substeps as f64;
+        (k / self.substeps, share)
     }
 
-    fn signal(&self, sample: usize, symbol: Symbol) -> f64 {
-        let dof = self.middles.len() / 3;
+    /// The rates and their slopes by the states, at a step.
+    fn rate(&self, runner: &mut Runner<'_>, k: usize) -> (DVector<f64>, DMatrix<f64>) {
+        let count = self.part.states.count;
+        runner.run(&|symbol| self.signal(k, symbol));
+        let (mut rate, mut jacobian) = (DVector::zeros(count), DMatrix::zeros(count, count));
+        fill(&mut rate, &mut jacobian, |output| {
+            runner.scratch.output(output)
+        });
+        (rate, jacobian)
+    }
+
+    fn signal(&self, k: usize, symbol: Symbol) -> f64 {
+        let dof = self.signals.len() / 3;
+        let at = |signal: usize| {
+            let (sample, share) = self.middle(k);
+            let values = self.signals[signal];
+            let (x, y) = (values[sample], values[(sample + 1) % values.len()]);
+            x + share * (y - x)
+        };
         match symbol {
-            Symbol::Q(joint) => self.middles[joint][sample],
-            Symbol::Dq(joint) => self.middles[dof + joint][sample],
-            Symbol::Ddq(joint) => self.middles[2 * dof + joint][sample],
-            Symbol::State(state) => self.states[sample][state - self.part.states.first],
+            Symbol::Q(joint) => at(joint),
+            Symbol::Dq(joint) => at(dof + joint),
+            Symbol::Ddq(joint) => at(2 * dof + joint),
+            Symbol::State(state) => self.states[k][state - self.part.states.first],
             _ => unreachable!("the compiler keeps functions of the motion alone"),
         }
     }
 }
 
-/// Whether a round came back to where it began, beside the largest of what it came by.
-fn is_closed<'z>(
-    before: &DVector<f64>,
-    after: &DVector<f64>,
-    all: impl Iterator<Item = &'z DVector<f64>>,
-) -> bool {
-    let largest = all.map(DVector::amax).fold(0.0, f64::max);
-    (after - before).amax() <= CLOSED * largest
+/// What a round backward found.
+struct Round {
+    by_beginning: DVector<f64>,
+    /// `[signal][sample]`
+    slopes: Vec<Vec<f64>>,
+    /// Largest slope by a state on the way.
+    largest: f64,
+}
+
+/// `(1 - M)^-1 missing`; none where a state never forgets, so that any is as good as another.
+fn closing(round: &DMatrix<f64>, missing: &DVector<f64>) -> Option<DVector<f64>> {
+    let count = missing.len();
+    let change = (DMatrix::identity(count, count) - round)
+        .lu()
+        .solve(missing)?;
+    change.iter().all(|x| x.is_finite()).then_some(change)
 }
 
 /// Slopes of `by_after . z_after` by the rates and by the entries of their Jacobian, row by row: one run of dual numbers each.

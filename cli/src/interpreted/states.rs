@@ -106,7 +106,11 @@ fn integrate<'a>(
 }
 
 /// Outputs of the program: the rates, then the Jacobian row by row.
-fn fill(rate: &mut DVector<f64>, jacobian: &mut DMatrix<f64>, output: impl Fn(usize) -> f64) {
+pub(super) fn fill(
+    rate: &mut DVector<f64>,
+    jacobian: &mut DMatrix<f64>,
+    output: impl Fn(usize) -> f64,
+) {
     let count = rate.len();
     for row in 0..count {
         rate[row] = output(row);

@@ -35,14 +35,14 @@ pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
     if let Some(command) = command {
         writeln!(
             out,
-            "  these logs do not settle it; the motion that does: {command}"
+            "  these logs do not settle it; the motion that tells them apart best: {command}"
         )
         .expect(PUT);
     }
     out
 }
 
-/// The command; none where an effect follows from more than the motion, for which none is designed.
+/// The command; none where an effect follows from more than the motion, or is no torque that is added.
 fn experiment(
     spec: &str,
     closed: &Loop,
@@ -96,15 +96,12 @@ fn name(kind: &str) -> Option<OfMotion> {
     let effect = effects
         .iter()
         .find(|effect| effect.name.replace('_', "-") == kind)?;
-    let is_more = |leaf: &EffectLeaf| match leaf {
-        EffectLeaf::Time | EffectLeaf::Input(_) => true,
-        EffectLeaf::Signal(..)
-        | EffectLeaf::State(_)
-        | EffectLeaf::Linear(_)
-        | EffectLeaf::Shape(_)
-        | EffectLeaf::Binding(_) => false,
-    };
-    let mut equations = effect.equations();
+    let is_more = |leaf: &EffectLeaf| matches!(leaf, EffectLeaf::Time | EffectLeaf::Input(_));
+    let rates = effect
+        .states
+        .iter()
+        .map(|state| &effect.bindings[state.rate].value);
+    let mut equations = effect.equations().chain(rates);
     let is_of_motion = !equations.any(|value| effect.reads(value, &is_more));
     (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
         name: effect.name.clone(),

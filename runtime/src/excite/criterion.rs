@@ -183,13 +183,25 @@ impl Rivals {
         Some((v.transpose() * (a * &v))[(0, 0)])
     }
 
-    /// Weights of the columns in what is left of effect `own`.
-    fn unexplained(&self, a: &Mat<f64>, own: usize) -> Option<Mat<f64>> {
-        let n = a.nrows();
-        let mut v = Mat::zeros(n, 1);
+    /// The squared length of effect `own`.
+    pub(super) fn length(&self, a: &Mat<f64>, own: usize) -> f64 {
+        let v = self.weights(a.nrows(), own);
+        (v.transpose() * (a * &v))[(0, 0)]
+    }
+
+    /// Weights of the columns in effect `own`.
+    fn weights(&self, columns: usize, own: usize) -> Mat<f64> {
+        let mut v = Mat::zeros(columns, 1);
         for &(column, size) in &self.effects[own] {
             v[(column, 0)] = size;
         }
+        v
+    }
+
+    /// Weights of the columns in what is left of effect `own`.
+    fn unexplained(&self, a: &Mat<f64>, own: usize) -> Option<Mat<f64>> {
+        let n = a.nrows();
+        let mut v = self.weights(n, own);
         let is_own = |k: usize| self.effects[own].iter().any(|&(column, _)| column == k);
         let others: Vec<usize> = (0..n).filter(|&k| !is_own(k)).collect();
         let image = a * &v;

@@ -115,9 +115,9 @@ pub enum ExciteError {
         /// By how much it is missed.
         by: String,
     },
-    /// Parameters that no motion tells.
+    /// Parameters that no motion tells which was found.
     #[error(
-        "no motion within these limits tells {0}: fix them in the spec, widen the limits of the joints that move them, or, where they act with the load, give the arm's parameters"
+        "no motion that was found within these limits tells {0}: fix them in the spec, widen the limits of the joints that move them, try more starts or, where they act with the load, give the arm's parameters"
     )]
     NotExcited(String),
 }

@@ -57,17 +57,18 @@ impl Fourier {
         self.coefficients.first().map_or(0, |joint| joint.len() / 2)
     }
 
-    /// `count` instants of one period, evenly spaced from 0.
+    /// `count` instants of one period, in the middle of as many equal parts.
     #[must_use]
     pub fn instants(&self, count: usize) -> Vec<f64> {
         instants(self.period, count)
     }
 }
 
-/// `count` instants of one period, evenly spaced from 0.
+/// `count` instants of one period, in the middle of as many equal parts: none is the one at which the motion begins at rest, where
+/// friction is what its law says of standing still.
 pub(super) fn instants(period: f64, count: usize) -> Vec<f64> {
     (0..count)
-        .map(|k| period * k as f64 / count as f64)
+        .map(|k| period * (k as f64 + 0.5) / count as f64)
         .collect()
 }
 

@@ -48,6 +48,11 @@ const STAGES: [(f64, f64, usize); 4] = [
     (2e-4, 16.0, 100),
 ];
 
+/// How often a start from which some columns are not seen, as those of what sets in at a large torque, moves on by so many steps
+/// toward a larger motion.
+const WARMING: usize = 12;
+const WARMING_STEPS: usize = 10;
+
 /// Condition number of unit columns from which on its square is the rounding of a double: what is beyond tells nothing.
 const MOST_CONDITION: f64 = 1e7;
 
@@ -139,11 +144,13 @@ impl Request {
         let quality = self.quality(&motion)?;
         let condition = quality.condition_of_unit_columns;
         if condition.is_nan() || condition > MOST_CONDITION {
-            let what = match self.criterion {
-                Criterion::Separation(_) => {
-                    "one of the two effects from what the arm's own parameters imitate"
-                }
-                _ => "the parameters from each other",
+            // Distances are squared.
+            let is_imitated =
+                |distances: [f64; 2]| distances.iter().any(|d| *d < MOST_CONDITION.powi(-2));
+            let what = if quality.shares.is_some_and(is_imitated) {
+                "one of the two effects from what the other one and the arm's own parameters imitate"
+            } else {
+                "the parameters from each other"
             };
             return Err(ExciteError::NotExcited(what.to_owned()));
         }
@@ -182,6 +189,14 @@ impl Request {
             let sharpness = Sharpness(sharpness);
             (Stage { barrier, sharpness }, steps)
         });
+        problem.warms_up = true;
+        for _ in 0..WARMING {
+            if problem.has_a_value(&z) {
+                break;
+            }
+            interior::descend(problem, &mut z, stages[0].0, WARMING_STEPS, go_on);
+        }
+        problem.warms_up = false;
         for (stage, steps) in stages {
             interior::descend(problem, &mut z, stage, steps, go_on);
         }

@@ -18,6 +18,8 @@ pub(super) struct Problem<'a> {
     pub clearances: &'a [Box<dyn Clearance>],
     pub limits: &'a Limits,
     pub criterion: &'a Criterion,
+    /// Whether columns that are zero along a motion do not count, so that any motion has a value: the determinant of the others.
+    pub warms_up: bool,
     pub basis: Option<&'a Basis>,
     pub scaling: Scaling,
     /// What a joint's rows are multiplied by: one over the deviation of its torque noise.
@@ -93,6 +95,7 @@ impl<'a> Problem<'a> {
             clearances: &request.clearances,
             limits: &request.limits,
             criterion: &request.criterion,
+            warms_up: false,
             basis: request.basis.as_ref(),
             scaling: request.scaling,
             reserve: vec![0.0; request.clearances.len()],
@@ -245,6 +248,18 @@ impl<'a> Problem<'a> {
         self.information(&values).0
     }
 
+    /// Whether the criterion has a value at some variables.
+    pub(super) fn has_a_value(&self, z: &[f64]) -> bool {
+        let values = self.regressor.function.values(&self.motion(z));
+        let (a, _) = self.information(&values);
+        let counted = self.basis.map(|basis| basis.information(&a));
+        let counted = counted.as_ref().unwrap_or(&a);
+        let valued = self
+            .criterion
+            .evaluate(counted, self.scaling, Sharpness(1.0));
+        valued.is_some_and(|valued| valued.value.is_finite())
+    }
+
     /// Value and slopes; `None` beyond a limit, and where the motion excites too little for a value.
     pub(super) fn evaluate(&self, z: &[f64], stage: Stage) -> Option<Point> {
         let motion = self.motion(z);
@@ -252,6 +267,7 @@ impl<'a> Problem<'a> {
         let values = self.regressor.function.values(&motion);
         let (a, rows) = self.information(&values);
         let valued = match self.basis {
+            _ if self.warms_up => of_seen_columns(&a, stage.sharpness)?,
             None => self.criterion.evaluate(&a, self.scaling, stage.sharpness)?,
             Some(basis) => {
                 let counted = basis.information(&a);
@@ -352,4 +368,19 @@ impl<'a> Problem<'a> {
         }
         Some(point)
     }
+}
+
+/// The determinant of the columns that a motion sees.
+fn of_seen_columns(a: &Mat<f64>, sharpness: Sharpness) -> Option<Valued> {
+    let n = a.nrows();
+    let seen: Vec<usize> = (0..n).filter(|&k| a[(k, k)] > 0.0).collect();
+    let part = Mat::from_fn(seen.len(), seen.len(), |i, k| a[(seen[i], seen[k])]);
+    let Valued { value, slopes } = Criterion::DOptimal.evaluate(&part, Scaling::Raw, sharpness)?;
+    let mut all = Mat::zeros(n, n);
+    for (i, &p) in seen.iter().enumerate() {
+        for (k, &q) in seen.iter().enumerate() {
+            all[(p, q)] = slopes[(i, k)];
+        }
+    }
+    Some(Valued { value, slopes: all })
 }

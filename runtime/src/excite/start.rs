@@ -98,7 +98,10 @@ fn worst(request: &Request, problem: &Problem<'_>, z: &[f64]) -> ExciteError {
         let slack = 1.0 - (motion.q[joint][0] - middle).abs() / half;
         if slack < least {
             (least, what) = (slack, format!("position of `{name}`"));
-            by = format!("{:.0} %", -100.0 * slack.min(0.0));
+            by = match -100.0 * slack.min(0.0) {
+                percent if percent < 1.0 => "less than 1 %".to_owned(),
+                percent => format!("{percent:.0} %"),
+            };
         }
     }
     let poses = match request.ends {

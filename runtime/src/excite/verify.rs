@@ -30,6 +30,8 @@ pub struct Quality {
     pub hadamard: f64,
     /// Squared T-optimal distances of two effects, each from what the model and its rival can do; only of a design that separates.
     pub distances: Option<[f64; 2]>,
+    /// The same as shares of the effects' own squared lengths; tiny where one is imitated.
+    pub shares: Option<[f64; 2]>,
     /// By how much the worst limit is exceeded on a grid ten times as fine as the design's, as a share of it, of a room in m; 0 if none
     /// is.
     pub violation: f64,
@@ -95,6 +97,12 @@ impl Request {
             Criterion::Separation(rivals) => distances(rivals, &a),
             _ => None,
         };
+        let shares = match &self.criterion {
+            Criterion::Separation(rivals) => distances.map(|distances| {
+                std::array::from_fn(|own| distances[own] / rivals.length(&a, own))
+            }),
+            _ => None,
+        };
         let (violation, violated) = self.violation(&fine);
         Ok(Quality {
             condition: condition(&raw),
@@ -103,6 +111,7 @@ impl Request {
             least_singular: raw.first().map_or(0.0, |x| x.max(0.0).sqrt()),
             hadamard,
             distances,
+            shares,
             violation,
             violated,
         })

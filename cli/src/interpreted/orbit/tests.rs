@@ -2,7 +2,7 @@
 
 use robot_model::excite::Function;
 use robot_model::motion::Kinematics;
-use robot_model_codegen::{Compiled, Nominal, compile_model};
+use robot_model_codegen::{Compiled, Nominal, RivalColumns, compile_model};
 
 use crate::interpreted::InterpretedFunction;
 
@@ -11,7 +11,20 @@ const PERIOD: f64 = 4.0;
 /// Two joints that turn about one axis, with an effect on the second.
 fn arm(effect: &str) -> Compiled {
     let text = format!(
-        "robot Table {{
+        "effect slow(j) {{
+            linear k;
+            state z;
+            dot(z) = (dq(j)^2 - z) / 600;
+            torque(j) = k * z;
+        }}
+        effect swing(j) {{
+            linear k;
+            state x, v;
+            dot(x) = v;
+            dot(v) = 20 * (q(j) - x) - 0.3 * v - x^3;
+            torque(j) = k * x;
+        }}
+        robot Table {{
             convention = standard_dh;
             gravity = [0, 0, 0];
             joint base: revolute {{ a = 0.4 m; alpha = 0; d = 0; }}
@@ -53,7 +66,7 @@ fn columns(compiled: &Compiled, shapes: &[f64]) -> InterpretedFunction {
         shapes: shapes.to_vec(),
         turn: vec![0.01; 2],
     };
-    let columns = compiled.design_columns(&nominal, &[]);
+    let columns = compiled.design_columns(&nominal, &RivalColumns::default());
     assert!(columns.left_out.is_empty(), "{:?}", columns.left_out);
     InterpretedFunction::new(columns.function, 2, PERIOD)
 }
@@ -64,6 +77,8 @@ fn slopes_go_through_memory() {
         ("dahl", vec![0.08]),
         ("lugre_presliding", vec![0.05, 0.2, 0.6]),
         ("cable_hysteresis", vec![0.2, 0.7, 1.5]),
+        ("slow", vec![]),
+        ("swing", vec![]),
     ] {
         let compiled = arm(effect);
         let function = columns(&compiled, &shapes);
@@ -99,6 +114,17 @@ fn slopes_go_through_memory() {
                 (numeric - exact).abs() < 1e-5 * (1.0 + exact.abs()),
                 "{effect} at {sample}: {numeric} {exact}"
             );
+            let moved = |by: f64| {
+                let mut moved = at.clone();
+                moved.q[1][sample] += by;
+                sum(&moved)
+            };
+            let numeric = (moved(h) - moved(-h)) / (2.0 * h);
+            let exact = slopes.q[1][sample];
+            assert!(
+                (numeric - exact).abs() < 1e-5 * (1.0 + exact.abs()),
+                "{effect} at {sample}: {numeric} {exact}"
+            );
         }
     }
 }
@@ -130,4 +156,36 @@ fn a_period_begins_as_the_last_one_ended() {
         worst = worst.max((z[sample] - wanted).abs());
     }
     assert!(worst < 1e-3, "{worst}");
+}
+
+/// A state that takes a hundred periods to settle is at its mean.
+#[test]
+fn a_slow_state_is_where_it_ends_up() {
+    let function = columns(&arm("slow"), &[]);
+    let at = motion(200);
+    let mean = at.dq[1].iter().map(|v| v * v).sum::<f64>() / 200.0;
+    let values = function.values(&at);
+    let is_level = |values: &&Vec<f64>| values.iter().all(|z| (z - mean).abs() < 0.02 * mean);
+    assert!(values.iter().any(|output| is_level(&output)), "{mean}");
+}
+
+/// What a search sees on few samples is what is verified on many, however short the distance over which friction builds up.
+#[test]
+fn few_samples_see_what_many_see() {
+    for (effect, shapes) in [
+        ("dahl", vec![2e-3]),
+        ("lugre_presliding", vec![5e-3, 0.05, 0.6]),
+        ("cable_hysteresis", vec![0.02, 0.5, 1.0]),
+    ] {
+        let function = columns(&arm(effect), &shapes);
+        let square = |samples: usize| -> Vec<f64> {
+            let values = function.values(&motion(samples));
+            let mean = |x: &Vec<f64>| x.iter().map(|x| x * x).sum::<f64>() / samples as f64;
+            values.iter().map(mean).collect()
+        };
+        let (few, many) = (square(200), square(4000));
+        for (few, many) in few.iter().zip(&many) {
+            assert!((few - many).abs() < 0.03 * many, "{effect}: {few} {many}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{ARM, FRICTION, SMALL, folder};
+use super::{ARM, FRICTION, SMALL, arm, columns, folder};
 use crate::common::{json, numbers};
 
 /// Two kinds of friction that look alike in a motion of one speed.
@@ -74,9 +74,192 @@ fn an_effect_that_the_arm_imitates_is_told() {
     let out = ["--out", "out.csv"];
     let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &out].concat());
     assert!(
-        said.contains("from what the arm's own parameters imitate"),
+        said.contains("from what the other one and the arm's own parameters imitate"),
         "{said}"
     );
+}
+
+/// A shape that the spec leaves open is the one that is said: no second effect is declared beside it.
+#[test]
+fn an_open_shape_is_the_one_that_is_said() {
+    let folder = folder();
+    folder.write("friction.json", &with_bodies());
+    for (declared, said) in [
+        (
+            "encoder_offset on upper; dahl on upper;",
+            "encoder_offset(offset = 0.02) on upper",
+        ),
+        (
+            "encoder_offset(offset = 0.02) on upper; dahl on upper;",
+            "encoder_offset on upper",
+        ),
+        (
+            "encoder_offset(offset = 0.02) on upper; dahl on upper;",
+            "encoder_offset(offset = 0.02) on upper",
+        ),
+    ] {
+        let text = arm().replace("effects {", &format!("effects {{ {declared}"));
+        folder.write("open.robot", &text);
+        let rivals = ["--separate", said, "--from", "dahl(d = 0.05) on upper"];
+        let run = ["excite", "open.robot", "--parameters", "friction.json"];
+        let files = ["--out", "out.csv", "--budget", "1e-9"];
+        let out = folder.succeed(&[&run[..], &SMALL, &rivals, &files].concat());
+        // Six of the bodies, four of friction, Dahl's, the offset.
+        assert!(out.starts_with("12 columns"), "{declared}: {out}");
+    }
+}
+
+/// The arm with the gain stands straight: a limit that it would exceed is not kept by the other one's offset.
+#[test]
+fn limits_hold_for_either_of_two_effects() {
+    let folder = folder();
+    let tight = arm().replace("torque = 25", "torque = 14");
+    folder.write("arm.robot", &tight);
+    folder.write("friction.json", &with_bodies());
+    let rivals = [
+        "--separate",
+        "encoder_offset(offset = 0.3) on upper",
+        "--from",
+        "torque_gain on upper: excess = 0.1",
+    ];
+    let files = ["--out", "out.csv", "--rate", "100"];
+    folder.succeed(&[&ARM[..], &SMALL, &rivals, &files].concat());
+    let (head, columns) = columns(&folder.read("out.csv"));
+    let of = |name: &str| {
+        let place = head.iter().position(|column| column == name);
+        &columns[place.expect("a column")]
+    };
+    let states: Vec<Value> = (0..of("time").len())
+        .map(|k| {
+            let joints = |what: &str| [1, 2].map(|joint| of(&format!("{what}{joint}"))[k]);
+            serde_json::json!({"q": joints("q"), "dq": joints("dq"), "ddq": joints("ddq")})
+        })
+        .collect();
+    folder.write(
+        "states.json",
+        &serde_json::json!({"states": states}).to_string(),
+    );
+    for (effect, value) in [
+        (
+            "torque_gain on upper",
+            r#""upper.torque_gain.excess": 0.1, "#,
+        ),
+        ("encoder_offset(offset = 0.3) on upper", ""),
+    ] {
+        let text = tight.replace("effects {", &format!("effects {{ {effect};"));
+        folder.write("one.robot", &text);
+        folder.write(
+            "one.json",
+            &with_bodies().replace('{', &format!("{{{value}")),
+        );
+        let run = ["eval", "one.robot", "--parameters", "one.json"];
+        let out = json(&folder.succeed(&[&run[..], &["--states", "states.json"]].concat()));
+        for state in out["states"].as_array().expect("a list") {
+            let torque = numbers(&state["torque"]);
+            assert!(
+                torque.iter().all(|tau| tau.abs() < 14.0 + 1e-9),
+                "{effect}: {state}"
+            );
+        }
+    }
+}
+
+/// States that follow from time, channels, or measured torque and so from other states: they are not designed for, and told.
+#[test]
+fn states_of_more_than_the_motion_are_left_out() {
+    let folder = folder();
+    for (name, rate) in [
+        ("aging", "dq(j) * exp(-time / 10) - z"),
+        ("heating", "dq(j) - z * temperature"),
+        ("lagging", "(measured_torque(j) - z) / 0.1"),
+    ] {
+        let input = if name == "heating" {
+            "input temperature;"
+        } else {
+            ""
+        };
+        let effect = format!(
+            "effect {name}(j) {{ linear k; {input} state z; dot(z) = {rate}; torque(j) = k * z; }}\n"
+        );
+        let declared = format!("effects {{ dahl(d = 0.05) on upper; {name} on lower;");
+        folder.write(
+            "more.robot",
+            &format!("{effect}{}", arm().replace("effects {", &declared)),
+        );
+        let values = format!(r#"{{"upper.dahl.fc": 0.5, "lower.{name}.k": 1, "#);
+        folder.write("more.json", &with_bodies().replace('{', &values));
+        let run = ["excite", "more.robot", "--parameters", "more.json"];
+        let files = ["--out", "out.csv", "--budget", "1e-9"];
+        let ran = folder.run(&[&run[..], &SMALL, &files].concat());
+        assert_eq!(ran.code, Some(0), "{name}: {}", ran.stderr);
+        let note = format!("not designed for `lower.{name}.k`");
+        assert!(ran.stderr.contains(&note), "{name}: {}", ran.stderr);
+    }
+    // Measured torque of a plain design, below the limit at which the motor saturates.
+    let declared = "effects { torque_saturation(limit = 40, v0 = 100) on upper;";
+    folder.write("arm.robot", &arm().replace("effects {", declared));
+    let ran = folder.run(&[&ARM[..], &SMALL, &["--out", "out.csv", "--budget", "1e-9"]].concat());
+    assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+    assert!(
+        ran.stderr
+            .contains("not designed for `upper.torque_saturation.share`"),
+        "{}",
+        ran.stderr
+    );
+}
+
+/// Windings are counted for ever, and a swing without damping rings on.
+#[test]
+fn states_that_do_not_settle_are_refused() {
+    let folder = folder();
+    for (state, rate) in [
+        ("z", "dot(z) = abs(dq(j));"),
+        ("z, w", "dot(z) = w; dot(w) = dq(j) - 100 * z;"),
+    ] {
+        let effect =
+            format!("effect winder(j) {{ linear k; state {state}; {rate} torque(j) = k * z; }}\n");
+        folder.write("arm.robot", &format!("{effect}{}", arm()));
+        let rivals = [
+            "--separate",
+            "winder on lower",
+            "--from",
+            "cubic_viscous on lower",
+        ];
+        let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &["--out", "out.csv"]].concat());
+        assert!(said.contains("`lower.winder.z` does not settle"), "{said}");
+    }
+}
+
+/// At rest the one law says something else than the other; everywhere else they are the same.
+#[test]
+fn two_names_of_one_effect_are_not_told_apart_at_rest() {
+    let folder = folder();
+    folder.write("friction.json", &with_bodies());
+    let rivals = [
+        "--separate",
+        "transmission_efficiency on lower: driving = 0.1, driven = 0.1",
+        "--from",
+        "load_dependent_friction on lower: mu = 0.1",
+    ];
+    let said = folder.refuse(&[&ARM[..], &SMALL, &rivals, &["--out", "out.csv"]].concat());
+    assert!(said.contains("imitate"), "{said}");
+}
+
+/// A motor that saturates only where the motion is large: small motions do not see it.
+#[test]
+fn what_sets_in_late_is_looked_for() {
+    let folder = folder();
+    folder.write("friction.json", &with_bodies());
+    let rivals = [
+        "--separate",
+        "torque_saturation(limit = 18, v0 = 30) on upper: share = 1",
+        "--from",
+        "torque_gain on upper: excess = 0.05",
+    ];
+    let files = ["--out", "out.csv", "--json", "out.json"];
+    folder.succeed(&[&ARM[..], &SMALL, &rivals, &files].concat());
+    let distances = numbers(&json(&folder.read("out.json"))["distances"]);
+    assert!(distances[0] > 1e-3, "{distances:?}");
 }
 
 #[test]
@@ -110,6 +293,11 @@ fn rivals_that_are_none_are_told() {
             "has `c`: say what each",
         ),
         (cubic, cubic, "nothing tells an effect from itself"),
+        (
+            "encoder_offset on lower: offset = 0.01",
+            cubic,
+            "say its shapes",
+        ),
         ("stribeck on lower:", cubic, "is no effect with its size"),
         ("sticktion on lower: fs = 1", cubic, "sticktion"),
         ("quadratic_viscous on wrist: c = 1", cubic, "wrist"),

@@ -74,7 +74,7 @@ fn what_a_log_leaves_open_the_next_experiment_settles() {
     );
     let command = said
         .lines()
-        .find_map(|line| line.split_once("the motion that does: robot-model "));
+        .find_map(|line| line.split_once("the motion that tells them apart best: robot-model "));
     let command = words(command.expect("a command").1);
     let command: Vec<&str> = command.iter().map(String::as_str).collect();
     folder.succeed(&command);
