@@ -1,5 +1,7 @@
 //! `identify --method physical`.
 
+use std::fmt::Write;
+
 use robot_model::Inertial;
 use serde_json::Value;
 
@@ -20,7 +22,7 @@ fn folder(noise: &str) -> Folder {
         let t = f64::from(k) / 100.0;
         let upper = 0.6 * (1.3 * t).sin() + 0.2 * (2.9 * t).sin();
         let lower = 0.5 * (1.9 * t).sin() - 0.3 * (3.3 * t).cos();
-        motion.push_str(&format!("{t},{upper},{lower}\n"));
+        writeln!(motion, "{t},{upper},{lower}").expect("a string takes all");
     }
     folder.write("motion.csv", &motion);
     let run = [
@@ -144,11 +146,8 @@ fn a_robot_of_energies_has_no_bodies() {
     let mut log = String::from("time,q1,tau1\n");
     for k in 0..2000 {
         let t = f64::from(k) / 200.0;
-        log.push_str(&format!(
-            "{t},{},{}\n",
-            (2.0 * t).sin(),
-            -8.0 * (2.0 * t).sin()
-        ));
+        let (q, tau) = ((2.0 * t).sin(), -8.0 * (2.0 * t).sin());
+        writeln!(log, "{t},{q},{tau}").expect("a string takes all");
     }
     folder.write("log.csv", &log);
     let said = folder.refuse(&["identify", "swing.robot", "log.csv", "--method", "physical"]);
