@@ -3,6 +3,7 @@
 //! One file a verb; each reads its inputs, calls the libraries once, and writes its results. Results go to standard output
 //! or to files, messages and progress to standard error. Exit codes: 0 done, 1 the input is at fault, 2 usage.
 
+mod audit;
 mod check;
 mod close_the_loop;
 mod demo;
@@ -54,6 +55,7 @@ enum Verb {
     Identify(identify::IdentifyArguments),
     Trace(trace::TraceArguments),
     Dissect(dissect::Dissect),
+    Audit(audit::Audit),
     Demo(demo::Demo),
 }
 
@@ -70,6 +72,7 @@ impl Verb {
             Self::Identify(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
             Self::Dissect(verb) => verb.run(),
+            Self::Audit(verb) => verb.run(),
             Self::Demo(verb) => verb.run(),
         }
     }

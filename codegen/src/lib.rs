@@ -25,6 +25,7 @@ pub mod show;
 pub mod states;
 
 mod alone;
+mod audited;
 mod baked;
 mod build_script;
 mod compiled;

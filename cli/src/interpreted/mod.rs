@@ -24,6 +24,8 @@ pub use candidate::InterpretedCandidate;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
+pub(crate) use possible::possible_arms;
+pub(crate) use states::states;
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
 use robot_model::identify::PossibleArms;
@@ -193,7 +195,7 @@ impl Arm for InterpretedArm {
     }
 
     fn possible_arms(&self) -> Option<PossibleArms> {
-        possible::possible_arms(&self.compiled)
+        possible_arms(&self.compiled)
     }
 
     fn transmitted_torque(

@@ -6,7 +6,7 @@ use robot_model_spec::model::Inertial;
 use robot_model_spec::parameter::{InertialElement, Owner, Status};
 
 /// `None` for a robot that says its energies.
-pub(super) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
+pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
     let (model, standard) = (&compiled.model, &compiled.standard);
     let chain = model.chain()?;
     let count = InertialElement::ALL.len();

@@ -28,6 +28,8 @@ pub(crate) struct Values {
     pub parameters: Vec<f64>,
     /// One per shape parameter of the declared effects.
     pub shapes: Vec<f64>,
+    /// Standard parameters, `None` each where no torque depends on it; none at all where the file gives base parameters.
+    pub standard: Option<Vec<Option<f64>>>,
     /// What the file gives.
     pub given: Given,
     /// Parameters whose nominal value in the spec was taken, as the file gives none.
@@ -37,12 +39,7 @@ pub(crate) struct Values {
 /// Values from a file, and from the spec where the file has none or there is no file. What is remarkable about those of a file
 /// is told.
 pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values, Error> {
-    let (given, source) = match file {
-        Some(path) => (file::read(path)?, path.display().to_string()),
-        None => (BTreeMap::new(), compiled.model.source.clone()),
-    };
-    let (values, doubts) =
-        arm(compiled, &given).map_err(|reason| Error::Argument(format!("{source}: {reason}")))?;
+    let (values, doubts, source) = values(compiled, file)?;
     if file.is_some() {
         for doubt in doubts {
             output::say(&format!("warning: {source}: {doubt}"));
@@ -68,6 +65,21 @@ pub(crate) struct Known {
     pub(crate) missing: Vec<String>,
     /// Names of shapes that have their first value.
     pub(crate) guessed: Vec<String>,
+}
+
+/// The same, with sentences about what no arm has, and the name of the source; nothing is told.
+pub(crate) fn values(
+    compiled: &Compiled,
+    file: Option<&Path>,
+) -> Result<(Values, Vec<String>, String), Error> {
+    let (given, source) = match file {
+        Some(path) => (file::read(path)?, path.display().to_string()),
+        None => (BTreeMap::new(), compiled.model.source.clone()),
+    };
+    let found = arm(compiled, &given);
+    let (values, doubts) =
+        found.map_err(|reason| Error::Argument(format!("{source}: {reason}")))?;
+    Ok((values, doubts, source))
 }
 
 /// What is known from a file, `more` by name and the spec.
@@ -127,17 +139,17 @@ fn arm(
         && linear.len() == base_names.len()
         && base_names.iter().all(|name| given.contains_key(name));
     let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
-    let (beta, doubts) = if is_base {
+    let (beta, all, doubts) = if is_base {
         let beta: Vec<f64> = base_names.iter().map(|name| given[name]).collect();
         let doubts = physical::of_base(compiled, &beta);
-        (beta, doubts)
+        (beta, None, doubts)
     } else {
         check_names(compiled, &linear)?;
         let given = products(compiled, given, &mut from_spec)?;
         let standard = standard(compiled, &given, &mut missing, &mut from_spec)?;
         let doubts = physical::of_standard(compiled, &standard);
-        let standard: Vec<f64> = standard.iter().map(|value| value.unwrap_or(0.0)).collect();
-        (compiled.base.beta(&standard), doubts)
+        let numbers: Vec<f64> = standard.iter().map(|value| value.unwrap_or(0.0)).collect();
+        (compiled.base.beta(&numbers), Some(standard), doubts)
     };
     let shapes = shapes(compiled, given, &mut missing)?;
     if !missing.is_empty() {
@@ -149,6 +161,7 @@ fn arm(
         parameters: compiled.parameter_values(&beta),
         beta,
         shapes,
+        standard: all,
         given: if is_base {
             Given::Base
         } else {

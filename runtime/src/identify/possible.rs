@@ -111,6 +111,37 @@ pub(super) fn make(
 }
 
 impl PossibleArms {
+    /// The possible arm nearest to values of the unknowns, each in units of its deviation: unknowns and standard parameters.
+    ///
+    /// # Examples
+    /// A rotor cannot have an inertia below zero.
+    /// ```
+    /// use robot_model::identify::PossibleArms;
+    /// let mut arms = PossibleArms::default();
+    /// arms.names = vec!["joint.motor_inertia.ia".to_owned()];
+    /// arms.fixed = vec![None];
+    /// arms.combinations = vec![vec![(0, 1.0)]];
+    /// arms.kept = vec![0];
+    /// arms.nonnegative = vec![0];
+    /// let (unknowns, standard) = arms.nearest_to(&[-0.2], &[1e-3]);
+    /// assert!(unknowns[0] > 0.0 && unknowns[0] < 1e-6 && unknowns == standard);
+    /// ```
+    #[must_use]
+    pub fn nearest_to(&self, values: &[f64], deviations: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let n = values.len();
+        let factor = Mat::from_fn(n, n + 1, |row, column| {
+            if column == n {
+                values[row] / deviations[row]
+            } else if row == column {
+                1.0 / deviations[row]
+            } else {
+                0.0
+            }
+        });
+        let nearest = self.nearest(&factor);
+        (nearest.estimate, nearest.standard)
+    }
+
     /// The possible arm nearest to a triangular factor `[R | r]` of the weighted rows.
     pub(super) fn nearest(&self, factor: &Mat<f64>) -> Nearest {
         let unknowns = self.kept.len();

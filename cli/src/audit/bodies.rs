@@ -1,0 +1,114 @@
+//! Whether links are bodies: mass that is spread over space.
+
+use robot_model::Inertial;
+use robot_model_codegen::Compiled;
+
+use super::Check;
+use crate::interpreted::possible_arms;
+use crate::output::counted;
+use crate::parameters::Values;
+
+/// Rounding of a second moment, relative to the largest.
+const ROUNDING: f64 = 1e-9;
+
+/// Base parameters are taken to be known to this share of their size, and of the largest with the same unit.
+const SHARE: f64 = 1e-3;
+const LEAST_SHARE: f64 = 1e-3;
+
+/// How many of them are shown.
+const SHOWN: usize = 8;
+
+/// Deviations, at most, by which base parameters of an arm that can be miss the values.
+const MISSED: f64 = 3.0;
+
+/// `None` for a robot that says its energies.
+pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
+    let chain = compiled.model.chain()?;
+    let count = counted(chain.links.len(), "link");
+    let Some(standard) = &values.standard else {
+        return Some(Check::new(
+            "bodies",
+            format!("{count}, by base parameters: whether some bodies have them"),
+            of_base(compiled, &values.beta),
+        ));
+    };
+    let links = chain.links.iter().zip(standard.chunks(10));
+    let findings = links.filter_map(|(link, ten)| {
+        let ten: Option<Vec<f64>> = ten.iter().copied().collect();
+        let ten: [f64; 10] = ten?.try_into().ok()?;
+        impossible(&Inertial::from(ten)).map(|reason| format!("link `{}`: {reason}", link.name))
+    });
+    let findings = findings.collect();
+    let scope = format!("{count}: mass spread over space");
+    Some(Check::new("bodies", scope, findings))
+}
+
+/// Why no body has these parameters.
+fn impossible(inertial: &Inertial) -> Option<String> {
+    let mass = inertial.mass;
+    let [ixx, _, _, iyy, _, izz] = inertial.inertia;
+    if mass < 0.0 {
+        return Some(format!("a mass of {mass} kg"));
+    }
+    let first = inertial.first_moments;
+    let Some(moments) = inertial.second_moments() else {
+        let is_nothing = first.iter().chain(&inertial.inertia).all(|x| *x == 0.0);
+        return (!is_nothing).then(|| "no mass, and moments of mass all the same".to_owned());
+    };
+    let spread = moments.symmetric_eigenvalues();
+    let size = inertial.pseudo_inertia().fixed_view::<3, 3>(0, 0).norm();
+    if spread.min() >= -ROUNDING * size {
+        return None;
+    }
+    let com = inertial.com().unwrap_or_default();
+    let away = com.iter().map(|x| x * x).sum::<f64>().sqrt();
+    // `S` is positive where each moment of inertia is positive and at most the sum of the other two.
+    let about_origin = mass * away * away;
+    let why = if [ixx, iyy, izz].iter().any(|moment| *moment < 0.0) {
+        "a moment of inertia is below zero".to_owned()
+    } else if about_origin > 0.5 * (ixx + iyy + izz) {
+        format!(
+            "its center of mass would be {away:.3} m from the frame's origin, too far for its moments of inertia"
+        )
+    } else {
+        "about the center of mass a moment of inertia exceeds the sum of the other two".to_owned()
+    };
+    Some(format!(
+        "{why}: least second moment of mass {:.3e} kg m^2",
+        spread.min()
+    ))
+}
+
+/// Base parameters that would have to be others, were every link a body.
+fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
+    let Some(arms) = possible_arms(compiled) else {
+        return Vec::new();
+    };
+    let largest = beta
+        .iter()
+        .fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+    let deviations: Vec<f64> = beta
+        .iter()
+        .map(|value| SHARE * value.abs().max(LEAST_SHARE * largest))
+        .collect();
+    let (nearest, _) = arms.nearest_to(beta, &deviations);
+    let pairs = beta.iter().zip(&nearest).zip(&deviations);
+    let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
+    let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
+    missed.retain(|(missed, _)| *missed > MISSED);
+    missed.sort_by(|x, y| y.0.total_cmp(&x.0));
+    let mut findings: Vec<String> = missed
+        .iter()
+        .take(SHOWN)
+        .map(|&(_, k)| {
+            format!(
+                "`{}` is {:.4}; of arms whose links have bodies the nearest has {:.4}",
+                compiled.base.names[k], beta[k], nearest[k]
+            )
+        })
+        .collect();
+    if missed.len() > SHOWN {
+        findings.push(format!("and {} more", missed.len() - SHOWN));
+    }
+    findings
+}

@@ -1,0 +1,125 @@
+//! Whether the arm has an inertia in every direction of motion, wherever it stands.
+
+use nalgebra::DMatrix;
+use robot_model_codegen::Compiled;
+use robot_model_codegen::expr::Symbol;
+use robot_model_codegen::interpreter::Program;
+use robot_model_spec::model::JointKind;
+
+use super::Check;
+use crate::parameters::Values;
+
+/// Poses that are looked at, and the worst of them from which the search goes on.
+const POSES: usize = 2000;
+const SEARCHED: usize = 5;
+
+/// Range of a joint without position limits: all angles, or so many meters either way.
+const ANGLE: f64 = std::f64::consts::PI;
+const SLIDE: f64 = 1.0;
+
+/// Part of a range at which the search ends.
+const FINE: f64 = 1e-5;
+
+pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
+    let workspace = workspace(compiled);
+    let inertia = Inertia {
+        program: compiled.inertia_at_rest(),
+        values,
+    };
+    let mut poses: Vec<(f64, Vec<f64>)> = (0..POSES)
+        .map(|k| {
+            let pose = pose(&workspace, k);
+            (inertia.least(&pose), pose)
+        })
+        .collect();
+    poses.sort_by(|x, y| x.0.total_cmp(&y.0));
+    poses.truncate(SEARCHED);
+    let searched = poses
+        .into_iter()
+        .map(|(_, pose)| inertia.descend(&workspace, pose));
+    let worst = searched.min_by(|x, y| x.0.total_cmp(&y.0));
+    let (least, pose) = worst.unwrap_or_default();
+    let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
+    let found = format!("{least:.4e} at q = [{}]", at.join(", "));
+    let scope = format!("least eigenvalue of the inertia over the workspace: {found}");
+    let findings = if least > 0.0 {
+        Vec::new()
+    } else {
+        vec![format!(
+            "the inertia is not positive definite: least eigenvalue {found}; an arm there would run away from what pushes it"
+        )]
+    };
+    Check::new("inertia", scope, findings)
+}
+
+/// Ranges of the joints.
+pub(super) fn workspace(compiled: &Compiled) -> Vec<(f64, f64)> {
+    let joints = compiled.model.joints.iter();
+    let range = joints.map(|joint| {
+        let all = match joint.kind {
+            JointKind::Prismatic => SLIDE,
+            _ => ANGLE,
+        };
+        joint.limits.position.unwrap_or((-all, all))
+    });
+    range.collect()
+}
+
+/// Poses that fill the workspace evenly: Halton's sequence.
+pub(super) fn pose(workspace: &[(f64, f64)], number: usize) -> Vec<f64> {
+    let mut primes = (2_usize..).filter(|n| (2..*n).all(|k| !n.is_multiple_of(k)));
+    let place = |&(low, high): &(f64, f64)| {
+        let base = primes.next().unwrap_or(2);
+        let (mut rest, mut share, mut sum) = (number + 1, 1.0, 0.0);
+        while rest > 0 {
+            share /= base as f64;
+            sum += share * (rest % base) as f64;
+            rest /= base;
+        }
+        low + sum * (high - low)
+    };
+    workspace.iter().map(place).collect()
+}
+
+struct Inertia<'a> {
+    program: Program,
+    values: &'a Values,
+}
+
+impl Inertia<'_> {
+    /// Least eigenvalue at a pose.
+    fn least(&self, pose: &[f64]) -> f64 {
+        let entries = self.program.eval(&|symbol| match symbol {
+            Symbol::Q(joint) => pose[joint],
+            Symbol::Parameter(k) => self.values.parameters[k],
+            Symbol::Shape(k) => self.values.shapes[k],
+            _ => 0.0,
+        });
+        let matrix = DMatrix::from_row_slice(pose.len(), pose.len(), &entries);
+        let symmetric = 0.5 * (&matrix + matrix.transpose());
+        symmetric.symmetric_eigenvalues().min()
+    }
+
+    /// Goes down one joint after the other, in steps that become smaller.
+    fn descend(&self, workspace: &[(f64, f64)], mut pose: Vec<f64>) -> (f64, Vec<f64>) {
+        let mut least = self.least(&pose);
+        let mut step = 0.1;
+        while step > FINE {
+            let before = least;
+            for (joint, &(low, high)) in workspace.iter().enumerate() {
+                for way in [-1.0, 1.0] {
+                    let mut trial = pose.clone();
+                    trial[joint] = (pose[joint] + way * step * (high - low)).clamp(low, high);
+                    let value = self.least(&trial);
+                    if value < least {
+                        (least, pose) = (value, trial);
+                    }
+                }
+            }
+            if least >= before {
+                step *= 0.5;
+            }
+        }
+        (least, pose)
+    }
+}

@@ -1,0 +1,178 @@
+//! `robot-model audit`: whether an arm can have given parameters.
+
+mod bodies;
+mod friction;
+mod inertia;
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model_codegen::Compiled;
+use robot_model_spec::parameter::Owner;
+use serde::Serialize;
+
+use crate::output::{self, Files, counted, names};
+use crate::parameters::{self, Values};
+use crate::{Error, spec};
+
+/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, rank.
+///
+/// Exit code 1 where a check fails; the report is written all the same.
+#[derive(Debug, Args)]
+pub(crate) struct Audit {
+    /// The `.robot` file. Position limits are the workspace, velocity limits the speeds.
+    spec: PathBuf,
+    /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+/// What `--json` writes; a contract.
+#[derive(Serialize)]
+struct Report<'a> {
+    robot: &'a str,
+    passed: bool,
+    checks: Vec<Check>,
+}
+
+/// One question, and what speaks against it.
+#[derive(Serialize)]
+struct Check {
+    name: &'static str,
+    passed: bool,
+    /// What was looked at.
+    scope: String,
+    /// What is wrong; of `rank` what cannot be known.
+    findings: Vec<String>,
+}
+
+impl Check {
+    fn new(name: &'static str, scope: String, findings: Vec<String>) -> Self {
+        Self {
+            name,
+            passed: findings.is_empty(),
+            scope,
+            findings,
+        }
+    }
+}
+
+impl Audit {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let inputs = [Some(&self.spec), self.parameters.as_ref()];
+        let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
+        let json = Files::reading(inputs).claim_if(self.json.as_deref())?;
+        let compiled = spec::compile(&self.spec)?;
+        let (values, _, source) = parameters::values(&compiled, self.parameters.as_deref())?;
+        let checks: Vec<Check> = [
+            bodies::check(&compiled, &values),
+            Some(signs(&compiled, &values)),
+            Some(inertia::check(&compiled, &values)),
+            Some(friction::check(&compiled, &values)),
+            Some(rank(&compiled)),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let failed = checks.iter().filter(|check| !check.passed).count();
+        let report = Report {
+            robot: &compiled.model.name,
+            passed: failed == 0,
+            checks,
+        };
+        if let Some(file) = json {
+            file.commit(output::json(&report).as_bytes())?;
+        }
+        output::print(&text(&report, &source))?;
+        if failed == 0 {
+            return Ok(());
+        }
+        Err(Error::Argument(format!(
+            "{source}: {} of {} failed",
+            failed,
+            counted(report.checks.len(), "check")
+        )))
+    }
+}
+
+/// Parameters that the language says are not negative.
+fn signs(compiled: &Compiled, values: &Values) -> Check {
+    let model = &compiled.model;
+    let is_nonnegative = |k: usize| match compiled.standard[k].owner {
+        Owner::Effect { effect, parameter } => {
+            model.effects[effect].definition.linear[parameter].nonnegative
+        }
+        Owner::Link { .. } | Owner::Monomial(_) => false,
+    };
+    let all: Vec<usize> = (0..compiled.standard.len())
+        .filter(|&k| is_nonnegative(k))
+        .collect();
+    let value = |k: usize| match &values.standard {
+        Some(standard) => standard[k],
+        // A base parameter that is the parameter itself.
+        None => {
+            let combinations = compiled.base.combinations.iter();
+            let place = combinations
+                .zip(&compiled.base.kept)
+                .position(|(combination, &kept)| kept == k && combination.len() == 1);
+            place.map(|place| values.beta[place])
+        }
+    };
+    let findings = all.iter().filter_map(|&k| {
+        let value = value(k).filter(|value| *value < 0.0)?;
+        Some(format!("`{}` is {value}", compiled.standard[k].name))
+    });
+    let findings = findings.collect();
+    let scope = format!(
+        "{} that cannot be negative: friction, rotors",
+        counted(all.len(), "parameter")
+    );
+    Check::new("signs", scope, findings)
+}
+
+/// What the torques can tell; nothing here is at fault.
+fn rank(compiled: &Compiled) -> Check {
+    let base = &compiled.base;
+    let known = compiled.standard.len() - base.fixed.len();
+    let mut findings = Vec::new();
+    if !base.unidentifiable.is_empty() {
+        let silent = base.unidentifiable.iter();
+        let silent: Vec<&str> = silent
+            .map(|&k| compiled.standard[k].name.as_str())
+            .collect();
+        findings.push(format!("no torque depends on {}", names(&silent)));
+    }
+    let regrouped = known - base.unidentifiable.len() - base.kept.len();
+    if regrouped > 0 {
+        findings.push(format!(
+            "{} only in sums with others: `robot-model show --what base-parameters` has them",
+            counted(regrouped, "parameter")
+        ));
+    }
+    Check {
+        name: "rank",
+        passed: true,
+        scope: format!(
+            "{} of {} that the spec does not fix",
+            counted(base.kept.len(), "base parameter"),
+            counted(known, "parameter")
+        ),
+        findings,
+    }
+}
+
+fn text(report: &Report<'_>, source: &str) -> String {
+    let mut text = format!("{} with the values of {source}\n", report.robot);
+    for check in &report.checks {
+        let verdict = if check.passed { "passed" } else { "FAILED" };
+        writeln!(text, "{:<9} {verdict}  {}", check.name, check.scope).expect("a string takes all");
+        for finding in &check.findings {
+            writeln!(text, "    {finding}").expect("a string takes all");
+        }
+    }
+    text
+}
