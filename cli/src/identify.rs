@@ -52,7 +52,9 @@ enum MethodArgument {
     /// Least squares weighted by each joint's residual.
     #[default]
     Wls,
-    /// The same, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
+    /// The same, in which samples far from the rest count less.
+    Robust,
+    /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
     Physical,
 }
 
@@ -61,6 +63,7 @@ impl From<MethodArgument> for Method {
         match method {
             MethodArgument::Ls => Self::Ls,
             MethodArgument::Wls => Self::Wls,
+            MethodArgument::Robust => Self::Robust,
             MethodArgument::Physical => Self::Physical,
         }
     }
@@ -115,6 +118,8 @@ struct Report<'a> {
     rank: usize,
     unexcited: &'a [String],
     bands_hz: [f64; 3],
+    /// Of `robust` only: samples per joint that are far from the others.
+    outliers: Option<&'a [usize]>,
     /// Of `physical` only.
     possible: Option<PossibleReport<'a>>,
 }
@@ -312,6 +317,7 @@ fn report<'a>(
             estimate.bands.smooth_hz,
             estimate.bands.wide_hz,
         ],
+        outliers: estimate.outliers.as_deref(),
         possible: estimate.possible.as_ref().map(|possible| PossibleReport {
             standard: possible.standard.iter().map(known).collect(),
             relative_percent_unconstrained: &possible.unconstrained_percent,

@@ -40,7 +40,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     for (joint, declared) in compiled.model.joints.iter().enumerate() {
         let (unit, usual) = match declared.kind {
             JointKind::Prismatic => ("m/s", FAST[1]),
-            _ => ("rad/s", FAST[0]),
+            JointKind::Revolute => ("rad/s", FAST[0]),
         };
         let fastest = declared.limits.velocity.unwrap_or(usual);
         scope.push(format!("{fastest:.3} {unit}"));

@@ -58,7 +58,7 @@ pub(super) fn workspace(compiled: &Compiled) -> Vec<(f64, f64)> {
     let range = joints.map(|joint| {
         let all = match joint.kind {
             JointKind::Prismatic => SLIDE,
-            _ => ANGLE,
+            JointKind::Revolute => ANGLE,
         };
         joint.limits.position.unwrap_or((-all, all))
     });

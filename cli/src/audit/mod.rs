@@ -111,16 +111,16 @@ fn signs(compiled: &Compiled, values: &Values) -> Check {
     let all: Vec<usize> = (0..compiled.standard.len())
         .filter(|&k| is_nonnegative(k))
         .collect();
-    let value = |k: usize| match &values.standard {
-        Some(standard) => standard[k],
-        // A base parameter that is the parameter itself.
-        None => {
-            let combinations = compiled.base.combinations.iter();
-            let place = combinations
-                .zip(&compiled.base.kept)
-                .position(|(combination, &kept)| kept == k && combination.len() == 1);
-            place.map(|place| values.beta[place])
+    let value = |k: usize| {
+        if let Some(standard) = &values.standard {
+            return standard[k];
         }
+        // A base parameter that is the parameter itself.
+        let combinations = compiled.base.combinations.iter();
+        let place = combinations
+            .zip(&compiled.base.kept)
+            .position(|(combination, &kept)| kept == k && combination.len() == 1);
+        place.map(|place| values.beta[place])
     };
     let findings = all.iter().filter_map(|&k| {
         let value = value(k).filter(|value| *value < 0.0)?;

@@ -226,3 +226,46 @@ fn the_filtered_form_refuses_what_it_cannot_filter() {
          `rigid_torque`, which contains the acceleration; identify with `--form acceleration`, or take the effect out\n"
     );
 }
+
+/// A torque sensor that drops out now and then.
+#[test]
+fn spikes_do_not_move_a_robust_estimate() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log: Vec<String> = cart_log(20, 0.0, 0.0)
+        .lines()
+        .enumerate()
+        .map(|(k, line)| match line.rsplit_once(',') {
+            Some((rest, _)) if k > 0 && k % 401 < 20 => format!("{rest},60"),
+            _ => line.to_owned(),
+        })
+        .collect();
+    folder.write("log.csv", &log.join("\n"));
+    let mass = |method: &str| {
+        let arguments = ["identify", "cart.robot", "log.csv", "--method", method];
+        let said = folder.succeed(&[&arguments[..], &["--json", "out.json"]].concat());
+        let out = json(&folder.read("out.json"));
+        let errors: f64 = ["cart.m", "rail.viscous_friction.fv"]
+            .iter()
+            .zip([3.0, 5.0])
+            .map(|(name, truth): (&&str, f64)| {
+                let mut parameters = out["parameters"].as_array().expect("a list").iter();
+                let found = parameters.find(|entry| entry["name"] == **name);
+                let value = found.expect("the name")["value"]
+                    .as_f64()
+                    .expect("a number");
+                (value / truth - 1.0).abs()
+            })
+            .sum();
+        (errors, out, said)
+    };
+    let (plain, out, _) = mass("wls");
+    assert!(out["outliers"].is_null());
+    let (robust, out, said) = mass("robust");
+    assert!(robust < 0.3 * plain, "{robust} {plain}");
+    assert!(numbers(&out["outliers"])[0] > 30.0, "{out}");
+    assert!(
+        said.contains("samples far from the others: rail "),
+        "{said}"
+    );
+}

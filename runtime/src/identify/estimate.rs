@@ -86,6 +86,8 @@ pub struct Estimate {
     pub joints: Vec<String>,
     /// The arm that was found where only possible ones were looked at: [`Method::Physical`].
     pub possible: Option<Possible>,
+    /// Samples per joint whose residual is far beyond the others, where such samples count less: [`Method::Robust`].
+    pub outliers: Option<Vec<usize>>,
 }
 
 impl Estimate {
@@ -128,6 +130,7 @@ impl Estimate {
             samples: stack.samples(),
             joints: arm.joints().to_vec(),
             possible: None,
+            outliers: None,
         }
     }
 
@@ -306,6 +309,13 @@ impl fmt::Display for Estimate {
         )?;
         if let Some(possible) = &self.possible {
             write!(f, "{possible}")?;
+        }
+        if let Some(outliers) = &self.outliers {
+            let joints = self.joints.iter().zip(outliers);
+            let told: Vec<String> = joints
+                .map(|(name, count)| format!("{name} {count}"))
+                .collect();
+            writeln!(f, "samples far from the others: {}", told.join(", "))?;
         }
         if self.unexcited.is_empty() {
             return Ok(());

@@ -45,18 +45,25 @@ impl Factors {
     /// Reduces every block.
     #[must_use]
     pub fn new(stack: &Stack) -> Self {
+        Self::of_rows(stack, &|_, _| 1.0)
+    }
+
+    /// Reduces every block, each row times a factor of its joint and its number.
+    pub(super) fn of_rows(stack: &Stack, factor: &dyn Fn(usize, usize) -> f64) -> Self {
         let unknowns = stack.unknowns.len();
         let joints = stack
             .joints
             .iter()
-            .map(|rows| {
+            .enumerate()
+            .map(|(joint, rows)| {
                 let active = rows.columns.len();
                 let block = Mat::from_fn(rows.target.len(), active + 1, |k, c| {
-                    if c < active {
+                    let value = if c < active {
                         rows.columns[c].1[k]
                     } else {
                         rows.target[k]
-                    }
+                    };
+                    factor(joint, k) * value
                 });
                 let r = block.qr();
                 let r = r.thin_R();

@@ -22,6 +22,7 @@ mod estimate;
 mod filtered;
 mod least_squares;
 mod possible;
+mod robust;
 mod shapes;
 mod stack;
 
@@ -45,6 +46,8 @@ pub enum Method {
     /// Weighted least squares: each joint's rows are divided by the standard deviation of its residual.
     #[default]
     Wls,
+    /// [`Self::Wls`], in which samples far from the rest count less: Huber's M-estimate, by iterated weights.
+    Robust,
     /// [`Self::Wls`], and of all estimates the one nearest to it that an arm can have: each link's pseudo-inertia positive
     /// definite, friction and rotors not negative.
     Physical,
@@ -57,6 +60,7 @@ impl Method {
         match self {
             Self::Ls => "ls",
             Self::Wls => "wls",
+            Self::Robust => "robust",
             Self::Physical => "physical",
         }
     }
@@ -104,11 +108,15 @@ impl Identify {
     ) -> Result<Estimate, IdentifyError> {
         let possible = match self.method {
             Method::Physical => Some(possible::make(arm, &mut solution, &stack)?),
-            Method::Ls | Method::Wls => None,
+            Method::Ls | Method::Wls | Method::Robust => None,
         };
         let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, &stack);
         Ok(Estimate {
             possible,
+            outliers: match self.method {
+                Method::Robust => Some(robust::outliers(&stack, &estimate.values())),
+                Method::Ls | Method::Wls | Method::Physical => None,
+            },
             ..estimate
         })
     }
@@ -182,10 +190,16 @@ impl Identify {
                 unknowns,
             });
         }
-        let factors = Factors::new(stack);
+        let (factors, inflation) = match self.method {
+            Method::Robust => {
+                let rows = robust::weighted(stack);
+                (rows.factors, rows.inflation)
+            }
+            Method::Ls | Method::Wls | Method::Physical => (Factors::new(stack), vec![1.0; dof]),
+        };
         let solve = |correlation: &[f64]| match self.method {
             Method::Ls => factors.ordinary(correlation),
-            Method::Wls | Method::Physical => factors.weighted(correlation),
+            Method::Wls | Method::Robust | Method::Physical => factors.weighted(correlation),
         };
         let first = solve(&vec![1.0; dof]);
         if first.unexcited.len() == unknowns && unknowns > 0 {
@@ -194,7 +208,8 @@ impl Identify {
         let correlation: Vec<f64> = stack
             .residuals(&first.estimate)
             .iter()
-            .map(|r| correlation_time(r))
+            .zip(&inflation)
+            .map(|(r, inflation)| inflation * correlation_time(r))
             .collect();
         Ok(solve(&correlation))
     }

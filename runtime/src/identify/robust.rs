@@ -1,0 +1,201 @@
+//! Huber's M-estimate: samples whose residual is far beyond that of the others count less, and no single one decides.
+//!
+//! With residuals `r` over their joint's deviation `s`, least squares with weights `min(1, k s / |r|)` are repeated until they
+//! settle; `s` is found from the median, which outliers do not move. Source: Huber 1964, Robust estimation of a location parameter;
+//! Holland, Welsch 1977, Robust regression using iteratively reweighted least-squares.
+
+use super::least_squares::Factors;
+use super::stack::Stack;
+
+/// `k`: 95 % as efficient as least squares where noise is normal.
+const CORNER: f64 = 1.345;
+
+/// Median of the absolute value of normal noise, in deviations.
+const MEDIAN_OF_NORMAL: f64 = 0.6745;
+
+/// Most rounds of weights, and the change of a weight at which they have settled.
+const ROUNDS: usize = 30;
+const SETTLED: f64 = 1e-3;
+
+/// Residuals beyond so many deviations are outliers: of normal noise one in two million.
+const OUTLIER: f64 = 5.0;
+
+/// Rows with Huber's weights.
+pub(super) struct Weighted {
+    /// Of the rows, each times the root of its weight.
+    pub factors: Factors,
+    /// Variance of the M-estimate, `E[psi^2] / E[psi']^2`, over that which least squares of the weighted rows believe in,
+    /// `E[w r^2] / E[w]`; one per joint.
+    pub inflation: Vec<f64>,
+}
+
+/// Weights until they settle.
+pub(super) fn weighted(stack: &Stack) -> Weighted {
+    let mut weights: Vec<Vec<f64>> = stack
+        .joints
+        .iter()
+        .map(|rows| vec![1.0; rows.target.len()])
+        .collect();
+    let mut inflation = vec![1.0; weights.len()];
+    for _ in 0..ROUNDS {
+        let roots = |joint: usize, k: usize| weights[joint][k].sqrt();
+        let dof = weights.len();
+        let solution = Factors::of_rows(stack, &roots).weighted(&vec![1.0; dof]);
+        let residuals = stack.residuals(&solution.estimate);
+        let next: Vec<Vec<f64>> = residuals.iter().map(|residual| huber(residual)).collect();
+        let pairs = residuals.iter().zip(&next);
+        inflation = pairs
+            .map(|(residual, weights)| inflated(residual, weights))
+            .collect();
+        let pairs = weights.iter().flatten().zip(next.iter().flatten());
+        let change = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        weights = next;
+        if change < SETTLED {
+            break;
+        }
+    }
+    Weighted {
+        factors: Factors::of_rows(stack, &|joint, k| weights[joint][k].sqrt()),
+        inflation,
+    }
+}
+
+/// `min(1, k s / |r|)`
+fn huber(residual: &[f64]) -> Vec<f64> {
+    let corner = CORNER * deviation(residual);
+    let weight = |r: &f64| (corner / r.abs().max(f64::MIN_POSITIVE)).min(1.0);
+    residual.iter().map(weight).collect()
+}
+
+/// [`Weighted::inflation`] of a joint; 1 where nothing is left to be weighed.
+fn inflated(residual: &[f64], weights: &[f64]) -> f64 {
+    let mean = |of: &dyn Fn(f64, f64) -> f64| {
+        let terms = residual.iter().zip(weights).map(|(&r, &w)| of(r, w));
+        terms.sum::<f64>() / residual.len().max(1) as f64
+    };
+    let of_estimate =
+        mean(&|r, w| (w * r).powi(2)) / mean(&|_, w| f64::from(u8::from(w >= 1.0))).powi(2);
+    let believed = mean(&|r, w| w * r * r) / mean(&|_, w| w);
+    let ratio = of_estimate / believed;
+    if ratio.is_finite() { ratio } else { 1.0 }
+}
+
+/// Samples per joint that are outliers of an estimate.
+pub(super) fn outliers(stack: &Stack, estimate: &[f64]) -> Vec<usize> {
+    let residuals = stack.residuals(estimate);
+    let count = |residual: &Vec<f64>| {
+        let far = OUTLIER * deviation(residual);
+        residual.iter().filter(|r| r.abs() > far).count()
+    };
+    residuals.iter().map(count).collect()
+}
+
+/// Of normal noise, from the median of its absolute value.
+fn deviation(residual: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = residual.iter().map(|r| r.abs()).collect();
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let middle = sizes.len() / 2;
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    *median / MEDIAN_OF_NORMAL
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::{Identify, JointRows, Method, Segment};
+
+    /// `tau = 2 x + noise`, with so many of a hundred samples ten deviations away, on either side.
+    fn stack(seed: u64, outliers: usize) -> Stack {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let x: Vec<f64> = (0..400)
+            .map(|k| (0.37 * f64::from(k)).sin() + 0.5)
+            .collect();
+        let noise = |k: usize, random: &mut ChaCha8Rng| {
+            let normal: f64 = StandardNormal.sample(random);
+            if k % 100 < outliers {
+                let side: f64 = StandardNormal.sample(random);
+                normal + 10.0 * side.signum()
+            } else {
+                normal
+            }
+        };
+        let target: Vec<f64> = (0..x.len())
+            .map(|k| 2.0 * x[k] + noise(k, &mut random))
+            .collect();
+        Stack {
+            unknowns: vec![Unknown {
+                name: "x".to_owned(),
+                nonnegative: false,
+            }],
+            joints: vec![JointRows {
+                tau: target.clone(),
+                target,
+                columns: vec![(0, x)],
+            }],
+            segments: vec![Segment {
+                start: 0,
+                time: Vec::new(),
+            }],
+        }
+    }
+
+    fn fit(stack: &Stack, method: Method) -> (f64, f64) {
+        let identify = Identify {
+            method,
+            bands: None,
+        };
+        let solution = identify.solve_stack(stack).expect("samples enough");
+        (solution.estimate[0], solution.std[0])
+    }
+
+    /// Errors over many draws, and what the deviations say of them.
+    fn spread(outliers: usize, method: Method) -> (f64, f64) {
+        const DRAWS: u32 = 300;
+        let (mut errors, mut told) = (0.0, 0.0);
+        for seed in 0..DRAWS {
+            let (value, std) = fit(&stack(u64::from(seed), outliers), method);
+            errors += (value - 2.0).powi(2) / f64::from(DRAWS);
+            told += std * std / f64::from(DRAWS);
+        }
+        (errors.sqrt(), told.sqrt())
+    }
+
+    #[test]
+    fn normal_noise_costs_little_and_is_told() {
+        let (plain, _) = spread(0, Method::Wls);
+        let (robust, told) = spread(0, Method::Robust);
+        assert!(robust < 1.1 * plain, "{robust} {plain}");
+        assert!((told / robust - 1.0).abs() < 0.1, "{told} {robust}");
+    }
+
+    #[test]
+    fn outliers_move_least_squares_and_not_hubers_estimate() {
+        let (plain, _) = spread(5, Method::Wls);
+        let (robust, told) = spread(5, Method::Robust);
+        assert!(robust < 0.6 * plain, "{robust} {plain}");
+        assert!((told / robust - 1.0).abs() < 0.15, "{told} {robust}");
+        let stack = stack(1, 5);
+        let (value, _) = fit(&stack, Method::Robust);
+        let found = super::outliers(&stack, &[value]);
+        assert_eq!(found, [20]);
+    }
+
+    #[test]
+    fn a_joint_that_is_fitted_exactly_has_weights_too() {
+        let mut exact = stack(1, 0);
+        let double = |x: &f64| 2.0 * x;
+        exact.joints[0].target = exact.joints[0].columns[0].1.iter().map(double).collect();
+        let (value, std) = fit(&exact, Method::Robust);
+        assert!(
+            (value - 2.0).abs() < 1e-12 && std.is_finite(),
+            "{value} {std}"
+        );
+    }
+}
