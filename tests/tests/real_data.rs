@@ -4,7 +4,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use robot_model::identify::{Errors, Estimate, Identify};
+use robot_model::Inertial;
+use robot_model::identify::{Errors, Estimate, Identify, Method};
 use robot_model::log::Log;
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
@@ -133,6 +134,57 @@ fn assert_within(what: &str, found: f64, published: f64, tolerance: f64) {
         (found - published).abs() <= tolerance,
         "{what}: {found}, published {published}"
     );
+}
+
+/// Every link a body, friction that brakes, and the error on the log that was not fitted as without the constraint.
+#[test]
+fn tx40_can_be() {
+    let Some(tx40) = Machine::find("tx40") else {
+        return;
+    };
+    let coupling = "gear_coupling on (joint5, joint6);";
+    let free = tx40.fit(coupling);
+    let physical = Identify {
+        method: Method::Physical,
+        bands: None,
+    };
+    let arm = tx40.arm(coupling);
+    let log = tx40.log("identification.csv");
+    let estimate = physical.fit(&arm, &[log]);
+    let held = Fit {
+        estimate: estimate.unwrap_or_else(|error| panic!("{error}")),
+        arm,
+    };
+    let possible = held
+        .estimate
+        .possible
+        .as_ref()
+        .expect("the method is physical");
+    let links = possible.standard.chunks(10).take(6);
+    for link in links {
+        let ten: Vec<f64> = link.iter().map(|(_, value)| *value).collect();
+        let ten: [f64; 10] = ten.try_into().expect("ten");
+        let least = Inertial::from(ten)
+            .pseudo_inertia()
+            .symmetric_eigenvalues()
+            .min();
+        assert!(least > 0.0, "{}: {least}", link[0].0);
+    }
+    for (name, value) in &possible.standard[60..] {
+        assert!(*value > 0.0 || name.contains("offset"), "{name}: {value}");
+    }
+    let validation = tx40.log("validation.csv");
+    let whole = |fit: &Fit| {
+        let errors = fit.errors(&validation).rmse;
+        let weights = fit.errors(&tx40.log("identification.csv")).rmse;
+        let pairs = errors.iter().zip(&weights);
+        pairs
+            .map(|(error, weight)| (error / weight).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    let ratio = whole(&held) / whole(&free);
+    assert!(ratio < 1.02, "{ratio}");
 }
 
 /// Published: M = 95.109 kg, Fv = 203.50 N s/m, Fc = 20.394 N, offset = -3.165 N with standard deviations of 0.11, 0.56, 0.50
