@@ -20,6 +20,7 @@ mod band;
 mod error;
 mod estimate;
 mod filtered;
+mod hac;
 mod least_squares;
 mod possible;
 mod robust;
@@ -106,6 +107,7 @@ impl Identify {
         bands: Bands,
         (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
     ) -> Result<Estimate, IdentifyError> {
+        solution.std = self.deviations(&stack, &solution);
         let possible = match self.method {
             Method::Physical => Some(possible::make(arm, &mut solution, &stack)?),
             Method::Ls | Method::Wls | Method::Robust => None,
@@ -119,6 +121,22 @@ impl Identify {
             },
             ..estimate
         })
+    }
+
+    /// Standard deviations of a solution; see [`hac`].
+    fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
+        let weights = match self.method {
+            Method::Robust => robust::weights(stack, &solution.estimate),
+            Method::Ls | Method::Wls | Method::Physical => robust::of_all(stack),
+        };
+        let solution = match self.method {
+            Method::Ls => &Solution {
+                sigma: vec![1.0; stack.dof()],
+                ..solution.clone()
+            },
+            Method::Wls | Method::Robust | Method::Physical => solution,
+        };
+        hac::deviations(stack, solution, &weights)
     }
 
     /// A first estimate over a wide band shows how far the model's torque reaches.
@@ -190,12 +208,9 @@ impl Identify {
                 unknowns,
             });
         }
-        let (factors, inflation) = match self.method {
-            Method::Robust => {
-                let rows = robust::weighted(stack);
-                (rows.factors, rows.inflation)
-            }
-            Method::Ls | Method::Wls | Method::Physical => (Factors::new(stack), vec![1.0; dof]),
+        let factors = match self.method {
+            Method::Robust => robust::factors(stack),
+            Method::Ls | Method::Wls | Method::Physical => Factors::new(stack),
         };
         let solve = |correlation: &[f64]| match self.method {
             Method::Ls => factors.ordinary(correlation),
@@ -208,8 +223,7 @@ impl Identify {
         let correlation: Vec<f64> = stack
             .residuals(&first.estimate)
             .iter()
-            .zip(&inflation)
-            .map(|(r, inflation)| inflation * correlation_time(r))
+            .map(|r| correlation_time(r))
             .collect();
         Ok(solve(&correlation))
     }

@@ -20,33 +20,13 @@ const SETTLED: f64 = 1e-3;
 /// Residuals beyond so many deviations are outliers: of normal noise one in two million.
 const OUTLIER: f64 = 5.0;
 
-/// Rows with Huber's weights.
-pub(super) struct Weighted {
-    /// Of the rows, each times the root of its weight.
-    pub factors: Factors,
-    /// Variance of the M-estimate, `E[psi^2] / E[psi']^2`, over that which least squares of the weighted rows believe in,
-    /// `E[w r^2] / E[w]`; one per joint.
-    pub inflation: Vec<f64>,
-}
-
-/// Weights until they settle.
-pub(super) fn weighted(stack: &Stack) -> Weighted {
-    let mut weights: Vec<Vec<f64>> = stack
-        .joints
-        .iter()
-        .map(|rows| vec![1.0; rows.target.len()])
-        .collect();
-    let mut inflation = vec![1.0; weights.len()];
+/// Factors of the rows with Huber's weights, once these have settled.
+pub(super) fn factors(stack: &Stack) -> Factors {
+    let mut weights = of_all(stack);
     for _ in 0..ROUNDS {
         let roots = |joint: usize, k: usize| weights[joint][k].sqrt();
-        let dof = weights.len();
-        let solution = Factors::of_rows(stack, &roots).weighted(&vec![1.0; dof]);
-        let residuals = stack.residuals(&solution.estimate);
-        let next: Vec<Vec<f64>> = residuals.iter().map(|residual| huber(residual)).collect();
-        let pairs = residuals.iter().zip(&next);
-        inflation = pairs
-            .map(|(residual, weights)| inflated(residual, weights))
-            .collect();
+        let solution = Factors::of_rows(stack, &roots).weighted(&vec![1.0; stack.dof()]);
+        let next = self::weights(stack, &solution.estimate);
         let pairs = weights.iter().flatten().zip(next.iter().flatten());
         let change = pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
         weights = next;
@@ -54,10 +34,19 @@ pub(super) fn weighted(stack: &Stack) -> Weighted {
             break;
         }
     }
-    Weighted {
-        factors: Factors::of_rows(stack, &|joint, k| weights[joint][k].sqrt()),
-        inflation,
-    }
+    Factors::of_rows(stack, &|joint, k| weights[joint][k].sqrt())
+}
+
+/// A weight of 1 for every row.
+pub(super) fn of_all(stack: &Stack) -> Vec<Vec<f64>> {
+    let joints = stack.joints.iter();
+    joints.map(|rows| vec![1.0; rows.target.len()]).collect()
+}
+
+/// Huber's weights of the rows at an estimate.
+pub(super) fn weights(stack: &Stack, estimate: &[f64]) -> Vec<Vec<f64>> {
+    let residuals = stack.residuals(estimate);
+    residuals.iter().map(|residual| huber(residual)).collect()
 }
 
 /// `min(1, k s / |r|)`
@@ -65,19 +54,6 @@ fn huber(residual: &[f64]) -> Vec<f64> {
     let corner = CORNER * deviation(residual);
     let weight = |r: &f64| (corner / r.abs().max(f64::MIN_POSITIVE)).min(1.0);
     residual.iter().map(weight).collect()
-}
-
-/// [`Weighted::inflation`] of a joint; 1 where nothing is left to be weighed.
-fn inflated(residual: &[f64], weights: &[f64]) -> f64 {
-    let mean = |of: &dyn Fn(f64, f64) -> f64| {
-        let terms = residual.iter().zip(weights).map(|(&r, &w)| of(r, w));
-        terms.sum::<f64>() / residual.len().max(1) as f64
-    };
-    let of_estimate =
-        mean(&|r, w| (w * r).powi(2)) / mean(&|_, w| f64::from(u8::from(w >= 1.0))).powi(2);
-    let believed = mean(&|r, w| w * r * r) / mean(&|_, w| w);
-    let ratio = of_estimate / believed;
-    if ratio.is_finite() { ratio } else { 1.0 }
 }
 
 /// Samples per joint that are outliers of an estimate.
@@ -152,7 +128,8 @@ mod tests {
             bands: None,
         };
         let solution = identify.solve_stack(stack).expect("samples enough");
-        (solution.estimate[0], solution.std[0])
+        let std = identify.deviations(stack, &solution);
+        (solution.estimate[0], std[0])
     }
 
     /// Errors over many draws, and what the deviations say of them.

@@ -114,8 +114,10 @@ pub struct Plant {
     pub periodic: bool,
     /// Standard deviation of white torque noise.
     pub white: f64,
-    /// Standard deviation of torque noise that is correlated over 5 ms.
+    /// Standard deviation of torque noise that is correlated.
     pub colored: f64,
+    /// Over so many seconds.
+    pub correlated_s: f64,
     /// Added to the torque: a function of joint, `q`, `dq`.
     pub extra: fn(usize, [f64; 2], [f64; 2]) -> f64,
 }
@@ -128,6 +130,7 @@ impl Default for Plant {
             periodic: true,
             white: 0.05,
             colored: 0.0,
+            correlated_s: 0.005,
             extra: |_, _, _| 0.0,
         }
     }
@@ -156,7 +159,7 @@ impl Plant {
         let time: Vec<f64> = (0..samples).map(|k| f64::from(k) / 500.0).collect();
         let (mut q, mut tau) = (vec![Vec::new(); 2], vec![Vec::new(); 2]);
         let mut wander = [0.0; 2];
-        let keep = (-0.002_f64 / 0.005).exp();
+        let keep = (-0.002 / self.correlated_s).exp();
         for t in &time {
             let at = |j: usize| {
                 sines[j]

@@ -1,0 +1,60 @@
+//! Intervals of two deviations against the truth, over many experiments whose noise is slow or fast.
+
+mod plant;
+
+use plant::{Pendulums, Plant, TRUTH};
+use robot_model::identify::{Identify, Method};
+use robot_model::signal::Bands;
+
+const EXPERIMENTS: u64 = 200;
+
+#[test]
+fn intervals_cover_the_truth_as_often_as_they_say() {
+    let arm = Pendulums::new();
+    let identify = Identify {
+        method: Method::Wls,
+        bands: Some(Bands::DEFAULT),
+    };
+    let quiet = Plant {
+        white: 0.0,
+        ..Plant::default()
+    };
+    let log = quiet.log();
+    for correlated_s in [0.005, 0.2, 1.0] {
+        let (mut hits, mut errors, mut claimed) = ([0; 8], [0.0; 8], [0.0; 8]);
+        for seed in 100..100 + EXPERIMENTS {
+            // The motion's seed is part of the log's; only the noise may differ between experiments.
+            let still = Plant { seed, ..quiet }.log();
+            let noisy = Plant {
+                white: 0.05,
+                colored: 0.3,
+                correlated_s,
+                ..Plant { seed, ..quiet }
+            };
+            let noisy = noisy.log();
+            let mut log = log.clone();
+            for (joint, tau) in log.tau.iter_mut().enumerate() {
+                let noise = noisy.tau[joint].iter().zip(&still.tau[joint]);
+                tau.iter_mut()
+                    .zip(noise)
+                    .for_each(|(tau, (x, y))| *tau += x - y);
+            }
+            let estimate = identify.fit(&arm, &[log]).expect("the log is sound");
+            for (k, found) in estimate.parameters.iter().enumerate() {
+                let error = found.value - TRUTH[k];
+                hits[k] += u32::from(error.abs() < 1.96 * found.std);
+                errors[k] += error * error;
+                claimed[k] += found.std * found.std;
+            }
+        }
+        let all = f64::from(hits.iter().sum::<u32>()) / (8.0 * EXPERIMENTS as f64);
+        assert!(
+            (0.90..0.98).contains(&all),
+            "{correlated_s} s: {all} {hits:?}"
+        );
+        for (claimed, error) in claimed.iter().zip(errors) {
+            let ratio = (claimed / error).sqrt();
+            assert!((0.8..1.6).contains(&ratio), "{correlated_s} s: {ratio}");
+        }
+    }
+}
