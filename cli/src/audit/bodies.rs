@@ -2,18 +2,21 @@
 
 use robot_model::Inertial;
 use robot_model_codegen::Compiled;
+use robot_model_spec::parameter::Owner;
 
 use super::Check;
-use crate::interpreted::possible_arms;
+use crate::interpreted::{payloads, possible_arms};
 use crate::output::counted;
 use crate::parameters::Values;
 
-/// Rounding of a second moment, relative to the largest.
-const ROUNDING: f64 = 1e-9;
-
-/// Base parameters are taken to be known to this share of their size, and of the largest with the same unit.
+/// Second moments of mass are taken to be known to this share of the largest: published ones have three digits or more.
 const SHARE: f64 = 1e-3;
+
+/// Base parameters are taken to be known to a share of their size, and of the largest with the same unit.
 const LEAST_SHARE: f64 = 1e-3;
+
+/// Rounding of sums.
+const ROUNDING: f64 = 1e-9;
 
 /// How many of them are shown.
 const SHOWN: usize = 8;
@@ -33,10 +36,15 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
         ));
     };
     let links = chain.links.iter().zip(standard.chunks(10));
-    let findings = links.filter_map(|(link, ten)| {
-        let ten: Option<Vec<f64>> = ten.iter().copied().collect();
+    let links = links.map(|(link, ten)| (format!("link `{}`", link.name), ten.to_vec()));
+    let payloads = payloads(compiled).into_iter().map(|payload| {
+        let ten = payload.parameters.map(|k| standard[k]);
+        (format!("`{}`", payload.name), ten.to_vec())
+    });
+    let findings = links.chain(payloads).filter_map(|(name, ten)| {
+        let ten: Option<Vec<f64>> = ten.into_iter().collect();
         let ten: [f64; 10] = ten?.try_into().ok()?;
-        impossible(&Inertial::from(ten)).map(|reason| format!("link `{}`: {reason}", link.name))
+        impossible(&Inertial::from(ten)).map(|reason| format!("{name}: {reason}"))
     });
     let findings = findings.collect();
     let scope = format!("{count}: mass spread over space");
@@ -56,17 +64,18 @@ fn impossible(inertial: &Inertial) -> Option<String> {
         return (!is_nothing).then(|| "no mass, and moments of mass all the same".to_owned());
     };
     let spread = moments.symmetric_eigenvalues();
-    let size = inertial.pseudo_inertia().fixed_view::<3, 3>(0, 0).norm();
-    if spread.min() >= -ROUNDING * size {
+    let about_origin = inertial.pseudo_inertia().fixed_view::<3, 3>(0, 0).norm();
+    // Rounded values of a plate or a rod miss a plane by their last digit.
+    if spread.min() >= -SHARE * spread.max().max(ROUNDING * about_origin) {
         return None;
     }
     let com = inertial.com().unwrap_or_default();
     let away = com.iter().map(|x| x * x).sum::<f64>().sqrt();
     // `S` is positive where each moment of inertia is positive and at most the sum of the other two.
-    let about_origin = mass * away * away;
+    let far = mass * away * away;
     let why = if [ixx, iyy, izz].iter().any(|moment| *moment < 0.0) {
         "a moment of inertia is below zero".to_owned()
-    } else if about_origin > 0.5 * (ixx + iyy + izz) {
+    } else if far > 0.5 * (ixx + iyy + izz) {
         format!(
             "its center of mass would be {away:.3} m from the frame's origin, too far for its moments of inertia"
         )
@@ -81,21 +90,41 @@ fn impossible(inertial: &Inertial) -> Option<String> {
 
 /// Base parameters that would have to be others, were every link a body.
 fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
-    let Some(arms) = possible_arms(compiled) else {
+    let Some(mut arms) = possible_arms(compiled) else {
         return Vec::new();
     };
-    let largest = beta
-        .iter()
-        .fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
-    let deviations: Vec<f64> = beta
-        .iter()
-        .map(|value| SHARE * value.abs().max(LEAST_SHARE * largest))
+    // Signs that are no link's are a check of their own.
+    let base = &compiled.base;
+    let is_rigid = |column: usize| {
+        let mut parts = base.combinations[column].iter();
+        parts.any(|&(k, _)| compiled.model.is_rigid(&compiled.standard[k]))
+    };
+    let alone: Vec<usize> = (0..beta.len())
+        .filter(|&column| !is_rigid(column))
+        .map(|column| base.kept[column])
         .collect();
-    let (nearest, _) = arms.nearest_to(beta, &deviations);
+    arms.nonnegative.retain(|k| !alone.contains(k));
+    // Masses, first moments, moments of inertia: each beside those of its kind.
+    let kind = |column: usize| match compiled.standard[base.kept[column]].owner {
+        Owner::Link { element, .. } => Some(element.name().len()),
+        Owner::Effect { .. } | Owner::Monomial(_) => None,
+    };
+    let deviations: Vec<f64> = (0..beta.len())
+        .map(|column| {
+            let alike = (0..beta.len()).filter(|&other| kind(other) == kind(column));
+            let largest = alike
+                .map(|other| beta[other].abs())
+                .fold(f64::MIN_POSITIVE, f64::max);
+            SHARE * beta[column].abs().max(LEAST_SHARE * largest)
+        })
+        .collect();
+    let Some((nearest, _)) = arms.nearest_to(beta, &deviations) else {
+        return vec!["no arm whose links have bodies was found near these parameters".to_owned()];
+    };
     let pairs = beta.iter().zip(&nearest).zip(&deviations);
     let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
     let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
-    missed.retain(|(missed, _)| *missed > MISSED);
+    missed.retain(|&(missed, column)| missed > MISSED && is_rigid(column));
     missed.sort_by(|x, y| y.0.total_cmp(&x.0));
     let mut findings: Vec<String> = missed
         .iter()

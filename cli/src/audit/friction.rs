@@ -1,5 +1,5 @@
 //! Whether effects take energy: over there and back at one speed through one pose, the work of the effects' torque is
-//! `(f(v) - f(-v)) v`, whatever springs and offsets are in `f`.
+//! `sum (f(v) - f(-v)) v`, whatever springs and offsets are in `f`.
 
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
@@ -12,19 +12,23 @@ use super::inertia::{pose, workspace};
 use crate::interpreted::states;
 use crate::parameters::Values;
 
-/// Poses and speeds that are looked at.
+/// Poses, directions of several joints, and speeds that are looked at.
 const POSES: usize = 8;
-const SPEEDS: usize = 200;
+const DIRECTIONS: usize = 24;
+const SPEEDS: usize = 100;
 
 /// Largest speed of a joint whose spec says none, rad/s or m/s.
 const FAST: [f64; 2] = [std::f64::consts::PI, 1.0];
 
-/// Part of the largest torque that is rounding.
+/// Part of the largest power that is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// States are looked at after so many steps over so many rad or m in all.
 const STEPS: usize = 200;
 const TRAVEL: f64 = 20.0;
+
+/// Times that are looked at, s: what drifts is where it began and where it ends up.
+const TIMES: [f64; 2] = [0.0, 1e6];
 
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     let workspace = workspace(compiled);
@@ -33,34 +37,72 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
         gravity: compiled.gravity(),
         parts: compiled.states(),
         values,
-        dof: compiled.dof(),
+    };
+    let joints = &compiled.model.joints;
+    let unit = |joint: usize| match joints[joint].kind {
+        JointKind::Prismatic => "m/s",
+        JointKind::Revolute => "rad/s",
+    };
+    let fastest: Vec<f64> = joints
+        .iter()
+        .map(|joint| {
+            let usual = match joint.kind {
+                JointKind::Prismatic => FAST[1],
+                JointKind::Revolute => FAST[0],
+            };
+            joint.limits.velocity.unwrap_or(usual)
+        })
+        .collect();
+    let worst = |direction: &[f64]| {
+        let poses = (0..POSES).map(|k| pose(&workspace, k));
+        poses
+            .flat_map(|pose| TIMES.map(|time| effects.gains(direction, &pose, time)))
+            .flatten()
+            .min_by(|x, y| x.share.total_cmp(&y.share))
     };
     let mut findings = Vec::new();
-    let mut scope = Vec::new();
-    for (joint, declared) in compiled.model.joints.iter().enumerate() {
-        let (unit, usual) = match declared.kind {
-            JointKind::Prismatic => ("m/s", FAST[1]),
-            JointKind::Revolute => ("rad/s", FAST[0]),
-        };
-        let fastest = declared.limits.velocity.unwrap_or(usual);
-        scope.push(format!("{fastest:.3} {unit}"));
-        let worst = (0..POSES)
-            .filter_map(|k| effects.gains(joint, &pose(&workspace, k), fastest))
-            .min_by(|x, y| x.speed.total_cmp(&y.speed));
-        if let Some(Gain { speed, power }) = worst {
+    for (joint, declared) in joints.iter().enumerate() {
+        let mut alone = vec![0.0; joints.len()];
+        alone[joint] = fastest[joint];
+        if let Some(Gain { share, power }) = worst(&alone) {
             findings.push(format!(
-                "joint `{}` is driven by its effects from {speed:.3} {unit} on: up to {power:.3e} W there and back",
-                declared.name
+                "joint `{}` is driven by its effects from {:.3} {} on: up to {power:.3e} W there and back",
+                declared.name,
+                share * fastest[joint],
+                unit(joint)
             ));
         }
     }
+    // Joints that are no trouble alone may drive each other.
+    if findings.is_empty() && joints.len() > 1 {
+        let ways: Vec<(f64, f64)> = fastest.iter().map(|&speed| (-speed, speed)).collect();
+        let together = (0..DIRECTIONS).map(|k| pose(&ways, k));
+        let gain = together
+            .filter_map(|direction| Some((worst(&direction)?, direction)))
+            .max_by(|x, y| x.0.power.total_cmp(&y.0.power));
+        if let Some((Gain { share, power }, direction)) = gain {
+            let speeds: Vec<String> = direction
+                .iter()
+                .map(|speed| format!("{:.3}", share * speed))
+                .collect();
+            findings.push(format!(
+                "joints drive each other where they move together at [{}]: up to {power:.3e} W there and back",
+                speeds.join(", ")
+            ));
+        }
+    }
+    let scope: Vec<String> = fastest
+        .iter()
+        .enumerate()
+        .map(|(joint, speed)| format!("{speed:.3} {}", unit(joint)))
+        .collect();
     let scope = format!("speeds up to {}", scope.join(", "));
     Check::new("friction", scope, findings)
 }
 
-/// A speed from which on effects give energy, and the largest power that they give.
+/// A share of the largest speeds from which on effects give energy, and the largest power that they give, W.
 struct Gain {
-    speed: f64,
+    share: f64,
     power: f64,
 }
 
@@ -69,50 +111,57 @@ struct Effects<'a> {
     gravity: Program,
     parts: Vec<StateProgram>,
     values: &'a Values,
-    dof: usize,
 }
 
 impl Effects<'_> {
-    /// Where the effects of a joint give energy at a pose.
-    fn gains(&self, joint: usize, pose: &[f64], fastest: f64) -> Option<Gain> {
-        let lost = |speed: f64| -> (f64, f64) {
-            let [there, back] = [speed, -speed].map(|speed| self.torque(joint, pose, speed));
-            (0.5 * (there - back), there.abs().max(back.abs()))
-        };
-        let speeds = (1..=SPEEDS).map(|k| fastest * k as f64 / SPEEDS as f64);
-        let found: Vec<(f64, f64, f64)> = speeds
-            .map(|speed| {
-                let (lost, size) = lost(speed);
-                (speed, lost, size)
+    /// Where effects give energy along a direction, at a pose and a time.
+    fn gains(&self, direction: &[f64], pose: &[f64], time: f64) -> Option<Gain> {
+        let found: Vec<(f64, f64, f64)> = (1..=SPEEDS)
+            .map(|k| {
+                let share = k as f64 / SPEEDS as f64;
+                let (mut lost, mut size) = (0.0, 0.0);
+                let speeds: Vec<f64> = direction.iter().map(|speed| share * speed).collect();
+                let back: Vec<f64> = speeds.iter().map(|speed| -speed).collect();
+                let torques = [&speeds, &back].map(|speeds| self.torque(speeds, pose, time));
+                for (joint, speed) in speeds.iter().enumerate() {
+                    let [there, back] = [torques[0][joint] * speed, torques[1][joint] * speed];
+                    lost += 0.5 * (there - back);
+                    size += there.abs().max(back.abs());
+                }
+                (share, lost, size)
             })
             .collect();
         let size = found.iter().map(|found| found.2).fold(0.0, f64::max);
         let gives = |found: &&(f64, f64, f64)| found.1 < -ROUNDING * size;
-        let first = found.iter().find(gives)?.0;
-        let power = found.iter().filter(gives).map(|found| -found.1 * found.0);
+        let share = found.iter().find(gives)?.0;
+        let powers = found.iter().filter(gives).map(|found| -found.1);
         Some(Gain {
-            speed: first,
-            power: power.fold(0.0, f64::max),
+            share,
+            power: powers.fold(0.0, f64::max),
         })
     }
 
-    /// Torque of the effects on a joint that moves alone, at a constant speed.
-    fn torque(&self, joint: usize, pose: &[f64], speed: f64) -> f64 {
+    /// Torque of the effects at constant speeds, states settled.
+    fn torque(&self, speeds: &[f64], pose: &[f64], time: f64) -> Vec<f64> {
         let bind = |load: &[f64], memory: &[f64], symbol: Symbol| match symbol {
             Symbol::Q(k) => pose[k],
-            Symbol::Dq(k) if k == joint => speed,
+            Symbol::Dq(k) => speeds[k],
             Symbol::Parameter(k) => self.values.parameters[k],
             Symbol::Shape(k) => self.values.shapes[k],
             Symbol::RigidTorque(k) | Symbol::MeasuredTorque(k) => load[k],
             Symbol::State(k) => memory[k],
+            Symbol::Time => time,
             _ => 0.0,
         };
-        let load = vec![0.0; self.dof];
+        let load = vec![0.0; pose.len()];
         let load = self.gravity.eval(&|symbol| bind(&load, &[], symbol));
-        let interval = TRAVEL / (STEPS as f64 * speed.abs());
+        let fastest = speeds
+            .iter()
+            .fold(f64::MIN_POSITIVE, |most, v| most.max(v.abs()));
+        let interval = TRAVEL / (STEPS as f64 * fastest);
         let operand = |symbol: Symbol| Operand::Constant(bind(&load, &[], symbol));
         let memory = states(&self.parts, STEPS, interval, &operand);
         let memory: Vec<f64> = memory.iter().map(|z| z[STEPS - 1]).collect();
-        self.torque.eval(&|symbol| bind(&load, &memory, symbol))[joint]
+        self.torque.eval(&|symbol| bind(&load, &memory, symbol))
     }
 }

@@ -17,6 +17,9 @@ const SEARCHED: usize = 5;
 const ANGLE: f64 = std::f64::consts::PI;
 const SLIDE: f64 = 1.0;
 
+/// Eigenvalues below this share of the largest are zero.
+const ROUNDING: f64 = 1e-9;
+
 /// Part of a range at which the search ends.
 const FINE: f64 = 1e-5;
 
@@ -39,11 +42,17 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
         .map(|(_, pose)| inertia.descend(&workspace, pose));
     let worst = searched.min_by(|x, y| x.0.total_cmp(&y.0));
     let (least, pose) = worst.unwrap_or_default();
+    let rounding = ROUNDING * inertia.eigenvalues(&pose).1.abs();
     let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
     let found = format!("{least:.4e} at q = [{}]", at.join(", "));
     let scope = format!("least eigenvalue of the inertia over the workspace: {found}");
-    let findings = if least > 0.0 {
+    let findings = if least > rounding {
         Vec::new()
+    } else if least >= -rounding {
+        vec![format!(
+            "the inertia is singular: nothing resists some motion at q = [{}]",
+            at.join(", ")
+        )]
     } else {
         vec![format!(
             "the inertia is not positive definite: least eigenvalue {found}; an arm there would run away from what pushes it"
@@ -89,6 +98,11 @@ struct Inertia<'a> {
 impl Inertia<'_> {
     /// Least eigenvalue at a pose.
     fn least(&self, pose: &[f64]) -> f64 {
+        self.eigenvalues(pose).0
+    }
+
+    /// Least and largest eigenvalue at a pose.
+    fn eigenvalues(&self, pose: &[f64]) -> (f64, f64) {
         let entries = self.program.eval(&|symbol| match symbol {
             Symbol::Q(joint) => pose[joint],
             Symbol::Parameter(k) => self.values.parameters[k],
@@ -97,7 +111,8 @@ impl Inertia<'_> {
         });
         let matrix = DMatrix::from_row_slice(pose.len(), pose.len(), &entries);
         let symmetric = 0.5 * (&matrix + matrix.transpose());
-        symmetric.symmetric_eigenvalues().min()
+        let values = symmetric.symmetric_eigenvalues();
+        (values.min(), values.max())
     }
 
     /// Goes down one joint after the other, in steps that become smaller.

@@ -24,7 +24,7 @@ pub use candidate::InterpretedCandidate;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
-pub(crate) use possible::possible_arms;
+pub(crate) use possible::{payloads, possible_arms};
 pub(crate) use states::states;
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};

@@ -2,7 +2,7 @@
 
 use robot_model::identify::{PossibleArms, PossibleLink};
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::Inertial;
+use robot_model_spec::model::{Act, Effect, EffectExpr, EffectLeaf, Expr, Inertial};
 use robot_model_spec::parameter::{InertialElement, Owner, Status};
 
 /// `None` for a robot that says its energies.
@@ -29,7 +29,9 @@ pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
     });
     let is_nonnegative = |k: &usize| match standard[*k].owner {
         Owner::Effect { effect, parameter } => {
-            model.effects[effect].definition.linear[parameter].nonnegative
+            let definition = &model.effects[effect].definition;
+            // Those of a body are so by the body.
+            definition.linear[parameter].nonnegative && !definition.is_of_body(parameter)
         }
         Owner::Link { .. } | Owner::Monomial(_) => false,
     };
@@ -41,7 +43,44 @@ pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
     arms.fixed = fixed.collect();
     arms.combinations.clone_from(&compiled.base.combinations);
     arms.kept.clone_from(&compiled.base.kept);
-    arms.links = links.collect();
+    arms.links = links.chain(payloads(compiled)).collect();
     arms.nonnegative = (0..standard.len()).filter(is_nonnegative).collect();
     Some(arms)
+}
+
+/// Bodies that effects add to links and whose ten parameters are their own, of which the mass is not negative; an error of a link's
+/// inertial is no body.
+pub(crate) fn payloads(compiled: &Compiled) -> Vec<PossibleLink> {
+    let effects = compiled.model.effects.iter().enumerate();
+    let body = |(index, effect): (usize, &Effect)| {
+        let definition = &effect.definition;
+        let values = definition.acts.iter().find_map(|act| match act {
+            Act::Body { inertial, .. } => Some(inertial),
+            _ => None,
+        })?;
+        let place = |value: &EffectExpr| match value {
+            Expr::Leaf(EffectLeaf::Linear(parameter)) => {
+                let owner = Owner::Effect {
+                    effect: index,
+                    parameter: *parameter,
+                };
+                compiled
+                    .standard
+                    .iter()
+                    .position(|known| known.owner == owner)
+            }
+            _ => None,
+        };
+        let places: Vec<usize> = values.iter().map(place).collect::<Option<_>>()?;
+        let Expr::Leaf(EffectLeaf::Linear(mass)) = &values[0] else {
+            return None;
+        };
+        definition.linear[*mass].nonnegative.then_some(())?;
+        Some(PossibleLink {
+            name: compiled.model.effect_name(index),
+            parameters: places.try_into().ok()?,
+            nominal: None,
+        })
+    };
+    effects.filter_map(body).collect()
 }

@@ -1,7 +1,6 @@
 //! `audit`.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use serde_json::Value;
 
@@ -252,6 +251,92 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
     }
 }
 
+/// Effects of a kind that need more than one joint, an instant, or a link.
+#[test]
+fn what_drifts_couples_or_is_carried_is_looked_at() {
+    let audit_with = |effects: &str, values: &[(&str, f64)]| {
+        let arm = PENDULUM.replace("\n}\n", &format!("\n    effects {{ {effects} }}\n}}\n"));
+        let values = values
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value));
+        audit(&arm, &values.collect())
+    };
+    let fails = |check: &str, word: &str, effects: &str, values: &[(&str, f64)]| {
+        let (_, checks, text) = audit_with(effects, values);
+        let told = findings(&checks[check]);
+        assert!(
+            told.iter().any(|said| said.contains(word)),
+            "{effects}: {text}"
+        );
+    };
+    let viscous = [
+        ("upper.viscous_friction.fv", 0.5),
+        ("lower.viscous_friction.fv", 0.5),
+    ];
+    let drift = [&viscous[..], &[("upper.parameter_drift.fv", -2.0)]].concat();
+    fails(
+        "friction",
+        "joint `upper` is driven",
+        "viscous_friction on all; parameter_drift(settle = 50) on upper;",
+        &drift,
+    );
+    let coupled = [
+        &viscous[..],
+        &[
+            ("upper.gear_coupling.ia", 0.0),
+            ("upper.gear_coupling.fv", 5.0),
+            ("upper.gear_coupling.fc", 0.0),
+        ],
+    ];
+    fails(
+        "friction",
+        "joints drive each other",
+        "viscous_friction on all; gear_coupling on (upper, lower);",
+        &coupled.concat(),
+    );
+    let payload = [
+        "m", "mx", "my", "mz", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",
+    ]
+    .map(|element| format!("lower.payload.{element}"));
+    let numbers = [0.2, 0.3, 0.0, 0.0, -0.5, 0.0, 0.0, 0.5, 0.0, 0.5];
+    let payload: Vec<(&str, f64)> = payload.iter().map(String::as_str).zip(numbers).collect();
+    fails(
+        "bodies",
+        "`lower.payload`: a moment of inertia is below zero",
+        "payload on lower;",
+        &payload,
+    );
+}
+
+/// A plate with three digits, and a point of mass on a turning slide.
+#[test]
+fn rounded_and_degenerate_bodies_are_told_from_impossible_ones() {
+    let with = |inertia: &str| {
+        let inertial = format!("inertia = [{inertia}]");
+        PENDULUM.replace("inertia = [0.001, 0, 0, 0.05, 0, 0.05]", &inertial)
+    };
+    let none = BTreeMap::new();
+    // Beyond a plate by a last digit.
+    let (code, _, text) = audit(&with("0.0123, 0, 0, 0.0457, 0, 0.05803"), &none);
+    assert_eq!(code, Some(0), "{text}");
+    let (_, checks, _) = audit(&with("0.0123, 0, 0, 0.0457, 0, 0.0681"), &none);
+    assert_eq!(checks["bodies"]["passed"], false);
+    let slide = "robot Slide {
+        gravity = [0, 0, 0];
+        convention = origin;
+        joint turn: revolute { xyz = [0, 0, 0]; axis = [0, 0, 1]; link = hub; }
+        joint slide: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = point; position = 0 m .. 1 m; }
+        link hub { mass = 0; com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 0]; }
+        link point { mass = 2; com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 0]; }
+    }";
+    let (_, checks, text) = audit(slide, &none);
+    assert_eq!(checks["bodies"]["passed"], true, "{text}");
+    assert!(
+        findings(&checks["inertia"])[0].contains("the inertia is singular"),
+        "{text}"
+    );
+}
+
 /// Base parameters: whether some bodies have them.
 #[test]
 fn base_parameters_are_those_of_some_bodies_or_of_none() {
@@ -271,12 +356,34 @@ fn base_parameters_are_those_of_some_bodies_or_of_none() {
         base.map(|(name, value)| (name.to_owned(), value)).into();
     let (_, checks, text) = audit(&bare.join("\n"), &values);
     assert_eq!(checks["bodies"]["passed"], true, "{text}");
+    // Signs of friction are no question of bodies, and a stiff spring makes no link exact.
+    let more = bare.join("\n").replace(
+        "\n}",
+        "\n    effects { viscous_friction on all; joint_spring on upper; }\n}",
+    );
+    let driving = [
+        ("upper.viscous_friction.fv", 0.2),
+        ("lower.viscous_friction.fv", -0.1),
+        ("upper.joint_spring.k", 5e5),
+        ("upper.joint_spring.t0", 0.0),
+    ];
+    let mut with = values.clone();
+    with.extend(driving.map(|(name, value)| (name.to_owned(), value)));
+    let (_, checks, text) = audit(&more, &with);
+    assert_eq!(checks["bodies"]["passed"], true, "{text}");
+    assert_eq!(findings(&checks["signs"]).len(), 1, "{text}");
+    with.insert("lower.izzr".to_owned(), -0.45);
+    let (_, checks, text) = audit(&more, &with);
+    assert_eq!(checks["bodies"]["passed"], false, "{text}");
+    // A thousand times the arm is as possible as the arm.
+    let heavy: BTreeMap<String, f64> = values
+        .iter()
+        .map(|(name, value)| (name.clone(), 1e3 * value))
+        .collect();
+    let (_, checks, text) = audit(&bare.join("\n"), &heavy);
+    assert_eq!(checks["bodies"]["passed"], true, "{text}");
     // Hardly any moment of inertia about the lower axis, and a heavy one far from it.
     values.insert("lower.izzr".to_owned(), -0.45);
     let (_, checks, text) = audit(&bare.join("\n"), &values);
-    let mut told = String::new();
-    for finding in findings(&checks["bodies"]) {
-        writeln!(told, "{finding}").expect("a string takes all");
-    }
-    assert!(told.contains("`lower."), "{text}");
+    assert!(!findings(&checks["bodies"]).is_empty(), "{text}");
 }

@@ -51,6 +51,11 @@ pub enum IdentifyError {
         "a robot that says its energies has no links whose bodies could be possible; identify it by another method"
     )]
     NoBodies,
+    /// The search for a possible arm did not come to an end.
+    #[error(
+        "no possible arm was found near the logs: the search did not come to an end; give nominal values of the links (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or another method"
+    )]
+    NoEnd,
     /// The signals cannot be filtered.
     #[error(transparent)]
     Signal(#[from] SignalError),

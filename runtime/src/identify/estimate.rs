@@ -12,6 +12,9 @@ use super::possible::Possible;
 use super::stack::{Stack, norm, percent, torque_of};
 use super::{IdentifyError, Method, load_motion};
 
+/// Outliers are many from one sample in so many on.
+const MANY: usize = 10;
+
 /// Cut from either end of a log before errors are computed on raw samples, s.
 const ERROR_BORDER_S: f64 = 1.0;
 
@@ -316,6 +319,12 @@ impl fmt::Display for Estimate {
                 .map(|(name, count)| format!("{name} {count}"))
                 .collect();
             writeln!(f, "samples far from the others: {}", told.join(", "))?;
+            if outliers.iter().any(|count| MANY * count > self.samples) {
+                writeln!(
+                    f,
+                    "more than a few: what they say is in no parameter; look at them before you trust the rest"
+                )?;
+            }
         }
         if self.unexcited.is_empty() {
             return Ok(());

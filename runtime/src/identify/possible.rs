@@ -12,7 +12,7 @@ mod barrier;
 
 use std::fmt;
 
-use faer::{Mat, Side};
+use faer::Mat;
 
 use super::IdentifyError;
 use super::least_squares::{Factors, Solution};
@@ -22,14 +22,15 @@ use crate::link::Inertial;
 
 use barrier::{Barrier, Cone, Found};
 
-/// Body of a link whose spec says none: 1 kg, spread by 0.1 m along each axis about the frame's origin.
-const UNKNOWN_MASS: f64 = 1.0;
+/// Bodies of links whose spec says none, all alike: powers of ten of a mass, kg, of which that is taken with which the logs agree
+/// best, and a spread along each axis about the frame's origin, m.
+const UNKNOWN_MASSES: std::ops::RangeInclusive<i32> = -6..=6;
 const UNKNOWN_SPREAD: f64 = 0.1;
 
 /// What a friction, rotor or other parameter that is not negative is of the order of, where the logs are silent.
 const UNKNOWN_EFFECT: f64 = 1.0;
 
-/// Principal spreads of a nominal body below this share of the largest are this share: a rod has an inside too.
+/// Principal second moments of a nominal body below this share of the largest are this share: a rod has an inside too.
 const THINNEST: f64 = 1e-3;
 
 /// A body that is thinner than this share of its length lies on the border of what is possible.
@@ -80,13 +81,19 @@ pub struct Possible {
     pub gap: f64,
 }
 
+/// What the logs tell of the unknowns.
+struct Told<'a> {
+    values: &'a [f64],
+    deviations: &'a [f64],
+}
+
 /// What the search found.
-pub(super) struct Nearest {
+struct Nearest {
     /// One per unknown.
-    pub estimate: Vec<f64>,
-    pub standard: Vec<f64>,
-    pub steps: usize,
-    pub gap: f64,
+    estimate: Vec<f64>,
+    standard: Vec<f64>,
+    steps: usize,
+    gap: f64,
 }
 
 /// The possible arm nearest to a solution takes its place; deviations stay those of the logs alone.
@@ -97,7 +104,13 @@ pub(super) fn make(
 ) -> Result<Possible, IdentifyError> {
     let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
     let unconstrained_percent = stack.relative_percent(&solution.estimate);
-    let nearest = arms.nearest(&Factors::new(stack).stacked(&solution.sigma));
+    let factor = Factors::new(stack).stacked(&solution.sigma);
+    let told = Told {
+        values: &solution.estimate,
+        deviations: &solution.std,
+    };
+    let nearest = arms.nearest(&factor, &told);
+    let nearest = nearest.ok_or(IdentifyError::NoEnd)?;
     let border = arms.border(&solution.estimate, &nearest.standard);
     solution.estimate = nearest.estimate;
     let standard = arms.names.into_iter().zip(nearest.standard);
@@ -112,6 +125,7 @@ pub(super) fn make(
 
 impl PossibleArms {
     /// The possible arm nearest to values of the unknowns, each in units of its deviation: unknowns and standard parameters.
+    /// `None` where the search does not come to an end.
     ///
     /// # Examples
     /// A rotor cannot have an inertia below zero.
@@ -123,11 +137,11 @@ impl PossibleArms {
     /// arms.combinations = vec![vec![(0, 1.0)]];
     /// arms.kept = vec![0];
     /// arms.nonnegative = vec![0];
-    /// let (unknowns, standard) = arms.nearest_to(&[-0.2], &[1e-3]);
+    /// let (unknowns, standard) = arms.nearest_to(&[-0.2], &[1e-3]).expect("one unknown");
     /// assert!(unknowns[0] > 0.0 && unknowns[0] < 1e-6 && unknowns == standard);
     /// ```
     #[must_use]
-    pub fn nearest_to(&self, values: &[f64], deviations: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    pub fn nearest_to(&self, values: &[f64], deviations: &[f64]) -> Option<(Vec<f64>, Vec<f64>)> {
         let n = values.len();
         let factor = Mat::from_fn(n, n + 1, |row, column| {
             if column == n {
@@ -138,12 +152,12 @@ impl PossibleArms {
                 0.0
             }
         });
-        let nearest = self.nearest(&factor);
-        (nearest.estimate, nearest.standard)
+        let nearest = self.nearest(&factor, &Told { values, deviations })?;
+        Some((nearest.estimate, nearest.standard))
     }
 
     /// The possible arm nearest to a triangular factor `[R | r]` of the weighted rows.
-    pub(super) fn nearest(&self, factor: &Mat<f64>) -> Nearest {
+    fn nearest(&self, factor: &Mat<f64>, told: &Told<'_>) -> Option<Nearest> {
         let unknowns = self.kept.len();
         // Variables: the unknowns, then what the logs may be silent about.
         let silent: Vec<usize> = (0..self.names.len())
@@ -161,46 +175,55 @@ impl PossibleArms {
         for (place, &standard) in silent.iter().enumerate() {
             by_variable[(standard, unknowns + place)] = 1.0;
         }
-        let cones = self.cones();
-        let mut start: Vec<f64> = vec![0.0; self.names.len()];
-        for cone in &cones {
-            cone.start(&mut start);
-        }
-        let mut first: Vec<f64> = self
-            .combinations
-            .iter()
-            .map(|combination| combination.iter().map(|&(k, c)| c * start[k]).sum())
-            .collect();
+        let cones = self.cones(factor, told);
+        let start = self.start(&cones);
+        let mut first = self.unknowns_of(&start);
         first.extend(silent.iter().map(|&k| start[k]));
+        let is_held = |variable: usize, standard: usize| {
+            let is_told = variable < unknowns && factor.col(variable).iter().any(|x| *x != 0.0);
+            is_told || cones.iter().any(|cone| cone.holds(standard))
+        };
+        let loose = self.kept.iter().chain(&silent).enumerate();
+        let loose = loose.filter(|&(variable, &standard)| !is_held(variable, standard));
         let barrier = Barrier {
             factor,
             unknowns,
             by_variable: &by_variable,
             cones: &cones,
-            loose: self
-                .kept
-                .iter()
-                .chain(&silent)
-                .enumerate()
-                .filter(|(_, standard)| !cones.iter().any(|cone| cone.holds(**standard)))
-                .map(|(variable, _)| variable)
-                .collect(),
+            loose: loose.map(|(variable, _)| variable).collect(),
         };
         let Found {
             variables,
             steps,
             gap,
-        } = barrier.minimize(first);
+        } = barrier.minimize(first)?;
         let mut standard = barrier.standard(&variables);
         for (value, fixed) in standard.iter_mut().zip(&self.fixed) {
             *value = fixed.unwrap_or(*value);
         }
-        Nearest {
+        Some(Nearest {
             estimate: variables[..unknowns].to_vec(),
             standard,
             steps,
             gap,
+        })
+    }
+
+    /// Standard parameters at which every matrix is its nominal one.
+    fn start(&self, cones: &[Cone]) -> Vec<f64> {
+        let mut start: Vec<f64> = vec![0.0; self.names.len()];
+        for cone in cones {
+            cone.start(&mut start);
         }
+        start
+    }
+
+    /// Combinations of standard parameters.
+    fn unknowns_of(&self, standard: &[f64]) -> Vec<f64> {
+        let sum = |combination: &Vec<(usize, f64)>| -> f64 {
+            combination.iter().map(|&(k, c)| c * standard[k]).sum()
+        };
+        self.combinations.iter().map(sum).collect()
     }
 
     /// What an unconstrained estimate, one per unknown, and the possible arm beside it have at the border.
@@ -219,65 +242,88 @@ impl PossibleArms {
         links.chain(effects).collect()
     }
 
-    fn cones(&self) -> Vec<Cone> {
+    /// Bodies and effects, with nominal ones that are of the order of what the logs tell.
+    fn cones(&self, factor: &Mat<f64>, told: &Told<'_>) -> Vec<Cone> {
+        let n = self.kept.len();
+        let missed = |mass: &f64| -> f64 {
+            let unknowns = self.unknowns_of(&self.start(&self.cones_of(*mass, told)));
+            let rows = 0..factor.nrows();
+            rows.map(|row| {
+                let fitted: f64 = (0..n).map(|k| factor[(row, k)] * unknowns[k]).sum();
+                (fitted - factor[(row, n)]).powi(2)
+            })
+            .sum()
+        };
+        let best = if self.links.iter().all(|link| link.nominal.is_some()) {
+            None
+        } else {
+            let masses = UNKNOWN_MASSES.map(|power| 10f64.powi(power));
+            masses.min_by(|x, y| missed(x).total_cmp(&missed(y)))
+        };
+        self.cones_of(best.unwrap_or(1.0), told)
+    }
+
+    fn cones_of(&self, mass: f64, told: &Told<'_>) -> Vec<Cone> {
+        let unknown = unknown_body(mass);
         let links = self.links.iter().map(|link| {
-            let nominal = match link.nominal {
-                Some(nominal) => thick(&pseudo_inertia(&nominal)),
-                None => unknown_body(),
-            };
+            let nominal = link
+                .nominal
+                .and_then(|nominal| thick(&Inertial::from(nominal)));
             let terms = link.parameters.iter().enumerate().map(|(k, &parameter)| {
                 let mut unit = [0.0; 10];
                 unit[k] = 1.0;
-                (parameter, pseudo_inertia(&unit))
+                (parameter, pseudo_inertia(&Inertial::from(unit)))
             });
-            Cone::new(terms.collect(), nominal)
+            Cone::new(terms.collect(), nominal.unwrap_or_else(|| unknown.clone()))
         });
         let free = self.nonnegative.iter();
         let free = free.filter(|&&k| self.fixed[k].is_none());
         let effects = free.map(|&k| {
             let one = Mat::from_fn(1, 1, |_, _| 1.0);
-            let nominal = Mat::from_fn(1, 1, |_, _| UNKNOWN_EFFECT);
-            Cone::new(vec![(k, one)], nominal)
+            let place = self.kept.iter().position(|&kept| kept == k);
+            let size = place.map(|place| told.values[place].max(told.deviations[place]));
+            let size = size.filter(|size| *size > 0.0).unwrap_or(UNKNOWN_EFFECT);
+            Cone::new(vec![(k, one)], Mat::from_fn(1, 1, |_, _| size))
         });
         links.chain(effects).collect()
     }
 }
 
-fn pseudo_inertia(ten: &[f64; 10]) -> Mat<f64> {
-    let matrix = Inertial::from(*ten).pseudo_inertia();
+fn pseudo_inertia(inertial: &Inertial) -> Mat<f64> {
+    let matrix = inertial.pseudo_inertia();
     Mat::from_fn(4, 4, |i, j| matrix[(i, j)])
 }
 
-fn unknown_body() -> Mat<f64> {
-    let diagonal = [
-        UNKNOWN_SPREAD * UNKNOWN_SPREAD,
-        UNKNOWN_SPREAD * UNKNOWN_SPREAD,
-        UNKNOWN_SPREAD * UNKNOWN_SPREAD,
-        1.0,
-    ];
-    Mat::from_fn(4, 4, |i, j| {
-        if i == j {
-            UNKNOWN_MASS * diagonal[i]
-        } else {
-            0.0
-        }
+fn unknown_body(mass: f64) -> Mat<f64> {
+    Mat::from_fn(4, 4, |i, j| match (i == j, i) {
+        (true, 3) => mass,
+        (true, _) => mass * UNKNOWN_SPREAD * UNKNOWN_SPREAD,
+        (false, _) => 0.0,
     })
 }
 
-/// The nearest body that has an inside: CAD values may be those of a rod, of a point, or of nothing.
-fn thick(nominal: &Mat<f64>) -> Mat<f64> {
-    let unknown = unknown_body();
-    let Ok(eigen) = nominal.self_adjoint_eigen(Side::Lower) else {
-        return unknown;
-    };
-    let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
-    let largest = values.iter().copied().fold(0.0, f64::max);
-    if !(largest > 0.0 && largest.is_finite()) {
-        return unknown;
+/// The nearest body that has an inside, with the same mass and center of mass: CAD values may be those of a rod or a plate. `None` for
+/// a point, and where there is no mass.
+fn thick(nominal: &Inertial) -> Option<Mat<f64>> {
+    let eigen = nominal
+        .second_moments()
+        .filter(|_| nominal.mass > 0.0)?
+        .symmetric_eigen();
+    let largest = eigen.eigenvalues.max();
+    if largest.is_nan() || largest <= 0.0 {
+        return None;
     }
-    let u = eigen.U();
-    let scaled = Mat::from_fn(4, 4, |i, j| u[(i, j)] * values[j].max(THINNEST * largest));
-    scaled * u.transpose()
+    let mut clipped = eigen;
+    clipped
+        .eigenvalues
+        .apply(|value| *value = value.max(THINNEST * largest));
+    let about_com = clipped.recompose();
+    let first = nominal.first_moments;
+    Some(Mat::from_fn(4, 4, |i, j| match (i, j) {
+        (3, 3) => nominal.mass,
+        (3, k) | (k, 3) => first[k],
+        (i, j) => about_com[(i, j)] + first[i] * first[j] / nominal.mass,
+    }))
 }
 
 impl fmt::Display for Possible {

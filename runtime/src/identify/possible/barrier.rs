@@ -9,9 +9,19 @@ const LAST_WEIGHT: f64 = 1e-3;
 /// How the barrier fades from round to round.
 const FADE: f64 = 0.2;
 
-/// Steps of one round, and half the squared Newton decrement over the barrier's weight at which it ends.
-const MOST_STEPS: usize = 60;
+/// Steps in all, and the squared Newton decrement over the barrier's weight at which a round ends.
+const MOST_STEPS: usize = 1000;
 const SETTLED: f64 = 1e-7;
+
+/// What the diagonal is raised by where a factor fails, as a share of it, and how often that grows a hundredfold.
+const RIDGE: f64 = 1e-14;
+const RIDGES: i32 = 5;
+
+/// Rounding of a sum of squares, relative.
+const ROUNDING: f64 = 1e-11;
+
+/// A barrier below this share of the residual is as good as none.
+const SMALL: f64 = 1e-4;
 
 /// Part of the promised descent that a step must keep.
 const KEPT: f64 = 0.1;
@@ -76,6 +86,11 @@ impl Cone {
         sum
     }
 
+    /// `tr(P0^-1 P)`
+    fn pull(&self, standard: &[f64]) -> f64 {
+        trace_of_product(&self.inverse, &self.at(standard))
+    }
+
     /// `tr(P0^-1 P) - ln det P`; `None` where `P` is not positive definite.
     fn value(&self, standard: &[f64]) -> Option<f64> {
         let matrix = self.at(standard);
@@ -127,7 +142,7 @@ pub(super) struct Barrier<'a> {
     /// Standard parameters by variables.
     pub by_variable: &'a Mat<f64>,
     pub cones: &'a [Cone],
-    /// Variables that no matrix holds: they are held by a square, where the residual does not hold them.
+    /// Variables that neither the residual nor a matrix holds: a square does.
     pub loose: Vec<usize>,
 }
 
@@ -137,6 +152,16 @@ pub(super) struct Found {
     pub steps: usize,
     /// By how much the sum of squares may exceed the least one, as a share of it.
     pub gap: f64,
+}
+
+/// How a step went.
+#[derive(PartialEq)]
+enum Step {
+    Taken,
+    /// Nothing is left to be gained.
+    Settled,
+    /// No step goes down: rounding is larger than what is left.
+    Stuck,
 }
 
 impl Barrier<'_> {
@@ -169,56 +194,56 @@ impl Barrier<'_> {
         Some(sum)
     }
 
-    /// From variables with which every matrix is positive definite.
-    pub(super) fn minimize(&self, mut variables: Vec<f64>) -> Found {
+    /// From variables with which every matrix is positive definite; `None` where the search does not come to an end.
+    pub(super) fn minimize(&self, mut variables: Vec<f64>) -> Option<Found> {
         let degree: usize = self.cones.iter().map(Cone::size).sum();
         let degree = degree.max(1) as f64;
         let mut weight = (self.cost(&variables) / degree).max(1.0);
         let mut steps = 0;
         loop {
-            for _ in 0..MOST_STEPS {
+            let mut last = Step::Taken;
+            while last == Step::Taken {
                 steps += 1;
-                if !self.step(&mut variables, weight) {
-                    break;
+                if steps > MOST_STEPS {
+                    return None;
                 }
+                last = self.step(&mut variables, weight);
             }
-            if weight <= LAST_WEIGHT {
-                break;
+            let cost = self.cost(&variables);
+            // Where a barrier that is small beside the residual cannot be told from rounding, there is no better end.
+            let is_small = weight * degree < SMALL * cost;
+            if last == Step::Stuck && !is_small {
+                return None;
+            }
+            if weight <= LAST_WEIGHT || last == Step::Stuck {
+                // The barrier's rate of exchange times its degree bounds what `-ln det` costs; the pull to the nominal
+                // matrices costs what it has gained.
+                let standard = self.standard(&variables);
+                let pull: f64 = self.cones.iter().map(|cone| cone.pull(&standard)).sum();
+                return Some(Found {
+                    variables,
+                    steps,
+                    gap: weight * (degree + pull) / cost.max(f64::MIN_POSITIVE),
+                });
             }
             weight = (FADE * weight).max(LAST_WEIGHT);
         }
-        // The barrier's rate of exchange times its degree bounds what it costs.
-        let least = self.cost(&variables).max(f64::MIN_POSITIVE);
-        Found {
-            variables,
-            steps,
-            gap: weight * degree / least,
-        }
     }
 
-    /// One damped Newton step; whether another one is worth it.
-    fn step(&self, variables: &mut Vec<f64>, weight: f64) -> bool {
+    /// One damped Newton step.
+    fn step(&self, variables: &mut Vec<f64>, weight: f64) -> Step {
         let Some((slope, curvature)) = self.derivatives(variables, weight) else {
-            return false;
+            return Step::Stuck;
         };
-        let count = variables.len();
-        // Units are far apart: scaled, so that the factor's pivots are not.
-        let scale: Vec<f64> = (0..count)
-            .map(|k| curvature[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip())
-            .collect();
-        let scaled = Mat::from_fn(count, count, |i, k| scale[i] * curvature[(i, k)] * scale[k]);
-        let right = Mat::from_fn(count, 1, |k, _| -scale[k] * slope[k]);
-        let Ok(factor) = scaled.llt(Side::Lower) else {
-            return false;
+        let Some(step) = newton(&slope, &curvature) else {
+            return Step::Stuck;
         };
-        let solution = factor.solve(&right);
-        let step: Vec<f64> = (0..count).map(|k| scale[k] * solution[(k, 0)]).collect();
         let promised: f64 = step.iter().zip(&slope).map(|(s, g)| s * g).sum();
-        if promised.is_nan() || -promised <= SETTLED * weight {
-            return false;
+        if -promised <= SETTLED * weight {
+            return Step::Settled;
         }
         let Some(now) = self.value(variables, weight) else {
-            return false;
+            return Step::Stuck;
         };
         let mut length = 1.0;
         while length > 1e-10 {
@@ -227,11 +252,16 @@ impl Barrier<'_> {
             let value = self.value(&trial, weight);
             if value.is_some_and(|value| value <= now + KEPT * length * promised) {
                 *variables = trial;
-                return true;
+                return Step::Taken;
             }
             length *= 0.5;
         }
-        false
+        // What is promised is below the rounding of the value.
+        if -promised <= ROUNDING * now.abs() {
+            Step::Settled
+        } else {
+            Step::Stuck
+        }
     }
 
     fn derivatives(&self, variables: &[f64], weight: f64) -> Option<(Vec<f64>, Mat<f64>)> {
@@ -262,6 +292,32 @@ impl Barrier<'_> {
         }
         Some((slope, curvature))
     }
+}
+
+/// Newton's step; none where the curvature is not positive definite, rounding aside.
+fn newton(slope: &[f64], curvature: &Mat<f64>) -> Option<Vec<f64>> {
+    let count = slope.len();
+    // Units are far apart: scaled, so that the factor's pivots are not.
+    let scale: Vec<f64> = (0..count)
+        .map(|k| curvature[(k, k)].max(f64::MIN_POSITIVE).sqrt().recip())
+        .collect();
+    let right = Mat::from_fn(count, 1, |k, _| -scale[k] * slope[k]);
+    (0..=RIDGES).find_map(|attempt| {
+        let ridge = if attempt == 0 {
+            0.0
+        } else {
+            RIDGE * 100f64.powi(attempt - 1)
+        };
+        let scaled = Mat::from_fn(count, count, |i, k| {
+            let raised = if i == k { ridge } else { 0.0 };
+            scale[i] * curvature[(i, k)] * scale[k] + raised
+        });
+        let factor = scaled.llt(Side::Lower).ok()?;
+        let solution = factor.solve(&right);
+        let step: Vec<f64> = (0..count).map(|k| scale[k] * solution[(k, 0)]).collect();
+        let goes_down = step.iter().zip(slope).map(|(s, g)| s * g).sum::<f64>() <= 0.0;
+        goes_down.then_some(step)
+    })
 }
 
 fn column(values: &[f64]) -> Mat<f64> {

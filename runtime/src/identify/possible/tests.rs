@@ -1,4 +1,5 @@
 use super::*;
+use faer::Side;
 
 /// `|| x - b ||^2 / 2` over parameters, each for itself an unknown.
 fn identity(b: &[f64]) -> Mat<f64> {
@@ -12,6 +13,16 @@ fn identity(b: &[f64]) -> Mat<f64> {
             0.0
         }
     })
+}
+
+/// Unknowns of which nothing is told beside the factor.
+fn nearest(arms: &PossibleArms, factor: &Mat<f64>) -> Nearest {
+    let zeros = vec![0.0; arms.kept.len()];
+    let told = Told {
+        values: &zeros,
+        deviations: &zeros,
+    };
+    arms.nearest(factor, &told).expect("an end")
 }
 
 /// A link whose ten parameters are all unknowns.
@@ -40,8 +51,8 @@ fn a_body_that_can_be_stays() {
     for k in 0..10 {
         factor[(k, k)] = 1e4;
     }
-    let nearest = one_link(None).nearest(&factor);
-    for (found, wanted) in nearest.standard.iter().zip(BODY) {
+    let found = nearest(&one_link(None), &factor);
+    for (found, wanted) in found.standard.iter().zip(BODY) {
         assert!((found - wanted).abs() < 1e-7, "{found} {wanted}");
     }
 }
@@ -52,7 +63,7 @@ fn a_body_that_can_be_stays() {
 fn the_nearest_body_is_the_projection() {
     let mut impossible = BODY;
     impossible[4] = 1.3; // more than `iyy + izz`
-    let matrix = pseudo_inertia(&impossible);
+    let matrix = pseudo_inertia(&Inertial::from(impossible));
     let eigen = matrix.self_adjoint_eigen(Side::Lower).expect("symmetric");
     let values: Vec<f64> = eigen.S().column_vector().iter().copied().collect();
     assert!(values[0] < -0.05, "{values:?}");
@@ -63,7 +74,7 @@ fn the_nearest_body_is_the_projection() {
         .map(|k| {
             let mut unit = [0.0; 10];
             unit[k] = 1.0;
-            pseudo_inertia(&unit)
+            pseudo_inertia(&Inertial::from(unit))
         })
         .collect();
     let factor = Mat::from_fn(16, 11, |row, k| {
@@ -74,9 +85,9 @@ fn the_nearest_body_is_the_projection() {
             rows[k][(i, j)]
         }
     });
-    let nearest = one_link(None).nearest(&factor);
-    let ten: [f64; 10] = nearest.standard.try_into().expect("ten");
-    let found = pseudo_inertia(&ten);
+    let projected = nearest(&one_link(None), &factor);
+    let ten: [f64; 10] = projected.standard.try_into().expect("ten");
+    let found = pseudo_inertia(&Inertial::from(ten));
     for i in 0..4 {
         for j in 0..4 {
             let (found, wanted) = (found[(i, j)], wanted[(i, j)]);
@@ -88,7 +99,7 @@ fn the_nearest_body_is_the_projection() {
         .symmetric_eigenvalues()
         .min();
     assert!(least > 0.0, "{least}");
-    assert!(nearest.gap < 1e-4 && nearest.steps < 200);
+    assert!(projected.gap < 1e-4 && projected.steps < 200);
 }
 
 /// What the logs do not tell is that of CAD; what they tell of a combination is kept.
@@ -100,19 +111,19 @@ fn where_the_logs_are_silent_there_is_cad() {
     arms.kept = vec![9];
     let told = BODY[9] + 2.0 * BODY[0] + 0.1;
     let factor = Mat::from_fn(1, 2, |_, k| if k == 0 { 1e5 } else { 1e5 * told });
-    let nearest = arms.nearest(&factor);
+    let found = nearest(&arms, &factor);
     assert!(
-        (nearest.estimate[0] - told).abs() < 1e-6,
+        (found.estimate[0] - told).abs() < 1e-6,
         "{:?}",
-        nearest.estimate
+        found.estimate
     );
-    let standard = &nearest.standard;
+    let standard = &found.standard;
     assert!((standard[9] + 2.0 * standard[0] - told).abs() < 1e-6);
     for (k, (found, cad)) in standard.iter().zip(BODY).enumerate() {
         assert!((found - cad).abs() < 0.1, "{k}: {found} {cad}");
     }
     // And without any told, CAD itself.
-    let silent = arms.nearest(&Mat::zeros(1, 2));
+    let silent = nearest(&arms, &Mat::zeros(1, 2));
     for (found, cad) in silent.standard.iter().zip(BODY) {
         assert!((found - cad).abs() < 1e-4, "{found} {cad}");
     }
@@ -126,7 +137,7 @@ fn a_body_of_cad_without_an_inside_is_one_with() {
         [0.0; 10],
     ] {
         let arms = one_link(Some(nominal));
-        let silent = arms.nearest(&Mat::zeros(10, 11));
+        let silent = nearest(&arms, &Mat::zeros(10, 11));
         let ten: [f64; 10] = silent.standard.try_into().expect("ten");
         assert!(
             Inertial::from(ten)
@@ -150,7 +161,7 @@ fn friction_takes_energy() {
     for k in 0..10 {
         factor[(k, k)] = 1e3;
     }
-    let found = arms.nearest(&factor).standard;
+    let found = nearest(&arms, &factor).standard;
     assert!((0.0..1e-6).contains(&found[0]), "{found:?}");
     // What may be negative stays.
     assert!(
@@ -159,4 +170,53 @@ fn friction_takes_energy() {
     );
     let estimate = [-0.3, 0.7, -0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(arms.border(&estimate, &found), ["`p0`"]);
+}
+
+/// Bodies are a cone: a thousand times the mass is a thousand times the arm.
+#[test]
+fn heavy_and_light_arms_are_found_alike() {
+    for scale in [1e-4, 1.0, 1e4] {
+        let mut b: Vec<f64> = BODY.iter().map(|x| scale * x).collect();
+        b[4] = 1.3 * scale;
+        let deviations: Vec<f64> = b.iter().map(|x| 1e-3 * x.abs()).collect();
+        let (found, _) = one_link(None).nearest_to(&b, &deviations).expect("an end");
+        let unit: Vec<f64> = b.iter().map(|x| x / scale).collect();
+        let unit_deviations: Vec<f64> = deviations.iter().map(|x| x / scale).collect();
+        let (wanted, _) = one_link(None)
+            .nearest_to(&unit, &unit_deviations)
+            .expect("an end");
+        for (found, wanted) in found.iter().zip(&wanted) {
+            assert!(
+                (found / scale - wanted).abs() < 1e-4,
+                "{scale}: {found} {wanted}"
+            );
+        }
+    }
+}
+
+/// A parameter that no body and no sign holds is what the logs say, whatever its size.
+#[test]
+fn what_is_free_is_what_is_told() {
+    let mut arms = one_link(None);
+    arms.links.clear();
+    let mut b = vec![0.0; 10];
+    b[0] = -9e4;
+    let deviations = vec![46.0; 10];
+    let (found, _) = arms.nearest_to(&b, &deviations).expect("an end");
+    assert!((found[0] + 9e4).abs() < 1e-6, "{found:?}");
+}
+
+/// A compact link of CAD stays what it is.
+#[test]
+fn cad_of_a_small_link_is_kept() {
+    let small = Inertial::about_com(0.3, [0.01, 0.0, 0.02], [3e-5, 0.0, 0.0, 4e-5, 0.0, 3e-5]);
+    let arms = one_link(Some(small.into()));
+    let found = nearest(&arms, &Mat::zeros(10, 11)).standard;
+    let wanted: [f64; 10] = small.into();
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!(
+            (found - wanted).abs() < 1e-3 * wanted.abs().max(1e-5),
+            "{found} {wanted}"
+        );
+    }
 }
