@@ -143,6 +143,25 @@ impl Model {
         }
     }
 
+    /// Whether no arm has a parameter below zero: masses, moments of inertia, and what effects declare so. The signs of unknown
+    /// constants of energies are not known.
+    #[must_use]
+    pub fn is_nonnegative(&self, parameter: &StandardParameter) -> bool {
+        match parameter.owner {
+            Owner::Link { element, .. } => matches!(
+                element,
+                InertialElement::M
+                    | InertialElement::Ixx
+                    | InertialElement::Iyy
+                    | InertialElement::Izz
+            ),
+            Owner::Effect { effect, parameter } => {
+                self.effects[effect].definition.linear[parameter].nonnegative
+            }
+            Owner::Monomial(_) => false,
+        }
+    }
+
     /// How many standard parameters, from the first, are those of links or energies and not of effects.
     #[must_use]
     pub fn rigid_parameters(&self) -> usize {

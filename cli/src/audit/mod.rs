@@ -102,14 +102,10 @@ impl Audit {
 /// Parameters that the language says are not negative.
 fn signs(compiled: &Compiled, values: &Values) -> Check {
     let model = &compiled.model;
-    let is_nonnegative = |k: usize| match compiled.standard[k].owner {
-        Owner::Effect { effect, parameter } => {
-            model.effects[effect].definition.linear[parameter].nonnegative
-        }
-        Owner::Link { .. } | Owner::Monomial(_) => false,
-    };
+    // Those of links are of bodies.
     let all: Vec<usize> = (0..compiled.standard.len())
-        .filter(|&k| is_nonnegative(k))
+        .filter(|&k| matches!(compiled.standard[k].owner, Owner::Effect { .. }))
+        .filter(|&k| model.is_nonnegative(&compiled.standard[k]))
         .collect();
     let value = |k: usize| {
         if let Some(standard) = &values.standard {

@@ -27,13 +27,11 @@ pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
         Status::Fixed(value) => Some(value),
         Status::Unknown | Status::Nominal(_) => None,
     });
-    let is_nonnegative = |k: &usize| match standard[*k].owner {
-        Owner::Effect { effect, parameter } => {
-            let definition = &model.effects[effect].definition;
-            // Those of a body are so by the body.
-            definition.linear[parameter].nonnegative && !definition.is_of_body(parameter)
-        }
-        Owner::Link { .. } | Owner::Monomial(_) => false,
+    // Links, and bodies of effects, are positive by being bodies.
+    let is_nonnegative = |k: &usize| {
+        let is_of_effect = matches!(standard[*k].owner, Owner::Effect { .. });
+        let parameter = &standard[*k];
+        is_of_effect && !model.is_rigid(parameter) && model.is_nonnegative(parameter)
     };
     let mut arms = PossibleArms::default();
     arms.names = standard

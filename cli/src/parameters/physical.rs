@@ -1,14 +1,14 @@
 //! Values that no arm has. An identification may miss zero by its error, so they are told and not refused.
 
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::{Inertial, Model};
-use robot_model_spec::parameter::{InertialElement, Owner, StandardParameter};
+use robot_model_spec::model::Inertial;
+use robot_model_spec::parameter::InertialElement;
 
 /// Sentences about standard parameters; `None` where nothing is known, as no torque depends on it.
 pub(super) fn of_standard(compiled: &Compiled, values: &[Option<f64>]) -> Vec<String> {
     let parameters = compiled.standard.iter().zip(values);
     let mut doubts: Vec<String> = parameters
-        .filter(|(parameter, _)| is_nonnegative(&compiled.model, parameter))
+        .filter(|(parameter, _)| compiled.model.is_nonnegative(parameter))
         .filter_map(|(parameter, value)| negative(&parameter.name, (*value)?))
         .collect();
     let links = compiled
@@ -35,7 +35,7 @@ pub(super) fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
     let sums = base.names.iter().zip(&base.combinations).zip(beta);
     sums.filter(|((_, combination), _)| {
         combination.iter().all(|&(k, coefficient)| {
-            coefficient > 0.0 && is_nonnegative(&compiled.model, &compiled.standard[k])
+            coefficient > 0.0 && compiled.model.is_nonnegative(&compiled.standard[k])
         })
     })
     .filter_map(|((name, _), &value)| negative(name, value))
@@ -52,19 +52,4 @@ pub(crate) fn no_body(link: &str) -> String {
 
 fn negative(name: &str, value: f64) -> Option<String> {
     (value < 0.0).then(|| format!("`{name}` is {value}, and no arm has a negative one"))
-}
-
-/// Masses, moments of inertia, and what effects declare so.
-fn is_nonnegative(model: &Model, parameter: &StandardParameter) -> bool {
-    match parameter.owner {
-        Owner::Link { element, .. } => matches!(
-            element,
-            InertialElement::M | InertialElement::Ixx | InertialElement::Iyy | InertialElement::Izz
-        ),
-        Owner::Effect { effect, parameter } => {
-            model.effects[effect].definition.linear[parameter].nonnegative
-        }
-        // The spec does not say the signs of unknown constants.
-        Owner::Monomial(_) => false,
-    }
 }
