@@ -1,7 +1,7 @@
 //! Huber's M-estimate: samples whose residual is far beyond that of the others count less, and no single one decides.
 //!
 //! With residuals `r` over their joint's deviation `s`, least squares with weights `min(1, k s / |r|)` are repeated until they
-//! settle; `s` is found from the median, which outliers do not move. Source: Huber 1964, Robust estimation of a location parameter;
+//! settle; `s` is found from the median, which outliers do not move, or from the widest tenth where a joint rests. Source: Huber 1964, Robust estimation of a location parameter;
 //! Holland, Welsch 1977, Robust regression using iteratively reweighted least-squares.
 
 use super::least_squares::Factors;
