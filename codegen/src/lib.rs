@@ -40,4 +40,4 @@ pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use measured::NotInstantaneous;
-pub use plant::{Plant, PlantSlopes};
+pub use plant::{Plant, PlantSlopes, Share};

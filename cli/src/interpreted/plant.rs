@@ -1,18 +1,25 @@
 //! A compiled spec as a plant to be simulated, and as the model of a controller.
 
 use nalgebra::{DMatrix, DVector};
-use robot_model::simulate::{Instant, InverseDynamics, Jumps, Measured, Plant, Slopes};
+use robot_model::simulate::{Instant, Jumps, Plant, Slopes};
 use robot_model_codegen::Compiled;
-use robot_model_codegen::PlantSlopes;
 
+mod believed;
+mod loads;
+mod share;
+mod slopes;
+
+use self::share::ShareRunner;
+use self::slopes::{MotionSlopes, SlopeRunners};
 use super::runner::{Numbers, Runner, matrix};
 use super::transmission::Transmissions;
 use crate::Error;
 
 /// A compiled spec with numbers for all parameters, as a [`Plant`].
 ///
-/// The torque that a spec's effects call measured is that of the motors. Where links hang behind springs or gaps, effects are on the
-/// motors' side, as in the spec's equations; links are further degrees of freedom behind those of the joints.
+/// The torque that a spec's effects call measured is that of the motors. Where links hang behind springs or gaps, torques of effects
+/// and their states are on the motors' side, as in the spec's equations, and forces of the world where the links are; links are further degrees of
+/// freedom behind those of the joints.
 #[derive(Debug, Clone)]
 pub struct InterpretedPlant {
     compiled: Compiled,
@@ -20,27 +27,17 @@ pub struct InterpretedPlant {
     joints: usize,
     transmissions: Transmissions,
     states: usize,
-    switches: usize,
     is_affine: bool,
     is_timed: bool,
     rigid: Runner,
     inertia: Runner,
-    effects: Runner,
+    effects: ShareRunner,
+    /// Where links are parted from motors.
+    forces: Option<ShareRunner>,
     rates: Runner,
-    arguments: Runner,
-    jumps: Runner,
     energies: Runner,
     /// Made when the first implicit step asks for them.
     slopes: Option<Box<SlopeRunners>>,
-    load: Vec<f64>,
-}
-
-#[derive(Debug, Clone)]
-struct SlopeRunners {
-    rigid_by_position: Runner,
-    coriolis: Runner,
-    effects: Runner,
-    rates: Runner,
 }
 
 impl InterpretedPlant {
@@ -61,18 +58,17 @@ impl InterpretedPlant {
             joints: plant.dof,
             transmissions,
             states: plant.states,
-            switches: plant.switches,
             is_affine: plant.is_affine,
             is_timed: plant.is_timed,
             rigid: runner(plant.rigid_torque),
             inertia: runner(plant.mass_matrix),
-            effects: runner(plant.effects),
+            effects: ShareRunner::new(plant.effects, plant.dof, &numbers),
+            forces: plant
+                .forces
+                .map(|share| ShareRunner::new(share, plant.dof, &numbers)),
             rates: runner(plant.rates),
-            arguments: runner(plant.arguments),
-            jumps: runner(plant.jumps),
             energies: runner(compiled.energies()),
             slopes: None,
-            load: vec![0.0; plant.dof],
             numbers,
             compiled,
         };
@@ -109,7 +105,7 @@ impl InterpretedPlant {
     fn inertia_at(&mut self, q: &[f64], inputs: &[f64]) -> DMatrix<f64> {
         let dof = self.dof();
         let (still, memory) = (vec![0.0; dof], vec![0.0; self.states]);
-        let switches = vec![0.0; self.switches];
+        let switches = vec![0.0; self.switches()];
         let at = Instant {
             time: 0.0,
             q,
@@ -163,44 +159,29 @@ impl InterpretedPlant {
         (0..self.joints).map(free).collect()
     }
 
-    /// Torque of the rigid body where its links are, `n`.
-    fn rigid_torque(&mut self, at: &Instant<'_>) -> Vec<f64> {
-        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
-        let rigid = self.rigid.run(&of_links(at, &links), &[]);
+    /// Effects, and forces of the world where they are apart.
+    fn shares(&mut self) -> impl Iterator<Item = &mut ShareRunner> {
+        std::iter::once(&mut self.effects).chain(&mut self.forces)
+    }
+
+    /// Where switches stand if links and motors move as at an instant and nothing sticks.
+    fn signs(&mut self, at: &Instant<'_>) -> Vec<f64> {
+        self.shares().flat_map(|share| share.signs(at)).collect()
+    }
+
+    /// Position, velocity and acceleration of the links.
+    fn links(&self, at: &Instant<'_>) -> [Vec<f64>; 3] {
+        [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values))
+    }
+
+    /// Torque of the rigid body, `n`, with links as at an instant.
+    fn rigid_torque(&mut self, there: &Instant<'_>) -> Vec<f64> {
+        let rigid = self.rigid.run(there, &[]);
         (0..self.joints).map(|joint| rigid.output(joint)).collect()
     }
 
-    fn mass_matrix(&mut self, at: &Instant<'_>) -> DMatrix<f64> {
-        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
-        matrix(
-            self.inertia.run(&of_links(at, &links), &[]),
-            0,
-            self.joints,
-            self.joints,
-        )
-    }
-
-    /// What joints carry, as effects see it; what is then missing at links behind transmissions.
-    fn carry(&mut self, at: &Instant<'_>) -> Vec<f64> {
-        self.load = self.rigid_torque(at);
-        self.transmissions.carry(at.q, &mut self.load)
-    }
-
-    /// Slopes that rows for the joints and for links behind transmissions have, from those of effects by the joints' quantity and by
-    /// the load: `by + by_load * load`, and the rests below.
-    fn with_effects(
-        &self,
-        by: DMatrix<f64>,
-        by_load: &DMatrix<f64>,
-        sides: DMatrix<f64>,
-    ) -> DMatrix<f64> {
-        let load = sides.rows(0, self.joints).into_owned();
-        let mut slopes = sides;
-        let mut top = slopes.rows_mut(0, self.joints);
-        top.gemm(1.0, by_load, &load, 1.0);
-        let mut own = top.columns_mut(0, self.joints);
-        own += by;
-        slopes
+    fn mass_matrix(&mut self, there: &Instant<'_>) -> DMatrix<f64> {
+        matrix(self.inertia.run(there, &[]), 0, self.joints, self.joints)
     }
 }
 
@@ -228,7 +209,8 @@ impl Plant for InterpretedPlant {
     }
 
     fn switches(&self) -> usize {
-        self.switches
+        let forces = self.forces.as_ref();
+        self.effects.switches + forces.map_or(0, |forces| forces.switches)
     }
 
     fn is_affine(&self) -> bool {
@@ -240,142 +222,144 @@ impl Plant for InterpretedPlant {
     }
 
     fn start(&mut self, joints: &Instant<'_>) -> Vec<f64> {
-        self.transmissions.hang(joints.q, |q| {
-            let rigid = self.rigid.run(&Instant { q, ..*joints }, &[]);
-            (0..self.joints).map(|joint| rigid.output(joint)).collect()
+        let transmissions = self.transmissions.clone();
+        transmissions.hang(joints.q, |q| {
+            let at = Instant { q, ..*joints };
+            let switches = self.signs(&at);
+            let at = Instant {
+                switches: &switches,
+                ..at
+            };
+            let mut torque = self.rigid_torque(&at);
+            if let Some(forces) = &mut self.forces {
+                let more = forces.torque(&at, &torque).torque;
+                torque
+                    .iter_mut()
+                    .zip(&more)
+                    .for_each(|(x, more)| *x += more);
+            }
+            torque
         })
     }
 
     fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-        let n = self.joints;
-        let rests = self.carry(at);
-        let mass = self.mass_matrix(at);
-        let effects = self.effects.run(at, &self.load);
-        for joint in 0..n {
-            torque[joint] = self.load[joint] + effects.output(joint);
+        let links = self.links(at);
+        let there = of_links(at, &links);
+        let loads = self.loads(at, &there);
+        let mass = self.mass_matrix(&there);
+        let effects = self.effects.torque(at, &loads.seen);
+        let carried = loads.carried.iter().chain(&loads.rests);
+        for (torque, carried) in torque.iter_mut().zip(carried) {
+            *torque = *carried;
         }
-        torque.as_mut_slice()[n..].copy_from_slice(&rests);
-        let (by_acceleration, by_load) =
-            (matrix(effects, n, n, n), matrix(effects, n + n * n, n, n));
-        let sides = self.transmissions.slopes(&mass, at.q, false);
-        *inertia = self.with_effects(by_acceleration, &by_load, sides);
+        let mut joints = torque.rows_mut(0, self.joints);
+        joints += &effects.torque;
+        let forces = loads.forces.as_ref();
+        let forces = forces.and_then(|forces| loads.force_slopes(&forces.by_acceleration, &mass));
+        *inertia = self
+            .load_slopes(at.q, &mass, forces, false)
+            .with_effects(effects.by_acceleration, &effects.by_load);
     }
 
     fn rates(&mut self, at: &Instant<'_>, rates: &mut [f64]) {
-        self.carry(at);
-        let found = self.rates.run(at, &self.load);
+        let links = self.links(at);
+        let loads = self.loads(at, &of_links(at, &links));
+        let found = self.rates.run(at, &loads.seen);
         for (state, rate) in rates.iter_mut().enumerate() {
             *rate = found.output(state);
         }
     }
 
     fn arguments(&mut self, at: &Instant<'_>, arguments: &mut [f64]) {
-        let found = self.arguments.run(at, &[]);
-        for (k, argument) in arguments.iter_mut().enumerate() {
-            *argument = found.output(k);
+        let links = self.links(at);
+        let forces = self.forces.as_mut();
+        let there = of_links(at, &links);
+        let forces = forces.map(|forces| forces.arguments(&there));
+        let found = self
+            .effects
+            .arguments(at)
+            .chain(forces.into_iter().flatten());
+        for (argument, found) in arguments.iter_mut().zip(found) {
+            *argument = found;
         }
     }
 
     fn jumps(&mut self, at: &Instant<'_>, jumps: &mut Jumps) {
-        let (n, m, dof) = (self.joints, self.switches, self.dof());
-        self.carry(at);
-        let found = self.jumps.run(at, &self.load);
-        jumps.halves = matrix(found, 0, n, m).resize_vertically(dof, 0.0);
-        jumps.directions = matrix(found, n * m, m, n).resize_horizontally(dof, 0.0);
-        jumps.drifts = DVector::from_fn(m, |k, _| found.output(2 * n * m + k));
+        let (m, dof) = (self.effects.switches, self.dof());
+        let links = self.links(at);
+        let there = of_links(at, &links);
+        let loads = self.loads(at, &there);
+        let own = self.effects.jumps(at, &loads.seen);
+        jumps.halves = own.halves.resize_horizontally(self.switches(), 0.0);
+        jumps.halves.resize_vertically_mut(dof, 0.0);
+        jumps.directions = own.directions.resize(self.switches(), dof, 0.0);
+        jumps.drifts.rows_mut(0, m).copy_from(&own.drifts);
+        if let Some(forces) = &mut self.forces {
+            let own = forces.jumps(&there, &loads.body);
+            for (joint, link) in self.transmissions.links().into_iter().enumerate() {
+                let (mut row, mut column) = (
+                    jumps.halves.row_mut(link),
+                    jumps.directions.column_mut(link),
+                );
+                row.columns_mut(m, forces.switches)
+                    .copy_from(&own.halves.row(joint));
+                column
+                    .rows_mut(m, forces.switches)
+                    .copy_from(&own.directions.column(joint));
+            }
+            jumps
+                .drifts
+                .rows_mut(m, forces.switches)
+                .copy_from(&own.drifts);
+        }
     }
 
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {
         let (n, p, dof) = (self.joints, self.states, self.dof());
-        let mut runners = self.slopes.take().unwrap_or_else(|| {
-            let PlantSlopes {
-                rigid_by_position,
-                coriolis_matrix,
-                effects,
-                rates,
-            } = self.compiled.plant_slopes();
-            let runner = |program| Runner::new(program, &self.numbers);
-            Box::new(SlopeRunners {
-                rigid_by_position: runner(rigid_by_position),
-                coriolis: runner(coriolis_matrix),
-                effects: runner(effects),
-                rates: runner(rates),
-            })
+        let runners = self.slopes.take();
+        let mut runners = runners.unwrap_or_else(|| {
+            Box::new(SlopeRunners::new(
+                self.compiled.plant_slopes(),
+                &self.numbers,
+            ))
         });
-        self.carry(at);
-        let by_load = matrix(self.effects.run(at, &self.load), n + n * n, n, n);
-        let links = [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values));
+        let links = self.links(at);
         let there = of_links(at, &links);
+        let loads = self.loads(at, &there);
+        let by_load = self.effects.torque(at, &loads.seen).by_load;
         let rigid = [
             matrix(runners.rigid_by_position.run(&there, &[]), 0, n, n),
             // The velocity torque `C dq` is quadratic, with `C` half its slope.
             matrix(runners.coriolis.run(&there, &[]), 0, n, n) * 2.0,
-            self.mass_matrix(at),
+            self.mass_matrix(&there),
         ];
-        let sides = [true, false, false].into_iter().zip(&rigid);
-        let sides: Vec<DMatrix<f64>> = sides
-            .map(|(is_position, rigid)| self.transmissions.slopes(rigid, at.q, is_position))
-            .collect();
-        let loads: Vec<DMatrix<f64>> = sides
-            .iter()
-            .map(|sides| sides.rows(0, n).into_owned())
-            .collect();
-        let effects = runners.effects.run(at, &self.load);
-        let rates = runners.rates.run(at, &self.load);
+        let forces = runners.forces.as_mut();
+        let forces: Option<MotionSlopes> =
+            forces.map(|forces| MotionSlopes::new(forces.run(&there, &loads.body), n, p));
+        let effects = MotionSlopes::new(runners.effects.run(at, &loads.seen), n, p);
+        let rates = runners.rates.run(at, &loads.seen);
         let rates_by_load = matrix(rates, 3 * p * n, p, n);
-        let rates_by = |k: usize| {
+        let rates_by = |k: usize, seen: &DMatrix<f64>| {
             let own = matrix(rates, k * p * n, p, n).resize_horizontally(dof, 0.0);
-            own + &rates_by_load * &loads[k]
+            own + &rates_by_load * seen
         };
-        for (k, sides) in sides.into_iter().take(2).enumerate() {
-            slopes.torque[k] = self.with_effects(matrix(effects, k * n * n, n, n), &by_load, sides);
-            slopes.rates[k] = rates_by(k);
+        for k in [0, 1] {
+            let by = forces.as_ref().map(|forces| &forces.by[k]);
+            let by = by.and_then(|by| loads.force_slopes(by, &rigid[k]));
+            let load = self.load_slopes(at.q, &rigid[k], by, k == 0);
+            slopes.rates[k] = rates_by(k, &load.seen);
+            slopes.torque[k] = load.with_effects(effects.by[k].clone(), &by_load);
         }
-        slopes.torque[2] = matrix(effects, 2 * n * n, n, p).resize_vertically(dof, 0.0);
-        slopes.rates_by_acceleration = rates_by(2);
+        slopes.torque[2] = effects.by_state.resize_vertically(dof, 0.0);
+        if let Some(forces) = forces {
+            for (joint, link) in self.transmissions.links().into_iter().enumerate() {
+                let mut row = slopes.torque[2].row_mut(link);
+                row += forces.by_state.row(joint);
+            }
+        }
+        let load = self.load_slopes(at.q, &rigid[2], None, false);
+        slopes.rates_by_acceleration = rates_by(2, &load.seen);
         slopes.rates[2] = matrix(rates, 4 * p * n, p, p);
         self.slopes = Some(runners);
-    }
-}
-
-/// What a controller believes of the arm: effects' states are at rest in it, and links where their motors are.
-impl InverseDynamics for InterpretedPlant {
-    fn inverse_dynamics(
-        &mut self,
-        measured: &Measured<'_>,
-        ddq: &[f64],
-        sliding: &[f64],
-        torque: &mut [f64],
-    ) {
-        let memory = vec![0.0; self.states];
-        let mut switches = vec![0.0; self.switches];
-        let still = vec![0.0; self.joints];
-        let mut at = Instant {
-            time: measured.time,
-            q: measured.q,
-            dq: measured.dq,
-            ddq,
-            memory: &memory,
-            switches: &[],
-            torque: &still,
-            inputs: measured.inputs,
-        };
-        let rigid = self.rigid.run(&at, &[]);
-        let load: Vec<f64> = (0..self.joints).map(|joint| rigid.output(joint)).collect();
-        at.dq = sliding;
-        let arguments = self.arguments.run(&at, &[]);
-        for (k, switch) in switches.iter_mut().enumerate() {
-            let argument: f64 = arguments.output(k);
-            *switch = if argument == 0.0 {
-                0.0
-            } else {
-                argument.signum()
-            };
-        }
-        at.switches = &switches;
-        let effects = self.effects.run(&at, &load);
-        for (joint, torque) in torque.iter_mut().enumerate() {
-            *torque = load[joint] + effects.output(joint);
-        }
     }
 }

@@ -7,7 +7,6 @@
 use nalgebra::{DMatrix, DVector};
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
-use robot_model_spec::model::Act;
 
 use crate::Error;
 
@@ -84,15 +83,6 @@ impl Transmissions {
                  known one by one"
             ));
         }
-        let mut acts = model
-            .effects
-            .iter()
-            .flat_map(|effect| &effect.definition.acts);
-        if acts.any(|act| matches!(act, Act::Force { .. })) {
-            return refuse(
-                "a force of the world on an arm with springs or gaps is not simulated; declare one or the other",
-            );
-        }
         // Whatever a displacement reads beside loads is no number, so that it fits nothing.
         let under = |load: f64| -> Vec<f64> {
             block.program.eval(&|symbol| match symbol {
@@ -160,7 +150,7 @@ impl Transmissions {
     }
 
     /// The degree of freedom of each link.
-    fn links(&self) -> Vec<usize> {
+    pub fn links(&self) -> Vec<usize> {
         let mut links: Vec<usize> = (0..self.joints).collect();
         for (k, one) in self.all.iter().enumerate() {
             links[one.joint] = self.joints + k;

@@ -22,8 +22,14 @@ pub fn spec(name: &str, with_effects: bool) -> Compiled {
 
 /// A double pendulum.
 pub fn pendulum(effects: &str) -> Compiled {
+    pendulum_with("", effects)
+}
+
+/// A double pendulum with effects of its own.
+pub fn pendulum_with(definitions: &str, effects: &str) -> Compiled {
     compiled(&format!(
-        "robot Pendulum {{
+        "{definitions}
+        robot Pendulum {{
             gravity = [0, -9.81, 0];
             convention = standard_dh;
             joint upper: revolute {{ a = 0.5; alpha = 0; d = 0; }}

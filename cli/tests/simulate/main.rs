@@ -5,5 +5,6 @@ mod conservation;
 mod dry;
 mod lugre;
 mod soft;
+mod touched;
 mod twin;
 mod ungrouped;

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, Integrator, Loop, Plant, Slopes, Torques, Trajectory};
 use robot_model_cli::interpreted::InterpretedPlant;
 
-use crate::common::{compiled, pendulum, plant, released};
+use crate::common::{compiled, pendulum_with, plant, released};
 
 /// Inertia of motor and link, kg m^2, and the spring between them.
 const MOTOR: f64 = 0.3;
@@ -208,21 +208,25 @@ fn what_no_motion_follows_from_is_refused() {
             "motor_inertia on turn; stop on turn;",
             "only springs and gaps are simulated",
         ),
-        (
-            "",
-            "motor_inertia on turn; joint_elasticity on turn; external_force on turn;",
-            "a force of the world",
-        ),
     ] {
         let said = refused(definitions, effects);
         assert!(said.contains(word), "{said}");
     }
 }
 
-/// Everything at once: a spring with play on the second of two joints, friction that remembers and friction that loads bend.
-fn mixed() -> InterpretedPlant {
-    let arm = pendulum(
-        "motor_inertia on lower;
+/// Everything at once: a spring with play on the second of two joints, friction that remembers and friction that loads bend, and a world
+/// that the second link rubs against, harder by `bite` times its load and acceleration.
+fn mixed(bite: f64) -> InterpretedPlant {
+    let rub = "effect rub(j) {
+        linear c, f, g;
+        state y;
+        dot(y) = dq(j) - abs(dq(j)) * y / 0.1;
+        force(j) = [g * (rigid_torque(j) + ddq(j)) + f * sign(dq(j)) - c * dq(j) * q(j), c * y, 0];
+    }";
+    let arm = pendulum_with(
+        rub,
+        "rub on lower;
+        motor_inertia on lower;
         joint_elasticity(stiffness = 300) on lower;
         backlash(half_gap = 0.01) on lower;
         encoder_offset(offset = 0.05) on lower;
@@ -234,6 +238,9 @@ fn mixed() -> InterpretedPlant {
         ("dahl.fc", 0.7),
         ("dahl.d", 0.05),
         ("load_dependent_friction.mu", 0.1),
+        ("rub.c", 0.8),
+        ("rub.f", 1.3),
+        ("rub.g", bite),
     ];
     plant(arm.ungrouped(), &more)
 }
@@ -243,13 +250,13 @@ fn gains_are_for_motors_with_their_links() {
     let whole = soft("0, 0, -9.81", &spring("")).free_inertia(&[0.3], &[]);
     assert!((whole[0] - MOTOR - LINK).abs() < 1e-12, "{whole:?}");
     // Of two joints: what one moves while the other is free, `M_11 - M_12^2 / M_22`.
-    let mut arm = mixed();
+    let mut arm = mixed(0.0);
     let q = [0.3, -0.4];
     let state: State = [
         vec![q[0], q[1], q[1]],
         vec![0.0; 3],
         vec![0.0; 3],
-        vec![0.0],
+        vec![0.0; 2],
     ];
     let (mut torque, mut m) = (DVector::zeros(3), DMatrix::zeros(3, 3));
     let switches = vec![0.0; arm.switches()];
@@ -282,23 +289,23 @@ fn at<'a>([q, dq, ddq, memory]: &'a State, switches: &'a [f64]) -> Instant<'a> {
 #[test]
 fn slopes_of_both_sides_are_those_of_differences() {
     const STEP: f64 = 1e-6;
-    let mut arm = mixed();
-    assert_eq!((arm.dof(), arm.joints(), arm.states()), (3, 2, 1));
+    let mut arm = mixed(0.2);
+    assert_eq!((arm.dof(), arm.joints(), arm.states()), (3, 2, 2));
     assert_eq!([0, 1, 2].map(|k| arm.joint(k)), [0, 1, 1]);
     let switches = vec![0.6; arm.switches()];
     let state: State = [
         vec![0.3, -0.4, -0.53],
         vec![0.7, -0.9, 0.4],
         vec![1.1, 2.3, -0.6],
-        vec![0.004],
+        vec![0.03, 0.004],
     ];
     // Torque and rates beside each other.
     let value = |arm: &mut InterpretedPlant, state: &State| -> DVector<f64> {
         let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
         arm.torque(&at(state, &switches), &mut torque, &mut inertia);
-        let mut rates = [0.0];
+        let mut rates = [0.0; 2];
         arm.rates(&at(state, &switches), &mut rates);
-        torque.push(rates[0])
+        DVector::from_iterator(5, torque.iter().copied().chain(rates))
     };
     let mut difference = |part: usize| -> DMatrix<f64> {
         let columns: Vec<DVector<f64>> = (0..state[part].len())
@@ -329,8 +336,12 @@ fn slopes_of_both_sides_are_those_of_differences() {
         (inertia, rates_by_acceleration),
         (z, rates_z),
     ]) {
-        let expected = DMatrix::from_fn(4, found.ncols(), |i, j| {
-            if i < 3 { torque[(i, j)] } else { rates[(0, j)] }
+        let expected = DMatrix::from_fn(5, found.ncols(), |i, j| {
+            if i < 3 {
+                torque[(i, j)]
+            } else {
+                rates[(i - 3, j)]
+            }
         });
         let size = expected.amax().max(1.0);
         assert!(
@@ -340,5 +351,6 @@ fn slopes_of_both_sides_are_those_of_differences() {
     }
     // The spring is stretched and everything has a part in it.
     assert!(differences[0][(1, 2)] < -200.0 && differences[0][(2, 0)] != 0.0);
-    assert!(differences[2][(1, 1)] > 0.0 && differences[3][(1, 0)] != 0.0);
+    assert!(differences[2][(1, 1)] > 0.0 && differences[3][(1, 1)] != 0.0);
+    assert!(differences[3][(2, 0)] != 0.0 && differences[3][(1, 0)] == 0.0);
 }

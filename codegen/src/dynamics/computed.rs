@@ -10,7 +10,7 @@ use super::energy::EnergyForm;
 use super::lean::{Choice, LeanChain, Wanted};
 use super::rigid::{RigidBody, Terms};
 use super::vanishing::without_vanishing;
-use super::{Value, effect_torque, parameter_expressions};
+use super::{Means, Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
 use crate::optimize::{self, Cost, optimize};
 
@@ -54,7 +54,7 @@ pub fn compute(
     let rigid_torque = torque(dag, Terms::All);
     let bias = torque(dag, Terms::Bias);
     let gravity = torque(dag, Terms::Gravity);
-    let effects = effect_torque(dag, model, &parameters, &rigid_torque);
+    let effects = effect_torque(dag, model, &parameters, &rigid_torque, Means::ALL);
     let velocity_torque = body.torque(dag, Terms::Velocity, false);
     let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
     let (mass_matrix, coriolis_matrix) = match body {

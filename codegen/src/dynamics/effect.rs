@@ -110,19 +110,36 @@ pub fn each_declared(
     }
 }
 
-/// `(joint, torque)` for each joint that the effect acts on; a joint may come twice.
+/// How an effect makes a torque.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Means {
+    /// `torque(j) = ..`, at a joint.
+    Torque,
+    /// `force(j) = [..]`, on a link.
+    Force,
+}
+
+impl Means {
+    /// Both.
+    pub const ALL: &[Self] = &[Self::Torque, Self::Force];
+}
+
+/// `(joint, torque)` for each joint that the effect acts on by some means; a joint may come twice.
 pub fn torques(
     dag: &mut Dag,
     definition: &EffectDefinition,
     scope: &Scope<'_>,
+    means: &[Means],
 ) -> Vec<(usize, ExprId)> {
     let bindings = bindings(dag, definition, scope);
     let mut torques = Vec::new();
-    for torque in &definition.torques {
+    let at_joints = means.contains(&Means::Torque);
+    for torque in definition.torques.iter().filter(|_| at_joints) {
         let value = lower(dag, &torque.value, scope, &bindings);
         torques.push((scope.joints[torque.joint], value));
     }
-    for act in &definition.acts {
+    let on_links = means.contains(&Means::Force);
+    for act in definition.acts.iter().filter(|_| on_links) {
         let Act::Force { joint, components } = act else {
             continue;
         };
@@ -188,7 +205,7 @@ pub fn entries(
     parameters: &[Symbol],
 ) -> Vec<EffectEntry> {
     let mut sums: BTreeMap<usize, ExprId> = BTreeMap::new();
-    for (joint, torque) in torques(dag, definition, scope) {
+    for (joint, torque) in torques(dag, definition, scope, Means::ALL) {
         let sum = sums.entry(joint).or_insert(dag.zero());
         *sum = dag.add(*sum, torque);
     }

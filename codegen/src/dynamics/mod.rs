@@ -34,6 +34,7 @@ use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
 pub use changes::Changes;
 pub use computed::{Computed, Regressors, compute, regressors};
+pub(crate) use effect::Means;
 pub use energies::Energies;
 use energy::EnergyForm;
 pub use kinematics::{Kinematics, Lever, Pose};
@@ -107,7 +108,7 @@ pub fn derive(
     let velocity_torque = body.torque(dag, Terms::Velocity, false);
     let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
 
-    let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque);
+    let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque, Means::ALL);
     let inverse_dynamics = (0..dof)
         .map(|joint| dag.add(rigid_torque[joint], effect_torque[joint]))
         .collect();
@@ -183,19 +184,25 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
         .collect()
 }
 
-/// Sum of the declared effects' torques, load-dependent ones at [`Symbol::RigidTorque`].
-pub(crate) fn loaded_effect_torque(dag: &mut Dag, model: &Model, values: &[Value]) -> Vec<ExprId> {
+/// Sum of the declared effects' torques by some means, load-dependent ones at [`Symbol::RigidTorque`].
+pub(crate) fn loaded_effect_torque(
+    dag: &mut Dag,
+    model: &Model,
+    values: &[Value],
+    means: &[Means],
+) -> Vec<ExprId> {
     let parameters = parameter_expressions(dag, values);
     let rigid_torque = effect::outside_rigid_torque(dag, model.joints.len());
-    effect_torque(dag, model, &parameters, &rigid_torque)
+    effect_torque(dag, model, &parameters, &rigid_torque, means)
 }
 
-/// Sum of the declared effects' torques.
+/// Sum of the declared effects' torques by some means.
 fn effect_torque(
     dag: &mut Dag,
     model: &Model,
     parameters: &[ExprId],
     rigid_torque: &[ExprId],
+    means: &[Means],
 ) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
     let levers = levers(dag, model);
@@ -206,7 +213,7 @@ fn effect_torque(
         rigid_torque,
         &levers,
         |dag, declared, scope| {
-            for (joint, torque) in effect::torques(dag, &declared.definition, scope) {
+            for (joint, torque) in effect::torques(dag, &declared.definition, scope, means) {
                 sum[joint] = dag.add(sum[joint], torque);
             }
         },

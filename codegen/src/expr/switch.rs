@@ -17,6 +17,27 @@ pub struct Switched {
     pub arguments: Vec<ExprId>,
 }
 
+impl Switched {
+    /// With the symbols of the switches from `first` on in place of those from 0.
+    #[must_use]
+    pub fn behind(self, dag: &mut Dag, first: usize) -> Self {
+        let count = self.arguments.len();
+        let later = (first..first + count).map(|k| dag.symbol(Symbol::Switch(k)));
+        let later: Vec<ExprId> = later.collect();
+        let mut moved = |roots: &[ExprId]| {
+            dag.substitute(roots, &|symbol| match symbol {
+                Symbol::Switch(k) => Some(later[k]),
+                _ => None,
+            })
+        };
+        Self {
+            roots: moved(&self.roots),
+            halves: self.halves.iter().map(|row| moved(row)).collect(),
+            arguments: self.arguments,
+        }
+    }
+}
+
 impl Dag {
     /// Finds the jumps by positions, velocities and time. `sign(x y)` is `sign(x) sign(y)`, so that a jump by a velocity is found
     /// beside factors of any kind.
