@@ -45,6 +45,15 @@ pub struct Unknown {
     pub nonnegative: bool,
 }
 
+/// What CAD says of an unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nominal {
+    /// Its value.
+    pub value: f64,
+    /// How large such a parameter is of bodies of that mass and extent, in its unit: positive where the value itself may be 0.
+    pub size: f64,
+}
+
 /// An unknown in which the torque is not linear, with the range in which it is looked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
@@ -113,6 +122,11 @@ pub trait Arm: Columns {
         _shapes: &[f64],
         _estimate: &[f64],
     ) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
+    /// What is known of each unknown before any log, from CAD: one entry an unknown, or none at all.
+    fn nominal(&self) -> Vec<Option<Nominal>> {
         Vec::new()
     }
 

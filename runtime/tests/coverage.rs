@@ -14,6 +14,7 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
     let identify = Identify {
         method: Method::Wls,
         bands: Some(Bands::DEFAULT),
+        ..Identify::default()
     };
     let quiet = Plant {
         white: 0.0,

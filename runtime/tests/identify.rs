@@ -41,6 +41,7 @@ fn deviations_are_those_of_repeated_experiments() {
     let identify = Identify {
         method: Method::Wls,
         bands: Some(robot_model::signal::Bands::DEFAULT),
+        ..Identify::default()
     };
     let mut values = Vec::new();
     let mut claimed = 0.0;

@@ -146,7 +146,7 @@ fn tx40_can_be() {
     let free = tx40.fit(coupling);
     let physical = Identify {
         method: Method::Physical,
-        bands: None,
+        ..Identify::default()
     };
     let arm = tx40.arm(coupling);
     let log = tx40.log("identification.csv");

@@ -9,6 +9,7 @@ mod candidate;
 mod function;
 mod measured;
 mod momentum;
+mod nominal;
 mod orbit;
 mod plant;
 mod possible;
@@ -27,7 +28,7 @@ pub use plant::InterpretedPlant;
 pub(crate) use possible::{payloads, possible_arms};
 pub(crate) use states::states;
 
-use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
+use robot_model::columns::{Arm, Columns, Entry, Nominal, Shape, Unknown};
 use robot_model::identify::PossibleArms;
 use robot_model::motion::Motion;
 use robot_model_codegen::expr::Symbol;
@@ -37,6 +38,7 @@ use robot_model_spec::parameter::Owner;
 
 use band::EffectBlock;
 use measured::Measured;
+use nominal::nominal;
 use program::{run, run_block};
 use rough::is_rough;
 use shape::grids;
@@ -192,6 +194,10 @@ impl Arm for InterpretedArm {
             Symbol::Parameter(k) => Operand::Constant(parameters[k]),
             other => signals.bind(&motion.smooth, other),
         })
+    }
+
+    fn nominal(&self) -> Vec<Option<Nominal>> {
+        nominal(&self.compiled)
     }
 
     fn possible_arms(&self) -> Option<PossibleArms> {

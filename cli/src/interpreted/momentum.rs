@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use robot_model::columns::{Arm, Columns, Entry, MomentumArm, Shape, Unknown};
+use robot_model::columns::{Arm, Columns, Entry, MomentumArm, Nominal, Shape, Unknown};
 use robot_model::identify::PossibleArms;
 use robot_model::motion::Motion;
 use robot_model_codegen::filtered::Reason;
@@ -157,6 +157,10 @@ impl Arm for InterpretedMomentum {
 
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
         self.arm.rigid_torque(motion, shapes, estimate)
+    }
+
+    fn nominal(&self) -> Vec<Option<Nominal>> {
+        self.arm.nominal()
     }
 
     fn possible_arms(&self) -> Option<PossibleArms> {

@@ -1,7 +1,7 @@
 //! `robot-model simulate`: the log of an arm that moves under a controller.
 
 mod record;
-mod table;
+pub(crate) mod table;
 
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};

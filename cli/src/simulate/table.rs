@@ -125,7 +125,7 @@ impl Table {
 }
 
 /// `time,q1..qn[,dq1..dqn[,ddq1..ddqn]][,extra..]`; torques of a log that is moved along again are left out.
-pub(super) fn trajectory(path: &Path, dof: usize) -> Result<Trajectory, Error> {
+pub(crate) fn trajectory(path: &Path, dof: usize) -> Result<Trajectory, Error> {
     const FORM: &str = "time,q1,..[,dq1,..][,ddq1,..][,extra]";
     let mut table = read(path)?;
     let time = table.time(path, FORM)?;

@@ -56,6 +56,44 @@ pub enum IdentifyError {
         "no possible arm was found near the logs: the search did not come to an end; give nominal values of the links (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or another method"
     )]
     NoEnd,
+    /// The torque has no part in the direction that total least squares looks for.
+    #[error(
+        "total least squares has no estimate here: the torque says nothing of the columns; identify by another method"
+    )]
+    NoTotal,
+    /// The spec gives no nominal value.
+    #[error(
+        "the spec gives no nominal value to go to; write those of CAD (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or identify by another method"
+    )]
+    NoNominal,
+    /// A deviation of nominal values that is none.
+    #[error("nominal values that are off by {prior}: give a share above 0, such as 0.3")]
+    Prior {
+        /// What was given.
+        prior: f64,
+    },
+    /// Not one motion without noise for each log.
+    #[error(
+        "{instruments} motions without noise for {logs} logs: give one for each log, in their order"
+    )]
+    Instruments {
+        /// Motions that were given.
+        instruments: usize,
+        /// Logs.
+        logs: usize,
+    },
+    /// A motion without noise that ends before the log.
+    #[error(
+        "{source_name}: the motion without noise is {reference:.3} s long, the log {log:.3} s; give it over the whole log, period by period"
+    )]
+    ShortReference {
+        /// Name of the log.
+        source_name: String,
+        /// Length of the log, s.
+        log: f64,
+        /// Length of the motion, s.
+        reference: f64,
+    },
     /// The signals cannot be filtered.
     #[error(transparent)]
     Signal(#[from] SignalError),

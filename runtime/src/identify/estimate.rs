@@ -7,6 +7,7 @@ use crate::log::Log;
 use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, prepare};
 
+use super::instruments::Hausman;
 use super::least_squares::Solution;
 use super::possible::Possible;
 use super::stack::{Stack, norm, percent, torque_of};
@@ -57,8 +58,25 @@ pub struct Identified {
 pub struct Errors {
     /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut; N m or N.
     pub rmse: Vec<f64>,
-    /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated.
+    /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated: RMS% of Tafazoli et
+    /// al. 2004 (equation 15).
     pub relative_percent: Vec<f64>,
+    /// Mean of `|tau - prediction|` per joint, raw samples as for `rmse`; N m or N.
+    pub mae: Vec<f64>,
+    /// Root mean square of the measured torque about its mean, of the same samples.
+    pub spread: Vec<f64>,
+}
+
+impl Errors {
+    /// `100 (1 - || tau - prediction || / || tau - mean(tau) ||)` per joint, the NRMSE fit: 100 where nothing is left, 0 where the
+    /// prediction is no better than a constant; none where the torque is constant.
+    #[must_use]
+    pub fn nrmse_fit(&self) -> Vec<Option<f64>> {
+        let pairs = self.rmse.iter().zip(&self.spread);
+        pairs
+            .map(|(rmse, spread)| (*spread > 0.0).then(|| 100.0 * (1.0 - rmse / spread)))
+            .collect()
+    }
 }
 
 /// What an identification found.
@@ -91,6 +109,8 @@ pub struct Estimate {
     pub possible: Option<Possible>,
     /// Samples per joint whose residual is far beyond the others, where such samples count less: [`Method::Robust`].
     pub outliers: Option<Vec<usize>>,
+    /// The comparison with least squares where instruments were taken: [`Method::Instrumental`].
+    pub hausman: Option<Hausman>,
 }
 
 impl Estimate {
@@ -134,6 +154,7 @@ impl Estimate {
             joints: arm.joints().to_vec(),
             possible: None,
             outliers: None,
+            hausman: None,
         }
     }
 
@@ -212,16 +233,22 @@ impl Estimate {
         let mut errors = Errors {
             rmse: Vec::new(),
             relative_percent: Vec::new(),
+            mae: Vec::new(),
+            spread: Vec::new(),
         };
         let (mut filtered, mut tau) = (Vec::new(), Vec::new());
         for (joint, values) in torque.iter().enumerate() {
             let gain = arm.actuator_gain()[joint];
             let predicted = spread(values, stride, count);
-            let square: f64 = inner
-                .clone()
-                .map(|k| (gain * measured[joint][k] - predicted[k]).powi(2))
-                .sum();
-            errors.rmse.push((square / inner.len() as f64).sqrt());
+            let mean = |value: &dyn Fn(usize) -> f64| {
+                inner.clone().map(value).sum::<f64>() / inner.len() as f64
+            };
+            let rest = |k: usize| gain * measured[joint][k] - predicted[k];
+            let level = mean(&|k| gain * measured[joint][k]);
+            errors.rmse.push(mean(&|k| rest(k).powi(2)).sqrt());
+            errors.mae.push(mean(&|k| rest(k).abs()));
+            let spread = mean(&|k| (gain * measured[joint][k] - level).powi(2));
+            errors.spread.push(spread.sqrt());
             let rest: Vec<f64> = prepared.tau[joint]
                 .iter()
                 .zip(values)
@@ -325,6 +352,9 @@ impl fmt::Display for Estimate {
                     "more than a few: what they say is in no parameter; look at them before you trust the rest"
                 )?;
             }
+        }
+        if let Some(hausman) = &self.hausman {
+            hausman.tell(f, &self.parameters)?;
         }
         if self.unexcited.is_empty() {
             return Ok(());

@@ -8,13 +8,14 @@
 //! `L{Y_p}` starts at `Y_p` and the other filters at zero. They start where the filters of the motion have settled; before
 //! that both sides are zero.
 
-use crate::columns::{Arm, Columns, Entry, MomentumArm, Shape, Unknown};
+use crate::columns::{Arm, Columns, Entry, MomentumArm, Nominal, Shape, Unknown};
 use crate::log::Log;
 use crate::motion::Motion;
 use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_velocities};
 
 use super::estimate::{Errors, Estimate, Form};
 use super::possible::PossibleArms;
+use super::stack::Stack;
 use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands};
 
 /// An arm whose columns and torques have passed `L`.
@@ -55,7 +56,11 @@ impl Identify {
         let form = Form::Filtered {
             corner: filtered.corner,
         };
-        self.estimate(&filtered, form, bands, solved)
+        let shapes = solved.1.clone();
+        self.estimate(&filtered, form, bands, solved, &|| {
+            let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
+            Ok(Stack::new(&filtered, &wanted, &shapes))
+        })
     }
 
     /// As for the usual form: `L` weakens the model's torque and what it leaves alike, so their ratio is the same.
@@ -240,6 +245,10 @@ impl Arm for FilteredArm<'_> {
         series
             .map(|(p, h)| Self::filtered(motion, filter, Some(p), Some(&h)))
             .collect()
+    }
+
+    fn nominal(&self) -> Vec<Option<Nominal>> {
+        self.arm.nominal()
     }
 
     fn possible_arms(&self) -> Option<PossibleArms> {

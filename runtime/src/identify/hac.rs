@@ -24,73 +24,128 @@ const MOST_LAGS: usize = 4;
 /// Least variance of a sum, as a share of that of a white series with the same power.
 const LEAST: f64 = 0.05;
 
-/// Standard deviations of a solution, 0 where it has no value. `weights` are those of the rows' residuals, 1 each where all count
-/// in full.
-pub(super) fn deviations(stack: &Stack, solution: &Solution, weights: &[Vec<f64>]) -> Vec<f64> {
-    let unknowns = stack.unknowns.len();
-    let mut place = vec![None; unknowns];
-    let excited = (0..unknowns).filter(|c| solution.unexcited.binary_search(c).is_err());
-    let excited: Vec<usize> = excited.collect();
-    for (k, &c) in excited.iter().enumerate() {
-        place[c] = Some(k);
-    }
-    let (samples, count) = (stack.samples(), excited.len());
-    let residuals = stack.residuals(&solution.estimate);
-    let rows: Vec<Mat<f64>> = stack
-        .joints
-        .iter()
-        .zip(&solution.sigma)
-        .map(|(joint, sigma)| {
-            let mut rows = Mat::zeros(samples, count);
+/// Columns that have a value in a solution: rows over their joint's scale, columns over their length.
+pub(super) struct Rows {
+    /// How many unknowns there are, and which have a value.
+    unknowns: usize,
+    pub excited: Vec<usize>,
+    /// Lengths of the columns.
+    pub length: Vec<f64>,
+    /// `[joint]`, samples by excited columns.
+    pub joints: Vec<Mat<f64>>,
+}
+
+impl Rows {
+    /// Those of a stack; `unexcited` unknowns are left out.
+    pub fn new(stack: &Stack, unexcited: &[usize], scale: &[f64]) -> Self {
+        let unknowns = stack.unknowns.len();
+        let mut place = vec![None; unknowns];
+        let excited = (0..unknowns).filter(|c| unexcited.binary_search(c).is_err());
+        let excited: Vec<usize> = excited.collect();
+        for (k, &c) in excited.iter().enumerate() {
+            place[c] = Some(k);
+        }
+        let (samples, count) = (stack.samples(), excited.len());
+        let mut joints = vec![Mat::<f64>::zeros(samples, count); stack.dof()];
+        let mut squares = vec![0.0; count];
+        for ((rows, joint), scale) in joints.iter_mut().zip(&stack.joints).zip(scale) {
             for (c, values) in &joint.columns {
                 if let Some(k) = place[*c] {
                     for (row, value) in values.iter().enumerate() {
-                        rows[(row, k)] = value / sigma;
+                        rows[(row, k)] = value / scale;
+                        squares[k] += rows[(row, k)].powi(2);
                     }
                 }
             }
-            rows
-        })
-        .collect();
-    let length: Vec<f64> = (0..count)
-        .map(|k| {
-            let squares = rows.iter().flat_map(|rows| rows.col(k).iter());
-            squares.map(|x| x * x).sum::<f64>().sqrt()
-        })
-        .collect();
-    let mut information = Mat::<f64>::zeros(count, count);
-    for (rows, weights) in rows.iter().zip(weights) {
-        // Where a residual is cut off, it does not answer to the estimate.
-        let full = weights.iter().filter(|weight| **weight >= 1.0).count();
-        let share = full as f64 / samples.max(1) as f64;
-        information += faer::Scale(share) * (rows.transpose() * rows);
-    }
-    let scaled = Mat::from_fn(count, count, |i, k| {
-        information[(i, k)] / (length[i] * length[k])
-    });
-    let inverse = scaled
-        .partial_piv_lu()
-        .solve(Mat::<f64>::identity(count, count));
-    let mut series = Mat::<f64>::zeros(samples, count);
-    for (j, rows) in rows.iter().enumerate() {
-        let mut scores = rows.clone();
-        for k in 0..samples {
-            let residual = weights[j][k] * residuals[j][k] / solution.sigma[j];
-            for c in 0..count {
-                scores[(k, c)] *= residual / length[c];
+        }
+        let length: Vec<f64> = squares.into_iter().map(f64::sqrt).collect();
+        for rows in &mut joints {
+            for (k, length) in length.iter().enumerate() {
+                rows.col_mut(k).iter_mut().for_each(|x| *x /= length);
             }
         }
-        series += scores * &inverse;
+        Self {
+            unknowns,
+            excited,
+            length,
+            joints,
+        }
     }
-    // The unknowns have taken their share of the residuals.
-    let freedom = (samples * stack.dof()) as f64;
-    let correction = freedom / (freedom - count as f64).max(1.0);
-    let mut std = vec![0.0; unknowns];
-    for (k, &c) in excited.iter().enumerate() {
-        let values: Vec<f64> = series.col(k).iter().copied().collect();
-        std[c] = (correction * long_run_sum(&values)).max(0.0).sqrt() / length[k];
+
+    /// `sum_j W_j' V_j` with other columns of the same samples.
+    pub fn product(&self, other: &Self) -> Mat<f64> {
+        let pairs = self.joints.iter().zip(&other.joints);
+        let zero = Mat::zeros(self.excited.len(), other.excited.len());
+        pairs.fold(zero, |sum, (one, other)| sum + one.transpose() * other)
     }
-    std
+
+    /// What each sample moves the estimate by, in units of one over a column's length: `A^-1 sum_j w_jk r_jk` where the rows' own
+    /// equations are `sum_jk w_jk r_jk = 0` and `A` is how these change with the estimate.
+    pub fn influence(&self, residuals: &[Vec<f64>], bread: &Mat<f64>) -> Mat<f64> {
+        let (samples, count) = self
+            .joints
+            .first()
+            .map_or((0, 0), |rows| (rows.nrows(), rows.ncols()));
+        let inverse = bread
+            .transpose()
+            .partial_piv_lu()
+            .solve(Mat::<f64>::identity(count, count));
+        let mut series = Mat::<f64>::zeros(samples, count);
+        for (rows, residuals) in self.joints.iter().zip(residuals) {
+            let mut scores = rows.clone();
+            for c in 0..count {
+                let scores = scores.col_mut(c).iter_mut();
+                scores.zip(residuals).for_each(|(x, r)| *x *= r);
+            }
+            series += scores * &inverse;
+        }
+        series
+    }
+
+    /// Standard deviations of what such series add up to, one an unknown, 0 where it has no value.
+    pub fn deviations(&self, series: &Mat<f64>) -> Vec<f64> {
+        // The unknowns have taken their share of the residuals.
+        let freedom = (series.nrows() * self.joints.len()) as f64;
+        let correction = freedom / (freedom - series.ncols() as f64).max(1.0);
+        let mut std = vec![0.0; self.unknowns];
+        for (k, &c) in self.excited.iter().enumerate() {
+            let values: Vec<f64> = series.col(k).iter().copied().collect();
+            std[c] = (correction * long_run_sum(&values)).max(0.0).sqrt() / self.length[k];
+        }
+        std
+    }
+}
+
+/// Residuals over their joint's scale, times the rows' weights.
+pub(super) fn weighed(
+    mut residuals: Vec<Vec<f64>>,
+    scale: &[f64],
+    weights: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    for ((residuals, weights), scale) in residuals.iter_mut().zip(weights).zip(scale) {
+        for (residual, weight) in residuals.iter_mut().zip(weights) {
+            *residual *= weight / scale;
+        }
+    }
+    residuals
+}
+
+/// Standard deviations of a least-squares solution, 0 where it has no value. `weights` are those of the rows' residuals, 1 each
+/// where all count in full.
+pub(super) fn deviations(stack: &Stack, solution: &Solution, weights: &[Vec<f64>]) -> Vec<f64> {
+    let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
+    let samples = stack.samples().max(1);
+    let count = rows.excited.len();
+    let mut information = Mat::<f64>::zeros(count, count);
+    for (rows, weights) in rows.joints.iter().zip(weights) {
+        // Where a residual is cut off, it does not answer to the estimate.
+        let full = weights.iter().filter(|weight| **weight >= 1.0).count();
+        let share = full as f64 / samples as f64;
+        information += faer::Scale(share) * (rows.transpose() * rows);
+    }
+    let residuals = stack.residuals(&solution.estimate);
+    let residuals = weighed(residuals, &solution.scale, weights);
+    rows.deviations(&rows.influence(&residuals, &information))
 }
 
 /// Variance of the sum of a series: its autocovariances, in full up to the lag from which on they are noise, then less and less.

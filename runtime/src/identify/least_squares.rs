@@ -37,8 +37,10 @@ pub struct Solution {
     pub unexcited: Vec<usize>,
     /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.
     pub condition: f64,
-    /// Standard deviation of the residual per joint, the reciprocal of its weight; never below a tiny share of the largest.
+    /// Standard deviation of the residual per joint; never below a tiny share of the largest.
     pub sigma: Vec<f64>,
+    /// What each joint's rows were divided by.
+    pub scale: Vec<f64>,
 }
 
 impl Factors {
@@ -105,33 +107,22 @@ impl Factors {
         solution
     }
 
-    /// Least squares with each joint's rows divided by `scale`.
+    /// Least squares with each joint's rows divided by `scale`; no scale counts as less than a tiny share of the largest.
     ///
     /// `correlation` is per joint the number of samples that count as one independent sample (1 for white residuals).
-    fn solve(&self, scale: &[f64], correlation: &[f64]) -> Solution {
+    pub(super) fn solve(&self, scale: &[f64], correlation: &[f64]) -> Solution {
+        let scale = &not_tiny(scale);
         let n = self.unknowns;
         let r = self.stacked(scale);
-        let norms: Vec<f64> = (0..n).map(|c| column_norm(&r, c)).collect();
-        let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
-            if norms[c] > 0.0 {
-                r[(row, c)] / norms[c]
-            } else {
-                0.0
-            }
-        });
-        let pivoted = scaled.col_piv_qr();
-        let diagonal = pivoted.thin_R();
-        let order = pivoted.P().arrays().0;
-        let rank = (0..n.min(diagonal.nrows()))
-            .take_while(|&k| diagonal[(k, k)].abs() > RANK_TOLERANCE)
-            .count();
-        let mut excited: Vec<usize> = order[..rank].to_vec();
-        excited.sort_unstable();
+        let Excited {
+            columns: excited,
+            norms,
+            kept,
+        } = Excited::new(&r, n);
+        let rank = excited.len();
         let unexcited: Vec<usize> = (0..n)
             .filter(|c| excited.binary_search(c).is_err())
             .collect();
-
-        let kept = Mat::from_fn(r.nrows(), rank, |row, c| scaled[(row, excited[c])]);
         let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
         let qr = kept.qr();
         let solved = qr.solve_lstsq(&right);
@@ -151,6 +142,7 @@ impl Factors {
             unexcited,
             condition,
             sigma,
+            scale: scale.clone(),
         }
     }
 
@@ -171,7 +163,7 @@ impl Factors {
     }
 
     /// Standard deviation of each joint's residual; the unknowns count as shared evenly among the joints.
-    fn sigma(&self, estimate: &[f64], rank: usize) -> Vec<f64> {
+    pub(super) fn sigma(&self, estimate: &[f64], rank: usize) -> Vec<f64> {
         let share = rank as f64 / self.joints.len() as f64;
         let freedom = (self.samples as f64 - share).max(1.0);
         let of = |block: &Mat<f64>| {
@@ -186,9 +178,7 @@ impl Factors {
             (sum / freedom).sqrt()
         };
         let sigma: Vec<f64> = self.joints.iter().map(of).collect();
-        // A channel that is fitted exactly, such as a dead one, has no infinite weight.
-        let floor = LEAST_SIGMA * sigma.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        sigma.into_iter().map(|s| s.max(floor)).collect()
+        not_tiny(&sigma)
     }
 
     /// Square roots of the diagonal of `A^-1 B A^-1` with `A = sum W_j' W_j / scale_j^2` and
@@ -224,6 +214,50 @@ impl Factors {
         }
         std
     }
+}
+
+/// The columns of a factor that can be told from each other.
+pub(super) struct Excited {
+    /// Which, ascending.
+    pub columns: Vec<usize>,
+    /// Lengths of all columns.
+    pub norms: Vec<f64>,
+    /// Those columns over their lengths.
+    pub kept: Mat<f64>,
+}
+
+impl Excited {
+    /// Among the first `n` columns of a factor.
+    pub fn new(r: &Mat<f64>, n: usize) -> Self {
+        let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
+        let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
+            if norms[c] > 0.0 {
+                r[(row, c)] / norms[c]
+            } else {
+                0.0
+            }
+        });
+        let pivoted = scaled.col_piv_qr();
+        let diagonal = pivoted.thin_R();
+        let order = pivoted.P().arrays().0;
+        let rank = (0..n.min(diagonal.nrows()))
+            .take_while(|&k| diagonal[(k, k)].abs() > RANK_TOLERANCE)
+            .count();
+        let mut columns: Vec<usize> = order[..rank].to_vec();
+        columns.sort_unstable();
+        let kept = Mat::from_fn(r.nrows(), rank, |row, k| scaled[(row, columns[k])]);
+        Self {
+            columns,
+            norms,
+            kept,
+        }
+    }
+}
+
+/// A channel that is fitted exactly, such as a dead one, has no infinite weight.
+fn not_tiny(sigma: &[f64]) -> Vec<f64> {
+    let floor = LEAST_SIGMA * sigma.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    sigma.iter().map(|s| s.max(floor)).collect()
 }
 
 fn column_norm(matrix: &Mat<f64>, column: usize) -> f64 {

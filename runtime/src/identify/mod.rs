@@ -21,51 +21,30 @@ mod error;
 mod estimate;
 mod filtered;
 mod hac;
+mod instruments;
 mod least_squares;
+mod method;
 mod possible;
+mod ridge;
 mod robust;
 mod shapes;
 mod stack;
+mod total;
 
 pub use error::IdentifyError;
 pub use estimate::{Errors, Estimate, Form, Identified};
+pub use instruments::Hausman;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+pub use method::{Method, Weights};
 pub use possible::{Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
-use crate::columns::Arm;
+use crate::columns::{Arm, Nominal};
 use crate::log::Log;
 use crate::motion::Motion;
 use crate::signal::{Bands, Prepared, prepare};
-
-/// How rows of different joints are weighed against each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Ordinary least squares: a newton meter of error counts the same on every joint.
-    Ls,
-    /// Weighted least squares: each joint's rows are divided by the standard deviation of its residual.
-    #[default]
-    Wls,
-    /// [`Self::Wls`], in which samples far from the rest count less: Huber's M-estimate, by iterated weights.
-    Robust,
-    /// [`Self::Wls`], and of all estimates the one nearest to it that an arm can have: each link's pseudo-inertia positive
-    /// definite, friction and rotors not negative.
-    Physical,
-}
-
-impl Method {
-    /// Name on the command line and in JSON.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Ls => "ls",
-            Self::Wls => "wls",
-            Self::Robust => "robust",
-            Self::Physical => "physical",
-        }
-    }
-}
+use crate::simulate::Trajectory;
 
 /// How often the torque of the rigid body, which some effects depend on, is computed from the last estimate.
 const RIGID_TORQUE_PASSES: usize = 4;
@@ -73,13 +52,39 @@ const RIGID_TORQUE_PASSES: usize = 4;
 /// Identification of an arm's unknowns from logs.
 ///
 /// Torque and every regressor column pass one zero-phase low-pass and are decimated; then
-/// `minimize sum_j || tau_j - W_j beta ||^2 / sigma_j^2` by QR, with `sigma_j = 1` for [`Method::Ls`].
-#[derive(Debug, Clone, Default)]
+/// `minimize sum_j || tau_j - W_j beta ||^2 / sigma_j^2` by QR, with `sigma_j = 1` for [`Method::Ls`]; other methods go on from there.
+#[derive(Debug, Clone)]
 pub struct Identify {
-    /// Weighting of joints.
+    /// How parameters are found.
     pub method: Method,
+    /// How joints are weighed, by methods that take weights.
+    pub weights: Weights,
     /// Filter bands; `None`: the shared band is chosen from the logs, as wide as the model's torque stands out.
     pub bands: Option<Bands>,
+    /// Of [`Method::Ridge`]: by which share of a body's own size its nominal values are off, one standard deviation.
+    pub prior: f64,
+    /// Of [`Method::Instrumental`]: a motion without noise for each log, the wanted one or a simulated one, that starts with it.
+    pub instruments: Vec<Trajectory>,
+}
+
+impl Default for Identify {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            weights: Weights::default(),
+            bands: None,
+            prior: 0.3,
+            instruments: Vec::new(),
+        }
+    }
+}
+
+/// What a method leaves beside the solution.
+#[derive(Debug, Clone, Default)]
+struct Beside {
+    possible: Option<Possible>,
+    outliers: Option<Vec<usize>>,
+    hausman: Option<Hausman>,
 }
 
 impl Identify {
@@ -96,45 +101,70 @@ impl Identify {
         };
         let mut prepared = prepare_all(logs, &bands)?;
         let solved = self.solve(arm, &mut prepared, None)?;
-        self.estimate(arm, Form::Acceleration, bands, solved)
+        let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
+            let wanted = self.wanted(logs)?;
+            let mut wanted = prepare_all(&wanted, &bands)?;
+            // What effects read of the load is that of the estimate.
+            update_load(arm, &mut wanted, shapes, &solved.0.estimate);
+            Ok(Stack::new(arm, &wanted, shapes))
+        };
+        let shapes = solved.1.clone();
+        self.estimate(arm, Form::Acceleration, bands, solved.clone(), &|| {
+            instruments(&shapes)
+        })
     }
 
-    /// What was found, made possible where that is wanted.
+    /// The motions of the instruments at the samples of the logs.
+    fn wanted(&self, logs: &[Log]) -> Result<Vec<Log>, IdentifyError> {
+        if self.instruments.len() != logs.len() {
+            return Err(IdentifyError::Instruments {
+                instruments: self.instruments.len(),
+                logs: logs.len(),
+            });
+        }
+        let pairs = logs.iter().zip(&self.instruments);
+        pairs
+            .map(|(log, wanted)| instruments::wanted(log, wanted))
+            .collect()
+    }
+
+    /// What was found, by the method that is wanted; `instruments` are the rows of motions without noise.
     fn estimate(
         &self,
         arm: &dyn Arm,
         form: Form,
         bands: Bands,
         (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
+        instruments: &dyn Fn() -> Result<Stack, IdentifyError>,
     ) -> Result<Estimate, IdentifyError> {
         solution.std = self.deviations(&stack, &solution);
-        let possible = match self.method {
-            Method::Physical => Some(possible::make(arm, &mut solution, &stack)?),
-            Method::Ls | Method::Wls | Method::Robust => None,
-        };
+        let mut beside = Beside::default();
+        match self.method {
+            Method::Ls | Method::Wls => {}
+            Method::Robust => beside.outliers = Some(robust::outliers(&stack, &solution.estimate)),
+            Method::Physical => beside.possible = Some(possible::make(arm, &mut solution, &stack)?),
+            Method::Ridge => ridge::make(&arm.nominal(), self.prior, &mut solution, &stack)?,
+            Method::Total => total::make(&mut solution, &stack, self.weights)?,
+            Method::Instrumental => {
+                let instruments = instruments()?;
+                let found = instruments::make(&mut solution, &stack, &instruments, self.weights);
+                beside.hausman = Some(found?);
+            }
+        }
         let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, &stack);
         Ok(Estimate {
-            possible,
-            outliers: match self.method {
-                Method::Robust => Some(robust::outliers(&stack, &estimate.values())),
-                Method::Ls | Method::Wls | Method::Physical => None,
-            },
+            possible: beside.possible,
+            outliers: beside.outliers,
+            hausman: beside.hausman,
             ..estimate
         })
     }
 
-    /// Standard deviations of a solution; see [`hac`].
+    /// Standard deviations of a solution of least squares; see [`hac`].
     fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
         let weights = match self.method {
             Method::Robust => robust::weights(stack, &solution.estimate),
-            Method::Ls | Method::Wls | Method::Physical => robust::of_all(stack),
-        };
-        let solution = match self.method {
-            Method::Ls => &Solution {
-                sigma: vec![1.0; stack.dof()],
-                ..solution.clone()
-            },
-            Method::Wls | Method::Robust | Method::Physical => solution,
+            _ => robust::of_all(stack),
         };
         hac::deviations(stack, solution, &weights)
     }
@@ -210,11 +240,14 @@ impl Identify {
         }
         let factors = match self.method {
             Method::Robust => robust::factors(stack),
-            Method::Ls | Method::Wls | Method::Physical => Factors::new(stack),
+            _ => Factors::new(stack),
         };
-        let solve = |correlation: &[f64]| match self.method {
-            Method::Ls => factors.ordinary(correlation),
-            Method::Wls | Method::Robust | Method::Physical => factors.weighted(correlation),
+        let solve = |correlation: &[f64]| match (self.method, self.weights) {
+            (Method::Ls, _) => factors.ordinary(correlation),
+            (method, weights) if method.takes_weights() && weights != Weights::Residual => {
+                factors.solve(&weights.scale(stack), correlation)
+            }
+            _ => factors.weighted(correlation),
         };
         let first = solve(&vec![1.0; dof]);
         if first.unexcited.len() == unknowns && unknowns > 0 {

@@ -136,7 +136,7 @@ mod tests {
     fn fit(stack: &Stack, method: Method) -> (f64, f64) {
         let identify = Identify {
             method,
-            bands: None,
+            ..Identify::default()
         };
         let solution = identify.solve_stack(stack).expect("samples enough");
         let std = identify.deviations(stack, &solution);

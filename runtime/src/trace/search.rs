@@ -66,6 +66,7 @@ impl<'a> Trace<'a> {
         let identify = Identify {
             method: Method::Wls,
             bands: Some(bands),
+            ..Identify::default()
         };
         let mut prepared = prepare_all(logs, &bands)?;
         progress("fitting the declared model");

@@ -1,0 +1,80 @@
+//! Both forms of the equations behind one face.
+
+use robot_model::columns::Arm;
+use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
+use robot_model::log::Log;
+
+use crate::interpreted::{InterpretedArm, InterpretedMomentum};
+
+/// A way to identify and to judge what was identified.
+pub(super) trait Fit {
+    fn dof(&self) -> usize;
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError>;
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError>;
+}
+
+pub(super) struct ByAcceleration(pub InterpretedArm);
+
+impl Fit for ByAcceleration {
+    fn dof(&self) -> usize {
+        self.0.dof()
+    }
+
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
+        identify.fit(&self.0, logs)
+    }
+
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
+        estimate.errors(&self.0, log)
+    }
+}
+
+pub(super) struct Filtered {
+    pub arm: InterpretedMomentum,
+    pub corner: Option<f64>,
+}
+
+impl Fit for Filtered {
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+
+    fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
+        identify.fit_filtered(&self.arm, logs, self.corner)
+    }
+
+    fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
+        estimate.filtered_errors(&self.arm, log)
+    }
+}
+
+/// Errors over several logs: means over all their samples.
+pub(super) fn errors_of_all(
+    estimate: &Estimate,
+    form: &dyn Fit,
+    logs: &[Log],
+) -> Result<Errors, IdentifyError> {
+    let errors = logs.iter().map(|log| form.errors(estimate, log));
+    let errors: Vec<Errors> = errors.collect::<Result<_, _>>()?;
+    let samples: f64 = logs.iter().map(|log| log.time.len() as f64).sum();
+    let mean = |value: &dyn Fn(&Errors) -> f64| -> f64 {
+        let pairs = errors.iter().zip(logs);
+        let terms = pairs.map(|(errors, log)| log.time.len() as f64 * value(errors));
+        terms.sum::<f64>() / samples
+    };
+    let joints = 0..form.dof();
+    Ok(Errors {
+        rmse: joints
+            .clone()
+            .map(|j| mean(&|errors| errors.rmse[j].powi(2)).sqrt())
+            .collect(),
+        relative_percent: estimate.relative_percent.clone(),
+        mae: joints
+            .clone()
+            .map(|j| mean(&|errors| errors.mae[j]))
+            .collect(),
+        spread: joints
+            .map(|j| mean(&|errors| errors.spread[j].powi(2)).sqrt())
+            .collect(),
+    })
+}

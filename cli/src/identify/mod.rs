@@ -1,0 +1,255 @@
+//! `robot-model identify`: parameters from measured logs.
+
+mod fit;
+mod report;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model::identify::{Identify, IdentifyError, Method, Weights};
+use robot_model::signal::{Bands, SignalError};
+
+use crate::Error;
+use crate::interpreted::{InterpretedArm, InterpretedMomentum};
+use crate::output::{self, Files};
+use crate::progress::Progress;
+use crate::simulate::table::trajectory;
+use crate::spec::{compile, read_log};
+use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
+use report::{report, table};
+
+/// Identify an arm's parameters from measured logs.
+#[derive(Debug, Args)]
+pub(crate) struct IdentifyArguments {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// Logs to fit: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// A log that is not fitted, to judge the model on.
+    #[arg(long, value_name = "LOG")]
+    validate: Option<PathBuf>,
+    /// How parameters are found.
+    #[arg(long, value_enum, default_value_t)]
+    method: MethodArgument,
+    /// What the rows of a joint are divided by; of `wls`, `robust`, `tls`, `iv`.
+    #[arg(long, value_enum, default_value_t)]
+    weights: WeightsArgument,
+    /// Of `ridge`: by which share of a body's own size the spec's nominal values are off (one standard deviation); 0.3 without it.
+    #[arg(long, value_name = "SHARE")]
+    prior: Option<f64>,
+    /// Of `iv`: a motion without noise for each log, in their order, `time,q1..qn`: the wanted one, or that of `simulate`.
+    #[arg(long, value_name = "MOTION", num_args = 1..)]
+    instruments: Vec<PathBuf>,
+    /// Which equations: `tau = Y_b(q, dq, ddq) beta`, or `L{tau} = Y_L(q, dq) beta` without accelerations.
+    #[arg(long, value_enum, default_value_t)]
+    form: FormArgument,
+    /// Corner of the filter `L(s) = w / (s + w)` of the filtered form, rad/s; without it the end of the shared band.
+    #[arg(long, value_name = "W", value_parser = parse_corner)]
+    corner: Option<f64>,
+    /// Cutoffs of the zero-phase filters, Hz: shared by torque and columns, of rigid-body kinematics, of effects'
+    /// kinematics; without it they are chosen from the logs.
+    #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
+    bands: Option<Bands>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum MethodArgument {
+    /// Ordinary least squares.
+    Ls,
+    /// Least squares weighted joint by joint.
+    #[default]
+    Wls,
+    /// The same, in which samples far from the rest count less.
+    Robust,
+    /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
+    Physical,
+    /// Least squares weighted by each joint's residual, with the spec's nominal values as measurements.
+    Ridge,
+    /// Total least squares: columns have errors as the torque has.
+    Tls,
+    /// Instrumental variables, and whether least squares is biased (Durbin, Wu, Hausman).
+    Iv,
+}
+
+impl From<MethodArgument> for Method {
+    fn from(method: MethodArgument) -> Self {
+        match method {
+            MethodArgument::Ls => Self::Ls,
+            MethodArgument::Wls => Self::Wls,
+            MethodArgument::Robust => Self::Robust,
+            MethodArgument::Physical => Self::Physical,
+            MethodArgument::Ridge => Self::Ridge,
+            MethodArgument::Tls => Self::Total,
+            MethodArgument::Iv => Self::Instrumental,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum WeightsArgument {
+    /// The deviation of its residual.
+    #[default]
+    Residual,
+    /// The length of its torque.
+    TorqueNorm,
+    /// The largest size of its torque.
+    MaxTorque,
+}
+
+impl From<WeightsArgument> for Weights {
+    fn from(weights: WeightsArgument) -> Self {
+        match weights {
+            WeightsArgument::Residual => Self::Residual,
+            WeightsArgument::TorqueNorm => Self::TorqueNorm,
+            WeightsArgument::MaxTorque => Self::MaxTorque,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+enum FormArgument {
+    /// With accelerations; errors are of the raw torque.
+    #[default]
+    Acceleration,
+    /// Without accelerations; errors are of the filtered torque.
+    Filtered,
+}
+
+fn parse_corner(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(corner) if corner > 0.0 && corner.is_finite() => Ok(corner),
+        _ => Err("write a positive number in rad/s, such as `60`".to_owned()),
+    }
+}
+
+fn parse_bands(text: &str) -> Result<Bands, String> {
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect();
+    match numbers.as_deref() {
+        Ok(&[shared_hz, smooth_hz, wide_hz]) => Ok(Bands {
+            smooth_hz,
+            wide_hz,
+            shared_hz,
+        }),
+        _ => Err("write three numbers, such as `10,30,90`".to_owned()),
+    }
+}
+
+impl IdentifyArguments {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        if self.corner.is_some() && self.form == FormArgument::Acceleration {
+            let reason = "`--corner` is of the filtered form; add `--form filtered`";
+            return Err(Error::Argument(reason.to_owned()));
+        }
+        self.check_options()?;
+        let compiled = compile(&self.spec)?;
+        for remark in compiled.base.remarks(&compiled.standard) {
+            output::say(&format!("warning: {}: {remark}", compiled.model.source));
+        }
+        match self.form {
+            FormArgument::Acceleration => self.fit(&ByAcceleration(InterpretedArm::new(compiled))),
+            FormArgument::Filtered => {
+                let arm = InterpretedMomentum::new(compiled)
+                    .map_err(|refusal| Error::Argument(refusal.to_string()))?;
+                let corner = self.corner;
+                self.fit(&Filtered { arm, corner })
+            }
+        }
+    }
+
+    /// Options that the method does not read are mistakes.
+    fn check_options(&self) -> Result<(), Error> {
+        let method = Method::from(self.method);
+        let refuse = |what: &str| Err(Error::Argument(what.to_owned()));
+        if !method.takes_weights() && self.weights != WeightsArgument::Residual {
+            return refuse(&format!(
+                "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
+                method.name()
+            ));
+        }
+        if self.prior.is_some() && method != Method::Ridge {
+            return refuse("`--prior` is of `--method ridge`");
+        }
+        if !self.instruments.is_empty() && method != Method::Instrumental {
+            return refuse("`--instruments` are of `--method iv`");
+        }
+        if method == Method::Instrumental && self.instruments.len() != self.logs.len() {
+            return refuse(&format!(
+                "`--method iv` wants a motion without noise for each log, `--instruments MOTION ..`: {} for {}; take the wanted \
+                 motion, or the log that `simulate` makes of it with the parameters of `--method wls`",
+                output::counted(self.instruments.len(), "motion"),
+                output::counted(self.logs.len(), "log")
+            ));
+        }
+        Ok(())
+    }
+
+    fn fit(&self, form: &dyn Fit) -> Result<(), Error> {
+        let dof = form.dof();
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate)
+            .chain(&self.instruments);
+        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let progress = Progress::new();
+        let logs = self
+            .logs
+            .iter()
+            .map(|path| read_log(path, dof, &progress))
+            .collect::<Result<Vec<_>, _>>()?;
+        let validate = self
+            .validate
+            .as_deref()
+            .map(|path| read_log(path, dof, &progress))
+            .transpose()?;
+
+        let instruments = self.instruments.iter();
+        let instruments = instruments.map(|path| trajectory(path, dof));
+        let mut identify = Identify {
+            method: self.method.into(),
+            weights: self.weights.into(),
+            bands: self.bands,
+            instruments: instruments.collect::<Result<_, _>>()?,
+            ..Identify::default()
+        };
+        if let Some(prior) = self.prior {
+            identify.prior = prior;
+        }
+        progress.step("identifying");
+        let estimate = form
+            .fit(&identify, &logs)
+            .map_err(|error| self.refused(error))?;
+        let train = errors_of_all(&estimate, form, &logs)?;
+        let validation = validate
+            .as_ref()
+            .map(|log| form.errors(&estimate, log))
+            .transpose()?;
+        drop(progress);
+
+        if let Some(file) = json {
+            file.commit(output::json(&report(&estimate, &train, validation.as_ref())).as_bytes())?;
+        }
+        output::print(&format!(
+            "{estimate}\n{}",
+            table(&estimate, &train, validation.as_ref())
+        ))
+    }
+}
+
+impl IdentifyArguments {
+    /// A corner that was asked for is named as it was.
+    fn refused(&self, error: IdentifyError) -> Error {
+        match (error, self.corner) {
+            (IdentifyError::Signal(fault @ SignalError::Corner { .. }), Some(_)) => {
+                Error::Argument(format!("--corner: {fault}"))
+            }
+            (error, _) => error.into(),
+        }
+    }
+}

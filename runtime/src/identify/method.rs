@@ -1,0 +1,89 @@
+//! How an estimate is made.
+
+use super::stack::{Stack, norm};
+
+/// How parameters are found from rows of torque and columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Ordinary least squares: a newton meter of error counts the same on every joint.
+    Ls,
+    /// Weighted least squares: each joint's rows are divided by what [`Weights`] says.
+    #[default]
+    Wls,
+    /// [`Self::Wls`], in which samples far from the rest count less: Huber's M-estimate, by iterated weights.
+    Robust,
+    /// [`Self::Wls`], and of all estimates the one nearest to it that an arm can have: each link's pseudo-inertia positive
+    /// definite, friction and rotors not negative.
+    Physical,
+    /// Weighted least squares with the nominal values of the spec as a measurement of their own, of a deviation that
+    /// [`Identify::prior`](super::Identify::prior) says.
+    Ridge,
+    /// Total least squares: columns have errors, too, each in proportion to its length, as the torque has.
+    Total,
+    /// Instrumental variables: the columns of a motion without noise, [`Identify::instruments`](super::Identify::instruments),
+    /// multiply the equations, so that what the noise of positions has in common with that of the torque biases nothing.
+    Instrumental,
+}
+
+impl Method {
+    /// Name on the command line and in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Ls => "ls",
+            Self::Wls => "wls",
+            Self::Robust => "robust",
+            Self::Physical => "physical",
+            Self::Ridge => "ridge",
+            Self::Total => "tls",
+            Self::Instrumental => "iv",
+        }
+    }
+
+    /// Whether joints may be weighed by something else than their residuals.
+    #[must_use]
+    pub const fn takes_weights(self) -> bool {
+        match self {
+            Self::Wls | Self::Robust | Self::Total | Self::Instrumental => true,
+            // Without weights, or in units of deviations.
+            Self::Ls | Self::Physical | Self::Ridge => false,
+        }
+    }
+}
+
+/// What a joint's rows are divided by; methods that do not [take](Method::takes_weights) any have their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Weights {
+    /// The standard deviation of its residual, by iteration: of linear weights those with the least variance where joints have noise of
+    /// their own (Gautier 1997).
+    #[default]
+    Residual,
+    /// The length of its torque, `|| tau_j ||` (Jia et al. 2021, equations 20-22).
+    TorqueNorm,
+    /// The largest size of its torque, `max |tau_j|`.
+    MaxTorque,
+}
+
+impl Weights {
+    /// Name on the command line.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Residual => "residual",
+            Self::TorqueNorm => "torque-norm",
+            Self::MaxTorque => "max-torque",
+        }
+    }
+
+    /// What the rows of each joint are divided by where that is known from the torque.
+    pub(super) fn scale(self, stack: &Stack) -> Vec<f64> {
+        let joints = stack.joints.iter();
+        match self {
+            Self::Residual => vec![1.0; stack.dof()],
+            Self::TorqueNorm => joints.map(|rows| norm(&rows.tau)).collect(),
+            Self::MaxTorque => joints
+                .map(|rows| rows.tau.iter().map(|tau| tau.abs()).fold(0.0, f64::max))
+                .collect(),
+        }
+    }
+}
