@@ -52,13 +52,13 @@ impl Hausman {
             return Ok(());
         };
         let verdict = if self.probability < Self::LEVEL {
-            "least squares is biased here"
+            "they disagree, so columns have noise that least squares takes for motion, or the model lacks something"
         } else {
-            "no bias of least squares stands out"
+            "least squares and instruments agree"
         };
         writeln!(
             f,
-            "Durbin, Wu, Hausman: {verdict}: {} differs most, by {:.1} deviations of the difference (p = {:.2} over all parameters)",
+            "Durbin, Wu, Hausman: {verdict}; {} differs most, by {:.1} deviations of the difference (p = {:.2} over all parameters)",
             parameter.name,
             difference.abs(),
             self.probability

@@ -1,0 +1,181 @@
+//! The methods of `identify`, on a log of a loop with noisy encoders.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::{Folder, json, numbers};
+
+/// Inertials in the order `up.mxr, up.my, up.izzr, lo.mxr, lo.my, lo.izzr` of the spec below.
+const TRUTH: [f64; 6] = [1.0, 0.0, -0.574, 0.2, 0.0, -0.1];
+
+fn spec(link: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            {link}
+            effects {{ viscous_friction on all; }}
+        }}"
+    )
+}
+
+const NOMINAL: &str = "
+    link up { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+    link lo { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }";
+
+/// The log of a motion, with its wish beside it.
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(NOMINAL));
+    folder.write("bare.robot", &spec(""));
+    folder.write(
+        "values.json",
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5}"#,
+    );
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..=2000 {
+        let t = f64::from(k) / 200.0;
+        let up = -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
+        let lo = 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos();
+        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    folder.succeed(&[
+        "simulate",
+        "arm.robot",
+        "--trajectory",
+        "wanted.csv",
+        "--parameters",
+        "values.json",
+        "--position-noise",
+        "2e-4",
+        "--torque-noise",
+        "0.02",
+        "--out",
+        "log.csv",
+    ]);
+    folder
+}
+
+/// What `identify` writes with these options.
+fn identify(folder: &Folder, spec: &str, options: &[&str]) -> (Value, String) {
+    let basics = ["identify", spec, "log.csv", "--json", "fit.json"];
+    let said = folder.succeed(&[&basics, options].concat());
+    (json(&folder.read("fit.json")), said)
+}
+
+fn values(fit: &Value, of: &str) -> Vec<f64> {
+    let parameters = fit["parameters"].as_array().expect("a list");
+    let number = |parameter: &Value| parameter[of].as_f64().expect("a number");
+    parameters.iter().map(number).collect()
+}
+
+#[test]
+fn instruments_see_what_noisy_accelerations_hide() {
+    let folder = folder();
+    // Filters that let the encoders' noise through.
+    let wide = ["--bands", "100,150,150"];
+    let (ordinary, _) = identify(&folder, "arm.robot", &wide);
+    let inertia = values(&ordinary, "value")[5];
+    assert!(
+        (inertia - TRUTH[5]).abs() > 0.01,
+        "noise of accelerations hides inertia: {inertia}"
+    );
+    let instruments = ["--method", "iv", "--instruments", "wanted.csv"];
+    let (fit, said) = identify(&folder, "arm.robot", &[&wide[..], &instruments].concat());
+    let (found, std) = (values(&fit, "value"), values(&fit, "std"));
+    for (c, truth) in TRUTH.iter().enumerate() {
+        let off = (found[c] - truth).abs();
+        assert!(off < 3.5 * std[c] && off < 0.05, "{c}: {found:?} {std:?}");
+    }
+    let hausman = &fit["hausman"];
+    assert!(
+        hausman["probability"].as_f64().expect("a number") < 1e-3,
+        "{hausman}"
+    );
+    assert_eq!(numbers(&hausman["differences"]).len(), found.len());
+    assert_eq!(
+        hausman["least_squares"][5]["value"],
+        ordinary["parameters"][5]["value"]
+    );
+    assert!(
+        said.contains("Durbin, Wu, Hausman: they disagree"),
+        "{said}"
+    );
+    // Where the filters do their work, both agree about what moves slowly.
+    let (fit, _) = identify(&folder, "arm.robot", &instruments);
+    assert!((values(&fit, "value")[2] - TRUTH[2]).abs() < 0.01);
+    // The filtered form has instruments, too.
+    let filtered = [&instruments[..], &["--form", "filtered"]].concat();
+    let (fit, _) = identify(&folder, "arm.robot", &filtered);
+    assert!((values(&fit, "value")[2] - TRUTH[2]).abs() < 0.01);
+}
+
+#[test]
+fn the_other_methods_agree_where_noise_is_small() {
+    let folder = folder();
+    for (options, name) in [
+        (&["--method", "tls"][..], "tls"),
+        (&["--method", "ridge"], "ridge"),
+        (&["--method", "ridge", "--prior", "0.05"], "ridge"),
+        (&["--weights", "torque-norm"], "wls"),
+        (&["--weights", "max-torque", "--method", "robust"], "robust"),
+        (&["--weights", "max-torque", "--method", "tls"], "tls"),
+    ] {
+        let (fit, _) = identify(&folder, "arm.robot", options);
+        assert_eq!(fit["method"], name);
+        for (found, truth) in values(&fit, "value").iter().zip(TRUTH) {
+            assert!((found - truth).abs() < 0.01, "{options:?}: {found} {truth}");
+        }
+        let mae = numbers(&fit["mae"]);
+        let rmse = numbers(&fit["rmse"]);
+        assert!(
+            mae[0] > 0.5 * rmse[0] && mae[0] < rmse[0],
+            "{mae:?} {rmse:?}"
+        );
+        let nrmse = numbers(&fit["nrmse_fit_percent"]);
+        assert!(
+            nrmse.iter().all(|fit| *fit > 50.0 && *fit < 100.0),
+            "{nrmse:?}"
+        );
+    }
+}
+
+#[test]
+fn options_of_other_methods_are_refused() {
+    let folder = folder();
+    for (options, reason) in [
+        (
+            &["--weights", "max-torque", "--method", "ls"][..],
+            "`ls` has its own",
+        ),
+        (&["--prior", "0.1"], "`--prior` is of `--method ridge`"),
+        (
+            &["--instruments", "wanted.csv"],
+            "`--instruments` are of `--method iv`",
+        ),
+        (&["--method", "iv"], "0 motions for 1 log"),
+        (
+            &["--method", "ridge", "--prior", "0"],
+            "give a share above 0",
+        ),
+        (
+            &["--method", "iv", "--instruments", "short.csv"],
+            "is 2.000 s long, the log 10.000 s",
+        ),
+        (
+            &["--method", "iv", "--instruments", "one.csv"],
+            "has no column `q2`",
+        ),
+    ] {
+        folder.write("one.csv", "time,q1\n0,0\n1,0\n2,0\n3,0\n");
+        folder.write("short.csv", "time,q1,q2\n0,0,0\n1,0,0\n1.5,0,0\n2,0,0\n");
+        let said = folder.refuse(&[&["identify", "arm.robot", "log.csv"], options].concat());
+        assert!(said.contains(reason), "{options:?}: {said}");
+    }
+    let said = folder.refuse(&["identify", "bare.robot", "log.csv", "--method", "ridge"]);
+    assert!(said.contains("no nominal value to go to"), "{said}");
+}
