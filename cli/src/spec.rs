@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use robot_model::log::Log;
+use robot_model::log::{Log, Mended};
 use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
@@ -73,6 +73,17 @@ pub(crate) fn clear(compiled: Compiled) -> Result<Compiled, Error> {
 /// Why it is not clear which base parameters the arm has, with the numbers.
 fn doubt(compiled: &Compiled) -> String {
     format!("{}: {}", compiled.model.source, compiled.base.rank)
+}
+
+/// Reads a log to identify from: without spikes, in pieces where it has holes, and says what is wrong with it.
+pub(crate) fn read_mended(path: &Path, dof: usize, progress: &Progress) -> Result<Mended, Error> {
+    let log = read_log(path, dof, progress)?;
+    let source = log.source.clone();
+    let mended = log.mended();
+    for fault in &mended.faults {
+        progress.note(&format!("note: {source}: {fault}"));
+    }
+    Ok(mended)
 }
 
 /// Reads a log of an arm with `dof` joints, and says what is remarkable about it.

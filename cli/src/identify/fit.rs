@@ -1,14 +1,17 @@
 //! Both forms of the equations behind one face.
 
-use robot_model::columns::Arm;
 use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::Log;
+use robot_model_spec::Model;
 
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 
 /// A way to identify and to judge what was identified.
 pub(super) trait Fit {
-    fn dof(&self) -> usize;
+    fn model(&self) -> &Model;
+    fn dof(&self) -> usize {
+        self.model().joints.len()
+    }
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError>;
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError>;
 }
@@ -16,8 +19,8 @@ pub(super) trait Fit {
 pub(super) struct ByAcceleration(pub InterpretedArm);
 
 impl Fit for ByAcceleration {
-    fn dof(&self) -> usize {
-        self.0.dof()
+    fn model(&self) -> &Model {
+        &self.0.compiled().model
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -35,8 +38,8 @@ pub(super) struct Filtered {
 }
 
 impl Fit for Filtered {
-    fn dof(&self) -> usize {
-        self.arm.dof()
+    fn model(&self) -> &Model {
+        &self.arm.compiled().model
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -68,7 +71,10 @@ pub(super) fn errors_of_all(
             .clone()
             .map(|j| mean(&|errors| errors.rmse[j].powi(2)).sqrt())
             .collect(),
-        relative_percent: estimate.relative_percent.clone(),
+        relative_percent: joints
+            .clone()
+            .map(|j| mean(&|errors| errors.relative_percent[j].powi(2)).sqrt())
+            .collect(),
         mae: joints
             .clone()
             .map(|j| mean(&|errors| errors.mae[j]))

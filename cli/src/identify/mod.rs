@@ -1,12 +1,14 @@
 //! `robot-model identify`: parameters from measured logs.
 
+mod doubts;
 mod fit;
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{Identify, IdentifyError, Method, Weights};
+use robot_model::identify::{Errors, Identify, IdentifyError, Method, Weights};
+use robot_model::log::{Fault, Log};
 use robot_model::signal::{Bands, SignalError};
 
 use crate::Error;
@@ -14,7 +16,7 @@ use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::simulate::table::trajectory;
-use crate::spec::{compile, read_log};
+use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
 use report::{report, table};
 
@@ -51,6 +53,9 @@ pub(crate) struct IdentifyArguments {
     /// kinematics; without it they are chosen from the logs.
     #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
     bands: Option<Bands>,
+    /// Take logs as they are: spikes and holds are left where they stand.
+    #[arg(long)]
+    as_logged: bool,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -198,17 +203,11 @@ impl IdentifyArguments {
             .chain(&self.instruments);
         let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
         let progress = Progress::new();
-        let logs = self
-            .logs
-            .iter()
-            .map(|path| read_log(path, dof, &progress))
-            .collect::<Result<Vec<_>, _>>()?;
-        let validate = self
-            .validate
-            .as_deref()
-            .map(|path| read_log(path, dof, &progress))
-            .transpose()?;
-
+        let mut faults = Vec::new();
+        let mut pieces = |path: &PathBuf| self.pieces(path, form, &mut faults, &progress);
+        let logs = self.logs.iter().map(&mut pieces);
+        let logs: Vec<Log> = logs.collect::<Result<Vec<_>, _>>()?.concat();
+        let validate = self.validate.as_ref().map(pieces).transpose()?;
         let instruments = self.instruments.iter();
         let instruments = instruments.map(|path| trajectory(path, dof));
         let mut identify = Identify {
@@ -225,15 +224,22 @@ impl IdentifyArguments {
         let estimate = form
             .fit(&identify, &logs)
             .map_err(|error| self.refused(error))?;
-        let train = errors_of_all(&estimate, form, &logs)?;
+        let train = Errors {
+            relative_percent: estimate.relative_percent.clone(),
+            ..errors_of_all(&estimate, form, &logs)?
+        };
         let validation = validate
-            .as_ref()
-            .map(|log| form.errors(&estimate, log))
+            .as_deref()
+            .map(|logs| errors_of_all(&estimate, form, logs))
             .transpose()?;
+        if let Some(doubt) = doubts::unexplained(&estimate) {
+            progress.note(&format!("note: {doubt}"));
+        }
         drop(progress);
 
         if let Some(file) = json {
-            file.commit(output::json(&report(&estimate, &train, validation.as_ref())).as_bytes())?;
+            let report = report(&estimate, &train, validation.as_ref(), &faults);
+            file.commit(output::json(&report).as_bytes())?;
         }
         output::print(&format!(
             "{estimate}\n{}",
@@ -243,6 +249,34 @@ impl IdentifyArguments {
 }
 
 impl IdentifyArguments {
+    /// A log in pieces, where it has holes; its faults are added to the others.
+    fn pieces(
+        &self,
+        path: &Path,
+        form: &dyn Fit,
+        faults: &mut Vec<(String, Fault)>,
+        progress: &Progress,
+    ) -> Result<Vec<Log>, Error> {
+        if self.as_logged {
+            return Ok(vec![read_log(path, form.dof(), progress)?]);
+        }
+        let mended = read_mended(path, form.dof(), progress)?;
+        for doubt in doubts::far_positions(form.model(), &mended.pieces) {
+            progress.note(&format!("note: {}: {doubt}", path.display()));
+        }
+        if !self.instruments.is_empty() && mended.pieces.len() > 1 {
+            return Err(Error::Argument(format!(
+                "{}: the log has holes, so that the motion without noise does not start with its pieces; cut both, or take the log \
+                 `--as-logged`",
+                path.display()
+            )));
+        }
+        let source = path.display().to_string();
+        let found = mended.faults.into_iter();
+        faults.extend(found.map(|fault| (source.clone(), fault)));
+        Ok(mended.pieces)
+    }
+
     /// A corner that was asked for is named as it was.
     fn refused(&self, error: IdentifyError) -> Error {
         match (error, self.corner) {

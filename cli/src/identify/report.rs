@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::identify::{Errors, Estimate, Form, Identified};
+use robot_model::log::Fault;
 use serde::Serialize;
 
 use crate::output;
@@ -37,6 +38,17 @@ pub(super) struct Report<'a> {
     possible: Option<PossibleReport<'a>>,
     /// Of `iv` only.
     hausman: Option<HausmanReport<'a>>,
+    /// Faults of the logs, which were mended where that can be.
+    data_faults: Vec<FaultReport<'a>>,
+}
+
+/// What a sensor or a recorder did.
+#[derive(Serialize)]
+struct FaultReport<'a> {
+    log: &'a str,
+    kind: &'static str,
+    channel: &'a str,
+    says: String,
 }
 
 /// Instrumental variables against least squares.
@@ -74,6 +86,7 @@ pub(super) fn report<'a>(
     estimate: &'a Estimate,
     train: &'a Errors,
     validation: Option<&'a Errors>,
+    faults: &'a [(String, Fault)],
 ) -> Report<'a> {
     let measured = |parameter: &Identified| !estimate.unexcited.contains(&parameter.name);
     let linear = estimate.parameters.iter().map(|parameter| Parameter {
@@ -130,6 +143,15 @@ pub(super) fn report<'a>(
                 .collect(),
             differences: &hausman.differences,
         }),
+        data_faults: faults
+            .iter()
+            .map(|(log, fault)| FaultReport {
+                log,
+                kind: fault.kind(),
+                channel: fault.channel(),
+                says: fault.to_string(),
+            })
+            .collect(),
     }
 }
 

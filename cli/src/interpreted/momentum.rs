@@ -65,6 +65,12 @@ impl InterpretedMomentum {
         })
     }
 
+    /// What was compiled.
+    #[must_use]
+    pub fn compiled(&self) -> &Compiled {
+        self.arm.compiled()
+    }
+
     fn known(&self, program: &Program, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
         let shapes = self.arm.all_shapes(shapes);
         let signals = Signals {

@@ -1,5 +1,7 @@
 //! `identify`.
 
+use std::fmt::Write;
+
 use crate::common::{CART, Folder, PENDULUM, cart_log, close, json, numbers};
 
 #[test]
@@ -268,4 +270,87 @@ fn spikes_do_not_move_a_robust_estimate() {
         said.contains("samples far from the others: rail "),
         "{said}"
     );
+}
+
+/// A log whose recorder stuck and whose drive had spikes.
+fn worn(log: &str) -> String {
+    let mut last = String::new();
+    let line = |(k, line): (usize, &str)| {
+        let line = match line.rsplit_once(',') {
+            Some((rest, _)) if k > 0 && k % 997 == 500 => format!("{rest},300"),
+            _ => line.to_owned(),
+        };
+        // All but the time stands still for an eighth of a second.
+        let Some((time, values)) = line.split_once(',') else {
+            return line;
+        };
+        if (2001..2126).contains(&k) {
+            return format!("{time},{last}");
+        }
+        values.clone_into(&mut last);
+        line.clone()
+    };
+    let lines: Vec<String> = log.lines().enumerate().map(line).collect();
+    lines.join("\n")
+}
+
+#[test]
+fn faults_of_the_data_are_mended_counted_and_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(20, 0.0, 0.0);
+    folder.write("log.csv", &log);
+    folder.write("worn.csv", &worn(&log));
+    let fit = |log: &str, options: &[&str]| {
+        let basics = ["identify", "cart.robot", log, "--json", "out.json"];
+        let run = folder.run(&[&basics, options].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let out = json(&folder.read("out.json"));
+        let mass = out["parameters"][0]["value"].as_f64().expect("a number");
+        (mass, out, run.stderr)
+    };
+    let (clean, out, said) = fit("log.csv", &[]);
+    assert_eq!(out["data_faults"], json("[]"));
+    assert!(!said.contains("straight line"), "{said}");
+    let (mended, out, said) = fit("worn.csv", &[]);
+    let faults = out["data_faults"].as_array().expect("a list");
+    let kinds: Vec<&str> = faults
+        .iter()
+        .map(|fault| fault["kind"].as_str().expect("a word"))
+        .collect();
+    assert_eq!(kinds, ["held", "spikes", "held"], "{out:#}");
+    assert_eq!(faults[1]["channel"], "tau1");
+    assert!(
+        said.contains("note: worn.csv: q1 stands still 1 times while the arm moves on"),
+        "{said}"
+    );
+    let (as_logged, out, _) = fit("worn.csv", &["--as-logged"]);
+    assert_eq!(out["data_faults"], json("[]"));
+    assert!((mended / clean - 1.0).abs() < 2e-3, "{mended} {clean}");
+    assert!(
+        (as_logged / clean - 1.0).abs() > 0.02,
+        "{as_logged} {clean}"
+    );
+}
+
+#[test]
+fn degrees_are_told() {
+    let folder = Folder::new();
+    let spec = "robot P {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
+    }";
+    folder.write("turn.robot", spec);
+    let mut log = String::from("time,q1,tau1\n");
+    for k in 0..4000 {
+        let t = f64::from(k) / 200.0;
+        let q = 80.0 * (1.7 * t).sin();
+        let ddq = -80.0_f64.to_radians() * 1.7 * 1.7 * (1.7 * t).sin();
+        let tau = 0.3 * ddq + 2.0 * q.to_radians().sin();
+        writeln!(log, "{t},{q},{tau}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    let run = folder.run(&["identify", "turn.robot", "log.csv"]);
+    assert!(run.stderr.contains("is it in degrees?"), "{}", run.stderr);
 }

@@ -4,6 +4,7 @@
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
 mod error;
+mod faults;
 mod header;
 mod table;
 mod uniform;
@@ -14,6 +15,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use error::LogError;
+pub use faults::{Fault, Mended};
 
 use header::Header;
 

@@ -1,0 +1,345 @@
+//! Faults of the data themselves: what a sensor or a recorder did, not the arm.
+//!
+//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes and short holds are replaced by straight lines,
+//! which the filters of identification smooth away; at longer holds the log is cut in two. Velocities are compared with the slopes
+//! of positions and used for nothing; a torque that stands at its limit is told. The thresholds are wide: a log without faults has none.
+
+mod clipped;
+mod held;
+mod spikes;
+mod velocity;
+
+use std::fmt;
+use std::ops::Range;
+
+use super::Log;
+
+/// Holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones cut the log.
+const BRIDGED_S: f64 = 0.01;
+
+/// A piece between two cuts is kept from this length on, s.
+const SHORTEST_PIECE_S: f64 = 2.0;
+
+/// A torque that repeats itself in more than this share of its samples is logged in coarse steps.
+const OFTEN: f64 = 0.2;
+
+/// What is wrong with the data of a log.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// Samples far from both their neighbors; they were replaced by a straight line.
+    Spikes {
+        /// Name of the channel, `q1` or `tau1`.
+        channel: String,
+        /// How many samples.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
+    /// A value that stood still while the arm moved on; short holds were replaced by a straight line, at longer ones the log was cut.
+    Held {
+        /// Name of the channel.
+        channel: String,
+        /// How often.
+        times: usize,
+        /// How many samples.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+        /// The longest, s.
+        longest: f64,
+    },
+    /// A torque that stands at its largest or smallest value.
+    Clipped {
+        /// Name of the channel.
+        channel: String,
+        /// That value, in the log's unit.
+        value: f64,
+        /// Share of the samples.
+        share: f64,
+    },
+    /// A logged velocity that is not the slope of the position at the same time.
+    VelocityLate {
+        /// Name of the channel.
+        channel: String,
+        /// By how much it is late, s; negative where it is early.
+        delay: f64,
+    },
+    /// A logged velocity in another unit than the position, or of the other sign.
+    VelocityScale {
+        /// Name of the channel.
+        channel: String,
+        /// Logged velocity over slope of the position.
+        factor: f64,
+    },
+    /// A joint that does not move.
+    Still {
+        /// Name of the channel.
+        channel: String,
+    },
+    /// A torque that is the same at all times.
+    Constant {
+        /// Name of the channel.
+        channel: String,
+        /// That value.
+        value: f64,
+    },
+}
+
+impl Fault {
+    /// Kebab-case name of its kind.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Spikes { .. } => "spikes",
+            Self::Held { .. } => "held",
+            Self::Clipped { .. } => "clipped",
+            Self::VelocityLate { .. } => "velocity-late",
+            Self::VelocityScale { .. } => "velocity-scale",
+            Self::Still { .. } => "still",
+            Self::Constant { .. } => "constant",
+        }
+    }
+
+    /// Name of the channel that has it.
+    #[must_use]
+    pub fn channel(&self) -> &str {
+        match self {
+            Self::Spikes { channel, .. }
+            | Self::Held { channel, .. }
+            | Self::Clipped { channel, .. }
+            | Self::VelocityLate { channel, .. }
+            | Self::VelocityScale { channel, .. }
+            | Self::Still { channel }
+            | Self::Constant { channel, .. } => channel,
+        }
+    }
+}
+
+/// A log after its faults were looked for.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mended {
+    /// The log, in pieces where it was cut; times are those of the whole.
+    pub pieces: Vec<Log>,
+    /// What was found, channel by channel.
+    pub faults: Vec<Fault>,
+}
+
+impl Log {
+    /// Looks for faults of the data, and mends what can be.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{Fault, Log};
+    /// let time: Vec<f64> = (0..1000).map(|k| 0.001 * f64::from(k)).collect();
+    /// let q: Vec<f64> = time.iter().map(|t| (6.0 * t).sin()).collect();
+    /// let mut tau: Vec<f64> = time.iter().map(|t| (6.0 * t).cos()).collect();
+    /// tau[300] = 50.0;
+    /// let mended = Log::from_samples("a plant", time, vec![q], vec![tau])?.mended();
+    /// assert!(matches!(&mended.faults[..], [Fault::Spikes { samples: 1, .. }]));
+    /// assert!((mended.pieces[0].tau[0][300] - 1.8_f64.cos()).abs() < 1e-3);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    #[must_use]
+    pub fn mended(mut self) -> Mended {
+        let mut faults = Vec::new();
+        let mut cuts: Vec<Range<usize>> = Vec::new();
+        let bridged = (BRIDGED_S * self.rate_hz()).max(1.0);
+        let (start, step) = (self.time[0], 1.0 / self.rate_hz());
+        let at = |sample: usize| start + step * sample as f64;
+        // A position stands still with its joint; a torque hardly ever does.
+        for (family, channels, often) in [("q", &mut self.q, 1.0), ("tau", &mut self.tau, OFTEN)] {
+            for (joint, values) in channels.iter_mut().enumerate() {
+                let channel = format!("{family}{}", joint + 1);
+                let found = spikes::find(values);
+                if let Some(first) = found.first() {
+                    faults.push(Fault::Spikes {
+                        channel: channel.clone(),
+                        samples: found.iter().map(Range::len).sum(),
+                        first: at(first.start),
+                    });
+                }
+                for range in found {
+                    bridge(values, range);
+                }
+                let found = held::find(values, often);
+                if let Some(first) = found.first() {
+                    let longest = found.iter().map(Range::len).max().unwrap_or(0);
+                    faults.push(Fault::Held {
+                        channel,
+                        times: found.len(),
+                        samples: found.iter().map(Range::len).sum(),
+                        first: at(first.start),
+                        longest: step * longest as f64,
+                    });
+                }
+                for range in found {
+                    if range.len() as f64 > bridged {
+                        cuts.push(range.clone());
+                    }
+                    bridge(values, range);
+                }
+            }
+        }
+        faults.extend(self.standing());
+        faults.extend(clipped::find(&self));
+        faults.extend(velocity::find(&self));
+        Mended {
+            pieces: self.cut(cuts),
+            faults,
+        }
+    }
+
+    /// Channels that say the same at all times.
+    fn standing(&self) -> impl Iterator<Item = Fault> {
+        let is_constant =
+            |values: &[f64]| values.iter().all(|value| (value - values[0]).abs() == 0.0);
+        let still = self
+            .q
+            .iter()
+            .enumerate()
+            .filter(move |(_, q)| is_constant(q));
+        let dead = self.tau.iter().enumerate();
+        let dead = dead.filter(move |(_, tau)| is_constant(tau));
+        still
+            .map(|(joint, _)| Fault::Still {
+                channel: format!("q{}", joint + 1),
+            })
+            .chain(dead.map(|(joint, tau)| Fault::Constant {
+                channel: format!("tau{}", joint + 1),
+                value: tau[0],
+            }))
+    }
+
+    /// The pieces that are left between cuts; the whole where none is long enough.
+    fn cut(self, mut cuts: Vec<Range<usize>>) -> Vec<Self> {
+        if cuts.is_empty() {
+            return vec![self];
+        }
+        cuts.sort_by_key(|range| range.start);
+        let shortest = SHORTEST_PIECE_S * self.rate_hz();
+        let mut kept = Vec::new();
+        let mut from = 0;
+        for cut in &cuts {
+            kept.push(from..cut.start.max(from));
+            from = from.max(cut.end);
+        }
+        kept.push(from..self.time.len());
+        let pieces: Vec<Self> = kept
+            .into_iter()
+            .filter(|range| range.len() as f64 >= shortest)
+            .map(|range| self.piece(range))
+            .collect();
+        if pieces.is_empty() {
+            vec![self]
+        } else {
+            pieces
+        }
+    }
+
+    fn piece(&self, range: Range<usize>) -> Self {
+        let mut piece = self.clone();
+        piece.time = self.time[range.clone()].to_vec();
+        for channel in piece.channels_mut() {
+            *channel = channel[range.clone()].to_vec();
+        }
+        piece
+    }
+}
+
+/// A straight line from the sample before to that behind.
+fn bridge(values: &mut [f64], range: Range<usize>) {
+    let before = range.start.checked_sub(1).map(|k| values[k]);
+    let behind = values.get(range.end).copied();
+    let (Some(low), Some(high)) = (before.or(behind), behind.or(before)) else {
+        return;
+    };
+    let steps = (range.len() + 1) as f64;
+    for (k, value) in values[range].iter_mut().enumerate() {
+        *value = low + (high - low) * (k + 1) as f64 / steps;
+    }
+}
+
+/// The value that so large a share of others is below.
+fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
+    if values.is_empty() {
+        return 0.0;
+    }
+    let place = (share * (values.len() - 1) as f64).round();
+    let place = crate::signal::resample::whole_steps(place);
+    *values.select_nth_unstable_by(place, f64::total_cmp).1
+}
+
+/// Sizes of the steps from sample to sample.
+fn steps(values: &[f64]) -> Vec<f64> {
+    let pairs = values.windows(2);
+    pairs.map(|pair| (pair[1] - pair[0]).abs()).collect()
+}
+
+/// The smallest step that is not zero: what the sensor resolves.
+fn quantum(steps: &[f64]) -> f64 {
+    let moved = steps.iter().copied().filter(|step| *step > 0.0);
+    moved.fold(f64::INFINITY, f64::min)
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Spikes {
+                channel,
+                samples,
+                first,
+            } => write!(
+                f,
+                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
+            ),
+            Self::Held {
+                channel,
+                times,
+                samples,
+                first,
+                longest,
+            } => write!(
+                f,
+                "{channel} stands still {times} times while the arm moves on, {samples} samples in all, {longest:.3} s at most, the first at \
+                 {first:.3} s; short holds were replaced by straight lines, longer ones were cut out"
+            ),
+            Self::Clipped {
+                channel,
+                value,
+                share,
+            } => write!(
+                f,
+                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; declare `torque_saturation`, \
+                 or log a motion that asks for less",
+                100.0 * share
+            ),
+            Self::VelocityLate { channel, delay } => {
+                let word = if *delay > 0.0 { "late" } else { "early" };
+                write!(
+                    f,
+                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
+                    delay.abs()
+                )
+            }
+            Self::VelocityScale { channel, factor } => {
+                write!(
+                    f,
+                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+                    velocity::unit(*factor)
+                )
+            }
+            Self::Still { channel } => write!(
+                f,
+                "{channel} is the same at all times: the joint does not move"
+            ),
+            Self::Constant { channel, value } => write!(
+                f,
+                "{channel} is {value} at all times: nothing was logged, or the drive was off"
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

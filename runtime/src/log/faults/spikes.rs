@@ -1,0 +1,64 @@
+//! Samples that are far from both their neighbors.
+
+use std::ops::Range;
+
+use super::{quantile, quantum, steps};
+
+/// Samples that the median is taken of, to either side.
+const REACH: usize = 5;
+
+/// Most samples of one spike.
+const WIDEST: usize = 3;
+
+/// How far a spike is from the median, in units of what nine of ten samples are below, and of the largest step but few.
+const FAR: f64 = 12.0;
+const STEEP: f64 = 5.0;
+
+/// Steps beyond this share are spikes' own, where there are any.
+const FEW: f64 = 0.99;
+
+/// Ranges of samples.
+pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
+    let distance: Vec<f64> = (0..values.len())
+        .map(|k| values[k] - median(values, k))
+        .collect();
+    let sizes: Vec<f64> = distance.iter().map(|x| x.abs()).collect();
+    let steps = steps(values);
+    let quantum = quantum(&steps);
+    if !quantum.is_finite() {
+        return Vec::new();
+    }
+    let far = (FAR * quantile(sizes.clone(), 0.9))
+        .max(STEEP * quantile(steps, FEW))
+        .max(STEEP * quantum);
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for (k, size) in sizes.iter().enumerate() {
+        if *size <= far {
+            continue;
+        }
+        match found.last_mut() {
+            Some(last) if last.end == k => last.end += 1,
+            _ => found.push(k..k + 1),
+        }
+    }
+    // A step that stays is the arm's or the drive's own; a spike comes back to where it was. At the ends nothing says which it is.
+    let is_back = |range: &Range<usize>| {
+        let before = range.start.checked_sub(1).map(|k| values[k]);
+        before
+            .zip(values.get(range.end))
+            .is_some_and(|(before, behind)| {
+                let sizes = range.clone().map(|k| sizes[k]);
+                (before - behind).abs() < 0.5 * sizes.fold(f64::INFINITY, f64::min)
+            })
+    };
+    found.retain(|range| range.len() <= WIDEST && is_back(range));
+    found
+}
+
+/// Median of a sample and those around it.
+fn median(values: &[f64], k: usize) -> f64 {
+    let around = k.saturating_sub(REACH)..(k + REACH + 1).min(values.len());
+    let mut around = values[around].to_vec();
+    around.sort_unstable_by(f64::total_cmp);
+    around[around.len() / 2]
+}

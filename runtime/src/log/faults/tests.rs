@@ -1,0 +1,163 @@
+//! Faults that are put into a clean log are found, and none is found in it without.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+
+const RATE: f64 = 500.0;
+
+/// Ten seconds of one joint with dry friction, noise of the torque and an encoder of finite steps, that rests for a second in the middle.
+fn clean(seed: u64) -> Log {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
+    let time: Vec<f64> = (0..5000).map(|k| f64::from(k) / RATE).collect();
+    // What moves is time itself, which stands still in the middle.
+    let clock = |t: f64| if t < 4.5 { t } else { 4.5 + (t - 5.5).max(0.0) };
+    let motion = |t: f64| 0.8 * (1.3 * clock(t)).sin() + 0.2 * (5.1 * clock(t)).cos();
+    let rests = |t: f64| (4.5..5.5).contains(&t);
+    let speed = |t: f64| 0.8 * 1.3 * (1.3 * clock(t)).cos() - 0.2 * 5.1 * (5.1 * clock(t)).sin();
+    let q = time
+        .iter()
+        .map(|&t| (motion(t) / 1e-4).round() * 1e-4)
+        .collect();
+    let tau = time
+        .iter()
+        .map(|&t| 9.0 * motion(t).sin() + 2.0 * speed(t).signum() + 0.1 * normal())
+        .collect();
+    let mut log = Log::from_samples("a plant", time.clone(), vec![q], vec![tau]).expect("sound");
+    let logged = |&t: &f64| if rests(t) { 0.0 } else { speed(t) };
+    log.dq = vec![time.iter().map(logged).collect()];
+    log
+}
+
+#[test]
+fn a_clean_log_has_no_faults_and_stays_as_it_is() {
+    for seed in 0..20 {
+        let log = clean(seed);
+        let mended = log.clone().mended();
+        assert_eq!(mended.faults, []);
+        assert_eq!(mended.pieces, [log]);
+    }
+}
+
+#[test]
+fn spikes_are_replaced_and_counted() {
+    let log = clean(1);
+    let mut worn = log.clone();
+    for (k, size) in [(700, 30.0), (701, 25.0), (1900, -40.0), (3111, 15.0)] {
+        worn.tau[0][k] += size;
+    }
+    worn.q[0][1234] = 0.0;
+    let mended = worn.mended();
+    let found: Vec<(&str, usize)> = mended
+        .faults
+        .iter()
+        .filter_map(|fault| match fault {
+            Fault::Spikes {
+                channel, samples, ..
+            } => Some((channel.as_str(), *samples)),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(found, [("q1", 1), ("tau1", 4)]);
+    let [piece] = &mended.pieces[..] else {
+        panic!("nothing is cut");
+    };
+    for k in [700, 701, 1900, 3111] {
+        assert!((piece.tau[0][k] - log.tau[0][k]).abs() < 1.0, "{k}");
+    }
+    assert!((piece.q[0][1234] - log.q[0][1234]).abs() < 1e-3);
+}
+
+#[test]
+fn holds_are_bridged_and_long_ones_cut_out() {
+    let log = clean(2);
+    let mut worn = log.clone();
+    for (first, count) in [(460, 5), (3700, 60)] {
+        for channel in [&mut worn.q[0], &mut worn.tau[0]] {
+            let value = channel[first];
+            channel[first..first + count].fill(value);
+        }
+    }
+    let mended = worn.mended();
+    let held: Vec<(&str, usize, usize)> = mended
+        .faults
+        .iter()
+        .filter_map(|fault| match fault {
+            Fault::Held {
+                channel,
+                times,
+                samples,
+                ..
+            } => Some((channel.as_str(), *times, *samples)),
+            _ => None,
+        })
+        .collect();
+    assert!(held.contains(&("q1", 2, 63)), "{:?}", mended.faults);
+    let ends: Vec<(usize, f64)> = mended
+        .pieces
+        .iter()
+        .map(|piece| (piece.time.len(), piece.time[0]))
+        .collect();
+    assert_eq!(ends[0].0, 3701, "{ends:?}");
+    assert_eq!(ends.len(), 2);
+    assert!((ends[1].1 - 3760.0 / RATE).abs() < 1e-9, "{ends:?}");
+}
+
+#[test]
+fn velocities_late_in_degrees_or_backwards_are_told() {
+    let log = clean(3);
+    let count = log.time.len();
+    let mut late = log.clone();
+    late.dq[0] = (0..count)
+        .map(|k| log.dq[0][k.saturating_sub(45)])
+        .collect();
+    let faults = late.mended().faults;
+    let delay = faults.iter().find_map(|fault| match fault {
+        Fault::VelocityLate { delay, .. } => Some(*delay),
+        _ => None,
+    });
+    assert!((delay.expect("a delay") - 0.09).abs() < 2e-3, "{faults:?}");
+    for (factor, word) in [
+        (57.29578, "as degrees are to radians"),
+        (9.5493, "as rpm are to rad/s"),
+        (-1.0, "the other way round"),
+    ] {
+        let mut wrong = log.clone();
+        wrong.dq[0].iter_mut().for_each(|dq| *dq *= factor);
+        let faults = wrong.mended().faults;
+        assert!(
+            faults.iter().any(|fault| fault.to_string().contains(word)),
+            "{faults:?}"
+        );
+    }
+}
+
+#[test]
+fn a_drive_at_its_limit_is_told() {
+    let mut log = clean(4);
+    log.dq.clear();
+    log.tau[0]
+        .iter_mut()
+        .for_each(|tau| *tau = tau.clamp(-7.0, 7.0));
+    let faults = log.mended().faults;
+    assert!(
+        matches!(faults[..], [Fault::Clipped { share, .. }] if share > 0.05),
+        "{faults:?}"
+    );
+}
+
+#[test]
+fn what_never_changes_is_told() {
+    let mut log = clean(5);
+    log.dq.clear();
+    log.q[0].fill(0.3);
+    log.tau[0].fill(0.0);
+    let faults = log.mended().faults;
+    assert!(
+        matches!(faults[..], [Fault::Still { .. }, Fault::Constant { .. }]),
+        "{faults:?}"
+    );
+}
