@@ -190,7 +190,7 @@ fn tx40_can_be() {
 /// Published: M = 95.109 kg, Fv = 203.50 N s/m, Fc = 20.394 N, offset = -3.165 N with standard deviations of 0.11, 0.56, 0.50
 /// and 1.40 %; relative error 4.08 %, on the pulses 5.98 %. Tolerances are about twice the larger deviations: filters and bands
 /// differ, while an unmodeled tenth of any of the four would show.
-/// The published audit of TIAGo's log has its velocities 18 samples, 0.18 s, behind its positions, on one joint 15.
+/// The published audit of that log has velocities 18 samples, 0.18 s, behind its positions, on one joint 15.
 #[test]
 fn tiago_has_late_velocities() {
     let Some(folder) = shared::find("data/tiago", "faults of the data") else {
