@@ -17,6 +17,7 @@ mod excite;
 mod identify;
 mod import;
 mod json;
+mod merge;
 
 pub mod interpreted;
 mod output;
@@ -53,6 +54,7 @@ enum Verb {
     Import(import::Import),
     Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
+    Merge(merge::Merge),
     Trace(trace::TraceArguments),
     Dissect(dissect::Dissect),
     Audit(audit::Audit),
@@ -70,6 +72,7 @@ impl Verb {
             Self::Import(verb) => verb.run(),
             Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
+            Self::Merge(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
             Self::Dissect(verb) => verb.run(),
             Self::Audit(verb) => verb.run(),

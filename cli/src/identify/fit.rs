@@ -7,7 +7,7 @@ use robot_model_spec::Model;
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 
 /// A way to identify and to judge what was identified.
-pub(super) trait Fit {
+pub(crate) trait Fit {
     fn model(&self) -> &Model;
     fn dof(&self) -> usize {
         self.model().joints.len()
@@ -16,7 +16,7 @@ pub(super) trait Fit {
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError>;
 }
 
-pub(super) struct ByAcceleration(pub InterpretedArm);
+pub(crate) struct ByAcceleration(pub InterpretedArm);
 
 impl Fit for ByAcceleration {
     fn model(&self) -> &Model {
@@ -32,7 +32,7 @@ impl Fit for ByAcceleration {
     }
 }
 
-pub(super) struct Filtered {
+pub(crate) struct Filtered {
     pub arm: InterpretedMomentum,
     pub corner: Option<f64>,
 }
@@ -52,21 +52,29 @@ impl Fit for Filtered {
 }
 
 /// Errors over several logs: means over all their samples.
-pub(super) fn errors_of_all(
+pub(crate) fn errors_of_all(
     estimate: &Estimate,
     form: &dyn Fit,
     logs: &[Log],
 ) -> Result<Errors, IdentifyError> {
-    let errors = logs.iter().map(|log| form.errors(estimate, log));
-    let errors: Vec<Errors> = errors.collect::<Result<_, _>>()?;
-    let samples: f64 = logs.iter().map(|log| log.time.len() as f64).sum();
+    let errors = logs
+        .iter()
+        .map(|log| Ok((log.time.len(), form.errors(estimate, log)?)));
+    let errors: Vec<(usize, Errors)> = errors.collect::<Result<_, IdentifyError>>()?;
+    Ok(mean_errors(&errors))
+}
+
+/// Means of errors over so many samples each.
+pub(crate) fn mean_errors(errors: &[(usize, Errors)]) -> Errors {
+    let samples: f64 = errors.iter().map(|(count, _)| *count as f64).sum();
     let mean = |value: &dyn Fn(&Errors) -> f64| -> f64 {
-        let pairs = errors.iter().zip(logs);
-        let terms = pairs.map(|(errors, log)| log.time.len() as f64 * value(errors));
+        let terms = errors
+            .iter()
+            .map(|(count, errors)| *count as f64 * value(errors));
         terms.sum::<f64>() / samples
     };
-    let joints = 0..form.dof();
-    Ok(Errors {
+    let joints = 0..errors.first().map_or(0, |(_, errors)| errors.rmse.len());
+    Errors {
         rmse: joints
             .clone()
             .map(|j| mean(&|errors| errors.rmse[j].powi(2)).sqrt())
@@ -82,5 +90,5 @@ pub(super) fn errors_of_all(
         spread: joints
             .map(|j| mean(&|errors| errors.spread[j].powi(2)).sqrt())
             .collect(),
-    })
+    }
 }

@@ -1,13 +1,14 @@
 //! `robot-model identify`: parameters from measured logs.
 
 mod doubts;
-mod fit;
-mod report;
+pub(crate) mod fit;
+pub(crate) mod reduced;
+pub(crate) mod report;
 
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{Errors, Identify, IdentifyError, Method, Weights};
+use robot_model::identify::{Errors, Estimate, Identify, IdentifyError, Method, Weights};
 use robot_model::log::{Fault, Log};
 use robot_model::signal::{Bands, SignalError};
 
@@ -18,6 +19,7 @@ use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
+use reduced::Streams;
 use report::{report, table};
 
 /// Identify an arm's parameters from measured logs.
@@ -56,6 +58,9 @@ pub(crate) struct IdentifyArguments {
     /// Take logs as they are: spikes and holds are left where they stand.
     #[arg(long)]
     as_logged: bool,
+    /// Write what the logs tell, for `merge`; they are read piece by piece then, in memory that does not grow with them.
+    #[arg(long, value_name = "FILE")]
+    factor: Option<PathBuf>,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -158,7 +163,13 @@ impl IdentifyArguments {
             output::say(&format!("warning: {}: {remark}", compiled.model.source));
         }
         match self.form {
-            FormArgument::Acceleration => self.fit(&ByAcceleration(InterpretedArm::new(compiled))),
+            FormArgument::Acceleration => {
+                let form = ByAcceleration(InterpretedArm::new(compiled));
+                match &self.factor {
+                    Some(factor) => self.reduce(&form, factor),
+                    None => self.fit(&form),
+                }
+            }
             FormArgument::Filtered => {
                 let arm = InterpretedMomentum::new(compiled)
                     .map_err(|refusal| Error::Argument(refusal.to_string()))?;
@@ -177,6 +188,18 @@ impl IdentifyArguments {
                 "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
                 method.name()
             ));
+        }
+        if self.factor.is_some() {
+            if self.form == FormArgument::Filtered {
+                return refuse("`--factor` is of `--form acceleration`");
+            }
+            if !matches!(method, Method::Ls | Method::Wls)
+                || self.weights != WeightsArgument::Residual
+            {
+                return refuse(
+                    "`--factor` is of `--method ls` and `wls`, weighted by residuals: others need all samples at once",
+                );
+            }
         }
         if self.prior.is_some() && method != Method::Ridge {
             return refuse("`--prior` is of `--method ridge`");
@@ -238,14 +261,59 @@ impl IdentifyArguments {
         drop(progress);
 
         if let Some(file) = json {
-            let report = report(&estimate, &train, validation.as_ref(), &faults);
+            let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
             file.commit(output::json(&report).as_bytes())?;
         }
-        output::print(&format!(
-            "{estimate}\n{}",
-            table(&estimate, &train, validation.as_ref())
-        ))
+        print(&estimate, &train, validation.as_ref())
     }
+
+    /// As [`Self::fit`], in memory that does not grow with the logs.
+    fn reduce(&self, form: &ByAcceleration, factor: &Path) -> Result<(), Error> {
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate);
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let out = files.claim(factor)?;
+        let json = files.claim_if(self.json.as_deref())?;
+        let progress = Progress::new();
+        let streams = Streams {
+            form,
+            logs: &self.logs,
+            as_logged: self.as_logged,
+        };
+        let identify = Identify {
+            bands: self.bands,
+            ..Identify::default()
+        };
+        let mut faults = Vec::new();
+        let reduced = streams.reduce(&identify, &mut faults, &progress)?;
+        let estimate = reduced.estimate(&form.0, self.method.into())?;
+        let train = streams.errors(&estimate, &progress)?;
+        let mut pieces = |path: &PathBuf| self.pieces(path, form, &mut faults, &progress);
+        let validate = self.validate.as_ref().map(&mut pieces).transpose()?;
+        let validation = validate
+            .as_deref()
+            .map(|logs| errors_of_all(&estimate, form, logs))
+            .transpose()?;
+        for (source, fault) in &faults {
+            progress.note(&format!("note: {source}: {fault}"));
+        }
+        drop(progress);
+        out.commit(reduced::text(&reduced).as_bytes())?;
+        if let Some(file) = json {
+            let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
+            file.commit(output::json(&report).as_bytes())?;
+        }
+        print(&estimate, &train, validation.as_ref())
+    }
+}
+
+/// Parameters, and errors side by side.
+fn print(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> Result<(), Error> {
+    let columns = std::iter::once(("identification", train));
+    let columns = columns.chain(validation.map(|errors| ("validation", errors)));
+    let columns: Vec<_> = columns.collect();
+    output::print(&format!("{estimate}\n{}", table(estimate, &columns)))
 }
 
 impl IdentifyArguments {

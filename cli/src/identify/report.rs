@@ -10,7 +10,7 @@ use crate::output;
 
 /// What `--json` writes; a contract.
 #[derive(Serialize)]
-pub(super) struct Report<'a> {
+pub(crate) struct Report<'a> {
     method: &'static str,
     form: &'static str,
     /// Of the filtered form only, rad/s.
@@ -18,15 +18,15 @@ pub(super) struct Report<'a> {
     parameters: Vec<Parameter<'a>>,
     /// Errors `rmse*`, first and last second cut: `raw` samples, or `filtered` torque `L{tau}`.
     domain: &'static str,
-    rmse: &'a [f64],
+    rmse: Option<&'a [f64]>,
     rmse_validate: Option<&'a [f64]>,
     /// RMS%, of filtered torque in any case.
     relative_percent: &'a [f64],
     relative_percent_validate: Option<&'a [f64]>,
     /// Mean absolute error and NRMSE fit, of the samples of `rmse*`.
-    mae: &'a [f64],
+    mae: Option<&'a [f64]>,
     mae_validate: Option<&'a [f64]>,
-    nrmse_fit_percent: Vec<Option<f64>>,
+    nrmse_fit_percent: Option<Vec<Option<f64>>>,
     nrmse_fit_percent_validate: Option<Vec<Option<f64>>>,
     condition: f64,
     rank: usize,
@@ -82,9 +82,9 @@ struct Parameter<'a> {
     std: Option<f64>,
 }
 
-pub(super) fn report<'a>(
+pub(crate) fn report<'a>(
     estimate: &'a Estimate,
-    train: &'a Errors,
+    train: Option<&'a Errors>,
     validation: Option<&'a Errors>,
     faults: &'a [(String, Fault)],
 ) -> Report<'a> {
@@ -105,13 +105,13 @@ pub(super) fn report<'a>(
         corner,
         parameters: linear.chain(shapes).collect(),
         domain,
-        rmse: &train.rmse,
+        rmse: train.map(|errors| errors.rmse.as_slice()),
         rmse_validate: validation.map(|errors| errors.rmse.as_slice()),
-        relative_percent: &train.relative_percent,
+        relative_percent: &estimate.relative_percent,
         relative_percent_validate: validation.map(|errors| errors.relative_percent.as_slice()),
-        mae: &train.mae,
+        mae: train.map(|errors| errors.mae.as_slice()),
         mae_validate: validation.map(|errors| errors.mae.as_slice()),
-        nrmse_fit_percent: train.nrmse_fit(),
+        nrmse_fit_percent: train.map(Errors::nrmse_fit),
         nrmse_fit_percent_validate: validation.map(Errors::nrmse_fit),
         condition: estimate.condition,
         rank: estimate.rank,
@@ -164,13 +164,13 @@ fn known((name, value): &(String, f64)) -> Parameter<'_> {
     }
 }
 
-/// Errors per joint, side by side.
+/// Errors per joint, of several logs side by side.
 ///
 /// ```text
 /// joint   identification          validation
 ///             RMSE    relative        RMSE    relative
 /// ```
-pub(super) fn table(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> String {
+pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String {
     let width = estimate
         .joints
         .iter()
@@ -178,27 +178,22 @@ pub(super) fn table(estimate: &Estimate, train: &Errors, validation: Option<&Err
         .max()
         .unwrap_or(0)
         .max("joint".len());
-    let logs: &[&str] = if validation.is_some() {
-        &["identification", "validation"]
-    } else {
-        &["identification"]
-    };
     let domain = match estimate.form {
         Form::Acceleration => output::ERRORS.to_owned(),
         Form::Filtered { corner } => output::filtered_errors(corner),
     };
     let mut text = format!("{domain}\n{:width$}", "joint");
-    for name in logs {
+    for (name, _) in columns {
         write!(text, "  {name:>22}").expect("a string takes all");
     }
     write!(text, "\n{:width$}", "").expect("a string takes all");
-    for _ in logs {
+    for _ in columns {
         write!(text, "  {:>10}  {:>10}", "RMSE", "relative").expect("a string takes all");
     }
     text.push('\n');
     for (joint, name) in estimate.joints.iter().enumerate() {
         write!(text, "{name:width$}").expect("a string takes all");
-        for errors in std::iter::once(train).chain(validation) {
+        for (_, errors) in columns {
             write!(
                 text,
                 "  {:>10.4}  {:>8.2} %",

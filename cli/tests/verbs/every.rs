@@ -14,6 +14,8 @@ fn every_verb_refuses_a_broken_spec() {
         vec!["emit", "broken.robot", "--lang", "rust", "--out", "code"],
         vec!["eval", "broken.robot", "--states", "states.json"],
         vec!["identify", "broken.robot", "log.csv", "--json", "out.json"],
+        vec!["merge", "broken.robot", "log.csv", "--json", "out.json"],
+        vec!["audit", "broken.robot", "--parameters", "log.csv"],
         vec!["dissect", "broken.robot", "log.csv", "--json", "out.json"],
         vec![
             "simulate",
@@ -50,6 +52,8 @@ fn every_verb_refuses_a_missing_file() {
         vec!["eval", "none.robot", "--states", "states.json"],
         vec!["import", "none.urdf", "-o", "out.robot"],
         vec!["identify", "none.robot", "log.csv"],
+        vec!["merge", "none.robot", "factor.json"],
+        vec!["audit", "none.robot", "--parameters", "p.json"],
         vec!["trace", "none.robot", "log.csv"],
         vec!["dissect", "none.robot", "log.csv"],
     ] {

@@ -11,6 +11,7 @@ mod every;
 mod excite;
 mod identify;
 mod import;
+mod merge;
 mod methods;
 mod outputs;
 mod parameters;

@@ -94,6 +94,20 @@ pub enum IdentifyError {
         /// Length of the motion, s.
         reference: f64,
     },
+    /// Rows that cannot be reduced to a factor.
+    #[error("a factor does not hold what is wanted: {why}; identify from the logs themselves")]
+    NotReduced {
+        /// What a factor does not hold.
+        why: String,
+    },
+    /// A factor of another arm, or of other rows.
+    #[error(
+        "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`"
+    )]
+    OtherFactor {
+        /// Joints, unknowns or filters.
+        what: &'static str,
+    },
     /// The signals cannot be filtered.
     #[error(transparent)]
     Signal(#[from] SignalError),

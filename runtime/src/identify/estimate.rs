@@ -113,6 +113,24 @@ pub struct Estimate {
     pub hausman: Option<Hausman>,
 }
 
+/// How rows were fitted.
+pub(super) struct Fitted {
+    /// `100 || residual || / || tau ||` per joint.
+    pub relative_percent: Vec<f64>,
+    /// Samples per joint.
+    pub samples: usize,
+}
+
+impl Fitted {
+    /// By an estimate.
+    pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
+        Self {
+            relative_percent: stack.relative_percent(estimate),
+            samples: stack.samples(),
+        }
+    }
+}
+
 impl Estimate {
     pub(super) fn new(
         arm: &dyn Arm,
@@ -121,7 +139,7 @@ impl Estimate {
         bands: Bands,
         solution: &Solution,
         shapes: Vec<f64>,
-        stack: &Stack,
+        fitted: Fitted,
     ) -> Self {
         let name = |c: &usize| arm.unknowns()[*c].name.clone();
         let parameters = arm
@@ -134,7 +152,6 @@ impl Estimate {
                 std: *std,
             })
             .collect();
-        let relative_percent = stack.relative_percent(&solution.estimate);
         Self {
             method,
             form,
@@ -149,8 +166,8 @@ impl Estimate {
             unexcited: solution.unexcited.iter().map(name).collect(),
             condition: solution.condition,
             rank: arm.unknowns().len() - solution.unexcited.len(),
-            relative_percent,
-            samples: stack.samples(),
+            relative_percent: fitted.relative_percent,
+            samples: fitted.samples,
             joints: arm.joints().to_vec(),
             possible: None,
             outliers: None,

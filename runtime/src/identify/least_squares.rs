@@ -90,6 +90,20 @@ impl Factors {
         }
     }
 
+    /// From factors of each joint's rows, all columns in place.
+    pub(super) fn from_joints(unknowns: usize, samples: usize, joints: Vec<Mat<f64>>) -> Self {
+        Self {
+            unknowns,
+            samples,
+            joints,
+        }
+    }
+
+    /// The factors, one a joint.
+    pub(super) fn joints(&self) -> &[Mat<f64>] {
+        &self.joints
+    }
+
     /// Ordinary least squares: every joint has the same weight.
     #[must_use]
     pub fn ordinary(&self, correlation: &[f64]) -> Solution {

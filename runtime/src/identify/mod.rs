@@ -19,6 +19,7 @@
 mod band;
 mod error;
 mod estimate;
+mod factor;
 mod filtered;
 mod hac;
 mod instruments;
@@ -32,7 +33,9 @@ mod stack;
 mod total;
 
 pub use error::IdentifyError;
+use estimate::Fitted;
 pub use estimate::{Errors, Estimate, Form, Identified};
+pub use factor::{Factor, FactorBlock};
 pub use instruments::Hausman;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 pub use method::{Method, Weights};
@@ -151,7 +154,8 @@ impl Identify {
                 beside.hausman = Some(found?);
             }
         }
-        let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, &stack);
+        let fitted = Fitted::new(&stack, &solution.estimate);
+        let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, fitted);
         Ok(Estimate {
             possible: beside.possible,
             outliers: beside.outliers,
@@ -225,19 +229,42 @@ impl Identify {
             .sum())
     }
 
+    fn check_counts(samples: usize, dof: usize, unknowns: usize) -> Result<(), IdentifyError> {
+        if samples * dof > unknowns {
+            return Ok(());
+        }
+        Err(IdentifyError::TooFewSamples {
+            samples,
+            dof,
+            unknowns,
+        })
+    }
+
+    fn check_excited(solution: &Solution) -> Result<(), IdentifyError> {
+        let unknowns = solution.estimate.len();
+        if solution.unexcited.len() < unknowns || unknowns == 0 {
+            return Ok(());
+        }
+        Err(IdentifyError::NothingExcited { unknowns })
+    }
+
+    /// The bands of a first log, chosen as for a fit.
+    ///
+    /// # Errors
+    /// Those of [`Self::fit`].
+    pub fn bands_of(&self, arm: &dyn Arm, log: &Log) -> Result<Bands, IdentifyError> {
+        let logs = std::slice::from_ref(log);
+        check_logs(arm, logs)?;
+        self.bands.map_or_else(|| self.choose_bands(arm, logs), Ok)
+    }
+
     /// Solves a stack; standard deviations know how correlated neighboring residuals are.
     ///
     /// # Errors
     /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
         let (samples, dof, unknowns) = (stack.samples(), stack.dof(), stack.unknowns.len());
-        if samples * dof <= unknowns {
-            return Err(IdentifyError::TooFewSamples {
-                samples,
-                dof,
-                unknowns,
-            });
-        }
+        Self::check_counts(samples, dof, unknowns)?;
         let factors = match self.method {
             Method::Robust => robust::factors(stack),
             _ => Factors::new(stack),
@@ -250,9 +277,7 @@ impl Identify {
             _ => factors.weighted(correlation),
         };
         let first = solve(&vec![1.0; dof]);
-        if first.unexcited.len() == unknowns && unknowns > 0 {
-            return Err(IdentifyError::NothingExcited { unknowns });
-        }
+        Self::check_excited(&first)?;
         let correlation: Vec<f64> = stack
             .residuals(&first.estimate)
             .iter()

@@ -3,6 +3,8 @@
 //! In: an [`Arm`] and prepared logs. Out: a [`Stack`]. Invariant gained: torque and every column of a log went through the
 //! same filter, and all blocks have the same samples.
 
+use std::ops::Range;
+
 use crate::columns::{Arm, Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
@@ -96,6 +98,24 @@ impl Stack {
     #[must_use]
     pub fn samples(&self) -> usize {
         self.joints.first().map_or(0, |rows| rows.target.len())
+    }
+
+    /// Some of the rows, without their times.
+    pub(super) fn part(&self, range: Range<usize>) -> Self {
+        let joints = self.joints.iter().map(|rows| JointRows {
+            tau: rows.tau[range.clone()].to_vec(),
+            target: rows.target[range.clone()].to_vec(),
+            columns: rows
+                .columns
+                .iter()
+                .map(|(column, values)| (*column, values[range.clone()].to_vec()))
+                .collect(),
+        });
+        Self {
+            unknowns: self.unknowns.clone(),
+            joints: joints.collect(),
+            segments: Vec::new(),
+        }
     }
 
     /// Degrees of freedom.

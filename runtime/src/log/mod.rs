@@ -6,18 +6,20 @@
 mod error;
 mod faults;
 mod header;
+mod pieces;
 mod table;
 mod uniform;
 
 use std::fmt;
-use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
 pub use error::LogError;
 pub use faults::{Fault, Mended};
+pub use pieces::Pieces;
 
 use header::Header;
+use table::{Rows, Table};
 
 /// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
@@ -133,21 +135,8 @@ impl Log {
     /// assert!(error.to_string().starts_with("cannot open log `no-such-log.csv`"));
     /// ```
     pub fn read(path: impl AsRef<Path>, dof: usize) -> Result<Self, LogError> {
-        let path = path.as_ref();
-        let source = path.display().to_string();
-        if path.is_dir() {
-            return Err(LogError::Open {
-                source_name: source,
-                reason: "it is a folder; name the log files in it".to_owned(),
-            });
-        }
-        match File::open(path) {
-            Ok(file) => Self::from_reader(source, file, dof),
-            Err(error) => Err(LogError::Open {
-                source_name: source,
-                reason: error.to_string(),
-            }),
-        }
+        let (source, file) = Self::open(path.as_ref())?;
+        Self::from_reader(source, file, dof)
     }
 
     /// Reads a log as [`Log::read`] does; `source` names it in messages.
@@ -173,25 +162,31 @@ impl Log {
         dof: usize,
     ) -> Result<Self, LogError> {
         let source = source.into();
-        let table = table::read(&source, reader)?;
-        let Header {
-            time,
-            q,
-            dq,
-            tau,
-            extra,
-        } = Header::resolve(&source, &table.names, dof)?;
+        let mut rows = Rows::new(&source, reader)?;
+        let header = Header::resolve(&source, &rows.names, dof)?;
+        let mut table = rows.table();
+        rows.fill(&mut table, usize::MAX)?;
+        Self::from_table(source, table, &rows.names, &header)
+    }
+
+    fn from_table(
+        source: String,
+        table: Table,
+        names: &[String],
+        header: &Header,
+    ) -> Result<Self, LogError> {
         let mut columns = table.columns;
-        let mut take = |column: usize| std::mem::take(&mut columns[column]);
+        let mut take = |column: &usize| std::mem::take(&mut columns[*column]);
         let log = Self {
-            time: take(time),
-            q: q.into_iter().map(&mut take).collect(),
-            dq: dq.into_iter().map(&mut take).collect(),
-            tau: tau.into_iter().map(&mut take).collect(),
-            extra: extra
-                .into_iter()
+            time: take(&header.time),
+            q: header.q.iter().map(&mut take).collect(),
+            dq: header.dq.iter().map(&mut take).collect(),
+            tau: header.tau.iter().map(&mut take).collect(),
+            extra: header
+                .extra
+                .iter()
                 .map(|column| Channel {
-                    name: table.names[column].clone(),
+                    name: names[*column].clone(),
                     values: take(column),
                 })
                 .collect(),

@@ -1,0 +1,112 @@
+//! `robot-model merge`: one estimate from what many machines' logs tell.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model::identify::{Factor, Method};
+
+use crate::Error;
+use crate::identify::fit::{ByAcceleration, errors_of_all};
+use crate::identify::reduced;
+use crate::identify::report::{report, table};
+use crate::interpreted::InterpretedArm;
+use crate::output::{self, Files};
+use crate::progress::Progress;
+use crate::spec::{compile, read_mended};
+
+/// Identify from factors that `identify --factor` wrote, without the logs.
+#[derive(Debug, Args)]
+pub(crate) struct Merge {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// Factors of the same spec and `--bands`.
+    #[arg(required = true, value_name = "FACTOR")]
+    factors: Vec<PathBuf>,
+    /// How parameters are found.
+    #[arg(long, value_enum, default_value_t)]
+    method: MethodArgument,
+    /// A log that is not fitted, to judge the model on.
+    #[arg(long, value_name = "LOG")]
+    validate: Option<PathBuf>,
+    /// Write the factor of all.
+    #[arg(long, value_name = "FILE")]
+    factor: Option<PathBuf>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum MethodArgument {
+    /// Ordinary least squares.
+    Ls,
+    /// Least squares weighted by each joint's residual.
+    #[default]
+    Wls,
+}
+
+impl Merge {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.factors)
+            .chain(&self.validate);
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let out = files.claim_if(self.factor.as_deref())?;
+        let json = files.claim_if(self.json.as_deref())?;
+        let form = ByAcceleration(InterpretedArm::new(compile(&self.spec)?));
+        let arm = &form.0;
+        let progress = Progress::new();
+        let mut all: Option<Factor> = None;
+        for path in &self.factors {
+            progress.step(&format!("reading {}", path.display()));
+            let factor = reduced::read(path, arm)?;
+            match &mut all {
+                None => all = Some(factor),
+                Some(all) => all
+                    .merge(factor)
+                    .map_err(|error| Error::json(path, &error.to_string()))?,
+            }
+        }
+        let factor = all.ok_or(robot_model::identify::IdentifyError::NoLog)?;
+        let method = match self.method {
+            MethodArgument::Ls => Method::Ls,
+            MethodArgument::Wls => Method::Wls,
+        };
+        let estimate = factor.estimate(arm, method)?;
+        let mut faults = Vec::new();
+        let validation = match &self.validate {
+            None => None,
+            Some(path) => {
+                let dof = arm.compiled().dof();
+                let mended = read_mended(path, dof, &progress)?;
+                let source = path.display().to_string();
+                let found = mended.faults.into_iter();
+                faults.extend(found.map(|fault| (source.clone(), fault)));
+                Some(errors_of_all(&estimate, &form, &mended.pieces)?)
+            }
+        };
+        drop(progress);
+        if let Some(file) = out {
+            file.commit(reduced::text(&factor).as_bytes())?;
+        }
+        if let Some(file) = json {
+            let report = report(&estimate, None, validation.as_ref(), &faults);
+            file.commit(output::json(&report).as_bytes())?;
+        }
+        let joints = estimate.joints.iter().zip(&estimate.relative_percent);
+        let fitted: Vec<String> = joints
+            .map(|(name, percent)| format!("{name} {percent:.2} %"))
+            .collect();
+        let errors = validation.as_ref().map(|errors| ("validation", errors));
+        let errors: Vec<_> = errors.into_iter().collect();
+        let table = if errors.is_empty() {
+            String::new()
+        } else {
+            table(&estimate, &errors)
+        };
+        output::print(&format!(
+            "{estimate}relative error of what was fitted, in the filtered band: {}\n{table}",
+            fitted.join(", ")
+        ))
+    }
+}

@@ -1,0 +1,210 @@
+//! `identify --factor` and `merge`.
+
+use serde_json::Value;
+
+use crate::common::{CART, Folder, cart_log, json, numbers};
+
+fn folder() -> Folder {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("one.csv", &cart_log(20, 0.0, 0.0));
+    folder.write("other.csv", &cart_log(30, 0.9, 0.0));
+    folder
+}
+
+fn values(fit: &Value, of: &str) -> Vec<f64> {
+    let parameters = fit["parameters"].as_array().expect("a list");
+    let number = |parameter: &Value| parameter[of].as_f64().expect("a number");
+    parameters.iter().map(number).collect()
+}
+
+const BANDS: [&str; 2] = ["--bands", "10,30,90"];
+
+/// The report of a command.
+fn report(folder: &Folder, arguments: &[&str]) -> Value {
+    folder.succeed(&[arguments, &["--json", "fit.json"]].concat());
+    json(&folder.read("fit.json"))
+}
+
+#[test]
+fn factors_of_logs_are_one_estimate() {
+    let folder = folder();
+    let together = report(
+        &folder,
+        &[
+            &["identify", "cart.robot", "one.csv", "other.csv"],
+            &BANDS[..],
+        ]
+        .concat(),
+    );
+    for (log, factor) in [("one.csv", "one.json"), ("other.csv", "other.json")] {
+        let reduce = ["identify", "cart.robot", log, "--factor", factor];
+        let fit = report(&folder, &[&reduce, &BANDS[..]].concat());
+        let direct = report(
+            &folder,
+            &[&["identify", "cart.robot", log], &BANDS[..]].concat(),
+        );
+        for (found, direct) in values(&fit, "value").iter().zip(values(&direct, "value")) {
+            assert!((found / direct - 1.0).abs() < 1e-9, "{found} {direct}");
+        }
+        for (found, direct) in values(&fit, "std").iter().zip(values(&direct, "std")) {
+            assert!(
+                *found > 0.4 * direct && *found < 2.5 * direct,
+                "{found} {direct}"
+            );
+        }
+        assert!((numbers(&fit["rmse"])[0] - numbers(&direct["rmse"])[0]).abs() < 1e-6);
+    }
+    let merged = report(
+        &folder,
+        &[
+            "merge",
+            "cart.robot",
+            "one.json",
+            "other.json",
+            "--validate",
+            "one.csv",
+            "--factor",
+            "both.json",
+        ],
+    );
+    for (found, direct) in values(&merged, "value")
+        .iter()
+        .zip(values(&together, "value"))
+    {
+        assert!((found / direct - 1.0).abs() < 1e-9, "{found} {direct}");
+    }
+    assert!(merged["rmse"].is_null());
+    assert!(numbers(&merged["rmse_validate"])[0] > 0.0);
+    let again = report(&folder, &["merge", "cart.robot", "both.json"]);
+    for (found, direct) in values(&again, "value").iter().zip(values(&merged, "value")) {
+        assert!((found / direct - 1.0).abs() < 1e-12, "{found} {direct}");
+    }
+}
+
+/// A log that is longer than what is read at a time.
+#[test]
+fn pieces_of_a_long_log_are_the_whole() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("long.csv", &cart_log(240, 0.0, 0.0));
+    assert!(
+        folder.read("long.csv").lines().count() > 2 * 16_384,
+        "more than one piece"
+    );
+    let direct = report(
+        &folder,
+        &[&["identify", "cart.robot", "long.csv"], &BANDS[..]].concat(),
+    );
+    let reduce = [
+        "identify",
+        "cart.robot",
+        "long.csv",
+        "--factor",
+        "long.json",
+    ];
+    let fit = report(&folder, &[&reduce, &BANDS[..]].concat());
+    for (k, direct) in values(&direct, "value").iter().enumerate() {
+        let found = values(&fit, "value")[k];
+        let std = values(&fit, "std")[k];
+        assert!((found - direct).abs() < 0.1 * std, "{found} {direct} {std}");
+    }
+    let factor = json(&folder.read("long.json"));
+    let blocks = factor["blocks"].as_array().expect("a list");
+    assert!(blocks.len() <= 32 && blocks.len() > 16, "{}", blocks.len());
+}
+
+#[test]
+fn what_is_no_factor_of_the_arm_is_refused() {
+    let folder = folder();
+    let reduce = ["identify", "cart.robot", "one.csv", "--factor", "one.json"];
+    folder.succeed(&[&reduce[..], &BANDS].concat());
+    folder.succeed(
+        &[
+            &[
+                "identify",
+                "cart.robot",
+                "one.csv",
+                "--factor",
+                "narrow.json",
+            ][..],
+            &["--bands", "5,30,90"],
+        ]
+        .concat(),
+    );
+    let more = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; coulomb_friction on rail;",
+    );
+    folder.write("more.robot", &more);
+    let dahl = CART.replace("viscous_friction on rail;", "dahl(d = 0.01) on rail;");
+    folder.write("dahl.robot", &dahl);
+    let open = CART.replace("viscous_friction on rail;", "stribeck on rail;");
+    folder.write("open.robot", &open);
+    let text = folder.read("one.json");
+    folder.write("cut.json", &text[..text.len() / 2]);
+    folder.write(
+        "form.json",
+        &text.replacen("\"factor\":1", "\"factor\":9", 1),
+    );
+    folder.write(
+        "rows.json",
+        &text.replacen("\"rows\":[[[", "\"rows\":[[[1.0,", 1),
+    );
+    folder.write("plain.json", "{\"cart.m\": 3}");
+    for (arguments, reason) in [
+        (
+            &["merge", "more.robot", "one.json"][..],
+            "other unknowns than the arm",
+        ),
+        (
+            &["merge", "cart.robot", "one.json", "narrow.json"],
+            "other filters than the arm",
+        ),
+        (&["merge", "cart.robot", "cut.json"], "cut.json"),
+        (&["merge", "cart.robot", "form.json"], "a factor of form 9"),
+        (
+            &["merge", "cart.robot", "rows.json"],
+            "block 1 has not one list of rows per joint",
+        ),
+        (
+            &["merge", "cart.robot", "plain.json"],
+            "it is no factor of `identify --factor`",
+        ),
+        (
+            &["identify", "dahl.robot", "one.csv", "--factor", "x.json"],
+            "`dahl` remembers",
+        ),
+        (
+            &["identify", "open.robot", "one.csv", "--factor", "x.json"],
+            "has no value",
+        ),
+        (
+            &[
+                "identify",
+                "cart.robot",
+                "one.csv",
+                "--factor",
+                "x.json",
+                "--method",
+                "tls",
+            ],
+            "need all samples at once",
+        ),
+        (
+            &[
+                "identify",
+                "cart.robot",
+                "one.csv",
+                "--factor",
+                "x.json",
+                "--form",
+                "filtered",
+            ],
+            "of `--form acceleration`",
+        ),
+    ] {
+        let said = folder.refuse(arguments);
+        assert!(said.contains(reason), "{arguments:?}: {said}");
+    }
+}

@@ -1,0 +1,300 @@
+//! What logs tell, in a size that does not grow with them: triangular factors that are updated and merged.
+//!
+//! Rows `[W_j tau_j]` of each joint are reduced to a factor `R_j` with `R_j'R_j = [W_j tau_j]'[W_j tau_j]`, block after block of a log; two factors
+//! below each other are reduced to that of both (TSQR). Least squares and weights need no more. A factor keeps 16 to 32 blocks apart: their
+//! own equations, `s_b = sum_j W_bj'(tau_bj - W_bj beta) / sigma_j^2`, say how far an estimate is off, as far as noise is not correlated
+//! beyond a block.
+//!
+//! Sources: Golub, Van Loan, Matrix Computations, on updating; Demmel, Grigori, Hoemmen, Langou 2012, Communication-optimal parallel and
+//! sequential QR; Liang, Zeger 1986 for deviations from blocks.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+
+use super::estimate::{Estimate, Fitted, Form};
+use super::least_squares::{Factors, Solution};
+use super::stack::{Stack, percent};
+use super::{Identify, IdentifyError, Method, check_logs, prepare_all};
+use crate::columns::Arm;
+use crate::log::Log;
+use crate::signal::Bands;
+use crate::signal::resample::whole_steps;
+
+/// Blocks that are kept apart, at most.
+const MOST_BLOCKS: usize = 32;
+
+/// Blocks that a log or a piece of one is cut into, at most.
+const PARTS: usize = 16;
+
+/// What some logs tell of an arm's unknowns.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Factor {
+    /// Names of the unknowns, one a column.
+    pub unknowns: Vec<String>,
+    /// Names of the joints.
+    pub joints: Vec<String>,
+    /// Filters of the rows.
+    pub bands: Bands,
+    /// Blocks of the logs, in their order.
+    pub blocks: Vec<FactorBlock>,
+}
+
+/// The rows of a part of a log, reduced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FactorBlock {
+    /// Samples per joint.
+    pub samples: usize,
+    /// `[joint][row][column]`: columns are the unknowns, then the torque less that of known parameters.
+    pub rows: Vec<Vec<Vec<f64>>>,
+    /// Sum of the squared torque, one a joint.
+    pub torque_squares: Vec<f64>,
+}
+
+impl Factor {
+    /// One of no log, with these filters.
+    ///
+    /// # Errors
+    /// [`IdentifyError::NotReduced`] where columns depend on more than the motion: open shapes, the load.
+    pub fn new(arm: &dyn Arm, bands: Bands) -> Result<Self, IdentifyError> {
+        let why = if let Some(shape) = arm.shapes().first() {
+            Some(format!("the shape `{}` has no value", shape.name))
+        } else if arm.uses_rigid_torque() {
+            Some("an effect of the spec depends on the load".to_owned())
+        } else {
+            None
+        };
+        if let Some(why) = why {
+            return Err(IdentifyError::NotReduced { why });
+        }
+        let unknowns = arm.unknowns().iter();
+        Ok(Self {
+            unknowns: unknowns.map(|unknown| unknown.name.clone()).collect(),
+            joints: arm.joints().to_vec(),
+            bands,
+            blocks: Vec::new(),
+        })
+    }
+
+    /// Adds a log, or a piece of one, as blocks of a second or more.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit`] for a log that does not fit the arm or the filters.
+    pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
+        check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare_all(std::slice::from_ref(log), &self.bands)?;
+        let stack = Stack::new(arm, &prepared, &[]);
+        let samples = stack.samples();
+        let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
+        let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
+        for part in 0..count {
+            self.push_rows(&stack.part(part * samples / count..(part + 1) * samples / count));
+        }
+        Ok(())
+    }
+
+    /// Adds rows as a block of their own.
+    pub fn push_rows(&mut self, stack: &Stack) {
+        let joints = stack.joints.iter();
+        self.blocks.push(FactorBlock {
+            samples: stack.samples(),
+            rows: Factors::new(stack).joints().iter().map(rows_of).collect(),
+            torque_squares: joints
+                .map(|rows| rows.tau.iter().map(|tau| tau * tau).sum())
+                .collect(),
+        });
+        self.shorten();
+    }
+
+    /// Adds what other logs tell of the same arm.
+    ///
+    /// # Errors
+    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints or filters.
+    pub fn merge(&mut self, other: Self) -> Result<(), IdentifyError> {
+        let what = if other.joints != self.joints {
+            Some("joints")
+        } else if other.unknowns != self.unknowns {
+            Some("unknowns")
+        } else if other.bands != self.bands {
+            Some("filters")
+        } else {
+            None
+        };
+        if let Some(what) = what {
+            return Err(IdentifyError::OtherFactor { what });
+        }
+        self.blocks.extend(other.blocks);
+        self.shorten();
+        Ok(())
+    }
+
+    /// Samples per joint.
+    #[must_use]
+    pub fn samples(&self) -> usize {
+        self.blocks.iter().map(|block| block.samples).sum()
+    }
+
+    /// Merges neighbors while there are too many blocks: the shortest pair first, so that blocks stay about alike.
+    fn shorten(&mut self) {
+        while self.blocks.len() > MOST_BLOCKS {
+            let pairs = self.blocks.windows(2).enumerate();
+            let shortest = pairs.min_by_key(|(_, pair)| pair[0].samples + pair[1].samples);
+            let Some((k, _)) = shortest else { return };
+            let other = self.blocks.remove(k + 1);
+            let block = &mut self.blocks[k];
+            block.samples += other.samples;
+            for (sum, more) in block.torque_squares.iter_mut().zip(other.torque_squares) {
+                *sum += more;
+            }
+            for (rows, more) in block.rows.iter_mut().zip(other.rows) {
+                rows.extend(more);
+                *rows = rows_of(&reduced(rows, self.unknowns.len() + 1));
+            }
+        }
+    }
+
+    /// The factor of all blocks, joint by joint.
+    fn whole(&self) -> Factors {
+        let width = self.unknowns.len() + 1;
+        let joints = (0..self.joints.len()).map(|joint| {
+            let blocks = self.blocks.iter();
+            let rows: Vec<Vec<f64>> = blocks.flat_map(|block| block.rows[joint].clone()).collect();
+            reduced(&rows, width)
+        });
+        Factors::from_joints(self.unknowns.len(), self.samples(), joints.collect())
+    }
+
+    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`].
+    ///
+    /// # Errors
+    /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for a method that needs the rows themselves,
+    /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    pub fn estimate(&self, arm: &dyn Arm, method: Method) -> Result<Estimate, IdentifyError> {
+        Self::new(arm, self.bands)?.merge(self.clone())?;
+        let factors = self.whole();
+        let ones = vec![1.0; self.joints.len()];
+        if self.blocks.is_empty() {
+            return Err(IdentifyError::NoLog);
+        }
+        Identify::check_counts(self.samples(), self.joints.len(), self.unknowns.len())?;
+        let mut solution = match method {
+            Method::Ls => factors.ordinary(&ones),
+            Method::Wls => factors.weighted(&ones),
+            _ => {
+                let why = format!("`{}` weighs single samples", method.name());
+                return Err(IdentifyError::NotReduced { why });
+            }
+        };
+        Identify::check_excited(&solution)?;
+        self.deviations(&mut solution);
+        let fitted = Fitted {
+            relative_percent: self.relative_percent(&solution.estimate),
+            samples: self.samples(),
+        };
+        Ok(Estimate::new(
+            arm,
+            method,
+            Form::Acceleration,
+            self.bands,
+            &solution,
+            Vec::new(),
+            fitted,
+        ))
+    }
+
+    /// Sum of squared residuals of a joint.
+    fn squares(&self, joint: usize, estimate: &[f64]) -> f64 {
+        let rows = self.blocks.iter().flat_map(|block| &block.rows[joint]);
+        rows.map(|row| residual(row, estimate).powi(2)).sum()
+    }
+
+    /// Root of the mean squared residual per joint, of filtered torque.
+    #[must_use]
+    pub fn rmse(&self, estimate: &[f64]) -> Vec<f64> {
+        let samples = self.samples().max(1) as f64;
+        let joints = 0..self.joints.len();
+        joints
+            .map(|joint| (self.squares(joint, estimate) / samples).sqrt())
+            .collect()
+    }
+
+    fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {
+        let joints = 0..self.joints.len();
+        let of = |joint: usize| {
+            let torque: f64 = self
+                .blocks
+                .iter()
+                .map(|block| block.torque_squares[joint])
+                .sum();
+            percent(self.squares(joint, estimate).sqrt(), torque.sqrt())
+        };
+        joints.map(of).collect()
+    }
+
+    /// Standard deviations from the blocks' own equations; with one block those for noise that is white.
+    fn deviations(&self, solution: &mut Solution) {
+        let count = self.blocks.len();
+        if count < 2 {
+            return;
+        }
+        let n = self.unknowns.len();
+        let is_in = |c: &usize| solution.unexcited.binary_search(c).is_err();
+        let excited: Vec<usize> = (0..n).filter(is_in).collect();
+        let part = |rows: &[Vec<f64>], joint: usize| {
+            Mat::from_fn(rows.len(), excited.len(), |row, k| {
+                rows[row][excited[k]] / solution.scale[joint]
+            })
+        };
+        let size = excited.len();
+        let mut information = Mat::<f64>::zeros(size, size);
+        let mut scores = Mat::<f64>::zeros(size, count);
+        for (b, block) in self.blocks.iter().enumerate() {
+            for (joint, rows) in block.rows.iter().enumerate() {
+                let columns = part(rows, joint);
+                let rest = Mat::from_fn(rows.len(), 1, |row, _| {
+                    residual(&rows[row], &solution.estimate) / solution.scale[joint]
+                });
+                let score = columns.transpose() * rest;
+                for k in 0..size {
+                    scores[(k, b)] += score[(k, 0)];
+                }
+                information += columns.transpose() * &columns;
+            }
+        }
+        let length: Vec<f64> = (0..size).map(|k| information[(k, k)].sqrt()).collect();
+        let scaled = Mat::from_fn(size, size, |i, k| {
+            information[(i, k)] / (length[i] * length[k])
+        });
+        let right = Mat::from_fn(size, count, |k, b| scores[(k, b)] / length[k]);
+        let moves = scaled.partial_piv_lu().solve(right);
+        let correction = count as f64 / (count - 1) as f64;
+        for (k, &c) in excited.iter().enumerate() {
+            let square: f64 = moves.row(k).iter().map(|x| x * x).sum();
+            solution.std[c] = (correction * square).sqrt() / length[k];
+        }
+    }
+}
+
+/// `target - columns * estimate` of a reduced row.
+fn residual(row: &[f64], estimate: &[f64]) -> f64 {
+    let fitted: f64 = row.iter().zip(estimate).map(|(x, beta)| x * beta).sum();
+    row[estimate.len()] - fitted
+}
+
+fn rows_of(matrix: &Mat<f64>) -> Vec<Vec<f64>> {
+    let rows = 0..matrix.nrows();
+    rows.map(|row| matrix.row(row).iter().copied().collect())
+        .collect()
+}
+
+/// The triangular factor of rows.
+fn reduced(rows: &[Vec<f64>], width: usize) -> Mat<f64> {
+    let all = Mat::from_fn(rows.len(), width, |row, column| rows[row][column]);
+    if all.nrows() <= width {
+        return all;
+    }
+    all.qr().thin_R().to_owned()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,140 @@
+//! Factors say what rows say.
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+use crate::columns::Unknown;
+use crate::identify::{JointRows, Segment};
+
+const TRUTH: [f64; 3] = [2.0, -0.5, 0.1];
+
+/// Two joints, three unknowns of which the first joint sees two; noise that is correlated over some ten samples.
+fn stack(seed: u64, first: usize, count: usize) -> Stack {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
+    let series = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        (first..first + count).map(|k| f(k as f64)).collect()
+    };
+    let columns = [
+        vec![
+            (0, series(&|k| (0.031 * k).sin())),
+            (2, series(&|k| (0.017 * k).cos().signum())),
+        ],
+        vec![
+            (0, series(&|k| (0.043 * k).cos())),
+            (1, series(&|k| 3.0 * (0.011 * k).sin())),
+            (2, series(&|k| (0.029 * k).sin())),
+        ],
+    ];
+    let joints = columns.map(|columns| {
+        let mut noise = 0.0;
+        let target: Vec<f64> = (0..count)
+            .map(|k| {
+                noise = 0.9 * noise + 0.1 * normal();
+                let clean: f64 = columns.iter().map(|(c, x)| TRUTH[*c] * x[k]).sum();
+                clean + noise
+            })
+            .collect();
+        JointRows {
+            tau: target.clone(),
+            target,
+            columns,
+        }
+    });
+    let unknown = |name: &str| Unknown {
+        name: name.to_owned(),
+        nonnegative: false,
+    };
+    Stack {
+        unknowns: ["a", "b", "c"].map(unknown).to_vec(),
+        joints: joints.to_vec(),
+        segments: vec![Segment {
+            start: 0,
+            time: Vec::new(),
+        }],
+    }
+}
+
+fn empty() -> Factor {
+    Factor {
+        unknowns: ["a", "b", "c"].map(str::to_owned).to_vec(),
+        joints: ["one", "two"].map(str::to_owned).to_vec(),
+        bands: Bands::DEFAULT,
+        blocks: Vec::new(),
+    }
+}
+
+/// Rows of a whole, block by block.
+fn parts(whole: &Stack, count: usize) -> Vec<Stack> {
+    let each = whole.samples() / count;
+    let part = |k: usize| whole.part(k * each..(k + 1) * each);
+    (0..count).map(part).collect()
+}
+
+#[test]
+fn blocks_say_what_the_whole_says() {
+    let whole = stack(7, 0, 12_000);
+    let direct = Identify::default().solve_stack(&whole).expect("samples");
+    for count in [1, 5, 32, 60, 100] {
+        let mut factor = empty();
+        for part in parts(&whole, count) {
+            factor.push_rows(&part);
+        }
+        assert_eq!(factor.samples(), 12_000);
+        assert_eq!(factor.blocks.len(), count.min(MOST_BLOCKS));
+        let found = factor.whole().weighted(&[1.0, 1.0]);
+        for (found, direct) in found.estimate.iter().zip(&direct.estimate) {
+            assert!((found - direct).abs() < 1e-12, "{count}");
+        }
+        let errors = factor.rmse(&found.estimate);
+        let residuals = whole.residuals(&direct.estimate);
+        for (rmse, residual) in errors.iter().zip(residuals) {
+            let square: f64 = residual.iter().map(|r| r * r).sum();
+            assert!((rmse - (square / 12_000.0).sqrt()).abs() < 1e-10);
+        }
+        let percent = factor.relative_percent(&found.estimate);
+        let expected = whole.relative_percent(&direct.estimate);
+        assert!((percent[1] - expected[1]).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn merged_factors_are_those_of_all_logs() {
+    let logs = [stack(1, 0, 3000), stack(2, 5000, 2000)];
+    let mut one = empty();
+    one.push_rows(&logs[0]);
+    let mut other = empty();
+    other.push_rows(&logs[1]);
+    let mut both = one.clone();
+    both.push_rows(&logs[1]);
+    one.merge(other).expect("the same arm");
+    assert_eq!(one, both);
+    let mut narrow = empty();
+    narrow.bands.shared_hz = 5.0;
+    let refused = one.merge(narrow);
+    assert_eq!(refused, Err(IdentifyError::OtherFactor { what: "filters" }));
+}
+
+#[test]
+fn deviations_from_blocks_are_the_spread_of_the_estimates() {
+    const DRAWS: u32 = 300;
+    let (mut errors, mut told) = ([0.0; 3], [0.0; 3]);
+    for seed in 0..DRAWS {
+        let mut factor = empty();
+        for part in parts(&stack(u64::from(seed), 0, 6400), 64) {
+            factor.push_rows(&part);
+        }
+        let mut solution = factor.whole().weighted(&[1.0, 1.0]);
+        factor.deviations(&mut solution);
+        for c in 0..3 {
+            errors[c] += (solution.estimate[c] - TRUTH[c]).powi(2) / f64::from(DRAWS);
+            told[c] += solution.std[c].powi(2) / f64::from(DRAWS);
+        }
+    }
+    for c in 0..3 {
+        let ratio = (told[c] / errors[c]).sqrt();
+        assert!((ratio - 1.0).abs() < 0.15, "{c}: {ratio}");
+    }
+}

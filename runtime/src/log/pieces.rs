@@ -1,0 +1,140 @@
+//! A log that is read piece by piece, in memory that does not grow with it.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::header::Header;
+use super::table::{Rows, Table};
+use super::{Log, LogError};
+use crate::signal::resample::whole_steps;
+
+/// Pieces of a log, one after the other; made by [`Log::pieces`].
+pub struct Pieces<'a> {
+    source: String,
+    rows: Rows<'a>,
+    header: Header,
+    table: Table,
+    samples: usize,
+    overlap: f64,
+    is_over: bool,
+}
+
+impl Log {
+    /// Reads a CSV file as [`Log::read`] does, piece by piece of about so many samples; each begins `overlap` seconds before the end of
+    /// the one before. Time is that of the whole; what jitters is resampled piece by piece.
+    ///
+    /// # Errors
+    /// As [`Log::read`], here and with each piece.
+    pub fn pieces(
+        path: impl AsRef<Path>,
+        dof: usize,
+        samples: usize,
+        overlap: f64,
+    ) -> Result<Pieces<'static>, LogError> {
+        let (source, file) = Self::open(path.as_ref())?;
+        Pieces::new(source, file, dof, samples, overlap)
+    }
+
+    /// Opens a file to be read, and says its name.
+    pub(super) fn open(path: &Path) -> Result<(String, File), LogError> {
+        let source = path.display().to_string();
+        if path.is_dir() {
+            return Err(LogError::Open {
+                source_name: source,
+                reason: "it is a folder; name the log files in it".to_owned(),
+            });
+        }
+        match File::open(path) {
+            Ok(file) => Ok((source, file)),
+            Err(error) => Err(LogError::Open {
+                source_name: source,
+                reason: error.to_string(),
+            }),
+        }
+    }
+}
+
+impl<'a> Pieces<'a> {
+    /// Reads pieces as [`Log::pieces`] does; `source` names the log in messages.
+    ///
+    /// # Errors
+    /// Those of [`Log::read`] for the header.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Pieces;
+    /// let mut text = String::from("time,q1,tau1\n");
+    /// for k in 0..1000 {
+    ///     text += &format!("{},0.5,{k}\n", 0.0625 * f64::from(k));
+    /// }
+    /// let pieces = Pieces::new("memory", text.as_bytes(), 1, 300, 1.25)?;
+    /// let starts: Result<Vec<f64>, _> = pieces.map(|piece| piece.map(|log| log.tau[0][0])).collect();
+    /// assert_eq!(starts?, [0.0, 280.0, 560.0]);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    pub fn new(
+        source: impl Into<String>,
+        reader: impl Read + 'a,
+        dof: usize,
+        samples: usize,
+        overlap: f64,
+    ) -> Result<Self, LogError> {
+        let source = source.into();
+        let rows = Rows::new(&source, reader)?;
+        Ok(Self {
+            header: Header::resolve(&source, &rows.names, dof)?,
+            table: rows.table(),
+            rows,
+            source,
+            samples,
+            overlap,
+            is_over: false,
+        })
+    }
+}
+
+impl Iterator for Pieces<'_> {
+    type Item = Result<Log, LogError>;
+
+    /// The last piece is up to twice as long as the others, so that none is short.
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.is_over {
+            return None;
+        }
+        match self.rows.fill(&mut self.table, 2 * self.samples) {
+            Ok(more) => self.is_over = !more,
+            Err(error) => {
+                self.is_over = true;
+                return Some(Err(error));
+            }
+        }
+        let count = if self.is_over {
+            self.table.lines.len()
+        } else {
+            self.samples
+        };
+        if count == 0 {
+            let source = self.source.clone();
+            return Some(Log::from_table(
+                source,
+                self.rows.table(),
+                &self.rows.names,
+                &self.header,
+            ));
+        }
+        // What overlaps is no more than half, so that every piece has samples of its own.
+        let time = &self.table.columns[self.header.time];
+        let lasts = time[count - 1] - time[0];
+        let rate_hz = (count - 1) as f64 / lasts;
+        let overlap = whole_steps((self.overlap * rate_hz).ceil()).min(count / 2);
+        let table = self.table.split(count, overlap);
+        let source = self.source.clone();
+        Some(Log::from_table(
+            source,
+            table,
+            &self.rows.names,
+            &self.header,
+        ))
+    }
+}
