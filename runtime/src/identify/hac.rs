@@ -2,27 +2,22 @@
 //!
 //! With `A = sum_j W_j' W_j / sigma_j^2` an estimate's error is `A^-1 sum_k v_k`, where `v_k = sum_j x_jk r_jk / sigma_j^2` over the
 //! joints' rows `x_jk` and residuals `r_jk` at sample `k`. Its variance is the long-run variance of each entry's series:
-//! noise that is slow beside a column hurts it less than white noise, and noise like it more. Its autocovariances are summed under a window that is
-//! flat on top, as far as they stand out.
+//! noise that is slow beside a column hurts it less than white noise, and noise like it more. It is that of an autoregression through
+//! the series, which follows slow noise over hundreds of samples and the noise of differences, that cancels from sample to sample, alike.
 //!
-//! Source: Newey, West 1987, A simple positive semi-definite heteroskedasticity and autocorrelation consistent covariance matrix;
-//! Politis 2003, Adaptive bandwidth choice.
+//! Sources: Newey, West 1987, A simple positive semi-definite heteroskedasticity and autocorrelation consistent covariance matrix; den
+//! Haan, Levin 1997, A practitioner's guide to robust covariance matrix estimation, on autoregressions.
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 use super::least_squares::Solution;
 use super::stack::Stack;
+use crate::signal::resample::whole_steps;
 
-/// Autocorrelations below this many times `sqrt(log10(n) / n)` are noise, and so many one after the other end the search.
-const NOISE: f64 = 2.0;
-const QUIET: usize = 5;
-
-/// Lags reach over this part of a series, at most.
-const MOST_LAGS: usize = 4;
-
-/// Least variance of a sum, as a share of that of a white series with the same power.
-const LEAST: f64 = 0.05;
+/// Orders of an autoregression are up to this many times `log10(n)`, and up to one for so many samples.
+const ORDERS: f64 = 10.0;
+const SAMPLES_AN_ORDER: f64 = 8.0;
 
 /// Columns that have a value in a solution: rows over their joint's scale, columns over their length.
 pub(super) struct Rows {
@@ -148,43 +143,116 @@ pub(super) fn deviations(stack: &Stack, solution: &Solution, weights: &[Vec<f64>
     rows.deviations(&rows.influence(&residuals, &information))
 }
 
-/// Variance of the sum of a series: its autocovariances, in full up to the lag from which on they are noise, then less and less.
+/// Variance of the sum of a series, `n` times its spectral density at frequency zero: that of the autoregression which fits it best,
+/// `sigma_e^2 / (1 - sum phi)^2`, by Burg's recursion with the order of least AIC.
 fn long_run_sum(series: &[f64]) -> f64 {
-    let n = series.len();
-    let covariance = |lag: usize| -> f64 {
-        let pairs = series.iter().zip(&series[lag..]);
-        pairs.map(|(x, y)| x * y).sum()
-    };
-    let power = covariance(0);
-    let most = n / MOST_LAGS;
-    if power == 0.0 || most < 1 {
-        return power;
+    let n = series.len() as f64;
+    let mut error = series.iter().map(|x| x * x).sum::<f64>() / n.max(1.0);
+    if error == 0.0 {
+        return 0.0;
     }
-    let noise = NOISE * ((n as f64).log10() / n as f64).sqrt() * power;
-    let mut covariances = vec![power];
-    let mut quiet = 0;
-    while quiet < QUIET && covariances.len() <= most {
-        let next = covariance(covariances.len());
-        quiet = if next.abs() < noise { quiet + 1 } else { 0 };
-        covariances.push(next);
+    let orders = (ORDERS * n.log10()).min(n / SAMPLES_AN_ORDER);
+    // Prediction errors forward and backward, and `1, -phi_1, ..`.
+    let (mut forward, mut backward) = (series.to_vec(), series.to_vec());
+    let mut filter = vec![1.0];
+    let mut best = (n * error.ln(), error);
+    for order in 1..=whole_steps(orders) {
+        let pairs = forward[order..].iter().zip(&backward[order - 1..]);
+        let (product, power) = pairs.fold((0.0, 0.0), |(product, power), (f, b)| {
+            (product + f * b, power + f * f + b * b)
+        });
+        if power == 0.0 {
+            break;
+        }
+        let reflection = -2.0 * product / power;
+        for k in (order..series.len()).rev() {
+            let (f, b) = (forward[k], backward[k - 1]);
+            forward[k] = f + reflection * b;
+            backward[k] = b + reflection * f;
+        }
+        filter.push(0.0);
+        let reversed: Vec<f64> = filter.iter().rev().copied().collect();
+        for (x, y) in filter.iter_mut().zip(reversed) {
+            *x += reflection * y;
+        }
+        error *= 1.0 - reflection * reflection;
+        if error <= 0.0 {
+            break;
+        }
+        let criterion = n * error.ln() + 2.0 * order as f64;
+        let gain = filter.iter().sum::<f64>();
+        if criterion < best.0 {
+            best = (criterion, error / (gain * gain));
+        }
     }
-    let last = (covariances.len() - 1 - quiet).max(1);
-    let lags = (2 * last).min(most);
-    let at = |lag: usize| {
-        covariances
-            .get(lag)
-            .copied()
-            .unwrap_or_else(|| covariance(lag))
-    };
-    let sum = |weight: &dyn Fn(f64) -> f64| -> f64 {
-        let terms = (1..=lags).map(|lag| weight(lag as f64 / (lags + 1) as f64) * at(lag));
-        power + 2.0 * terms.sum::<f64>()
-    };
-    let flat = sum(&|share| (2.0 - 2.0 * share).min(1.0));
-    // What is flat on top may come out negative; Bartlett's weights do not.
-    if flat > LEAST * power {
-        flat
-    } else {
-        sum(&|share| 1.0 - share)
+    n * best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+
+    /// Mean of what is told over what is so, deviations of sums of a filtered white series.
+    fn told(filter: &dyn Fn(&[f64]) -> Vec<f64>) -> f64 {
+        const DRAWS: u32 = 200;
+        let (mut told, mut so) = (0.0, 0.0);
+        for seed in 0..DRAWS {
+            let mut random = ChaCha8Rng::seed_from_u64(u64::from(seed));
+            let white: Vec<f64> = (0..3000)
+                .map(|_| StandardNormal.sample(&mut random))
+                .collect();
+            let series = filter(&white);
+            told += long_run_sum(&series);
+            so += series.iter().sum::<f64>().powi(2);
+        }
+        (told / so).sqrt()
+    }
+
+    #[test]
+    fn white_and_slow_series_add_up_to_what_is_told() {
+        let white = told(&<[f64]>::to_vec);
+        assert!((white - 1.0).abs() < 0.12, "{white}");
+        for share in [0.5, 0.9, 0.97] {
+            let slow = told(&|white| {
+                let mut state = 0.0;
+                let next = |x: &f64| {
+                    state = share * state + x;
+                    state
+                };
+                white.iter().map(next).collect()
+            });
+            assert!((slow - 1.0).abs() < 0.15, "{share}: {slow}");
+        }
+        let wave = told(&|white| {
+            let slow = white.windows(5).map(|near| near.iter().sum::<f64>());
+            slow.enumerate()
+                .map(|(k, x)| x * (0.3 * k as f64).sin())
+                .collect()
+        });
+        assert!((wave - 1.0).abs() < 0.15, "{wave}");
+    }
+
+    /// Noise of a position in a velocity and an acceleration: sums of it cancel but for the ends.
+    #[test]
+    fn differences_cancel() {
+        let white = |seed: u64| -> Vec<f64> {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            (0..3000)
+                .map(|_| StandardNormal.sample(&mut random))
+                .collect()
+        };
+        for seed in 0..20 {
+            let first: Vec<f64> = white(seed).windows(2).map(|x| x[1] - x[0]).collect();
+            let second: Vec<f64> = first.windows(2).map(|x| x[1] - x[0]).collect();
+            for series in [first, second] {
+                let power: f64 = series.iter().map(|x| x * x).sum();
+                let told = (long_run_sum(&series) / power).sqrt();
+                assert!(told < 0.12, "{told}");
+            }
+        }
     }
 }
