@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model::identify::{Factor, Method};
 
 use crate::Error;
-use crate::identify::fit::{ByAcceleration, errors_of_all};
+use crate::identify::fit::{ByAcceleration, Fit};
 use crate::identify::reduced;
 use crate::identify::report::{report, table};
 use crate::interpreted::InterpretedArm;
@@ -82,7 +82,7 @@ impl Merge {
                 let source = path.display().to_string();
                 let found = mended.faults.into_iter();
                 faults.extend(found.map(|fault| (source.clone(), fault)));
-                Some(errors_of_all(&estimate, &form, &mended.pieces)?)
+                Some(form.errors(&estimate, &mended.log)?)
             }
         };
         drop(progress);

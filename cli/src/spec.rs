@@ -75,7 +75,7 @@ fn doubt(compiled: &Compiled) -> String {
     format!("{}: {}", compiled.model.source, compiled.base.rank)
 }
 
-/// Reads a log to identify from: without spikes, in pieces where it has holes, and says what is wrong with it.
+/// Reads a log to identify from: without spikes, with holes where it stood still, and says what is wrong with it.
 pub(crate) fn read_mended(path: &Path, dof: usize, progress: &Progress) -> Result<Mended, Error> {
     let log = read_log(path, dof, progress)?;
     let source = log.source.clone();

@@ -187,9 +187,6 @@ fn tx40_can_be() {
     assert!(ratio < 1.02, "{ratio}");
 }
 
-/// Published: M = 95.109 kg, Fv = 203.50 N s/m, Fc = 20.394 N, offset = -3.165 N with standard deviations of 0.11, 0.56, 0.50
-/// and 1.40 %; relative error 4.08 %, on the pulses 5.98 %. Tolerances are about twice the larger deviations: filters and bands
-/// differ, while an unmodeled tenth of any of the four would show.
 /// The published audit of that log has velocities 18 samples, 0.18 s, behind its positions, on one joint 15.
 #[test]
 fn tiago_has_late_velocities() {
@@ -211,7 +208,7 @@ fn tiago_has_late_velocities() {
         let published = if joint == 1 { 0.15 } else { 0.18 };
         assert!((delay - published).abs() < 5e-3, "{delays:?}");
     }
-    assert_eq!(mended.pieces.len(), 1);
+    assert!(mended.log.holes.is_empty());
 }
 
 #[test]
@@ -254,6 +251,9 @@ fn other_machines_have_sound_logs() {
     assert!(logs >= 40, "{logs}");
 }
 
+/// Published: M = 95.109 kg, Fv = 203.50 N s/m, Fc = 20.394 N, offset = -3.165 N with standard deviations of 0.11, 0.56, 0.50
+/// and 1.40 %; relative error 4.08 %, on the pulses 5.98 %. Tolerances are about twice the larger deviations: filters and bands
+/// differ, while an unmodeled tenth of any of the four would show.
 #[test]
 fn emps_is_identified_as_published() {
     let Some(emps) = Machine::find("emps") else {

@@ -1,9 +1,12 @@
 //! What looks like another unit, sign or order than the spec's.
 
+use robot_model::columns::Unknown;
 use robot_model::identify::Estimate;
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
+
+use crate::output::names;
 
 /// Positions beyond this many times their limit are of another unit.
 const BEYOND: f64 = 3.0;
@@ -14,16 +17,24 @@ const FAR: f64 = 30.0;
 /// What is left of each joint's torque, from where on the model says nothing of it, percent.
 const LITTLE: f64 = 85.0;
 
-/// Revolute joints that go where none goes in radians.
-pub(super) fn far_positions(model: &Model, logs: &[Log]) -> Vec<String> {
+/// Joints that go where none goes in radians or meters.
+pub(super) fn far_positions(model: &Model, log: &Log) -> Vec<String> {
     let joints = model.joints.iter().enumerate();
-    let revolute = joints.filter(|(_, joint)| joint.kind != JointKind::Prismatic);
-    let far = revolute.filter_map(|(k, joint)| {
-        let samples = logs.iter().flat_map(|log| &log.q[k]);
-        let most = samples.map(|q| q.abs()).fold(0.0, f64::max);
+    let far = joints.filter_map(|(k, joint)| {
+        let is_prismatic = joint.kind == JointKind::Prismatic;
+        let most = log.q[k].iter().map(|q| q.abs()).fold(0.0, f64::max);
         let limit = joint.limits.position;
-        let limit = limit.map_or(FAR, |(low, high)| BEYOND * low.abs().max(high.abs()));
+        let free = if is_prismatic { f64::INFINITY } else { FAR };
+        let limit = limit.map_or(free, |(low, high)| BEYOND * low.abs().max(high.abs()));
         (most > limit).then(|| {
+            if is_prismatic {
+                return format!(
+                    "q{} of joint `{}` reaches {most:.1} m, {:.0} times its limit: is it in mm? Logs are in m",
+                    k + 1,
+                    joint.name,
+                    BEYOND * most / limit
+                );
+            }
             format!(
                 "q{} of joint `{}` reaches {most:.1} rad, which is {:.1} turns: is it in degrees? Logs are in rad",
                 k + 1,
@@ -43,4 +54,27 @@ pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
         "the model explains next to nothing of the torque of any joint; see whether the log has positions in rad and m, torques in N m \
          and N (else `actuator_gain`), signs and order of the spec's joints, and both of the same time",
     )
+}
+
+/// Parameters that no arm has below zero, and that are so by more than three deviations.
+pub(super) fn negative(estimate: &Estimate, unknowns: &[Unknown]) -> Option<String> {
+    let pairs = estimate.parameters.iter().zip(unknowns);
+    let below: Vec<&str> = pairs
+        .filter(|(found, unknown)| unknown.nonnegative && found.value < -3.0 * found.std)
+        .filter(|(found, _)| found.value < 0.0)
+        .map(|(found, _)| found.name.as_str())
+        .collect();
+    if below.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "{} below zero by more than three deviations, as no arm has it: see whether torques have the signs and the order of the spec's joints, \
+         and what `trace` and `audit` say",
+        names_are(&below)
+    ))
+}
+
+fn names_are(below: &[&str]) -> String {
+    let verb = if below.len() == 1 { "is" } else { "are" };
+    format!("{} {verb}", names(below))
 }

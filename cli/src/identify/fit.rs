@@ -1,5 +1,6 @@
 //! Both forms of the equations behind one face.
 
+use robot_model::columns::{Columns, Unknown};
 use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::Log;
 use robot_model_spec::Model;
@@ -9,6 +10,7 @@ use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 /// A way to identify and to judge what was identified.
 pub(crate) trait Fit {
     fn model(&self) -> &Model;
+    fn unknowns(&self) -> &[Unknown];
     fn dof(&self) -> usize {
         self.model().joints.len()
     }
@@ -21,6 +23,10 @@ pub(crate) struct ByAcceleration(pub InterpretedArm);
 impl Fit for ByAcceleration {
     fn model(&self) -> &Model {
         &self.0.compiled().model
+    }
+
+    fn unknowns(&self) -> &[Unknown] {
+        self.0.unknowns()
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -40,6 +46,10 @@ pub(crate) struct Filtered {
 impl Fit for Filtered {
     fn model(&self) -> &Model {
         &self.arm.compiled().model
+    }
+
+    fn unknowns(&self) -> &[Unknown] {
+        self.arm.unknowns()
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -87,8 +97,15 @@ pub(crate) fn mean_errors(errors: &[(usize, Errors)]) -> Errors {
             .clone()
             .map(|j| mean(&|errors| errors.mae[j]))
             .collect(),
+        level: joints
+            .clone()
+            .map(|j| mean(&|errors| errors.level[j]))
+            .collect(),
         spread: joints
-            .map(|j| mean(&|errors| errors.spread[j].powi(2)).sqrt())
+            .map(|j| {
+                let level = mean(&|errors| errors.level[j]);
+                mean(&|errors| errors.spread[j].powi(2) + (errors.level[j] - level).powi(2)).sqrt()
+            })
             .collect(),
     }
 }

@@ -227,10 +227,10 @@ impl IdentifyArguments {
         let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
         let progress = Progress::new();
         let mut faults = Vec::new();
-        let mut pieces = |path: &PathBuf| self.pieces(path, form, &mut faults, &progress);
-        let logs = self.logs.iter().map(&mut pieces);
-        let logs: Vec<Log> = logs.collect::<Result<Vec<_>, _>>()?.concat();
-        let validate = self.validate.as_ref().map(pieces).transpose()?;
+        let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
+        let logs = self.logs.iter().map(&mut read);
+        let logs: Vec<Log> = logs.collect::<Result<_, _>>()?;
+        let validate = self.validate.as_ref().map(read).transpose()?;
         let instruments = self.instruments.iter();
         let instruments = instruments.map(|path| trajectory(path, dof));
         let mut identify = Identify {
@@ -252,9 +252,12 @@ impl IdentifyArguments {
             ..errors_of_all(&estimate, form, &logs)?
         };
         let validation = validate
-            .as_deref()
-            .map(|logs| errors_of_all(&estimate, form, logs))
+            .as_ref()
+            .map(|log| judged(&estimate, form, log))
             .transpose()?;
+        if let Some(doubt) = doubts::negative(&estimate, form.unknowns()) {
+            progress.note(&format!("note: {doubt}"));
+        }
         if let Some(doubt) = doubts::unexplained(&estimate) {
             progress.note(&format!("note: {doubt}"));
         }
@@ -288,12 +291,15 @@ impl IdentifyArguments {
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
         let estimate = reduced.estimate(&form.0, self.method.into())?;
-        let train = streams.errors(&estimate, &progress)?;
-        let mut pieces = |path: &PathBuf| self.pieces(path, form, &mut faults, &progress);
-        let validate = self.validate.as_ref().map(&mut pieces).transpose()?;
+        let train = Errors {
+            relative_percent: estimate.relative_percent.clone(),
+            ..streams.errors(&estimate, &progress)?
+        };
+        let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
+        let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let validation = validate
-            .as_deref()
-            .map(|logs| errors_of_all(&estimate, form, logs))
+            .as_ref()
+            .map(|log| judged(&estimate, form, log))
             .transpose()?;
         for (source, fault) in &faults {
             progress.note(&format!("note: {source}: {fault}"));
@@ -308,6 +314,17 @@ impl IdentifyArguments {
     }
 }
 
+/// Errors on a log that was not fitted; a log that the filters do not fit is named.
+fn judged(estimate: &Estimate, form: &dyn Fit, log: &Log) -> Result<Errors, Error> {
+    form.errors(estimate, log).map_err(|error| match error {
+        IdentifyError::Signal(fault) => Error::Argument(format!(
+            "{}: {fault}; the filters are those of the identification: give `--bands` that both can bear",
+            log.source
+        )),
+        other => other.into(),
+    })
+}
+
 /// Parameters, and errors side by side.
 fn print(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> Result<(), Error> {
     let columns = std::iter::once(("identification", train));
@@ -317,32 +334,25 @@ fn print(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> Re
 }
 
 impl IdentifyArguments {
-    /// A log in pieces, where it has holes; its faults are added to the others.
-    fn pieces(
+    /// A log, mended; its faults are added to the others.
+    fn log(
         &self,
         path: &Path,
         form: &dyn Fit,
         faults: &mut Vec<(String, Fault)>,
         progress: &Progress,
-    ) -> Result<Vec<Log>, Error> {
+    ) -> Result<Log, Error> {
         if self.as_logged {
-            return Ok(vec![read_log(path, form.dof(), progress)?]);
+            return read_log(path, form.dof(), progress);
         }
         let mended = read_mended(path, form.dof(), progress)?;
-        for doubt in doubts::far_positions(form.model(), &mended.pieces) {
+        for doubt in doubts::far_positions(form.model(), &mended.log) {
             progress.note(&format!("note: {}: {doubt}", path.display()));
-        }
-        if !self.instruments.is_empty() && mended.pieces.len() > 1 {
-            return Err(Error::Argument(format!(
-                "{}: the log has holes, so that the motion without noise does not start with its pieces; cut both, or take the log \
-                 `--as-logged`",
-                path.display()
-            )));
         }
         let source = path.display().to_string();
         let found = mended.faults.into_iter();
         faults.extend(found.map(|fault| (source.clone(), fault)));
-        Ok(mended.pieces)
+        Ok(mended.log)
     }
 
     /// A corner that was asked for is named as it was.

@@ -160,7 +160,7 @@ impl Streams<'_> {
         Ok(identify.bands_of(&self.form.0, &first)?)
     }
 
-    /// Every piece of a log, mended, with the faults of the first of its parts.
+    /// Every piece of a log, mended, with its faults.
     fn each(
         &self,
         path: &Path,
@@ -179,10 +179,7 @@ impl Streams<'_> {
                 continue;
             }
             let mended = piece.mended();
-            let mut faults = Some(mended.faults);
-            for log in &mended.pieces {
-                visit(log, faults.take().unwrap_or_default())?;
-            }
+            visit(&mended.log, mended.faults)?;
         }
         Ok(())
     }

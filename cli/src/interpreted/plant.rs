@@ -225,7 +225,11 @@ impl Plant for InterpretedPlant {
         let transmissions = self.transmissions.clone();
         transmissions.hang(joints.q, |q| {
             let at = Instant { q, ..*joints };
-            let switches = self.signs(&at);
+            // A force that sets in with the motion is there.
+            let switches = self.signs(&Instant {
+                time: at.time + 1e-9,
+                ..at
+            });
             let at = Instant {
                 switches: &switches,
                 ..at

@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::common::{Folder, json, numbers};
 
 /// Inertials in the order `up.mxr, up.my, up.izzr, lo.mxr, lo.my, lo.izzr` of the spec below.
-const TRUTH: [f64; 6] = [1.0, 0.0, -0.574, 0.2, 0.0, -0.1];
+const TRUTH: [f64; 6] = [1.0, 0.0, -0.575, 0.2, 0.0, -0.1];
 
 fn spec(link: &str) -> String {
     format!(
@@ -178,4 +178,47 @@ fn options_of_other_methods_are_refused() {
     }
     let said = folder.refuse(&["identify", "bare.robot", "log.csv", "--method", "ridge"]);
     assert!(said.contains("no nominal value to go to"), "{said}");
+}
+
+/// A joint that a brake holds takes torque that nobody logs.
+#[test]
+fn a_joint_that_stands_says_nothing() {
+    let folder = Folder::new();
+    let effects = "viscous_friction on all; coulomb_friction on lo;";
+    let spec = spec(NOMINAL).replace("viscous_friction on all;", effects);
+    folder.write("arm.robot", &spec);
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "lo.coulomb_friction.fc": 50}"#;
+    folder.write("values.json", values);
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..=2000 {
+        let t = f64::from(k) / 200.0;
+        let up = -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
+        writeln!(wanted, "{t},{up},0.4").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    folder.succeed(&[
+        "simulate",
+        "arm.robot",
+        "--trajectory",
+        "wanted.csv",
+        "--parameters",
+        "values.json",
+        "--torque-noise",
+        "0.02",
+        "--out",
+        "log.csv",
+    ]);
+    for method in ["wls", "ls", "robust", "ridge"] {
+        let (fit, _) = identify(&folder, "arm.robot", &["--method", method]);
+        let parameters = fit["parameters"].as_array().expect("a list");
+        let value = |name: &str| {
+            let found = parameters
+                .iter()
+                .find(|parameter| parameter["name"] == name);
+            found.expect("the name")["value"].as_f64()
+        };
+        let viscous = value("up.viscous_friction.fv").expect("it moves");
+        assert!((viscous - 1.0).abs() < 0.05, "{method}: {viscous}");
+        assert_eq!(value("lo.coulomb_friction.fc"), None, "{method}");
+    }
 }

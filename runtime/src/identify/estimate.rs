@@ -63,6 +63,8 @@ pub struct Errors {
     pub relative_percent: Vec<f64>,
     /// Mean of `|tau - prediction|` per joint, raw samples as for `rmse`; N m or N.
     pub mae: Vec<f64>,
+    /// Mean of the measured torque, of the same samples.
+    pub level: Vec<f64>,
     /// Root mean square of the measured torque about its mean, of the same samples.
     pub spread: Vec<f64>,
 }
@@ -247,10 +249,14 @@ impl Estimate {
         let count = measured.first().map_or(0, Vec::len);
         let border = whole_steps(ERROR_BORDER_S * prepared.rate_hz) * stride;
         let inner = border.min(count / 4)..count - border.min(count / 4);
+        let inner: Vec<usize> = inner
+            .filter(|k| !prepared.is_in_hole(*k as f64 / stride as f64))
+            .collect();
         let mut errors = Errors {
             rmse: Vec::new(),
             relative_percent: Vec::new(),
             mae: Vec::new(),
+            level: Vec::new(),
             spread: Vec::new(),
         };
         let (mut filtered, mut tau) = (Vec::new(), Vec::new());
@@ -258,12 +264,13 @@ impl Estimate {
             let gain = arm.actuator_gain()[joint];
             let predicted = spread(values, stride, count);
             let mean = |value: &dyn Fn(usize) -> f64| {
-                inner.clone().map(value).sum::<f64>() / inner.len() as f64
+                inner.iter().copied().map(value).sum::<f64>() / inner.len() as f64
             };
             let rest = |k: usize| gain * measured[joint][k] - predicted[k];
             let level = mean(&|k| gain * measured[joint][k]);
             errors.rmse.push(mean(&|k| rest(k).powi(2)).sqrt());
             errors.mae.push(mean(&|k| rest(k).abs()));
+            errors.level.push(level);
             let spread = mean(&|k| (gain * measured[joint][k] - level).powi(2));
             errors.spread.push(spread.sqrt());
             let rest: Vec<f64> = prepared.tau[joint]

@@ -69,7 +69,7 @@ impl Hausman {
     }
 }
 
-/// The log's motion as a reference has it: same samples, no torque.
+/// The log's motion as a reference has it, at the same samples. What reads the measured torque has no other.
 pub(super) fn wanted(log: &Log, reference: &Trajectory) -> Result<Log, IdentifyError> {
     let source_name = log.source.clone();
     if reference.dof() != log.dof() {
@@ -95,9 +95,6 @@ pub(super) fn wanted(log: &Log, reference: &Trajectory) -> Result<Log, IdentifyE
         for joint in 0..log.dof() {
             wanted.q[joint][k] = at.q[joint];
         }
-    }
-    for channel in &mut wanted.tau {
-        channel.fill(0.0);
     }
     // Velocities are those of the positions, by the same filters as the log's own.
     wanted.dq.clear();

@@ -12,6 +12,9 @@ use crate::signal::Prepared;
 /// Entries of a column below this, per unit of its parameter in SI, are rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// Positions (rad or m) and torques that change by no more than this stand still.
+const STILL: f64 = 1e-9;
+
 /// The rows of one joint: `target[k] = sum over columns of values[k] * unknown + residual`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct JointRows {
@@ -43,6 +46,31 @@ pub struct Segment {
     pub time: Vec<f64>,
 }
 
+impl JointRows {
+    /// Rows that say nothing.
+    fn clear(&mut self, rows: Range<usize>) {
+        let columns = self.columns.iter_mut().map(|(_, values)| values);
+        for values in columns.chain([&mut self.tau, &mut self.target]) {
+            values[rows.clone()].fill(0.0);
+        }
+    }
+}
+
+/// Joints of which a log says nothing: a brake or dry friction holds one that stands still, with a torque that nobody knows, and a
+/// torque that never changes was not measured.
+fn says_nothing(log: &Prepared) -> Vec<usize> {
+    let stands = |values: &[f64]| {
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        high - low <= STILL
+    };
+    let (positions, torques) = (&log.motion.smooth.q, &log.tau);
+    let joints = 0..positions.len();
+    joints
+        .filter(|&joint| stands(&positions[joint]) || stands(&torques[joint]))
+        .collect()
+}
+
 impl Stack {
     /// Evaluates the arm over the logs, filters and decimates.
     ///
@@ -55,12 +83,14 @@ impl Stack {
             segments: Vec::new(),
         };
         let mut filtered = Vec::new();
+        let mut silent = Vec::new();
         for log in logs {
             let start = stack.samples();
             let count = log.motion.time.len();
             let time = log.shared.kept(count).map(|k| log.motion.time[k]).collect();
             stack.segments.push(Segment { start, time });
             let known = arm.known_torque(&log.motion, shapes);
+            silent.push((start, says_nothing(log)));
             for (joint, rows) in stack.joints.iter_mut().enumerate() {
                 let gain = arm.actuator_gain()[joint];
                 let tau: Vec<f64> = log.tau[joint].iter().map(|tau| gain * tau).collect();
@@ -90,6 +120,14 @@ impl Stack {
         }
         for rows in &mut stack.joints {
             rows.columns.sort_by_key(|(column, _)| *column);
+        }
+        let end = stack.samples();
+        let ends = silent.iter().skip(1).map(|(start, _)| *start).chain([end]);
+        let ends: Vec<usize> = ends.collect();
+        for ((start, joints), end) in silent.into_iter().zip(ends) {
+            for joint in joints {
+                stack.joints[joint].clear(start..end);
+            }
         }
         stack
     }

@@ -15,8 +15,9 @@ use super::{IdentifyError, Weights, robust};
 /// Rounds of weights, as for least squares.
 const REWEIGHTINGS: usize = 5;
 
-/// The torque's part in the direction of least extent: below this nothing is said of it.
-const LEAST_PART: f64 = 1e-9;
+/// `s^2` as a share of the least squared singular value of the columns alone: beyond this the errors that are taken for granted hide how
+/// columns differ.
+const MOST_SHARE: f64 = 0.25;
 
 /// A total least squares estimate in units of the columns' lengths.
 struct Total {
@@ -71,13 +72,19 @@ impl Total {
             }
         });
         let found = all.thin_svd().map_err(|_| IdentifyError::NoTotal)?;
+        let least = found.S().column_vector()[count].powi(2);
+        let alone = all
+            .get(.., ..count)
+            .singular_values()
+            .map_err(|_| IdentifyError::NoTotal)?;
+        let alone = alone.last().map_or(0.0, |least| least.powi(2));
         let v = found.V().col(count);
-        if v[count].abs() < LEAST_PART {
+        if least > MOST_SHARE * alone || v[count] == 0.0 {
             return Err(IdentifyError::NoTotal);
         }
         Ok(Self {
             scaled: (0..count).map(|k| -v[k] / v[count]).collect(),
-            least: found.S().column_vector()[count].powi(2),
+            least,
             target,
         })
     }

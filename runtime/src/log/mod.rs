@@ -12,6 +12,7 @@ mod uniform;
 
 use std::fmt;
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
 pub use error::LogError;
@@ -48,6 +49,8 @@ pub struct Log {
     pub extra: Vec<Channel>,
     /// What was changed or set aside in reading.
     pub report: Vec<Note>,
+    /// Where samples are made up, s since the start of the log: no row around them is fitted, and no error counts there.
+    pub holes: Vec<Range<f64>>,
 }
 
 /// A named channel beside position, velocity and torque: a temperature, a current, a reference.
@@ -192,6 +195,7 @@ impl Log {
                 .collect(),
             source,
             report: Vec::new(),
+            holes: Vec::new(),
         };
         log.finish(Some(&table.lines))
     }
@@ -242,6 +246,7 @@ impl Log {
             tau,
             extra: Vec::new(),
             report: Vec::new(),
+            holes: Vec::new(),
         }
         .finish(None)
     }

@@ -80,6 +80,13 @@ pub struct Prepared {
     pub shared: SharedFilter,
 }
 
+impl Prepared {
+    /// Whether a sample of the motion, or one between two, is made up or next to what is.
+    pub(crate) fn is_in_hole(&self, sample: f64) -> bool {
+        self.shared.is_in_hole(sample)
+    }
+}
+
 /// Filters and differentiates a log.
 ///
 /// Positions pass a zero-phase Butterworth low-pass of order 4 at [`Bands::smooth_hz`] and another at [`Bands::wide_hz`];
@@ -151,7 +158,10 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     }
     let smooth = LowPass::butterworth(MOTION_ORDER, smooth_hz, logged_hz)?;
     let wide = LowPass::butterworth(MOTION_ORDER, wide_hz, logged_hz)?;
-    let shared = SharedFilter::new(bands, rate_hz)?;
+    let on_motion = |time: f64| resample::whole_steps((time * rate_hz).max(0.0));
+    let holes = log.holes.iter();
+    let holes = holes.map(|hole| on_motion(hole.start)..on_motion(hole.end) + 2);
+    let shared = SharedFilter::new(bands, rate_hz)?.around(holes);
 
     let samples = log.time.len().div_ceil(stride);
     let needed = 2 * shared.border() + shared.stride();

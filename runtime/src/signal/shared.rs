@@ -1,5 +1,7 @@
 //! The one filter that torque and regressor columns share.
 
+use std::ops::Range;
+
 use super::resample::whole_steps;
 use super::{Bands, LowPass, SignalError};
 
@@ -25,6 +27,8 @@ pub struct SharedFilter {
     low_pass: LowPass,
     border: usize,
     stride: usize,
+    /// Samples of the column that are made up, with those that the filter spreads them over.
+    holes: Vec<Range<usize>>,
 }
 
 impl SharedFilter {
@@ -41,7 +45,7 @@ impl SharedFilter {
     /// let (mut filtered_torque, mut filtered_column) = (Vec::new(), Vec::new());
     /// filter.apply(&torque, &mut filtered_torque);
     /// filter.apply(&column, &mut filtered_column);
-    /// assert_eq!(filtered_torque.len(), filter.kept(1000).len());
+    /// assert_eq!(filtered_torque.len(), filter.kept(1000).count());
     /// assert!((filtered_torque[7] - 2.0 * filtered_column[7]).abs() < 1e-12);
     /// # Ok::<(), robot_model::signal::SignalError>(())
     /// ```
@@ -51,22 +55,42 @@ impl SharedFilter {
             low_pass,
             border: border(bands, rate_hz),
             stride: whole_steps(rate_hz / (OVERSAMPLING * bands.shared_hz) + 1e-3).max(1),
+            holes: Vec::new(),
         })
+    }
+
+    /// The same, which keeps no sample within a border's length of holes, given in samples.
+    #[must_use]
+    pub fn around(mut self, holes: impl IntoIterator<Item = Range<usize>>) -> Self {
+        let border = self.border;
+        let wide = |hole: Range<usize>| hole.start.saturating_sub(border)..hole.end + border;
+        self.holes = holes.into_iter().map(wide).collect();
+        self
     }
 
     /// Writes the kept samples of the filtered column to `out`, whose memory is used again.
     pub fn apply(&self, column: &[f64], out: &mut Vec<f64>) {
         self.low_pass.apply(column, out);
-        for (to, from) in self.kept(column.len()).enumerate() {
-            out[to] = out[from];
+        let mut count = 0;
+        for from in self.kept(column.len()) {
+            out[count] = out[from];
+            count += 1;
         }
-        out.truncate(self.kept(column.len()).len());
+        out.truncate(count);
     }
 
-    /// Which samples of a column of `count` are kept; none where both ends take all.
-    #[must_use]
-    pub fn kept(&self, count: usize) -> impl ExactSizeIterator<Item = usize> + Clone + use<> {
-        (self.border.min(count)..count.saturating_sub(self.border)).step_by(self.stride)
+    /// Which samples of a column of `count` are kept; none where both ends or holes take all.
+    pub fn kept(&self, count: usize) -> impl Iterator<Item = usize> + Clone {
+        let inner = self.border.min(count)..count.saturating_sub(self.border);
+        let is_sound = |k: &usize| !self.holes.iter().any(|hole| hole.contains(k));
+        inner.step_by(self.stride).filter(is_sound)
+    }
+
+    /// Whether a sample of the column, or one between two, is left out because of a hole.
+    pub(crate) fn is_in_hole(&self, sample: f64) -> bool {
+        let holes = self.holes.iter();
+        let mut spans = holes.map(|hole| hole.start as f64..hole.end as f64);
+        spans.any(|span| span.contains(&sample))
     }
 
     /// Samples cut from either end.

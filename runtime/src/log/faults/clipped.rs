@@ -1,34 +1,35 @@
 //! Torques that stand at a limit.
 
-use super::{Fault, quantum, steps};
+use super::Fault;
 use crate::log::Log;
 
 /// Fewest samples in a row, and share of the log, that stand at a limit.
 const IN_A_ROW: usize = 5;
 const SHARE: f64 = 0.002;
 
-/// A sensor that resolves no more than this share of its range stands at its largest value now and then.
-const COARSE: f64 = 0.02;
+/// A limit is beyond this share of the largest torque on its side, which is beyond it where filters ring.
+const NEAR: f64 = 0.95;
+
+/// Values that differ by less than this share of the range are one.
+const ALIKE: f64 = 1e-9;
+
+/// So many times more samples stand at a limit than at the next value: a coarse torque stands at the top of its waves, too.
+const PILE: usize = 6;
 
 pub(super) fn find(log: &Log) -> impl Iterator<Item = Fault> {
     let channels = log.tau.iter().enumerate();
     channels.filter_map(|(joint, tau)| {
         let high = tau.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = tau.iter().copied().fold(f64::INFINITY, f64::min);
-        if high <= low || quantum(&steps(tau)) > COARSE * (high - low) {
+        if high <= low {
             return None;
         }
-        let standing = |limit: f64| -> usize {
-            let runs = tau
-                .split(|value| (value - limit).abs() > 0.0)
-                .map(<[f64]>::len);
-            runs.filter(|run| *run >= IN_A_ROW).sum()
-        };
-        // Rest without torque is no limit.
-        let ends = [high, low].into_iter().filter(|limit| *limit != 0.0);
-        let (value, samples) = ends
-            .map(|limit| (limit, standing(limit)))
-            .max_by_key(|(_, samples)| *samples)?;
+        let ends = [high, low].into_iter();
+        let standing: Vec<(f64, usize)> = ends
+            .filter_map(|end| standing(tau, end, ALIKE * (high - low)))
+            .collect();
+        let samples: usize = standing.iter().map(|(_, samples)| samples).sum();
+        let (value, _) = standing.into_iter().max_by_key(|(_, samples)| *samples)?;
         let share = samples as f64 / tau.len() as f64;
         (share > SHARE).then(|| Fault::Clipped {
             channel: format!("tau{}", joint + 1),
@@ -36,4 +37,30 @@ pub(super) fn find(log: &Log) -> impl Iterator<Item = Fault> {
             share,
         })
     })
+}
+
+/// Where a torque stands towards one of its ends, and for how many samples; rest without torque is no limit.
+fn standing(tau: &[f64], end: f64, alike: f64) -> Option<(f64, usize)> {
+    if end == 0.0 {
+        return None;
+    }
+    let is_near = |value: f64| value * end.signum() > NEAR * end.abs();
+    let runs = tau.chunk_by(|x, y| (x - y).abs() <= alike);
+    let longest = runs
+        .filter(|run| run.len() >= IN_A_ROW && is_near(run[0]))
+        .max_by_key(|run| run.len())?;
+    let limit = longest[0];
+    let at = |level: f64| {
+        tau.iter()
+            .filter(|value| (*value - level).abs() <= alike)
+            .count()
+    };
+    // The value next to the limit on the side of zero.
+    let below = tau.iter().copied().filter(|value| {
+        let inside = (limit - value) * end.signum();
+        inside > alike
+    });
+    let next = below.min_by(|x, y| (limit - x).abs().total_cmp(&(limit - y).abs()))?;
+    let samples = at(limit);
+    (samples > PILE * at(next)).then_some((limit, samples))
 }

@@ -1,8 +1,9 @@
 //! Faults of the data themselves: what a sensor or a recorder did, not the arm.
 //!
-//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes and short holds are replaced by straight lines,
-//! which the filters of identification smooth away; at longer holds the log is cut in two. Velocities are compared with the slopes
-//! of positions and used for nothing; a torque that stands at its limit is told. The thresholds are wide: a log without faults has none.
+//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes and holds are replaced by straight lines;
+//! around longer holds the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
+//! of positions and used for nothing; a torque that stands at its limit is told. The thresholds are wide, so that sound logs have
+//! hardly any.
 
 mod clipped;
 mod held;
@@ -14,14 +15,8 @@ use std::ops::Range;
 
 use super::Log;
 
-/// Holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones cut the log.
+/// Holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
 const BRIDGED_S: f64 = 0.01;
-
-/// A piece between two cuts is kept from this length on, s.
-const SHORTEST_PIECE_S: f64 = 2.0;
-
-/// A torque that repeats itself in more than this share of its samples is logged in coarse steps.
-const OFTEN: f64 = 0.2;
 
 /// What is wrong with the data of a log.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +31,7 @@ pub enum Fault {
         /// Time of the first, s.
         first: f64,
     },
-    /// A value that stood still while the arm moved on; short holds were replaced by a straight line, at longer ones the log was cut.
+    /// A value that stood still while the arm moved on; short holds were replaced by a straight line, at longer ones the log has a hole.
     Held {
         /// Name of the channel.
         channel: String,
@@ -119,8 +114,8 @@ impl Fault {
 /// A log after its faults were looked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mended {
-    /// The log, in pieces where it was cut; times are those of the whole.
-    pub pieces: Vec<Log>,
+    /// The log, with [`Log::holes`].
+    pub log: Log,
     /// What was found, channel by channel.
     pub faults: Vec<Fault>,
 }
@@ -137,57 +132,67 @@ impl Log {
     /// tau[300] = 50.0;
     /// let mended = Log::from_samples("a plant", time, vec![q], vec![tau])?.mended();
     /// assert!(matches!(&mended.faults[..], [Fault::Spikes { samples: 1, .. }]));
-    /// assert!((mended.pieces[0].tau[0][300] - 1.8_f64.cos()).abs() < 1e-3);
+    /// assert!((mended.log.tau[0][300] - 1.8_f64.cos()).abs() < 1e-3);
     /// # Ok::<(), robot_model::log::LogError>(())
     /// ```
     #[must_use]
     pub fn mended(mut self) -> Mended {
         let mut faults = Vec::new();
-        let mut cuts: Vec<Range<usize>> = Vec::new();
         let bridged = (BRIDGED_S * self.rate_hz()).max(1.0);
         let (start, step) = (self.time[0], 1.0 / self.rate_hz());
-        let at = |sample: usize| start + step * sample as f64;
-        // A position stands still with its joint; a torque hardly ever does.
-        for (family, channels, often) in [("q", &mut self.q, 1.0), ("tau", &mut self.tau, OFTEN)] {
-            for (joint, values) in channels.iter_mut().enumerate() {
+        let after = |sample: usize| step * sample as f64;
+        for joint in 0..self.dof() {
+            for family in ["q", "tau"] {
+                let is_position = family == "q";
                 let channel = format!("{family}{}", joint + 1);
-                let found = spikes::find(values);
+                let mut values = std::mem::take(if is_position {
+                    &mut self.q[joint]
+                } else {
+                    &mut self.tau[joint]
+                });
+                let found = spikes::find(&values);
                 if let Some(first) = found.first() {
                     faults.push(Fault::Spikes {
                         channel: channel.clone(),
                         samples: found.iter().map(Range::len).sum(),
-                        first: at(first.start),
+                        first: start + after(first.start),
                     });
                 }
                 for range in found {
-                    bridge(values, range);
+                    bridge(&mut values, range);
                 }
-                let found = held::find(values, often);
+                let found = if is_position {
+                    held::of_position(&values)
+                } else {
+                    held::of_torque(&values, &self.q[joint])
+                };
                 if let Some(first) = found.first() {
                     let longest = found.iter().map(Range::len).max().unwrap_or(0);
                     faults.push(Fault::Held {
                         channel,
                         times: found.len(),
                         samples: found.iter().map(Range::len).sum(),
-                        first: at(first.start),
-                        longest: step * longest as f64,
+                        first: start + after(first.start),
+                        longest: after(longest),
                     });
                 }
                 for range in found {
                     if range.len() as f64 > bridged {
-                        cuts.push(range.clone());
+                        self.holes.push(after(range.start)..after(range.end));
                     }
-                    bridge(values, range);
+                    bridge(&mut values, range);
+                }
+                if is_position {
+                    self.q[joint] = values;
+                } else {
+                    self.tau[joint] = values;
                 }
             }
         }
         faults.extend(self.standing());
         faults.extend(clipped::find(&self));
         faults.extend(velocity::find(&self));
-        Mended {
-            pieces: self.cut(cuts),
-            faults,
-        }
+        Mended { log: self, faults }
     }
 
     /// Channels that say the same at all times.
@@ -209,41 +214,6 @@ impl Log {
                 channel: format!("tau{}", joint + 1),
                 value: tau[0],
             }))
-    }
-
-    /// The pieces that are left between cuts; the whole where none is long enough.
-    fn cut(self, mut cuts: Vec<Range<usize>>) -> Vec<Self> {
-        if cuts.is_empty() {
-            return vec![self];
-        }
-        cuts.sort_by_key(|range| range.start);
-        let shortest = SHORTEST_PIECE_S * self.rate_hz();
-        let mut kept = Vec::new();
-        let mut from = 0;
-        for cut in &cuts {
-            kept.push(from..cut.start.max(from));
-            from = from.max(cut.end);
-        }
-        kept.push(from..self.time.len());
-        let pieces: Vec<Self> = kept
-            .into_iter()
-            .filter(|range| range.len() as f64 >= shortest)
-            .map(|range| self.piece(range))
-            .collect();
-        if pieces.is_empty() {
-            vec![self]
-        } else {
-            pieces
-        }
-    }
-
-    fn piece(&self, range: Range<usize>) -> Self {
-        let mut piece = self.clone();
-        piece.time = self.time[range.clone()].to_vec();
-        for channel in piece.channels_mut() {
-            *channel = channel[range.clone()].to_vec();
-        }
-        piece
     }
 }
 
@@ -276,10 +246,18 @@ fn steps(values: &[f64]) -> Vec<f64> {
     pairs.map(|pair| (pair[1] - pair[0]).abs()).collect()
 }
 
-/// The smallest step that is not zero: what the sensor resolves.
+/// Those that are not zero.
+fn moved(values: &[f64]) -> Vec<f64> {
+    values
+        .iter()
+        .copied()
+        .filter(|value| *value > 0.0)
+        .collect()
+}
+
+/// What the sensor resolves: one of the smallest steps that are not zero, as rounding makes smaller ones here and there.
 fn quantum(steps: &[f64]) -> f64 {
-    let moved = steps.iter().copied().filter(|step| *step > 0.0);
-    moved.fold(f64::INFINITY, f64::min)
+    quantile(moved(steps), 0.1)
 }
 
 impl fmt::Display for Fault {
@@ -302,7 +280,7 @@ impl fmt::Display for Fault {
             } => write!(
                 f,
                 "{channel} stands still {times} times while the arm moves on, {samples} samples in all, {longest:.3} s at most, the first at \
-                 {first:.3} s; short holds were replaced by straight lines, longer ones were cut out"
+                 {first:.3} s; they were replaced by straight lines, and nothing is fitted around those of more than 10 ms"
             ),
             Self::Clipped {
                 channel,

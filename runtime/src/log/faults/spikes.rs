@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{quantile, quantum, steps};
+use super::{moved, quantile, quantum, steps};
 
 /// Samples that the median is taken of, to either side.
 const REACH: usize = 5;
@@ -10,12 +10,13 @@ const REACH: usize = 5;
 /// Most samples of one spike.
 const WIDEST: usize = 3;
 
-/// How far a spike is from the median, in units of what nine of ten samples are below, and of the largest step but few.
+/// How far a spike is from the median, in units of what nine of ten samples and steps are below, and of what the sensor
+/// resolves.
 const FAR: f64 = 12.0;
-const STEEP: f64 = 5.0;
+const STEEP: f64 = 8.0;
 
-/// Steps beyond this share are spikes' own, where there are any.
-const FEW: f64 = 0.99;
+/// Samples and steps beyond this share are spikes' own, where there are any.
+const FEW: f64 = 0.9;
 
 /// Ranges of samples.
 pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
@@ -25,11 +26,11 @@ pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
     let sizes: Vec<f64> = distance.iter().map(|x| x.abs()).collect();
     let steps = steps(values);
     let quantum = quantum(&steps);
-    if !quantum.is_finite() {
+    if quantum == 0.0 {
         return Vec::new();
     }
-    let far = (FAR * quantile(sizes.clone(), 0.9))
-        .max(STEEP * quantile(steps, FEW))
+    let far = (FAR * quantile(moved(&sizes), FEW))
+        .max(STEEP * quantile(moved(&steps), FEW))
         .max(STEEP * quantum);
     let mut found: Vec<Range<usize>> = Vec::new();
     for (k, size) in sizes.iter().enumerate() {

@@ -38,7 +38,7 @@ fn a_clean_log_has_no_faults_and_stays_as_it_is() {
         let log = clean(seed);
         let mended = log.clone().mended();
         assert_eq!(mended.faults, []);
-        assert_eq!(mended.pieces, [log]);
+        assert_eq!(mended.log, log);
     }
 }
 
@@ -62,9 +62,8 @@ fn spikes_are_replaced_and_counted() {
         })
         .collect();
     assert_eq!(found, [("q1", 1), ("tau1", 4)]);
-    let [piece] = &mended.pieces[..] else {
-        panic!("nothing is cut");
-    };
+    let piece = &mended.log;
+    assert!(piece.holes.is_empty());
     for k in [700, 701, 1900, 3111] {
         assert!((piece.tau[0][k] - log.tau[0][k]).abs() < 1.0, "{k}");
     }
@@ -96,14 +95,9 @@ fn holds_are_bridged_and_long_ones_cut_out() {
         })
         .collect();
     assert!(held.contains(&("q1", 2, 63)), "{:?}", mended.faults);
-    let ends: Vec<(usize, f64)> = mended
-        .pieces
-        .iter()
-        .map(|piece| (piece.time.len(), piece.time[0]))
-        .collect();
-    assert_eq!(ends[0].0, 3701, "{ends:?}");
-    assert_eq!(ends.len(), 2);
-    assert!((ends[1].1 - 3760.0 / RATE).abs() < 1e-9, "{ends:?}");
+    let hole = &mended.log.holes[0];
+    assert!((hole.start - 3701.0 / RATE).abs() < 1e-9);
+    assert!((hole.end - 3760.0 / RATE).abs() < 1e-9);
 }
 
 #[test]
@@ -160,4 +154,105 @@ fn what_never_changes_is_told() {
         matches!(faults[..], [Fault::Still { .. }, Fault::Constant { .. }]),
         "{faults:?}"
     );
+}
+
+#[test]
+fn coarse_torque_is_neither_held_nor_clipped() {
+    for (seed, share) in [(1, 0.002), (2, 0.01), (3, 0.05)] {
+        let mut log = clean(seed);
+        log.dq.clear();
+        let step = 20.0 * share;
+        for tau in &mut log.tau[0] {
+            *tau = (*tau / step).round() * step;
+        }
+        assert_eq!(log.mended().faults, [], "{share}");
+    }
+    // Without noise each wave has a flat top.
+    let mut smooth = clean(4);
+    smooth.dq.clear();
+    let rate = RATE;
+    for (k, tau) in smooth.tau[0].iter_mut().enumerate() {
+        *tau = (10.0 * (3.0 * k as f64 / rate).sin() / 0.1).round() * 0.1;
+    }
+    assert_eq!(smooth.mended().faults, []);
+}
+
+#[test]
+fn many_spikes_are_found_as_few_are() {
+    for every in [400, 100, 40] {
+        let mut log = clean(6);
+        let mut count = 0;
+        for (k, tau) in log.tau[0].iter_mut().enumerate() {
+            if k % every == every / 2 {
+                *tau += if k % 2 == 0 { 60.0 } else { -60.0 };
+                count += 1;
+            }
+        }
+        let found = log
+            .mended()
+            .faults
+            .into_iter()
+            .find_map(|fault| match fault {
+                Fault::Spikes { samples, .. } => Some(samples),
+                _ => None,
+            });
+        let found = found.expect("spikes");
+        assert!(
+            found <= count && 50 * found >= 49 * count,
+            "one in {every}: {found} {count}"
+        );
+    }
+}
+
+/// Waves come back after a period, and backwards after half of one.
+#[test]
+fn velocities_of_waves_are_told_by_the_nearest_delay() {
+    for hz in [0.5, 1.0, 2.0, 3.0] {
+        let w = std::f64::consts::TAU * hz;
+        let time: Vec<f64> = (0..5000).map(|k| f64::from(k) / RATE).collect();
+        let wave = |f: &dyn Fn(f64) -> f64| -> Vec<f64> { time.iter().map(|&t| f(t)).collect() };
+        let q = wave(&|t| ((w * t).sin() / 1e-4).round() * 1e-4);
+        let tau = wave(&|t| 5.0 * (w * t).cos());
+        let log = Log::from_samples("a plant", time.clone(), vec![q], vec![tau]).expect("sound");
+        for (late, factor) in [(0.0, 1.0), (0.05, 1.0), (0.0, -1.0), (0.0, 57.29578)] {
+            let mut log = log.clone();
+            log.dq = vec![wave(&|t| factor * w * (w * (t - late)).cos())];
+            let faults = log.mended().faults;
+            match faults[..] {
+                [] => assert!(
+                    late == 0.0 && (factor - 1.0).abs() < 1e-9,
+                    "{hz} {late} {factor}"
+                ),
+                [Fault::VelocityLate { delay, .. }] => {
+                    assert!(
+                        (delay - late).abs() < 2e-3 && factor > 0.0 && late > 0.0,
+                        "{hz}: {delay}"
+                    );
+                }
+                [Fault::VelocityScale { factor: found, .. }] => {
+                    assert!((found / factor - 1.0).abs() < 0.01, "{hz}: {found}");
+                }
+                _ => panic!("{hz} {late} {factor}: {faults:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn slow_drift_and_joints_that_hardly_move_have_no_delay() {
+    let time: Vec<f64> = (0..5000).map(|k| f64::from(k) / RATE).collect();
+    let drift: Vec<f64> = time.iter().map(|t| 0.1 * t).collect();
+    let tau: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+    let mut log =
+        Log::from_samples("a plant", time.clone(), vec![drift], vec![tau]).expect("sound");
+    log.dq = vec![vec![0.1; 5000]];
+    assert_eq!(log.clone().mended().faults, []);
+    // A step of the encoder to and fro.
+    log.q = vec![
+        time.iter()
+            .map(|t| ((2.0 * t).sin() * 0.8).round() * 1e-4)
+            .collect(),
+    ];
+    log.dq = vec![time.iter().map(|t| 1e-4 * (2.0 * t).cos()).collect()];
+    assert_eq!(log.mended().faults, []);
 }
