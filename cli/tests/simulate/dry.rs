@@ -1,6 +1,6 @@
 //! Dry friction: rest, breakaway, joints that hold each other.
 
-use robot_model::simulate::{Drive, Integrator, InverseDynamics, Loop, Measured};
+use robot_model::simulate::{Integrator, Loop};
 use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{Law, compiled, plant, released, spec, still};
@@ -206,70 +206,4 @@ fn jumps_that_crowd_end_in_impulses() {
     assert!(work.impulses > 0, "{work:?}");
     let steps = work.events + work.explicit + work.implicit + work.impulses + work.rejected;
     assert!(steps < 200_000, "{work:?}");
-}
-
-/// A law that is steep through rest, beside joints that stick: its side follows the rounding of an acceleration, and does nothing.
-#[test]
-fn sides_that_do_nothing_do_not_keep_an_arm_from_moving() {
-    let text = "robot Rrp {
-        gravity = [0, 0, -9.81];
-        convention = standard_dh;
-        joint base: revolute { a = 0.1; alpha = 90 deg; d = 0.3; }
-        joint arm: revolute { a = 0.4; alpha = 0; d = 0; }
-        joint slide: prismatic { a = 0; alpha = 0; theta = 0; }
-        link base { mass = 6; com = [-0.05, 0.01, 0.02]; inertia = [0.05, 0, 0, 0.06, 0, 0.04]; }
-        link arm { mass = 4; com = [-0.18, 0.01, 0.03]; inertia = [0.02, 0, 0, 0.09, 0, 0.08]; }
-        link slide { mass = 2; com = [0.02, 0.01, -0.1]; inertia = [0.02, 0, 0, 0.02, 0, 0.005]; }
-        effects {
-            motor_inertia on all;
-            viscous_friction on base, slide;
-            coulomb_friction on base, slide;
-            rokae(eps = 0.02) on arm;
-        }
-    }";
-    let more = [
-        ("base.motor_inertia.ia", 0.3),
-        ("arm.motor_inertia.ia", 0.4),
-        ("slide.motor_inertia.ia", 1.5),
-        ("base.viscous_friction.fv", 2.0),
-        ("base.coulomb_friction.fc", 1.5),
-        ("slide.viscous_friction.fv", 20.0),
-        ("slide.coulomb_friction.fc", 8.0),
-        ("rokae.fc1", 2.0),
-        ("rokae.fc2", 3.0),
-        ("rokae.fv1", 4.0),
-        ("rokae.fv2", 0.3),
-        ("rokae.fv3", -0.4),
-    ];
-    let q = [
-        0.755_955_983_486_1,
-        0.701_769_061_783_1,
-        0.348_007_910_201_2,
-    ];
-    let mut arm = plant(compiled(text), &more);
-    let measured = Measured {
-        time: 0.0,
-        period: 0.001,
-        q: &q,
-        dq: &[0.0; 3],
-        inputs: &[],
-    };
-    let mut torque = [0.0; 3];
-    arm.inverse_dynamics(
-        &measured,
-        &[f64::EPSILON * 2.0, 0.0, 0.0],
-        &[0.0; 3],
-        &mut torque,
-    );
-    let mut arm = released(arm, &q, &[0.0; 3]);
-    arm.drive(Drive {
-        torque: torque.to_vec(),
-        inputs: Vec::new(),
-        input_rates: Vec::new(),
-        since: 0.0,
-    });
-    arm.advance(0.01).expect("a motion");
-    for (found, start) in arm.q().iter().zip(q) {
-        assert!((found - start).abs() < 1e-9, "{found} {start}");
-    }
 }
