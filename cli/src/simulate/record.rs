@@ -68,7 +68,7 @@ pub(super) fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
     text
 }
 
-/// Joints that are wanted, or were driven, beyond the limits of the spec.
+/// Joints that are wanted, went or were driven beyond the limits of the spec.
 pub(super) fn beyond_limits(
     model: &Model,
     trajectory: &Trajectory,
@@ -94,15 +94,20 @@ pub(super) fn beyond_limits(
         };
         let position = wanted(|at| &at.q).find(|(_, q)| is_out(*q, low, high));
         let velocity = wanted(|at| &at.dq).find(|(_, dq)| is_out(*dq, -speed, speed));
-        let mut torque = record
-            .time
-            .iter()
-            .copied()
-            .zip(record.tau[k].iter().copied());
-        let torque = torque.find(|(_, tau)| is_out(*tau, -most, most));
+        let measured = |values: &[f64], low: f64, high: f64| {
+            let mut samples = record.time.iter().copied().zip(values.iter().copied());
+            samples.find(|(_, value)| is_out(*value, low, high))
+        };
+        let torque = measured(&record.tau[k], -most, most);
+        // What is wanted there gets there, as a rule.
+        let went = match position {
+            Some(_) => None,
+            None => measured(&record.q[k], low, high),
+        };
         for (what, found) in [
             ("is wanted at position", position),
             ("is wanted at velocity", velocity),
+            ("went to position", went),
             ("was driven with torque", torque),
         ] {
             if let Some((time, value)) = found {

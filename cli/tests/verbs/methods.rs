@@ -35,29 +35,33 @@ fn folder() -> Folder {
         "values.json",
         r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5}"#,
     );
+    measure(
+        &folder,
+        &|t| 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos(),
+        &["--position-noise", "2e-4"],
+    );
+    folder
+}
+
+/// A motion of both joints and its log.
+fn measure(folder: &Folder, lo: &dyn Fn(f64) -> f64, sensors: &[&str]) {
     let mut wanted = String::from("time,q1,q2\n");
     for k in 0..=2000 {
         let t = f64::from(k) / 200.0;
         let up = -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
-        let lo = 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos();
-        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
+        writeln!(wanted, "{t},{up},{}", lo(t)).expect("a string takes all");
     }
     folder.write("wanted.csv", &wanted);
-    folder.succeed(&[
+    let files = [
         "simulate",
         "arm.robot",
         "--trajectory",
         "wanted.csv",
-        "--parameters",
-        "values.json",
-        "--position-noise",
-        "2e-4",
-        "--torque-noise",
-        "0.02",
         "--out",
         "log.csv",
-    ]);
-    folder
+    ];
+    let more = ["--parameters", "values.json", "--torque-noise", "0.02"];
+    folder.succeed(&[&files[..], &more, sensors].concat());
 }
 
 /// What `identify` writes with these options.
@@ -189,25 +193,7 @@ fn a_joint_that_stands_says_nothing() {
     folder.write("arm.robot", &spec);
     let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "lo.coulomb_friction.fc": 50}"#;
     folder.write("values.json", values);
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..=2000 {
-        let t = f64::from(k) / 200.0;
-        let up = -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
-        writeln!(wanted, "{t},{up},0.4").expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
-    folder.succeed(&[
-        "simulate",
-        "arm.robot",
-        "--trajectory",
-        "wanted.csv",
-        "--parameters",
-        "values.json",
-        "--torque-noise",
-        "0.02",
-        "--out",
-        "log.csv",
-    ]);
+    measure(&folder, &|_| 0.4, &[]);
     for method in ["wls", "ls", "robust", "ridge"] {
         let (fit, _) = identify(&folder, "arm.robot", &["--method", method]);
         let parameters = fit["parameters"].as_array().expect("a list");

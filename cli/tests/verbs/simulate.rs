@@ -264,6 +264,27 @@ fn what_is_wanted_beyond_limits_is_told() {
 }
 
 #[test]
+fn an_arm_that_falls_beyond_its_limits_is_told() {
+    let folder = Folder::new();
+    let spec = "robot Falls {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint turn: revolute { a = 0.5; alpha = 0; d = 0; position = -1 .. 1; }
+        link turn { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+    }";
+    folder.write("falls.robot", spec);
+    folder.write("still.csv", "time,q1\n0,0\n1,0\n2,0\n3,0\n");
+    let files = ["--trajectory", "still.csv", "--out", "log.csv"];
+    let run = [
+        &["simulate", "falls.robot", "--controller", "none"],
+        &files[..],
+    ]
+    .concat();
+    let said = folder.run(&run).stderr;
+    assert!(said.contains("joint turn went to position -1."), "{said}");
+}
+
+#[test]
 fn a_motion_that_blows_up_leaves_no_log() {
     let folder = folder();
     // So few samples and so many before the torque acts push the wrong way.
