@@ -13,6 +13,7 @@ mod identify;
 mod import;
 mod merge;
 mod methods;
+mod motions;
 mod outputs;
 mod parameters;
 mod possible;
