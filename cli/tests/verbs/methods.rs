@@ -206,5 +206,11 @@ fn a_joint_that_stands_says_nothing() {
         let viscous = value("up.viscous_friction.fv").expect("it moves");
         assert!((viscous - 1.0).abs() < 0.05, "{method}: {viscous}");
         assert_eq!(value("lo.coulomb_friction.fc"), None, "{method}");
+        // Friction holds the weight that its motor does not.
+        let left = numbers(&fit["relative_percent"])[0];
+        assert!(left < 3.0, "{method}: {left}");
+        if let Some(moment) = value("lo.mxr") {
+            assert!((moment - TRUTH[3]).abs() < 0.03, "{method}: {moment}");
+        }
     }
 }
