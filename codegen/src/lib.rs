@@ -31,6 +31,7 @@ mod build_script;
 mod compiled;
 mod design;
 mod forms;
+mod linkage;
 mod measured;
 mod plant;
 
@@ -39,5 +40,6 @@ pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
+pub use linkage::{Linkage, NoMotion};
 pub use measured::NotInstantaneous;
 pub use plant::{Plant, PlantSlopes, Share};

@@ -204,7 +204,7 @@ impl Share {
 }
 
 /// Slopes by the first `count` symbols, row by row.
-fn jacobian(
+pub(crate) fn jacobian(
     dag: &mut Dag,
     roots: &[ExprId],
     count: usize,

@@ -7,6 +7,7 @@
 mod band;
 mod candidate;
 mod function;
+mod links;
 mod measured;
 mod momentum;
 mod nominal;
@@ -18,8 +19,8 @@ mod rough;
 mod runner;
 mod shape;
 mod signals;
+mod springs;
 mod states;
-mod transmission;
 
 pub use candidate::InterpretedCandidate;
 pub use function::InterpretedFunction;

@@ -11,8 +11,8 @@ mod slopes;
 
 use self::share::ShareRunner;
 use self::slopes::{MotionSlopes, SlopeRunners};
+use super::links::{LinkSlopes, Links};
 use super::runner::{Numbers, Runner, matrix};
-use super::transmission::Transmissions;
 use crate::Error;
 
 /// A compiled spec with numbers for all parameters, as a [`Plant`].
@@ -25,7 +25,7 @@ pub struct InterpretedPlant {
     compiled: Compiled,
     numbers: Numbers,
     joints: usize,
-    transmissions: Transmissions,
+    links: Links,
     states: usize,
     is_affine: bool,
     is_timed: bool,
@@ -51,15 +51,15 @@ impl InterpretedPlant {
             parameters: compiled.parameter_values(beta),
             shapes: shapes.to_vec(),
         };
-        let transmissions = Transmissions::new(&compiled, shapes)?;
+        let links = Links::new(&compiled, &numbers)?;
         let plant = compiled.plant();
         let runner = |program| Runner::new(program, &numbers);
         let mut found = Self {
             joints: plant.dof,
-            transmissions,
+            is_timed: plant.is_timed || links.is_timed,
+            links,
             states: plant.states,
             is_affine: plant.is_affine,
-            is_timed: plant.is_timed,
             rigid: runner(plant.rigid_torque),
             inertia: runner(plant.mass_matrix),
             effects: ShareRunner::new(plant.effects, plant.dof, &numbers),
@@ -72,24 +72,21 @@ impl InterpretedPlant {
             numbers,
             compiled,
         };
-        found.check_motors()?;
+        if !found.links.sprung().is_empty() {
+            let still = vec![0.0; found.dof()];
+            let inertia = found.inertia_at(&still, &vec![0.0; found.compiled.model.inputs().len()]);
+            found.check_motors(&inertia)?;
+            found.links.set_teeth(&found.compiled, &inertia);
+        }
         Ok(found)
     }
 
     /// Motors that are parted from their links have an inertia of their own.
-    fn check_motors(&mut self) -> Result<(), Error> {
-        let joints: Vec<usize> = self.transmissions.joints().collect();
-        if joints.is_empty() {
-            return Ok(());
-        }
-        let q = vec![0.0; self.dof()];
-        let inertia = self.inertia_at(&q, &vec![0.0; self.compiled.model.inputs().len()]);
-        let bare = joints
-            .into_iter()
-            .find(|&joint| inertia[(joint, joint)] <= 0.0);
-        match bare {
+    fn check_motors(&self, inertia: &DMatrix<f64>) -> Result<(), Error> {
+        let mut joints = self.links.sprung().iter();
+        match joints.find(|&&joint| inertia[(joint, joint)] <= 0.0) {
             None => Ok(()),
-            Some(joint) => {
+            Some(&joint) => {
                 let model = &self.compiled.model;
                 Err(Error::Argument(format!(
                     "{}: the motor of joint {name} is parted from its link and has no inertia; declare `motor_inertia on {name}` with \
@@ -124,18 +121,19 @@ impl InterpretedPlant {
 
     /// Kinetic and potential energy of the rigid body, J; the latter up to a constant. Motors and springs have theirs besides.
     pub fn energies(&mut self, q: &[f64], dq: &[f64]) -> [f64; 2] {
-        let [q, dq] = [q, dq].map(|values| self.transmissions.of_links(values));
+        let inputs = vec![0.0; self.compiled.model.inputs().len()];
         let at = Instant {
             time: 0.0,
-            q: &q,
-            dq: &dq,
-            ddq: &[],
+            q,
+            dq,
+            ddq: dq,
             memory: &[],
             switches: &[],
             torque: &[],
-            inputs: &[],
+            inputs: &inputs,
         };
-        let found = self.energies.run(&at, &[]);
+        let links = self.links.motion(&at);
+        let found = self.energies.run(&of_links(&at, &links), &[]);
         [found.output(0), found.output(1)]
     }
 
@@ -143,9 +141,20 @@ impl InterpretedPlant {
     /// where that is none.
     #[must_use]
     pub fn free_inertia(&mut self, q: &[f64], inputs: &[f64]) -> Vec<f64> {
-        let q = self.transmissions.hang(q, |_| vec![0.0; q.len()]);
+        let (still, memory) = (vec![0.0; q.len()], vec![0.0; self.states]);
+        let motors = Instant {
+            time: 0.0,
+            q,
+            dq: &still,
+            ddq: &still,
+            memory: &memory,
+            switches: &[],
+            torque: &still,
+            inputs,
+        };
+        let q = self.links.hang(&motors, |_| vec![0.0; q.len()]);
         let inertia = self.inertia_at(&q, inputs);
-        let inverse = self.transmissions.of_joints(&inertia).try_inverse();
+        let inverse = self.links.of_joints(&inertia).try_inverse();
         let free = |joint: usize| {
             let inverse = inverse
                 .as_ref()
@@ -159,19 +168,12 @@ impl InterpretedPlant {
         (0..self.joints).map(free).collect()
     }
 
-    /// Effects, and forces of the world where they are apart.
-    fn shares(&mut self) -> impl Iterator<Item = &mut ShareRunner> {
-        std::iter::once(&mut self.effects).chain(&mut self.forces)
-    }
-
-    /// Where switches stand if links and motors move as at an instant and nothing sticks.
-    fn signs(&mut self, at: &Instant<'_>) -> Vec<f64> {
-        self.shares().flat_map(|share| share.signs(at)).collect()
-    }
-
-    /// Position, velocity and acceleration of the links.
-    fn links(&self, at: &Instant<'_>) -> [Vec<f64>; 3] {
-        [at.q, at.dq, at.ddq].map(|values| self.transmissions.of_links(values))
+    /// Where switches stand if motors move as at an instant, links as `there`, and nothing sticks.
+    fn signs(&mut self, at: &Instant<'_>, there: &Instant<'_>) -> Vec<f64> {
+        let forces = self.forces.as_mut();
+        let forces = forces.map(|forces| forces.signs(there));
+        let effects = self.effects.signs(at);
+        effects.chain(forces.into_iter().flatten()).collect()
     }
 
     /// Torque of the rigid body, `n`, with links as at an instant.
@@ -193,7 +195,7 @@ fn of_links<'a>(at: &Instant<'a>, links: &'a [Vec<f64>; 3]) -> Instant<'a> {
 
 impl Plant for InterpretedPlant {
     fn dof(&self) -> usize {
-        self.transmissions.dof()
+        self.links.dof()
     }
 
     fn joints(&self) -> usize {
@@ -201,7 +203,7 @@ impl Plant for InterpretedPlant {
     }
 
     fn joint(&self, coordinate: usize) -> usize {
-        self.transmissions.joint(coordinate)
+        self.links.joint(coordinate)
     }
 
     fn states(&self) -> usize {
@@ -222,14 +224,15 @@ impl Plant for InterpretedPlant {
     }
 
     fn start(&mut self, joints: &Instant<'_>) -> Vec<f64> {
-        let transmissions = self.transmissions.clone();
-        transmissions.hang(joints.q, |q| {
+        let mut links = self.links.clone();
+        links.hang(joints, |q| {
             let at = Instant { q, ..*joints };
             // A force that sets in with the motion is there.
-            let switches = self.signs(&Instant {
+            let soon = Instant {
                 time: at.time + 1e-9,
                 ..at
-            });
+            };
+            let switches = self.signs(&soon, &soon);
             let at = Instant {
                 switches: &switches,
                 ..at
@@ -247,7 +250,7 @@ impl Plant for InterpretedPlant {
     }
 
     fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-        let links = self.links(at);
+        let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);
         let mass = self.mass_matrix(&there);
@@ -258,15 +261,21 @@ impl Plant for InterpretedPlant {
         }
         let mut joints = torque.rows_mut(0, self.joints);
         joints += &effects.torque;
+        let LinkSlopes { position, .. } = self.links.slopes(at);
         let forces = loads.forces.as_ref();
         let forces = forces.and_then(|forces| loads.force_slopes(&forces.by_acceleration, &mass));
+        let springs = DMatrix::zeros(loads.springs.len(), self.dof());
         *inertia = self
-            .load_slopes(at.q, &mass, forces, false)
+            .load_slopes(
+                &(mass * &position),
+                forces.map(|forces| forces * &position),
+                &springs,
+            )
             .with_effects(effects.by_acceleration, &effects.by_load);
     }
 
     fn rates(&mut self, at: &Instant<'_>, rates: &mut [f64]) {
-        let links = self.links(at);
+        let links = self.links.motion(at);
         let loads = self.loads(at, &of_links(at, &links));
         let found = self.rates.run(at, &loads.seen);
         for (state, rate) in rates.iter_mut().enumerate() {
@@ -275,7 +284,7 @@ impl Plant for InterpretedPlant {
     }
 
     fn arguments(&mut self, at: &Instant<'_>, arguments: &mut [f64]) {
-        let links = self.links(at);
+        let links = self.links.motion(at);
         let forces = self.forces.as_mut();
         let there = of_links(at, &links);
         let forces = forces.map(|forces| forces.arguments(&there));
@@ -290,7 +299,7 @@ impl Plant for InterpretedPlant {
 
     fn jumps(&mut self, at: &Instant<'_>, jumps: &mut Jumps) {
         let (m, dof) = (self.effects.switches, self.dof());
-        let links = self.links(at);
+        let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);
         let own = self.effects.jumps(at, &loads.seen);
@@ -298,23 +307,27 @@ impl Plant for InterpretedPlant {
         jumps.halves.resize_vertically_mut(dof, 0.0);
         jumps.directions = own.directions.resize(self.switches(), dof, 0.0);
         jumps.drifts.rows_mut(0, m).copy_from(&own.drifts);
+        let LinkSlopes { position, .. } = self.links.slopes(at);
+        // What links do where joints have no acceleration.
+        let still = vec![0.0; dof];
+        let [.., coasting] = self.links.motion(&Instant { ddq: &still, ..*at });
         if let Some(forces) = &mut self.forces {
             let own = forces.jumps(&there, &loads.body);
-            for (joint, link) in self.transmissions.links().into_iter().enumerate() {
-                let (mut row, mut column) = (
-                    jumps.halves.row_mut(link),
-                    jumps.directions.column_mut(link),
-                );
+            for (joint, coordinate) in self.links.coordinates().into_iter().enumerate() {
+                let mut row = jumps.halves.row_mut(coordinate);
                 row.columns_mut(m, forces.switches)
                     .copy_from(&own.halves.row(joint));
-                column
-                    .rows_mut(m, forces.switches)
-                    .copy_from(&own.directions.column(joint));
             }
+            let coasting = &own.directions * DVector::from_vec(coasting);
+            let k = forces.switches;
+            jumps
+                .directions
+                .rows_mut(m, k)
+                .copy_from(&(own.directions * position));
             jumps
                 .drifts
-                .rows_mut(m, forces.switches)
-                .copy_from(&own.drifts);
+                .rows_mut(m, k)
+                .copy_from(&(own.drifts + coasting));
         }
     }
 
@@ -327,19 +340,29 @@ impl Plant for InterpretedPlant {
                 &self.numbers,
             ))
         });
-        let links = self.links(at);
+        let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);
         let by_load = self.effects.torque(at, &loads.seen).by_load;
+        let motion = self.links.slopes(at);
+        let springs = self.links.carried_slopes(at, &loads.springs);
+        let no_spring = DMatrix::zeros(loads.springs.len(), dof);
         let rigid = [
             matrix(runners.rigid_by_position.run(&there, &[]), 0, n, n),
             // The velocity torque `C dq` is quadratic, with `C` half its slope.
             matrix(runners.coriolis.run(&there, &[]), 0, n, n) * 2.0,
             self.mass_matrix(&there),
         ];
-        let forces = runners.forces.as_mut();
-        let forces: Option<MotionSlopes> =
-            forces.map(|forces| MotionSlopes::new(forces.run(&there, &loads.body), n, p));
+        let shared = runners.forces.as_mut();
+        let shared: Option<MotionSlopes> =
+            shared.map(|forces| MotionSlopes::new(forces.run(&there, &loads.body), n, p));
+        let forces = shared.as_ref().zip(loads.forces.as_ref());
+        let forces = forces.map(|(shared, forces)| {
+            let by = [&shared.by[0], &shared.by[1], &forces.by_acceleration];
+            let by = [0, 1, 2].map(|k| by[k] + &forces.by_load * &rigid[k]);
+            motion.onto(&by)
+        });
+        let rigid = motion.onto(&rigid);
         let effects = MotionSlopes::new(runners.effects.run(at, &loads.seen), n, p);
         let rates = runners.rates.run(at, &loads.seen);
         let rates_by_load = matrix(rates, 3 * p * n, p, n);
@@ -348,22 +371,18 @@ impl Plant for InterpretedPlant {
             own + &rates_by_load * seen
         };
         for k in [0, 1] {
-            let by = forces.as_ref().map(|forces| &forces.by[k]);
-            let by = by.and_then(|by| loads.force_slopes(by, &rigid[k]));
-            let load = self.load_slopes(at.q, &rigid[k], by, k == 0);
+            let forces = forces.as_ref().map(|forces| forces[k].clone());
+            let load = self.load_slopes(&rigid[k], forces, &springs[k]);
             slopes.rates[k] = rates_by(k, &load.seen);
             slopes.torque[k] = load.with_effects(effects.by[k].clone(), &by_load);
         }
-        slopes.torque[2] = effects.by_state.resize_vertically(dof, 0.0);
-        if let Some(forces) = forces {
-            for (joint, link) in self.transmissions.links().into_iter().enumerate() {
-                let mut row = slopes.torque[2].row_mut(link);
-                row += forces.by_state.row(joint);
-            }
-        }
-        let load = self.load_slopes(at.q, &rigid[2], None, false);
+        let load = self.load_slopes(&rigid[2], None, &no_spring);
         slopes.rates_by_acceleration = rates_by(2, &load.seen);
-        slopes.rates[2] = matrix(rates, 4 * p * n, p, p);
+        let still = DMatrix::zeros(n, p);
+        let by_state = shared.map(|shared| shared.by_state);
+        let load = self.load_slopes(&still, by_state, &springs[2]);
+        slopes.rates[2] = matrix(rates, 4 * p * n, p, p) + &rates_by_load * &load.seen;
+        slopes.torque[2] = load.with_effects(effects.by_state, &by_load);
         self.slopes = Some(runners);
     }
 }

@@ -3,7 +3,9 @@
 mod common;
 mod conservation;
 mod dry;
+mod everything;
 mod lugre;
+mod placed;
 mod soft;
 mod touched;
 mod twin;

@@ -1,8 +1,8 @@
-//! What a controller believes of the arm: effects' states are at rest in it, and links where their motors are.
+//! What a controller believes of the arm: effects' states are at rest in it, and links where joints put them, springs stiff.
 
 use robot_model::simulate::{Instant, InverseDynamics, Measured};
 
-use super::InterpretedPlant;
+use super::{InterpretedPlant, of_links};
 
 impl InverseDynamics for InterpretedPlant {
     fn inverse_dynamics(
@@ -24,19 +24,21 @@ impl InverseDynamics for InterpretedPlant {
             torque: &still,
             inputs: measured.inputs,
         };
-        let load = self.rigid_torque(&at);
+        let links = self.links.motion(&at);
+        let load = self.rigid_torque(&of_links(&at, &links));
         let at = Instant { dq: sliding, ..at };
-        let switches = self.signs(&at);
+        let links = self.links.motion(&at);
+        let switches = self.signs(&at, &of_links(&at, &links));
         let at = Instant {
             switches: &switches,
             ..at
         };
-        torque.copy_from_slice(&load);
-        for share in self.shares() {
-            let found = share.torque(&at, &load);
-            for (torque, more) in torque.iter_mut().zip(&found.torque) {
-                *torque += more;
-            }
+        let effects = self.effects.torque(&at, &load).torque;
+        let forces = self.forces.as_mut();
+        let forces = forces.map(|forces| forces.torque(&of_links(&at, &links), &load).torque);
+        for (joint, torque) in torque.iter_mut().enumerate() {
+            let force = forces.as_ref().map_or(0.0, |forces| forces[joint]);
+            *torque = load[joint] + effects[joint] + force;
         }
     }
 }

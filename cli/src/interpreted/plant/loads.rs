@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 use robot_model::simulate::Instant;
 
+use super::super::springs::Carried;
 use super::InterpretedPlant;
 use super::share::SharedTorque;
 
@@ -18,9 +19,11 @@ pub(super) struct Loads {
     pub rests: Vec<f64>,
     /// Forces of the world on links.
     pub forces: Option<SharedTorque>,
+    /// By springs.
+    pub springs: Vec<Carried>,
 }
 
-/// Slopes of the loads by a quantity of all degrees of freedom.
+/// Slopes of the loads by a quantity, such as the positions of all degrees of freedom.
 pub(super) struct LoadSlopes {
     /// Of [`Loads::seen`], one row a joint.
     pub seen: DMatrix<f64>,
@@ -39,9 +42,10 @@ impl InterpretedPlant {
                 *carried += force;
             }
         }
-        let rests = self.transmissions.carry(at.q, &mut carried);
+        let springs = self.links.carried(at);
+        let rests = self.links.carry(&springs, &mut carried);
         let mut seen = body.clone();
-        for joint in self.transmissions.joints() {
+        for &joint in self.links.sprung() {
             seen[joint] = carried[joint];
         }
         Loads {
@@ -50,22 +54,22 @@ impl InterpretedPlant {
             carried,
             rests,
             forces,
+            springs,
         }
     }
 
-    /// Slopes of the loads by a quantity of all degrees of freedom, from those of the rigid body and of forces by that of the links.
+    /// Slopes of the loads by a quantity, from those of the rigid body and of forces, one row a joint, and of springs.
     pub(super) fn load_slopes(
         &self,
-        q: &[f64],
         rigid: &DMatrix<f64>,
         forces: Option<DMatrix<f64>>,
-        is_position: bool,
+        springs: &DMatrix<f64>,
     ) -> LoadSlopes {
-        let sides = self.transmissions.slopes(rigid, q, is_position);
+        let sides = self.links.sides(rigid, springs);
         let seen = sides.rows(0, self.joints).into_owned();
         let sides = match forces {
             None => sides,
-            Some(forces) => self.transmissions.slopes(&(rigid + forces), q, is_position),
+            Some(forces) => self.links.sides(&(rigid + forces), springs),
         };
         LoadSlopes { seen, sides }
     }
@@ -86,7 +90,7 @@ impl LoadSlopes {
         let mut slopes = self.sides;
         let mut top = slopes.rows_mut(0, joints);
         top.gemm(1.0, by_load, &self.seen, 1.0);
-        let mut own = top.columns_mut(0, joints);
+        let mut own = top.columns_mut(0, by.ncols());
         own += by;
         slopes
     }
