@@ -33,6 +33,7 @@ mod design;
 mod forms;
 mod linkage;
 mod measured;
+mod parametric;
 mod plant;
 
 pub use alone::{EffectColumns, effect_columns};
@@ -42,4 +43,5 @@ pub use compiled::{Block, Compiled, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use linkage::{Linkage, NoMotion};
 pub use measured::NotInstantaneous;
+pub use parametric::PlantParameters;
 pub use plant::{Plant, PlantSlopes, Share};

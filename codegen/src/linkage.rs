@@ -89,40 +89,67 @@ fn rates(dag: &mut Dag, values: &[ExprId], dof: usize) -> Vec<ExprId> {
     values.iter().map(rate).collect()
 }
 
+/// Displacements as expressions.
+pub(crate) struct LinkEquations {
+    pub dag: Dag,
+    springs: Vec<usize>,
+    /// Of springs.
+    pub gives: Vec<ExprId>,
+    placed: Vec<usize>,
+    /// Of links that joints place, with first and second rates.
+    pub places: [Vec<ExprId>; 3],
+}
+
 impl Compiled {
+    pub(crate) fn link_equations(&self) -> LinkEquations {
+        let mut dag = self.dag.clone();
+        let dof = self.dof();
+        let displacements = self.measurement(&mut dag).displacements.into_iter();
+        let (springs, placed): (Vec<_>, Vec<_>) = displacements.partition(|&(joint, value)| {
+            dag.symbols(&[value]).contains(&Symbol::RigidTorque(joint))
+        });
+        let (springs, gives) = springs.into_iter().unzip();
+        let (placed, places): (Vec<usize>, Vec<ExprId>) = placed.into_iter().unzip();
+        let first = rates(&mut dag, &places, dof);
+        let second = rates(&mut dag, &first, dof);
+        LinkEquations {
+            dag,
+            springs,
+            gives,
+            placed,
+            places: [places, first, second],
+        }
+    }
+
     /// Where links stand against their joints.
     ///
     /// # Errors
     /// [`NoMotion`] where a displacement follows an acceleration or the load of another joint; where it follows a velocity, an
     /// internal state or a motor's torque and not the load.
     pub fn linkage(&self) -> Result<Linkage, NoMotion> {
-        let mut dag = self.dag.clone();
-        let dof = self.dof();
-        let displacements = self.measurement(&mut dag).displacements;
-        for &(joint, value) in &displacements {
+        let LinkEquations {
+            mut dag,
+            springs,
+            gives,
+            placed,
+            places: [places, first, second],
+        } = self.link_equations();
+        let joints = springs.iter().zip(&gives).chain(placed.iter().zip(&places));
+        for (&joint, &value) in joints {
             if let Some(error) = unfit(&self.model, joint, &dag.symbols(&[value])) {
                 return Err(error);
             }
         }
-        let (springs, placed): (Vec<_>, Vec<_>) =
-            displacements.into_iter().partition(|&(joint, value)| {
-                dag.symbols(&[value]).contains(&Symbol::RigidTorque(joint))
-            });
-        let (springs, gives): (Vec<usize>, Vec<ExprId>) = springs.into_iter().unzip();
-        let (placed, places): (Vec<usize>, Vec<ExprId>) = placed.into_iter().unzip();
-
         let by_load = springs.iter().zip(&gives);
         let by_load: Vec<ExprId> = by_load
             .map(|(&joint, &give)| dag.derivative(give, Symbol::RigidTorque(joint)))
             .collect();
-        let states = self.dynamics.state_rates.len();
+        let (dof, states) = (self.dof(), self.dynamics.state_rates.len());
         let give_slopes = [
             jacobian(&mut dag, &gives, dof, Symbol::Q),
             jacobian(&mut dag, &gives, dof, Symbol::Dq),
             jacobian(&mut dag, &gives, states, Symbol::State),
         ];
-        let first = rates(&mut dag, &places, dof);
-        let second = rates(&mut dag, &first, dof);
         let place_slopes = [
             jacobian(&mut dag, &places, dof, Symbol::Q),
             jacobian(&mut dag, &first, dof, Symbol::Q),

@@ -65,14 +65,14 @@ pub struct PlantSlopes {
 }
 
 /// What both are made of.
-struct Equations {
-    dag: Dag,
-    effects: Switched,
-    forces: Option<Switched>,
+pub(crate) struct Equations {
+    pub dag: Dag,
+    pub effects: Switched,
+    pub forces: Option<Switched>,
 }
 
 impl Compiled {
-    fn switched(&self) -> Equations {
+    pub(crate) fn switched(&self) -> Equations {
         let mut dag = self.dag.clone();
         let values = base_values(&self.standard, &self.base, self.baked.as_deref());
         let is_parted = self.displacements().is_some();

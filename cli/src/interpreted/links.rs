@@ -175,6 +175,30 @@ impl Links {
         slopes
     }
 
+    /// Joints that place their links elsewhere.
+    pub fn placed(&self) -> &[usize] {
+        &self.placed
+    }
+
+    /// Slopes of the position, velocity and acceleration of all links by what moves those of the placed ones, one below the other, by
+    /// `place`. `None` where no joint places its link.
+    pub fn placed_slopes(&self, place: &DMatrix<f64>) -> Option<[DMatrix<f64>; 3]> {
+        let count = self.placed.len();
+        let spread = |order: usize| {
+            let mut slopes = DMatrix::zeros(self.joints, place.ncols());
+            for (k, &joint) in self.placed.iter().enumerate() {
+                slopes.set_row(joint, &place.row(order * count + k));
+            }
+            slopes
+        };
+        (count > 0).then(|| [0, 1, 2].map(spread))
+    }
+
+    pub fn runners(&mut self) -> impl Iterator<Item = &mut Runner> {
+        let own = [&mut self.place, &mut self.place_slopes];
+        own.into_iter().chain(self.springs.runners())
+    }
+
     /// What springs carry.
     pub fn carried(&mut self, at: &Instant<'_>) -> Vec<Carried> {
         let displacements: Vec<f64> = self

@@ -4,11 +4,13 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, Jumps, Plant, Slopes};
 use robot_model_codegen::Compiled;
 
+mod adjust;
 mod believed;
 mod loads;
 mod share;
 mod slopes;
 
+use self::adjust::ParameterRunners;
 use self::share::ShareRunner;
 use self::slopes::{MotionSlopes, SlopeRunners};
 use super::links::{LinkSlopes, Links};
@@ -38,14 +40,15 @@ pub struct InterpretedPlant {
     energies: Runner,
     /// Made when the first implicit step asks for them.
     slopes: Option<Box<SlopeRunners>>,
+    /// Made when sensitivities ask for them.
+    parametric: Option<Box<ParameterRunners>>,
 }
 
 impl InterpretedPlant {
     /// The arm with base parameters `beta` and shape parameters `shapes`, each in their order.
     ///
     /// # Errors
-    /// [`Error`] where links are not where their encoders say, by other things than springs and gaps; where a motor with one has no
-    /// inertia; where base parameters are those of motors and links together, see [`Compiled::ungrouped`].
+    /// [`Error`] where no motion follows from a displacement, see [`Compiled::linkage`]; where a motor with a spring has no inertia; where base parameters are those of motors and links together, see [`Compiled::ungrouped`].
     pub fn new(compiled: Compiled, beta: &[f64], shapes: &[f64]) -> Result<Self, Error> {
         let numbers = Numbers {
             parameters: compiled.parameter_values(beta),
@@ -69,6 +72,7 @@ impl InterpretedPlant {
             rates: runner(plant.rates),
             energies: runner(compiled.energies()),
             slopes: None,
+            parametric: None,
             numbers,
             compiled,
         };
@@ -84,7 +88,9 @@ impl InterpretedPlant {
     /// Motors that are parted from their links have an inertia of their own.
     fn check_motors(&self, inertia: &DMatrix<f64>) -> Result<(), Error> {
         let mut joints = self.links.sprung().iter();
-        match joints.find(|&&joint| inertia[(joint, joint)] <= 0.0) {
+        match joints
+            .find(|&&joint| inertia[(joint, joint)].is_nan() || inertia[(joint, joint)] <= 0.0)
+        {
             None => Ok(()),
             Some(&joint) => {
                 let model = &self.compiled.model;
@@ -119,7 +125,8 @@ impl InterpretedPlant {
         inertia
     }
 
-    /// Kinetic and potential energy of the rigid body, J; the latter up to a constant. Motors and springs have theirs besides.
+    /// Kinetic and potential energy of the rigid body, J; the latter up to a constant, at time 0 with channels at zero. Motors and springs have
+    /// theirs besides.
     pub fn energies(&mut self, q: &[f64], dq: &[f64]) -> [f64; 2] {
         let inputs = vec![0.0; self.compiled.model.inputs().len()];
         let at = Instant {
@@ -333,13 +340,6 @@ impl Plant for InterpretedPlant {
 
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {
         let (n, p, dof) = (self.joints, self.states, self.dof());
-        let runners = self.slopes.take();
-        let mut runners = runners.unwrap_or_else(|| {
-            Box::new(SlopeRunners::new(
-                self.compiled.plant_slopes(),
-                &self.numbers,
-            ))
-        });
         let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);
@@ -347,15 +347,8 @@ impl Plant for InterpretedPlant {
         let motion = self.links.slopes(at);
         let springs = self.links.carried_slopes(at, &loads.springs);
         let no_spring = DMatrix::zeros(loads.springs.len(), dof);
-        let rigid = [
-            matrix(runners.rigid_by_position.run(&there, &[]), 0, n, n),
-            // The velocity torque `C dq` is quadratic, with `C` half its slope.
-            matrix(runners.coriolis.run(&there, &[]), 0, n, n) * 2.0,
-            self.mass_matrix(&there),
-        ];
-        let shared = runners.forces.as_mut();
-        let shared: Option<MotionSlopes> =
-            shared.map(|forces| MotionSlopes::new(forces.run(&there, &loads.body), n, p));
+        let rigid = self.rigid_slopes(&there);
+        let shared = self.shared_slopes(&there, &loads);
         let forces = shared.as_ref().zip(loads.forces.as_ref());
         let forces = forces.map(|(shared, forces)| {
             let by = [&shared.by[0], &shared.by[1], &forces.by_acceleration];
@@ -363,11 +356,14 @@ impl Plant for InterpretedPlant {
             motion.onto(&by)
         });
         let rigid = motion.onto(&rigid);
+        let runners = self.slope_runners();
         let effects = MotionSlopes::new(runners.effects.run(at, &loads.seen), n, p);
         let rates = runners.rates.run(at, &loads.seen);
+        let own_rates = [0, 1, 2].map(|k| matrix(rates, k * p * n, p, n));
         let rates_by_load = matrix(rates, 3 * p * n, p, n);
+        let rates_by_state = matrix(rates, 4 * p * n, p, p);
         let rates_by = |k: usize, seen: &DMatrix<f64>| {
-            let own = matrix(rates, k * p * n, p, n).resize_horizontally(dof, 0.0);
+            let own = own_rates[k].clone().resize_horizontally(dof, 0.0);
             own + &rates_by_load * seen
         };
         for k in [0, 1] {
@@ -381,8 +377,7 @@ impl Plant for InterpretedPlant {
         let still = DMatrix::zeros(n, p);
         let by_state = shared.map(|shared| shared.by_state);
         let load = self.load_slopes(&still, by_state, &springs[2]);
-        slopes.rates[2] = matrix(rates, 4 * p * n, p, p) + &rates_by_load * &load.seen;
+        slopes.rates[2] = rates_by_state + &rates_by_load * &load.seen;
         slopes.torque[2] = load.with_effects(effects.by_state, &by_load);
-        self.slopes = Some(runners);
     }
 }

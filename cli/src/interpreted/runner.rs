@@ -23,15 +23,23 @@ pub(super) struct Numbers {
 
 impl Runner {
     pub fn new(program: Program, numbers: &Numbers) -> Self {
-        let constant = |symbol: &Symbol| match *symbol {
-            Symbol::Parameter(k) => numbers.parameters[k],
-            Symbol::Shape(k) => numbers.shapes[k],
-            _ => 0.0,
-        };
-        Self {
+        let mut found = Self {
             scratch: program.scratch(),
-            values: program.symbols().iter().map(constant).collect(),
+            values: vec![0.0; program.symbols().len()],
             program,
+        };
+        found.set(numbers);
+        found
+    }
+
+    /// Puts other numbers in.
+    pub fn set(&mut self, numbers: &Numbers) {
+        for (value, symbol) in self.values.iter_mut().zip(self.program.symbols()) {
+            *value = match *symbol {
+                Symbol::Parameter(k) => numbers.parameters[k],
+                Symbol::Shape(k) => numbers.shapes[k],
+                _ => continue,
+            };
         }
     }
 

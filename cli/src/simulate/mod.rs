@@ -23,6 +23,7 @@ use crate::spec::compile;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
+#[command(allow_negative_numbers = true)]
 pub(crate) struct Simulate {
     /// The `.robot` file.
     spec: PathBuf,
@@ -57,7 +58,7 @@ pub(crate) struct Simulate {
     /// Samples of the log, Hz; without it those of the controller.
     #[arg(long, value_name = "HZ")]
     log_rate: Option<f64>,
-    /// Samples of the controller that pass before its torque acts.
+    /// Samples of the controller that pass before its torque acts; its first one acts until then.
     #[arg(long, value_name = "SAMPLES", default_value_t = 0)]
     delay: u16,
     /// How long, s; without it as long as the trajectory, whose end is held beyond.

@@ -6,6 +6,7 @@ mod dry;
 mod everything;
 mod lugre;
 mod placed;
+mod sensitivity;
 mod soft;
 mod touched;
 mod twin;

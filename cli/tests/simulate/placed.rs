@@ -1,6 +1,9 @@
 //! Links that are where joints and time put them, springs of any law, and teeth without any give.
 
-use robot_model::simulate::{Instant, Plant};
+use nalgebra::{DMatrix, DVector};
+use robot_model::simulate::{Instant, Plant, Slopes};
+
+use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{compiled, plant, released};
 
@@ -138,6 +141,151 @@ fn a_link_hangs_on_a_spring_of_any_law() {
             (found - expected(load)).abs() < 1e-9,
             "{law}: {found} {}",
             expected(load)
+        );
+    }
+}
+
+/// Torque of the motor at rest, and its slopes by both positions.
+fn torque(arm: &mut InterpretedPlant, displacement: f64) -> (f64, [f64; 2]) {
+    let (q, rest) = ([0.3, 0.3 + displacement], [0.0; 2]);
+    let at = Instant {
+        dq: &rest,
+        ddq: &rest,
+        torque: &rest,
+        ..still(&q)
+    };
+    let (mut torque, mut inertia) = (DVector::zeros(2), DMatrix::zeros(2, 2));
+    arm.torque(&at, &mut torque, &mut inertia);
+    let mut slopes = Slopes::zeros(arm);
+    arm.slopes(&at, &mut slopes);
+    (torque[0], [0, 1].map(|k| slopes.torque[0][(0, k)]))
+}
+
+#[test]
+fn loads_of_all_sizes_are_found_with_their_slopes() {
+    // Load by displacement, and its slope.
+    let laws: [(&str, fn(f64) -> [f64; 2]); 3] = [
+        ("-rigid_torque(j)^3 / k", |x| {
+            [
+                (-200.0 * x).cbrt(),
+                -200.0 / (3.0 * (200.0 * x).powi(2).cbrt()),
+            ]
+        }),
+        // Far harder than a line: steps along its slope are tiny.
+        (
+            "-0.0001 * (exp(rigid_torque(j) / 0.1) - exp(-rigid_torque(j) / 0.1)) / (k / 200)",
+            |x| {
+                let x = -x / 2e-4;
+                [0.1 * x.asinh(), -0.1 / 2e-4 / (1.0 + x * x).sqrt()]
+            },
+        ),
+        (
+            "-rigid_torque(j) / k - rigid_torque(j) * abs(rigid_torque(j)) / k",
+            |x| {
+                let root = (1.0 + 4.0 * 200.0 * x.abs()).sqrt();
+                [-x.signum() * 0.5 * (root - 1.0), -200.0 / root]
+            },
+        ),
+    ];
+    for (law, expected) in laws {
+        let bent = format!("effect bent(j) {{ shape k in 10 .. 1000; position(j) = {law}; }}");
+        let mut arm = arm(FLAT, &bent, "motor_inertia on turn; bent(k = 200) on turn;");
+        for k in 0..60 {
+            for sign in [1.0, -1.0] {
+                let x = sign * 1e-7 * 1.3_f64.powi(k);
+                let [load, slope] = expected(x);
+                let (found, slopes) = torque(&mut arm, x);
+                // A displacement is a difference of positions, with their rounding.
+                let within = 1e-9 * load.abs() + 1e-15 * slope.abs();
+                assert!((found - load).abs() < within, "{law} {x}: {found} {load}");
+                for (found, expected) in slopes.iter().zip([-slope, slope]) {
+                    let within = 1e-6 * expected.abs();
+                    assert!(
+                        (found - expected).abs() < within,
+                        "{law} {x}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_channel_may_move_a_link_and_a_spring() {
+    let warm = "effect warm(j) { input temperature; shape c in 0.001 .. 1; position(j) = c * temperature; }
+        effect soft(j) { input temperature; shape k in 1 .. 1000; position(j) = -rigid_torque(j) * (temperature - 10) / k; }";
+    let mut placed = arm("0, -9.81, 0", warm, "warm(c = 0.01) on turn;");
+    assert!(placed.is_timed());
+    let (mut torque, mut inertia) = (DVector::zeros(1), DMatrix::zeros(1, 1));
+    let at = Instant {
+        inputs: &[30.0],
+        ..still(&[0.2])
+    };
+    placed.torque(&at, &mut torque, &mut inertia);
+    assert!((torque[0] - WEIGHT * f64::cos(0.5)).abs() < 1e-12);
+    // At no temperature the spring would rise: what counts is where it is used.
+    let mut sprung = arm(
+        "0, -9.81, 0",
+        warm,
+        "motor_inertia on turn; soft(k = 900) on turn;",
+    );
+    let q = sprung.start(&at);
+    assert!((q[1] - q[0] + WEIGHT * q[1].cos() * 20.0 / 900.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_load_that_nothing_carries_is_told() {
+    let stop = "effect stop(j) { shape k in 1 .. 1000; position(j) = -(1 + tanh(time - 0.05) * 50) * rigid_torque(j) / k; }";
+    let plant = arm(
+        "0, -9.81, 0",
+        stop,
+        "motor_inertia on turn; stop(k = 900) on turn;",
+    );
+    let mut moving = released(plant, &[0.0, 0.1], &[0.0, 0.0]);
+    let error = moving
+        .advance(1.0)
+        .expect_err("no spring rises with its load");
+    assert!(
+        error.to_string().contains("torque of joint 1 is no number"),
+        "{error}"
+    );
+}
+
+#[test]
+fn teeth_of_a_link_that_turns_about_itself_are_no_weaker_than_its_motor() {
+    // No inertia at all about the axis at the position zero.
+    let text = "robot Nod {
+        gravity = [0, 0, -9.81];
+        convention = standard_dh;
+        joint yaw: revolute { a = 0; alpha = 90 deg; d = 0; }
+        joint nod: revolute { a = 0; alpha = 0; d = 0; }
+        link yaw { mass = 0; com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 0]; }
+        link nod { mass = 1; com = [0, 0.3, 0]; inertia = [0.09, 0, 0, 0, 0, 0.09]; }
+        effects { motor_inertia on all; EFFECT on yaw; }
+    }";
+    for (effect, gap, stiffness) in [
+        ("joint_elasticity(stiffness = 3e5)", 0.0, 3e5),
+        (
+            "backlash(half_gap = 5e-5)",
+            5e-5,
+            (std::f64::consts::TAU * 300.0).powi(2) * MOTOR / 101.0,
+        ),
+    ] {
+        let text = text.replace("EFFECT", effect);
+        let mut arm = plant(compiled(&text).ungrouped(), &[("motor_inertia.ia", MOTOR)]);
+        let q = [0.0, 1.2, -1e-3];
+        let rest = [0.0; 3];
+        let at = Instant {
+            dq: &rest,
+            ddq: &rest,
+            torque: &rest,
+            ..still(&q)
+        };
+        let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
+        arm.torque(&at, &mut torque, &mut inertia);
+        assert!(
+            (torque[0] - stiffness * (1e-3 - gap)).abs() < 1e-6 * torque[0],
+            "{effect}: {torque}"
         );
     }
 }

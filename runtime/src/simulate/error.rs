@@ -14,6 +14,16 @@ pub enum SimulateError {
         /// Time, s.
         time: f64,
     },
+    /// A torque of the plant is no number.
+    #[error(
+        "at {time:.6} s the torque of joint {joint} is no number: no load displaces the link behind its spring so far, or an effect's formula has no value there; look at the parameters of its effects"
+    )]
+    NoTorque {
+        /// Time, s.
+        time: f64,
+        /// The joint, from 1.
+        joint: usize,
+    },
     /// The load of a joint and friction that depends on it drive each other up.
     #[error(
         "at {time:.6} s the accelerations have no solution: the load and friction that depends on it drive each other up, or the motion is beyond all bounds; make that friction smaller, or the controller softer"

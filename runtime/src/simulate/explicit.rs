@@ -5,7 +5,7 @@
 use nalgebra::DVector;
 
 /// Stages, rows of Butcher's table below the first; the last row is the step itself.
-const STAGES: [&[f64]; 6] = [
+pub(super) const STAGES: [&[f64]; 6] = [
     &[1.0 / 5.0],
     &[3.0 / 40.0, 9.0 / 40.0],
     &[44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0],
@@ -33,7 +33,7 @@ const STAGES: [&[f64]; 6] = [
 ];
 
 /// When the stages are, as shares of the step.
-const INSTANTS: [f64; 6] = [0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
+pub(super) const INSTANTS: [f64; 6] = [0.2, 0.3, 0.8, 8.0 / 9.0, 1.0, 1.0];
 
 /// Weights of the error: order five less order four.
 const ERROR: [f64; 7] = [

@@ -14,6 +14,7 @@ use nalgebra::DVector;
 use super::error::SimulateError;
 use super::motion::{Drive, Moving, Side};
 use super::plant::Plant;
+use super::tangent::{Adjustable, Passage, Tangent, Watch};
 use steps::Start;
 
 /// How exact a motion is.
@@ -157,6 +158,13 @@ impl<P: Plant> Integrator<P> {
         })
     }
 
+    /// The same motion, begun at another time than 0.
+    #[must_use]
+    pub fn begun_at(mut self, time: f64) -> Self {
+        self.time = time;
+        self
+    }
+
     /// Time, s.
     #[must_use]
     pub fn time(&self) -> f64 {
@@ -226,6 +234,21 @@ impl<P: Plant> Integrator<P> {
     /// # Errors
     /// [`SimulateError`] says where the motion has no continuation.
     pub fn advance(&mut self, end: f64) -> Result<(), SimulateError> {
+        self.go(end, &mut ())
+    }
+
+    /// As [`Self::advance`], with sensitivities beside the motion.
+    ///
+    /// # Errors
+    /// As [`Self::advance`].
+    pub fn advance_with(&mut self, end: f64, tangent: &mut Tangent) -> Result<(), SimulateError>
+    where
+        P: Adjustable,
+    {
+        self.go(end, tangent)
+    }
+
+    fn go(&mut self, end: f64, watch: &mut impl Watch<P>) -> Result<(), SimulateError> {
         self.moving.settle(self.time, &mut self.x)?;
         let mut start = None;
         // What is less than a rounding of time is no time.
@@ -245,7 +268,7 @@ impl<P: Plant> Integrator<P> {
                 None => self.start()?,
             };
             if h < self.tolerances.floor && h < left {
-                self.impulse(left)?;
+                self.impulse(left, watch)?;
                 continue;
             }
             let trial = self.trial(&from, h);
@@ -264,13 +287,21 @@ impl<P: Plant> Integrator<P> {
             }
             let passed = self.passed(self.time + h, &trial.end)?;
             if passed.is_empty() {
+                let step = Passage {
+                    start: self.time,
+                    length: h,
+                    x: &self.x,
+                    y: &trial.end,
+                    is_explicit: !self.is_stiff,
+                };
+                watch.moved(&mut self.moving, &step)?;
                 self.accept(h, left, &trial);
                 let next = trial.rate.filter(|_| !self.is_stiff);
                 start = next.map(|rate| Start { rate, slopes: None });
             } else if self.crowd < CROWD {
-                self.event(&from, h, trial.end, &passed)?;
+                self.event(&from, h, trial.end, &passed, watch)?;
             } else {
-                self.impulse(left)?;
+                self.impulse(left, watch)?;
             }
         }
         self.time = end;

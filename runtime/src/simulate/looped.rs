@@ -24,7 +24,7 @@ pub struct Loop {
     pub rate: f64,
     /// Samples of the log, Hz.
     pub log_rate: f64,
-    /// Samples of the controller that pass before its torque acts.
+    /// Samples of the controller that pass before its torque acts; until then its first one does.
     pub delay: usize,
     /// How long it runs, s.
     pub duration: f64,
@@ -153,7 +153,7 @@ impl Loop {
         let mut log_noise = Noise::new(self.sensors.seed, 1);
         let mut measured = Vec::new();
         let (mut dq, mut last): (Vec<f64>, Option<Vec<f64>>) = (start.dq.clone(), None);
-        let mut waiting: VecDeque<Vec<f64>> = VecDeque::from(vec![vec![0.0; dof]; self.delay]);
+        let mut waiting: VecDeque<Vec<f64>> = VecDeque::new();
         let mut applied: Vec<Vec<f64>> = Vec::new();
         let mut row = Vec::new();
         while record.time.len() < samples {
@@ -180,6 +180,10 @@ impl Loop {
                 inputs: &inputs,
             };
             controller.torque(&measurement, &desired, &mut torque);
+            if tick == 0 {
+                // What it asks for first is there from the start, so that an arm that hangs does not drop.
+                waiting.extend(vec![torque.clone(); self.delay]);
+            }
             waiting.push_back(torque);
             let torque = waiting.pop_front().unwrap_or_default();
             let after = self.inputs_at(trajectory, now + period);

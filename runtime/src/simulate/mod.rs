@@ -16,6 +16,7 @@ mod looped;
 mod motion;
 mod noise;
 mod plant;
+mod tangent;
 mod trajectory;
 
 pub use controller::{ComputedTorque, Controller, Gains, InverseDynamics, Measured, Pd, Torques};
@@ -25,4 +26,5 @@ pub use looped::{Loop, Record};
 pub use motion::Drive;
 pub use noise::Sensors;
 pub use plant::{Instant, Jumps, Plant, Slopes};
+pub use tangent::{Adjustable, ParameterSlopes, Tangent};
 pub use trajectory::{Desired, Trajectory};

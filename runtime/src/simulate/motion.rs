@@ -5,10 +5,11 @@
 
 mod contacts;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::error::SimulateError;
 use super::plant::{Instant, Jumps, Plant, Slopes};
+use super::tangent::{Adjustable, ParameterSlopes};
 
 /// Most steps of Newton's method for accelerations, and its last step relative to them.
 const STEPS: usize = 40;
@@ -48,6 +49,16 @@ impl Drive {
             .map(|(x, rate)| x + rate * (time - self.since))
             .collect()
     }
+}
+
+/// A motion's slopes at a state.
+pub(super) struct Linear {
+    pub rate: DVector<f64>,
+    /// By the state.
+    pub jacobian: DMatrix<f64>,
+    /// `[A W; G 0]` of what is held, factored.
+    bordered: LU<f64, Dyn, Dyn>,
+    rates_by_acceleration: DMatrix<f64>,
 }
 
 /// A plant with where it is on its jumps.
@@ -223,8 +234,14 @@ impl<P: Plant> Moving<P> {
 
     /// Why there are no accelerations.
     fn no_solution(&self, time: f64, x: &DVector<f64>) -> SimulateError {
-        match self.unbounded(time, x) {
-            Some(error) => error,
+        if let Some(error) = self.unbounded(time, x) {
+            return error;
+        }
+        match self.torque.iter().position(|torque| torque.is_nan()) {
+            Some(k) => SimulateError::NoTorque {
+                time,
+                joint: self.plant.joint(k) + 1,
+            },
             None => SimulateError::NoInertia { time },
         }
     }
@@ -273,51 +290,119 @@ impl<P: Plant> Moving<P> {
         time: f64,
         x: &DVector<f64>,
     ) -> Result<(DVector<f64>, DMatrix<f64>), SimulateError> {
-        let (dof, states) = (self.plant.dof(), self.plant.states());
-        let bordered = self.accelerate(time, x)?;
+        let linear = self.linearize(time, x)?;
+        Ok((linear.rate, linear.jacobian))
+    }
+
+    /// The same, with what other slopes are made of.
+    pub fn linearize(&mut self, time: f64, x: &DVector<f64>) -> Result<Linear, SimulateError> {
+        let dof = self.plant.dof();
+        let bordered = self.accelerate(time, x)?.lu();
         let mut slopes = Slopes::zeros(&self.plant);
         self.with(time, x, |plant, at, _, _, _| plant.slopes(at, &mut slopes));
-        let mut right = DMatrix::zeros(bordered.nrows(), x.len());
-        let mut column = 0;
-        for part in &slopes.torque {
-            right
-                .view_mut((0, column), (dof, part.ncols()))
-                .copy_from(&-part);
-            column += part.ncols();
-        }
-        if !bordered.lu().solve_mut(&mut right) {
-            return Err(self.no_solution(time, x));
-        }
-        for &k in &self.held() {
-            if let Some(joint) = self.lone_joint(k) {
-                right.row_mut(joint).fill(0.0);
+        let side_by_side = |parts: &[DMatrix<f64>; 3], rows: usize, sign: f64| {
+            let mut all = DMatrix::zeros(rows, x.len());
+            let mut column = 0;
+            for part in parts {
+                all.view_mut((0, column), part.shape())
+                    .copy_from(&(part * sign));
+                column += part.ncols();
             }
-        }
-        let accelerations = right.rows(0, dof).into_owned();
-        let mut jacobian = DMatrix::zeros(x.len(), x.len());
+            all
+        };
+        let torque = side_by_side(&slopes.torque, dof, -1.0);
+        let rates = side_by_side(&slopes.rates, self.plant.states(), 1.0);
+        let mut linear = Linear {
+            rate: self.rate_at_solution(time, x),
+            jacobian: DMatrix::zeros(0, 0),
+            bordered,
+            rates_by_acceleration: slopes.rates_by_acceleration,
+        };
+        let Ok(mut jacobian) = self.by_unknowns(&linear, &torque, &rates) else {
+            return Err(self.no_solution(time, x));
+        };
         for joint in 0..dof {
             jacobian[(joint, dof + joint)] = 1.0;
         }
-        jacobian
-            .view_mut((dof, 0), (dof, x.len()))
-            .copy_from(&accelerations);
-        let mut rates = &slopes.rates_by_acceleration * &accelerations;
-        let mut column = 0;
-        for part in &slopes.rates {
-            let mut target = rates.view_mut((0, column), (states, part.ncols()));
-            target += part;
-            column += part.ncols();
+        linear.jacobian = jacobian;
+        Ok(linear)
+    }
+
+    /// Slopes of `dx/dt` by unknowns, where with accelerations held those of torque left over and of states' rates are these.
+    pub fn by_unknowns(
+        &self,
+        linear: &Linear,
+        torque: &DMatrix<f64>,
+        rates: &DMatrix<f64>,
+    ) -> Result<DMatrix<f64>, SimulateError> {
+        let (dof, states, count) = (self.plant.dof(), self.plant.states(), torque.ncols());
+        let held = self.held();
+        let mut right = DMatrix::zeros(dof + held.len(), count);
+        right.rows_mut(0, dof).copy_from(torque);
+        if !linear.bordered.solve_mut(&mut right) {
+            return Err(SimulateError::NoInertia { time: 0.0 });
         }
-        jacobian
-            .view_mut((2 * dof, 0), (states, x.len()))
-            .copy_from(&rates);
+        for joint in self.standing() {
+            right.row_mut(joint).fill(0.0);
+        }
+        let accelerations = right.rows(0, dof);
+        let mut slopes = DMatrix::zeros(2 * dof + states, count);
+        slopes.rows_mut(dof, dof).copy_from(&accelerations);
+        slopes
+            .rows_mut(2 * dof, states)
+            .copy_from(&(&linear.rates_by_acceleration * accelerations + rates));
         // Where an equation has a cusp, as `abs(z)^n` has, a step does without the slope.
-        jacobian.apply(|slope| {
+        slopes.apply(|slope| {
             if !slope.is_finite() {
                 *slope = 0.0;
             }
         });
-        let rate = self.rate_at_solution(time, x);
-        Ok((rate, jacobian))
+        Ok(slopes)
+    }
+
+    /// Joints whose velocities are held at zero.
+    pub fn standing(&self) -> impl Iterator<Item = usize> {
+        let held = self.held().into_iter();
+        held.filter_map(|k| self.lone_joint(k))
+    }
+}
+
+impl<P: Adjustable> Moving<P> {
+    pub fn parameter_slopes(&mut self, time: f64, x: &DVector<f64>, slopes: &mut ParameterSlopes) {
+        self.with(time, x, |plant, at, _, _, _| {
+            plant.parameter_slopes(at, slopes);
+        });
+    }
+
+    /// Slopes of what a switch is the sign of by unknowns, where those of the state are `tangent`, and its speed along the motion, whose
+    /// rate is `rate`.
+    pub fn argument_slopes(
+        &mut self,
+        time: f64,
+        x: &DVector<f64>,
+        rate: &DVector<f64>,
+        switch: usize,
+        tangent: &DMatrix<f64>,
+    ) -> (DVector<f64>, f64) {
+        let dof = self.plant.dof();
+        self.with(time, x, |plant, at, _, _, jumps| plant.jumps(at, jumps));
+        let direction = self.jumps.directions.row(switch).into_owned();
+        let speed = (&direction * rate.rows(dof, dof))[0] + self.jumps.drifts[switch];
+        let mut slopes = (direction * tangent.rows(dof, dof)).transpose();
+        // By positions, as far as arguments know them.
+        let size = 1e-6 * (1.0 + x.rows(0, dof).amax());
+        for (u, column) in tangent.column_iter().enumerate() {
+            let length = column.rows(0, dof).amax();
+            if length > 0.0 {
+                let step = size / length;
+                let [up, down] = [step, -step].map(|step| {
+                    let mut near = x.clone();
+                    near.rows_mut(0, dof).axpy(step, &column.rows(0, dof), 1.0);
+                    self.arguments(time, &near)[switch]
+                });
+                slopes[u] += (up - down) / (2.0 * step);
+            }
+        }
+        (slopes, speed)
     }
 }

@@ -11,11 +11,11 @@ use super::share::SharedTorque;
 pub(super) struct Loads {
     /// By links, without forces of the world.
     pub body: Vec<f64>,
-    /// By joints, as effects see it: by transmissions where there are, or as `body`.
+    /// By joints, as effects see it: by springs where there are, or as `body`.
     pub seen: Vec<f64>,
     /// By joints, with forces of the world.
     pub carried: Vec<f64>,
-    /// What is missing at each link behind a transmission.
+    /// What is missing at each link behind a spring.
     pub rests: Vec<f64>,
     /// Forces of the world on links.
     pub forces: Option<SharedTorque>,

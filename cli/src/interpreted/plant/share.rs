@@ -46,6 +46,10 @@ impl ShareRunner {
         }
     }
 
+    pub fn runners(&mut self) -> impl Iterator<Item = &mut Runner> {
+        [&mut self.torque, &mut self.arguments, &mut self.jumps].into_iter()
+    }
+
     /// `load` is what the share sees as the torque of the rigid body.
     pub fn torque(&mut self, at: &Instant<'_>, load: &[f64]) -> SharedTorque {
         let n = self.joints;

@@ -10,6 +10,7 @@ use super::{Integrator, REACH};
 use crate::simulate::error::SimulateError;
 use crate::simulate::motion::{Side, ZERO};
 use crate::simulate::plant::Plant;
+use crate::simulate::tangent::{Passage, Watch};
 
 impl<P: Plant> Integrator<P> {
     /// How far each switch is from the end of its side: negative beyond it.
@@ -49,6 +50,7 @@ impl<P: Plant> Integrator<P> {
         h: f64,
         end: DVector<f64>,
         passed: &[usize],
+        watch: &mut impl Watch<P>,
     ) -> Result<(), SimulateError> {
         let start = self.time;
         let margin =
@@ -114,6 +116,14 @@ impl<P: Plant> Integrator<P> {
             }
         }
         let at = high * h;
+        let step = Passage {
+            start,
+            length: at,
+            x: &self.x,
+            y: &x,
+            is_explicit: !self.is_stiff,
+        };
+        watch.moved(&mut self.moving, &step)?;
         self.x = x;
         self.time = start + at;
         // The step is not to be blamed for the event.
@@ -124,24 +134,45 @@ impl<P: Plant> Integrator<P> {
         }
         self.last_event = self.time;
         let margins = self.margins(self.time, &self.x.clone())?;
+        let first = passed
+            .iter()
+            .min_by(|&&i, &&k| margins[i].total_cmp(&margins[k]));
+        if let Some(&first) = first {
+            watch.arrived(&mut self.moving, self.time, &self.x, first)?;
+        }
         for &k in passed {
             if let (Side::Free(sign), true) = (self.moving.sides[k], margins[k] <= ZERO) {
                 self.moving.sides[k] = Side::Free(-sign);
             }
         }
-        self.moving.settle(self.time, &mut self.x)
+        self.moving.settle(self.time, &mut self.x)?;
+        watch.left(&mut self.moving, self.time, &self.x)
     }
 
     /// A step of impulses.
-    pub(super) fn impulse(&mut self, left: f64) -> Result<(), SimulateError> {
+    pub(super) fn impulse(
+        &mut self,
+        left: f64,
+        watch: &mut impl Watch<P>,
+    ) -> Result<(), SimulateError> {
         let h = self.reach.min(left);
-        self.x = self.moving.impulse(self.time, &self.x, h)?;
+        let end = self.moving.impulse(self.time, &self.x, h)?;
+        let step = Passage {
+            start: self.time,
+            length: h,
+            x: &self.x,
+            y: &end,
+            is_explicit: false,
+        };
+        watch.moved(&mut self.moving, &step)?;
+        self.x = end;
         self.time += h;
         self.reach = (2.0 * self.reach).min(REACH * self.tolerances.floor);
         self.step = self.step.max(8.0 * self.tolerances.floor);
         self.crowd = self.crowd.saturating_sub(1);
         self.last_event = self.time;
         self.work.impulses += 1;
-        self.moving.settle(self.time, &mut self.x)
+        self.moving.settle(self.time, &mut self.x)?;
+        watch.left(&mut self.moving, self.time, &self.x)
     }
 }

@@ -1,0 +1,271 @@
+//! How a motion changes with what is unknown in it: exact sensitivities beside the motion itself.
+//!
+//! `S = dx/du` follows `dS/dt = f_x S + f_u` along each step between events: by the slopes of the explicit step itself, or, where the motion is
+//! stiff or the step short, by a rule of order four that is stable there (Lobatto IIIA). At an event, whose instant moves with the unknowns, it jumps:
+//! `S+ = S- - (f- - f+) (g_x S- + g_u) / (dg/dt)-`, so that the velocity of a joint that comes to rest has no slope left.
+//!
+//! Source: Galan, Feehery, Barton 1999, Parametric sensitivity functions for hybrid discrete/continuous systems.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::error::SimulateError;
+use super::explicit;
+use super::motion::{Moving, Side};
+use super::plant::{Instant, Plant};
+
+/// Slopes of a plant's equations by its parameters, all else held; `u` parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParameterSlopes {
+    /// `d tau / du`, `n` by `u`.
+    pub torque: DMatrix<f64>,
+    /// `d (dz/dt) / du`, `p` by `u`.
+    pub rates: DMatrix<f64>,
+    /// `dg / du` of switches, `m` by `u`.
+    pub arguments: DMatrix<f64>,
+}
+
+impl ParameterSlopes {
+    /// Room for those of a plant.
+    #[must_use]
+    pub fn zeros(plant: &impl Adjustable) -> Self {
+        let unknowns = plant.parameters();
+        let room = |rows| DMatrix::zeros(rows, unknowns);
+        Self {
+            torque: room(plant.dof()),
+            rates: room(plant.states()),
+            arguments: room(plant.switches()),
+        }
+    }
+}
+
+/// A plant with parameters that can be moved.
+pub trait Adjustable: Plant {
+    /// How many parameters there are, `u`.
+    fn parameters(&self) -> usize;
+
+    /// Takes these values.
+    fn adjust(&mut self, values: &[f64]);
+
+    /// Slopes by them.
+    fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes);
+}
+
+/// A step between events, from `x` to `y`.
+pub(super) struct Passage<'a> {
+    pub start: f64,
+    pub length: f64,
+    pub x: &'a DVector<f64>,
+    pub y: &'a DVector<f64>,
+    pub is_explicit: bool,
+}
+
+/// Steps times the fastest rate of the motion: shorter ones are not worth the stages of an explicit step.
+const SHORT: f64 = 0.02;
+
+/// What looks on while a plant moves.
+pub(super) trait Watch<P> {
+    /// A step without events went from one state to another; sides are those of the step.
+    fn moved(&mut self, moving: &mut Moving<P>, step: &Passage<'_>) -> Result<(), SimulateError>;
+
+    /// A motion has come to the jump of a switch; sides are still those before it.
+    fn arrived(
+        &mut self,
+        moving: &mut Moving<P>,
+        time: f64,
+        x: &DVector<f64>,
+        switch: usize,
+    ) -> Result<(), SimulateError>;
+
+    /// Sides are those after an event.
+    fn left(
+        &mut self,
+        moving: &mut Moving<P>,
+        time: f64,
+        x: &DVector<f64>,
+    ) -> Result<(), SimulateError>;
+}
+
+/// Nobody looks on.
+impl<P> Watch<P> for () {
+    fn moved(&mut self, _: &mut Moving<P>, _: &Passage<'_>) -> Result<(), SimulateError> {
+        Ok(())
+    }
+
+    fn arrived(
+        &mut self,
+        _: &mut Moving<P>,
+        _: f64,
+        _: &DVector<f64>,
+        _: usize,
+    ) -> Result<(), SimulateError> {
+        Ok(())
+    }
+
+    fn left(&mut self, _: &mut Moving<P>, _: f64, _: &DVector<f64>) -> Result<(), SimulateError> {
+        Ok(())
+    }
+}
+
+/// Sensitivities of a motion. Unknowns are the parameters of the plant, and whatever else the start or the drive depends on.
+#[derive(Debug, Clone)]
+pub struct Tangent {
+    /// `dx/du`: positions, velocities and internal states, a column an unknown. Its first columns are those of the parameters.
+    pub state: DMatrix<f64>,
+    /// Slope of the torque that is held, a row a joint.
+    pub drive: DMatrix<f64>,
+    slopes: ParameterSlopes,
+    /// At an event: the rate before it, and by how much its instant moves with each unknown.
+    arrival: Option<(DVector<f64>, DVector<f64>)>,
+}
+
+impl Tangent {
+    /// Where only the start depends on unknowns, as `state` says.
+    #[must_use]
+    pub fn new(plant: &impl Adjustable, state: DMatrix<f64>) -> Self {
+        Self {
+            drive: DMatrix::zeros(plant.joints(), state.ncols()),
+            slopes: ParameterSlopes::zeros(plant),
+            state,
+            arrival: None,
+        }
+    }
+
+    /// `f`, `f_x` and `f_u` at a state.
+    fn linear<P: Adjustable>(
+        &mut self,
+        moving: &mut Moving<P>,
+        time: f64,
+        x: &DVector<f64>,
+    ) -> Result<[DMatrix<f64>; 3], SimulateError> {
+        let linear = moving.linearize(time, x)?;
+        moving.parameter_slopes(time, x, &mut self.slopes);
+        let unknowns = self.state.ncols();
+        let mut torque = -&self.slopes.torque;
+        torque.resize_horizontally_mut(unknowns, 0.0);
+        let mut driven = torque.rows_mut(0, self.drive.nrows());
+        driven += &self.drive;
+        let mut rates = self.slopes.rates.clone();
+        rates.resize_horizontally_mut(unknowns, 0.0);
+        let by_unknowns = moving.by_unknowns(&linear, &torque, &rates)?;
+        let rate = DMatrix::from_column_slice(x.len(), 1, linear.rate.as_slice());
+        Ok([rate, linear.jacobian, by_unknowns])
+    }
+
+    /// The slope of an explicit step, stage by stage.
+    fn staged<P: Adjustable>(
+        &mut self,
+        moving: &mut Moving<P>,
+        step: &Passage<'_>,
+        [rate, by_state, by_unknowns]: [DMatrix<f64>; 3],
+    ) -> Result<(), SimulateError> {
+        let h = step.length;
+        let start = self.state.clone();
+        let mut slopes = vec![by_state * &start + by_unknowns];
+        let mut rates = vec![rate];
+        for (weights, instant) in explicit::STAGES.iter().zip(explicit::INSTANTS) {
+            let (mut x, mut tangent) = (step.x.clone(), start.clone());
+            for ((weight, rate), slope) in weights.iter().zip(&rates).zip(&slopes) {
+                x.axpy(h * weight, &rate.column(0), 1.0);
+                tangent += slope * (h * weight);
+            }
+            if slopes.len() == explicit::STAGES.len() {
+                self.state = tangent;
+                break;
+            }
+            let [rate, by_state, by_unknowns] =
+                self.linear(moving, step.start + instant * h, &x)?;
+            slopes.push(by_state * tangent + by_unknowns);
+            rates.push(rate);
+        }
+        Ok(())
+    }
+
+    /// `S1 = S0 + h/6 (F0 + 4 Fm + F1)` with `Sm = (S0 + S1)/2 + h/8 (F0 - F1)` and `F = f_x S + f_u`.
+    fn collocated<P: Adjustable>(
+        &mut self,
+        moving: &mut Moving<P>,
+        step: &Passage<'_>,
+        [first, a, b]: [DMatrix<f64>; 3],
+    ) -> Result<(), SimulateError> {
+        let Passage {
+            start,
+            length: h,
+            x,
+            y,
+            ..
+        } = *step;
+        let [last, c, d] = self.linear(moving, start + h, y)?;
+        // Hermite's cubic between the ends.
+        let middle = (x + y) * 0.5 + (first - last).column(0) * (0.125 * h);
+        let [_, m, n] = self.linear(moving, start + 0.5 * h, &middle)?;
+        let one = DMatrix::identity(x.len(), x.len());
+        let rate = &a * &self.state + &b;
+        let half = &self.state * 0.5 + (&rate - &d) * (0.125 * h);
+        let right = &self.state + (rate + d + (&m * half + n) * 4.0) * (h / 6.0);
+        let matrix = &one - (&c + &m * (&one * 2.0 - &c * (0.5 * h))) * (h / 6.0);
+        self.state = matrix
+            .lu()
+            .solve(&right)
+            .ok_or(SimulateError::NoInertia { time: start })?;
+        Ok(())
+    }
+
+    /// A joint that stands has no slope of its velocity.
+    fn stand<P: Adjustable>(&mut self, moving: &Moving<P>) {
+        let dof = moving.plant.dof();
+        for joint in moving.standing() {
+            self.state.row_mut(dof + joint).fill(0.0);
+        }
+    }
+}
+
+impl<P: Adjustable> Watch<P> for Tangent {
+    fn moved(&mut self, moving: &mut Moving<P>, step: &Passage<'_>) -> Result<(), SimulateError> {
+        let first = self.linear(moving, step.start, step.x)?;
+        let fastest = (&first[1] * &first[1]).norm().sqrt();
+        if step.is_explicit && step.length * fastest > SHORT {
+            self.staged(moving, step, first)?;
+        } else {
+            self.collocated(moving, step, first)?;
+        }
+        self.stand(moving);
+        Ok(())
+    }
+
+    fn arrived(
+        &mut self,
+        moving: &mut Moving<P>,
+        time: f64,
+        x: &DVector<f64>,
+        switch: usize,
+    ) -> Result<(), SimulateError> {
+        // A joint breaks away where its torque has no jump: nothing is missing.
+        if !matches!(moving.sides[switch], Side::Free(_)) {
+            self.arrival = None;
+            return Ok(());
+        }
+        let rate = moving.rate(time, x)?;
+        moving.parameter_slopes(time, x, &mut self.slopes);
+        let unknowns = self.slopes.arguments.ncols();
+        let (mut by_unknowns, speed) = moving.argument_slopes(time, x, &rate, switch, &self.state);
+        for u in 0..unknowns {
+            by_unknowns[u] += self.slopes.arguments[(switch, u)];
+        }
+        self.arrival = (speed != 0.0).then(|| (rate, by_unknowns / -speed));
+        Ok(())
+    }
+
+    fn left(
+        &mut self,
+        moving: &mut Moving<P>,
+        time: f64,
+        x: &DVector<f64>,
+    ) -> Result<(), SimulateError> {
+        if let Some((before, instants)) = self.arrival.take() {
+            let after = moving.rate(time, x)?;
+            self.state += (before - after) * instants.transpose();
+        }
+        self.stand(moving);
+        Ok(())
+    }
+}
