@@ -2,6 +2,7 @@
 
 mod doubts;
 pub(crate) mod fit;
+mod output_error;
 pub(crate) mod reduced;
 pub(crate) mod report;
 
@@ -64,6 +65,8 @@ pub(crate) struct IdentifyArguments {
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    #[command(flatten)]
+    output_error: output_error::Options,
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
@@ -83,18 +86,22 @@ enum MethodArgument {
     Tls,
     /// Instrumental variables, and whether least squares is biased (Durbin, Wu, Hausman).
     Iv,
+    /// The arm is simulated, and moves as the measured one did.
+    OutputError,
 }
 
-impl From<MethodArgument> for Method {
-    fn from(method: MethodArgument) -> Self {
-        match method {
-            MethodArgument::Ls => Self::Ls,
-            MethodArgument::Wls => Self::Wls,
-            MethodArgument::Robust => Self::Robust,
-            MethodArgument::Physical => Self::Physical,
-            MethodArgument::Ridge => Self::Ridge,
-            MethodArgument::Tls => Self::Total,
-            MethodArgument::Iv => Self::Instrumental,
+impl MethodArgument {
+    /// The method of least squares that it is; none where the arm is simulated.
+    fn of_equations(self) -> Option<Method> {
+        match self {
+            Self::Ls => Some(Method::Ls),
+            Self::Wls => Some(Method::Wls),
+            Self::Robust => Some(Method::Robust),
+            Self::Physical => Some(Method::Physical),
+            Self::Ridge => Some(Method::Ridge),
+            Self::Tls => Some(Method::Total),
+            Self::Iv => Some(Method::Instrumental),
+            Self::OutputError => None,
         }
     }
 }
@@ -162,27 +169,35 @@ impl IdentifyArguments {
         for remark in compiled.base.remarks(&compiled.standard) {
             output::say(&format!("warning: {}: {remark}", compiled.model.source));
         }
+        let Some(method) = self.method.of_equations() else {
+            return self.by_simulation(compiled);
+        };
         match self.form {
             FormArgument::Acceleration => {
                 let form = ByAcceleration(InterpretedArm::new(compiled));
                 match &self.factor {
-                    Some(factor) => self.reduce(&form, factor),
-                    None => self.fit(&form),
+                    Some(factor) => self.reduce(&form, method, factor),
+                    None => self.fit(&form, method),
                 }
             }
             FormArgument::Filtered => {
                 let arm = InterpretedMomentum::new(compiled)
                     .map_err(|refusal| Error::Argument(refusal.to_string()))?;
                 let corner = self.corner;
-                self.fit(&Filtered { arm, corner })
+                self.fit(&Filtered { arm, corner }, method)
             }
         }
     }
 
     /// Options that the method does not read are mistakes.
     fn check_options(&self) -> Result<(), Error> {
-        let method = Method::from(self.method);
         let refuse = |what: &str| Err(Error::Argument(what.to_owned()));
+        let Some(method) = self.method.of_equations() else {
+            return self.check_simulation();
+        };
+        if let Some(option) = self.output_error.given() {
+            return refuse(&format!("`{option}` is of `--method output-error`"));
+        }
         if !method.takes_weights() && self.weights != WeightsArgument::Residual {
             return refuse(&format!(
                 "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
@@ -218,7 +233,24 @@ impl IdentifyArguments {
         Ok(())
     }
 
-    fn fit(&self, form: &dyn Fit) -> Result<(), Error> {
+    /// The same where the arm is simulated.
+    fn check_simulation(&self) -> Result<(), Error> {
+        let others = [
+            ("--weights", self.weights != WeightsArgument::Residual),
+            ("--prior", self.prior.is_some()),
+            ("--instruments", !self.instruments.is_empty()),
+            ("--form filtered", self.form == FormArgument::Filtered),
+            ("--factor", self.factor.is_some()),
+        ];
+        match others.into_iter().find(|(_, is_given)| *is_given) {
+            None => Ok(()),
+            Some((option, _)) => Err(Error::Argument(format!(
+                "`{option}` is of methods with equations; `output-error` simulates"
+            ))),
+        }
+    }
+
+    fn fit(&self, form: &dyn Fit, method: Method) -> Result<(), Error> {
         let dof = form.dof();
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
@@ -234,7 +266,7 @@ impl IdentifyArguments {
         let instruments = self.instruments.iter();
         let instruments = instruments.map(|path| trajectory(path, dof));
         let mut identify = Identify {
-            method: self.method.into(),
+            method,
             weights: self.weights.into(),
             bands: self.bands,
             instruments: instruments.collect::<Result<_, _>>()?,
@@ -271,7 +303,7 @@ impl IdentifyArguments {
     }
 
     /// As [`Self::fit`], in memory that does not grow with the logs.
-    fn reduce(&self, form: &ByAcceleration, factor: &Path) -> Result<(), Error> {
+    fn reduce(&self, form: &ByAcceleration, method: Method, factor: &Path) -> Result<(), Error> {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
@@ -290,7 +322,7 @@ impl IdentifyArguments {
         };
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(&form.0, self.method.into())?;
+        let estimate = reduced.estimate(&form.0, method)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?

@@ -44,7 +44,7 @@ pub(crate) struct Report<'a> {
 
 /// What a sensor or a recorder did.
 #[derive(Serialize)]
-struct FaultReport<'a> {
+pub(super) struct FaultReport<'a> {
     log: &'a str,
     kind: &'static str,
     channel: &'a str,
@@ -74,12 +74,12 @@ struct PossibleReport<'a> {
 }
 
 #[derive(Serialize)]
-struct Parameter<'a> {
-    name: &'a str,
+pub(super) struct Parameter<'a> {
+    pub name: &'a str,
     /// None where the logs do not separate the parameter from others.
-    value: Option<f64>,
-    /// None for shape parameters too.
-    std: Option<f64>,
+    pub value: Option<f64>,
+    /// None for shape parameters of least squares, too.
+    pub std: Option<f64>,
 }
 
 pub(crate) fn report<'a>(
@@ -143,16 +143,19 @@ pub(crate) fn report<'a>(
                 .collect(),
             differences: &hausman.differences,
         }),
-        data_faults: faults
-            .iter()
-            .map(|(log, fault)| FaultReport {
-                log,
-                kind: fault.kind(),
-                channel: fault.channel(),
-                says: fault.to_string(),
-            })
-            .collect(),
+        data_faults: fault_reports(faults),
     }
+}
+
+/// Faults with the logs that they are of.
+pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> {
+    let told = faults.iter().map(|(log, fault)| FaultReport {
+        log,
+        kind: fault.kind(),
+        channel: fault.channel(),
+        says: fault.to_string(),
+    });
+    told.collect()
 }
 
 /// A value without a deviation.

@@ -54,7 +54,7 @@ impl Motion {
             let end = 0.1 * (k + 1) as f64;
             moving.advance_with(end, &mut tangent).expect("a motion");
         }
-        let values = arm.parameter_values();
+        let values = arm.values();
         for column in 0..=u {
             let scale = values.get(column).map_or(1.0, |value| value.abs().max(0.1));
             let step = 1e-5 * scale;

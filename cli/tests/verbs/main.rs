@@ -14,6 +14,7 @@ mod import;
 mod merge;
 mod methods;
 mod motions;
+mod output_error;
 mod outputs;
 mod parameters;
 mod possible;

@@ -25,6 +25,7 @@ mod hac;
 mod instruments;
 mod least_squares;
 mod method;
+pub mod output_error;
 mod possible;
 mod ridge;
 mod robust;

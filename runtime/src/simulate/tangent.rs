@@ -41,9 +41,14 @@ impl ParameterSlopes {
 /// A plant with parameters that can be moved.
 pub trait Adjustable: Plant {
     /// How many parameters there are, `u`.
-    fn parameters(&self) -> usize;
+    fn parameters(&self) -> usize {
+        self.values().len()
+    }
 
-    /// Takes these values.
+    /// Their values.
+    fn values(&self) -> Vec<f64>;
+
+    /// Takes other values.
     fn adjust(&mut self, values: &[f64]);
 
     /// Slopes by them.

@@ -52,20 +52,17 @@ impl ParameterRunners {
     }
 }
 
-impl InterpretedPlant {
-    /// Values of the parameters: base parameters, then the shapes that the spec leaves open.
-    #[must_use]
-    pub fn parameter_values(&self) -> Vec<f64> {
+impl Adjustable for InterpretedPlant {
+    fn parameters(&self) -> usize {
+        self.compiled.base.kept.len() + self.compiled.free_shapes().len()
+    }
+
+    /// Base parameters, then the shapes that the spec leaves open.
+    fn values(&self) -> Vec<f64> {
         let kept = self.compiled.base.kept.iter();
         let base = kept.map(|&k| self.numbers.parameters[k]);
         let free = self.compiled.free_shapes().into_iter();
         base.chain(free.map(|k| self.numbers.shapes[k])).collect()
-    }
-}
-
-impl Adjustable for InterpretedPlant {
-    fn parameters(&self) -> usize {
-        self.compiled.base.kept.len() + self.compiled.free_shapes().len()
     }
 
     fn adjust(&mut self, values: &[f64]) {

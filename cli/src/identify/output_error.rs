@@ -1,0 +1,351 @@
+//! `robot-model identify --method output-error`: the arm that moves as the measured one did.
+
+mod law;
+mod report;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use robot_model::identify::output_error::{
+    Comparison, Hold, Iterate, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
+};
+use robot_model::identify::{Errors, Estimate, Identify};
+use robot_model::log::{Fault, Log};
+use robot_model::simulate::Adjustable;
+use robot_model_codegen::Compiled;
+use robot_model_codegen::expr::Symbol;
+use serde_json::Value;
+
+use super::IdentifyArguments;
+use super::fit::{ByAcceleration, Fit, errors_of_all};
+use crate::interpreted::{InterpretedArm, InterpretedPlant};
+use crate::output::{self, Files, names};
+use crate::parameters::{self, Values};
+use crate::progress::Progress;
+use crate::{Error, json};
+use report::OutputReport;
+
+/// Options of `--method output-error`.
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Output error")]
+pub(super) struct Options {
+    /// Parameters to start from: by name, or what `identify --json` wrote; without it those of `--method wls` on the same logs.
+    #[arg(long, value_name = "FILE.json")]
+    pub start: Option<PathBuf>,
+    /// Who looks for the least error; `levenberg-marquardt` without it.
+    #[arg(long, value_enum)]
+    search: Option<SearchArgument>,
+    /// Least and largest values of parameters, `{"NAME": [LOW, HIGH], ..}`; without it ranges of shapes.
+    #[arg(long, value_name = "FILE.json")]
+    pub bounds: Option<PathBuf>,
+    /// Cut logs into windows of so many seconds, each with a start of its own, its effects' memories at zero; without it 1 s, and whole
+    /// logs with `--controller` or where effects remember.
+    #[arg(long, value_name = "S")]
+    window: Option<f64>,
+    /// The controller of the experiment, which is simulated too; without it the logged torque drives the arm.
+    #[arg(long, value_name = "FILE.json")]
+    pub controller: Option<PathBuf>,
+    /// Torque between samples of the log; `mean` without it.
+    #[arg(long, value_enum)]
+    hold: Option<HoldArgument>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum SearchArgument {
+    /// Levenberg and Marquardt: damped Gauss-Newton steps.
+    LevenbergMarquardt,
+    /// Gauss-Newton steps within a trust region.
+    TrustRegion,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum HoldArgument {
+    /// The mean of both samples: torques that are measured, or means over an interval.
+    Mean,
+    /// That of the sample before: commands that are held.
+    Sample,
+}
+
+impl Options {
+    /// The first option that is given.
+    pub fn given(&self) -> Option<&'static str> {
+        [
+            ("--start", self.start.is_some()),
+            ("--search", self.search.is_some()),
+            ("--bounds", self.bounds.is_some()),
+            ("--window", self.window.is_some()),
+            ("--controller", self.controller.is_some()),
+            ("--hold", self.hold.is_some()),
+        ]
+        .into_iter()
+        .find_map(|(name, is_given)| is_given.then_some(name))
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        [&self.start, &self.bounds, &self.controller]
+            .into_iter()
+            .flatten()
+    }
+}
+
+/// Where the search starts, and what least squares says where it has a say.
+struct Beginning {
+    plant: InterpretedPlant,
+    names: Vec<String>,
+    shapes: Vec<f64>,
+    linear: Option<Estimate>,
+}
+
+/// What is said of one log after the other.
+struct Judged {
+    comparison: Comparison,
+    /// Errors of the torque from equations.
+    torque: Option<Errors>,
+}
+
+impl IdentifyArguments {
+    /// Output error on all logs.
+    pub(super) fn by_simulation(&self, compiled: Compiled) -> Result<(), Error> {
+        let options = &self.output_error;
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate)
+            .chain(options.files());
+        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let compiled = if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
+            // Motors and links move apart.
+            compiled.ungrouped()
+        } else {
+            compiled
+        };
+        let progress = Progress::new();
+        let form = ByAcceleration(InterpretedArm::new(compiled.clone()));
+        let mut faults: Vec<(String, Fault)> = Vec::new();
+        let mut read = |path: &PathBuf| self.log(path, &form, &mut faults, &progress);
+        let logs: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
+        let validate = self.validate.as_ref().map(&mut read).transpose()?;
+        let beginning = self.begin(&compiled, &form, &logs)?;
+        let settings = self.settings(&compiled, &beginning)?;
+        let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
+        let fitted = recordings(&logs)?;
+        let start = beginning.plant.values();
+        progress.step("simulating");
+        let mut tell = |iterate: &Iterate| {
+            progress.step(&format!(
+                "simulation {}: cost {:.6e}",
+                iterate.simulations, iterate.cost
+            ));
+        };
+        let plant = beginning.plant.clone();
+        let found = settings.fit(plant, &beginning.names, &start, &fitted, &mut tell);
+        let found = found.map_err(|error| refused(&error))?;
+        let linear = beginning.linear.as_ref();
+        let linear = linear.map(|linear| of_simulation(&compiled, linear, &found));
+        let errors = |logs: &[Log]| -> Result<Option<Errors>, Error> {
+            let errors = linear
+                .as_ref()
+                .map(|linear| errors_of_all(linear, &form, logs));
+            Ok(errors.transpose()?)
+        };
+        let train = Judged {
+            comparison: found.fit.clone(),
+            torque: errors(&logs)?,
+        };
+        let judge = |log: &Log| -> Result<Judged, Error> {
+            let log = std::slice::from_ref(log);
+            let plant = beginning.plant.clone();
+            let comparison = settings.compare(plant, &found.values, &recordings(log)?);
+            Ok(Judged {
+                comparison: comparison.map_err(|error| refused(&error))?,
+                torque: errors(log)?,
+            })
+        };
+        let validation = validate.as_ref().map(judge).transpose()?;
+        drop(progress);
+        let report = OutputReport {
+            compiled: &compiled,
+            names: &beginning.names,
+            found: &found,
+            train: &train,
+            validation: validation.as_ref(),
+            faults: &faults,
+        };
+        if let Some(file) = json {
+            file.commit(output::json(&report.json()).as_bytes())?;
+        }
+        output::print(&report.text())
+    }
+
+    /// Parameters from a file, from least squares, or from the spec.
+    fn begin(
+        &self,
+        compiled: &Compiled,
+        form: &ByAcceleration,
+        logs: &[Log],
+    ) -> Result<Beginning, Error> {
+        let shape_names = compiled.shape_names();
+        let free = compiled.free_shapes();
+        let base = compiled.base.names.iter().cloned();
+        let names = base.chain(free.iter().map(|&k| shape_names[k].clone()));
+        let identify = Identify {
+            bands: self.bands,
+            ..Identify::default()
+        };
+        let linear = form.fit(&identify, logs);
+        let both = |values: Values| (values.beta, values.shapes);
+        let (beta, shapes) = match (&self.output_error.start, &linear) {
+            (Some(file), _) => both(parameters::resolve(compiled, Some(file))?),
+            (None, Ok(estimate)) if estimate.unexcited.is_empty() => {
+                let mut shapes = robot_model_codegen::base::shape_values(&compiled.model);
+                for (&k, (_, value)) in free.iter().zip(&estimate.shapes) {
+                    shapes[k] = *value;
+                }
+                (estimate.values(), shapes)
+            }
+            (None, linear) => both(parameters::resolve(compiled, None).map_err(|_| {
+                let why = match linear {
+                    Err(error) => error.to_string(),
+                    Ok(estimate) => {
+                        let names: Vec<&str> =
+                            estimate.unexcited.iter().map(String::as_str).collect();
+                        format!("it does not separate {}", output::names(&names))
+                    }
+                };
+                Error::Argument(format!(
+                    "a simulation has to start somewhere, and least squares on these logs gives none: {why}; nor has the \
+                     spec a value for all; give one with `--start FILE.json`"
+                ))
+            })?),
+        };
+        Ok(Beginning {
+            names: names.collect(),
+            plant: InterpretedPlant::new(compiled.clone(), &beta, &shapes)?,
+            shapes,
+            linear: linear.ok(),
+        })
+    }
+
+    fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {
+        let options = &self.output_error;
+        let law = options.controller.as_deref();
+        let law = law.map(|path| law::read(path, &compiled.model.joints));
+        if let Some(window) = options.window.filter(|window| !(*window > 0.0)) {
+            return Err(Error::Argument(format!(
+                "`--window` has to be positive, not {window}"
+            )));
+        }
+        let is_open = law.is_none() && compiled.dynamics.state_rates.is_empty();
+        Ok(OutputError {
+            search: match options.search {
+                None | Some(SearchArgument::LevenbergMarquardt) => Search::LevenbergMarquardt,
+                Some(SearchArgument::TrustRegion) => Search::TrustRegion,
+            },
+            hold: match options.hold {
+                None | Some(HoldArgument::Mean) => Hold::Mean,
+                Some(HoldArgument::Sample) => Hold::Sample,
+            },
+            window: options.window.or(is_open.then_some(1.0)),
+            law: law.transpose()?,
+            bounds: bounds(compiled, &beginning.names, options.bounds.as_deref())?,
+        })
+    }
+}
+
+fn refused(error: &OutputErrorError) -> Error {
+    Error::Argument(error.to_string())
+}
+
+/// Logs as they drive a simulation.
+fn recordings(compiled: &Compiled, shapes: &[f64], logs: &[Log]) -> Result<Vec<Recording>, Error> {
+    let gain: Vec<f64> = compiled
+        .model
+        .joints
+        .iter()
+        .map(|joint| joint.actuator_gain)
+        .collect();
+    let late = compiled.delay().map_or(0.0, |delay| {
+        delay.eval(&|symbol| match symbol {
+            Symbol::Shape(k) => shapes[k],
+            _ => unreachable!("checked in model-spec: a delay is constant"),
+        })[0]
+    });
+    let channels = compiled.model.inputs();
+    let recording = |log: &Log| {
+        let inputs = channels.iter().map(|name| {
+            let place = log.extra.iter().position(|channel| channel.name == *name);
+            place.ok_or_else(|| {
+                Error::Argument(format!(
+                    "{}: it has no column `{name}`, which a declared effect reads",
+                    log.source
+                ))
+            })
+        });
+        let inputs = inputs.collect::<Result<Vec<usize>, Error>>()?;
+        Ok(Recording::new(log, &gain, late, inputs))
+    };
+    logs.iter().map(recording).collect()
+}
+
+/// Ranges of shapes, and what a file says.
+fn bounds(
+    compiled: &Compiled,
+    names: &[String],
+    file: Option<&Path>,
+) -> Result<Vec<[f64; 2]>, Error> {
+    let ranges = compiled.model.effects.iter().flat_map(|effect| {
+        let shapes = effect.definition.shapes.iter();
+        shapes.map(|shape| [shape.low, shape.high])
+    });
+    let ranges: Vec<[f64; 2]> = ranges.collect();
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    let mut bounds = vec![open; compiled.base.kept.len()];
+    bounds.extend(compiled.free_shapes().into_iter().map(|k| ranges[k]));
+    let Some(path) = file else {
+        return Ok(bounds);
+    };
+    let refuse = |reason: &str| Err(Error::json(path, &reason));
+    let Value::Object(entries) = json::read(path)? else {
+        return refuse("write `{\"NAME\": [LOW, HIGH], ..}`");
+    };
+    for (name, range) in entries {
+        let Some(place) = names.iter().position(|other| *other == name) else {
+            let known: Vec<&str> = names.iter().map(String::as_str).collect();
+            return refuse(&format!(
+                "no parameter is called `{name}`; there are {}",
+                output::names(&known)
+            ));
+        };
+        let pair = range.as_array().and_then(|pair| match pair.as_slice() {
+            [low, high] => Some([low.as_f64()?, high.as_f64()?]),
+            _ => None,
+        });
+        match pair {
+            Some([low, high]) if low <= high => bounds[place] = [low, high],
+            _ => {
+                return refuse(&format!(
+                    "`{name}`: write `[LOW, HIGH]`, two numbers that rise"
+                ));
+            }
+        }
+    }
+    Ok(bounds)
+}
+
+/// What least squares knows of filters, with the parameters of the simulation.
+fn of_simulation(compiled: &Compiled, linear: &Estimate, found: &OutputEstimate) -> Estimate {
+    let mut estimate = linear.clone();
+    let base = compiled.base.kept.len();
+    for (parameter, value) in estimate.parameters.iter_mut().zip(&found.values) {
+        parameter.value = *value;
+    }
+    for ((_, shape), value) in estimate.shapes.iter_mut().zip(&found.values[base..]) {
+        *shape = *value;
+    }
+    estimate.unexcited.clear();
+    estimate
+}
+
+/// Names of parameters, in a row.
+fn listed(values: &[String]) -> String {
+    names(&values.iter().map(String::as_str).collect::<Vec<_>>())
+}

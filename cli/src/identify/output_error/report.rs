@@ -1,0 +1,254 @@
+//! What is written and printed of an output-error estimate.
+
+use std::fmt::Write;
+
+use robot_model::identify::output_error::{Comparison, Distance, OutputEstimate};
+use robot_model::log::Fault;
+use robot_model_codegen::Compiled;
+use serde::Serialize;
+
+use super::super::report::{FaultReport, Parameter, fault_reports};
+use super::{Judged, listed};
+
+/// All that there is to say.
+pub(super) struct OutputReport<'a> {
+    pub compiled: &'a Compiled,
+    pub names: &'a [String],
+    pub found: &'a OutputEstimate,
+    pub train: &'a Judged,
+    pub validation: Option<&'a Judged>,
+    pub faults: &'a [(String, Fault)],
+}
+
+/// What `--json` writes; the first keys are those of other methods.
+#[derive(Serialize)]
+pub(super) struct JsonReport<'a> {
+    method: &'static str,
+    form: &'static str,
+    parameters: Vec<Parameter<'a>>,
+    /// Of torques from equations with these parameters, as other methods have it; null where least squares has no filters for them.
+    rmse: Option<&'a [f64]>,
+    rmse_validate: Option<&'a [f64]>,
+    relative_percent: Option<&'a [f64]>,
+    relative_percent_validate: Option<&'a [f64]>,
+    condition: Option<f64>,
+    rank: usize,
+    unexcited: Vec<&'a str>,
+    /// Of simulated positions.
+    position: Distances,
+    position_validate: Option<Distances>,
+    /// Of simulated torques, where a controller made them.
+    torque: Option<Distances>,
+    torque_validate: Option<Distances>,
+    singular_values: &'a [f64],
+    /// Directions of the parameters that the logs say little or nothing of.
+    directions: Vec<DirectionReport<'a>>,
+    iterates: Vec<IterateReport<'a>>,
+    data_faults: Vec<FaultReport<'a>>,
+}
+
+/// Per joint.
+#[derive(Serialize)]
+struct Distances {
+    rmse: Vec<f64>,
+    mae: Vec<f64>,
+    relative_percent: Vec<f64>,
+    nrmse_fit_percent: Vec<Option<f64>>,
+}
+
+#[derive(Serialize)]
+struct DirectionReport<'a> {
+    relative_singular_value: f64,
+    is_silent: bool,
+    is_common_factor: bool,
+    moves: Vec<(&'a str, f64)>,
+}
+
+#[derive(Serialize)]
+struct IterateReport<'a> {
+    stage: usize,
+    cost: f64,
+    simulations: usize,
+    values: &'a [f64],
+}
+
+impl Distances {
+    fn new(of: &[Distance]) -> Self {
+        Self {
+            rmse: of.iter().map(|x| x.rmse).collect(),
+            mae: of.iter().map(|x| x.mae).collect(),
+            relative_percent: of.iter().map(|x| x.relative_percent).collect(),
+            nrmse_fit_percent: of.iter().map(|x| x.nrmse_fit_percent).collect(),
+        }
+    }
+}
+
+impl OutputReport<'_> {
+    /// Over the weakest; none where a direction is silent.
+    fn condition(&self) -> Option<f64> {
+        let weakest = self.found.identifiability.singular.last()?;
+        (self.found.identifiability.rank == self.names.len()).then(|| 1.0 / weakest)
+    }
+
+    fn unidentified(&self) -> impl Iterator<Item = &String> {
+        let names = self.names.iter().enumerate();
+        let told = &self.found.identifiability;
+        names.filter_map(|(k, name)| (!told.is_identified(k)).then_some(name))
+    }
+
+    pub fn json(&self) -> JsonReport<'_> {
+        let found = self.found;
+        let values = self.names.iter().zip(found.values.iter().zip(&found.std));
+        let told = |judged: &Option<&'_ Judged>| {
+            judged.and_then(|judged| judged.comparison.torque.as_deref().map(Distances::new))
+        };
+        let torque = self.train.torque.as_ref();
+        let torque_validate = self.validation.and_then(|judged| judged.torque.as_ref());
+        JsonReport {
+            method: "output-error",
+            form: "simulation",
+            parameters: values
+                .map(|(name, (value, std))| Parameter {
+                    name,
+                    value: std.map(|_| *value),
+                    std: *std,
+                })
+                .collect(),
+            rmse: torque.map(|errors| errors.rmse.as_slice()),
+            rmse_validate: torque_validate.map(|errors| errors.rmse.as_slice()),
+            relative_percent: torque.map(|errors| errors.relative_percent.as_slice()),
+            relative_percent_validate: torque_validate
+                .map(|errors| errors.relative_percent.as_slice()),
+            condition: self.condition(),
+            rank: found.identifiability.rank,
+            unexcited: self.unidentified().map(String::as_str).collect(),
+            position: Distances::new(&found.fit.position),
+            position_validate: self
+                .validation
+                .map(|judged| Distances::new(&judged.comparison.position)),
+            torque: told(&Some(self.train)),
+            torque_validate: told(&self.validation),
+            singular_values: &found.identifiability.singular,
+            directions: found
+                .identifiability
+                .directions
+                .iter()
+                .map(|direction| DirectionReport {
+                    relative_singular_value: direction.singular,
+                    is_silent: direction.is_silent(),
+                    is_common_factor: direction.is_scale(),
+                    moves: direction
+                        .moves
+                        .iter()
+                        .map(|(name, share)| (name.as_str(), *share))
+                        .collect(),
+                })
+                .collect(),
+            iterates: found
+                .iterates
+                .iter()
+                .map(|iterate| IterateReport {
+                    stage: iterate.stage,
+                    cost: iterate.cost,
+                    simulations: iterate.simulations,
+                    values: &iterate.values,
+                })
+                .collect(),
+            data_faults: fault_reports(self.faults),
+        }
+    }
+
+    /// The tables that a paper would print.
+    pub fn text(&self) -> String {
+        let mut text = String::new();
+        self.tell(&mut text).expect("a string takes all");
+        text
+    }
+
+    fn tell(&self, text: &mut String) -> std::fmt::Result {
+        let found = self.found;
+        let width = self.names.iter().map(String::len).max().unwrap_or(0).max(9);
+        let base = self.compiled.base.kept.len();
+        writeln!(
+            text,
+            "{:width$}  {:>12}  {:>10}  {:>7}",
+            "parameter", "value", "std", "std %"
+        )?;
+        let values = self.names.iter().zip(found.values.iter().zip(&found.std));
+        for (k, (name, (value, std))) in values.enumerate() {
+            let shape = if k < base { "" } else { "  (shape)" };
+            match std {
+                Some(std) => {
+                    let relative = 100.0 * (std / value).abs();
+                    writeln!(
+                        text,
+                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}{shape}"
+                    )?;
+                }
+                None => writeln!(text, "{name:width$}  {:>12}{shape}", "not separable")?,
+            }
+        }
+        let condition = self.condition();
+        let condition = condition.map_or("infinite".to_owned(), |x| format!("{x:.1}"));
+        writeln!(
+            text,
+            "rank {} of {}, condition {condition}, {} samples a joint, output-error",
+            found.identifiability.rank,
+            self.names.len(),
+            found.samples
+        )?;
+        for direction in &found.identifiability.directions {
+            writeln!(text, "{direction}")?;
+        }
+        let silent: Vec<String> = self.unidentified().cloned().collect();
+        if !silent.is_empty() {
+            writeln!(
+                text,
+                "not separable: {}: only what the lines above leave of them is known",
+                listed(&silent)
+            )?;
+        }
+        writeln!(text, "\niteration  part  simulations          cost")?;
+        for (k, iterate) in found.iterates.iter().enumerate() {
+            writeln!(
+                text,
+                "{k:>9}  {:>4}  {:>11}  {:>12.6e}",
+                iterate.stage + 1,
+                iterate.simulations,
+                iterate.cost
+            )?;
+        }
+        self.distances(text)
+    }
+
+    fn distances(&self, text: &mut String) -> std::fmt::Result {
+        let joints = &self.compiled.model.joints;
+        let width = joints.iter().map(|joint| joint.name.len()).max();
+        let width = width.unwrap_or(0).max("joint".len());
+        writeln!(text, "\nSimulated beside logged, rad or m, N m or N")?;
+        let columns = std::iter::once(("identification", self.train));
+        let columns = columns.chain(self.validation.map(|judged| ("validation", judged)));
+        for (name, judged) in columns {
+            let Comparison { position, torque } = &judged.comparison;
+            let torque = torque.as_deref().map(|torque| ("torque", torque));
+            let channels = std::iter::once(("position", position.as_slice())).chain(torque);
+            for (channel, distances) in channels {
+                writeln!(
+                    text,
+                    "{:width$}  {:>10}  {:>10}  {:>10}  {:>10}   {channel}, {name}",
+                    "joint", "RMSE", "MAE", "relative", "NRMSE fit"
+                )?;
+                for (joint, distance) in joints.iter().zip(distances) {
+                    let fit = distance.nrmse_fit_percent;
+                    let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
+                    writeln!(
+                        text,
+                        "{:width$}  {:>10.3e}  {:>10.3e}  {:>8.4} %  {fit:>10}",
+                        joint.name, distance.rmse, distance.mae, distance.relative_percent
+                    )?;
+                }
+            }
+        }
+        Ok(())
+    }
+}

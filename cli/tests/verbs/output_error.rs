@@ -1,0 +1,325 @@
+//! `identify --method output-error`.
+
+use std::fmt::Write;
+
+use serde_json::Value;
+
+use crate::common::{Folder, json};
+
+/// A link behind a spring.
+fn soft(stiffness: &str) -> String {
+    format!(
+        "robot Soft {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint a: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            link a: nominal {{ mass = 3; com = [-0.2, 0, 0]; inertia = [0, 0, 0, 0, 0, 0.06]; }}
+            effects {{ motor_inertia on a; viscous_friction on a; joint_elasticity{stiffness} on a; }}
+        }}"
+    )
+}
+
+/// `time,q..` of joints that follow functions of time.
+fn wanted(seconds: f64, joints: &[&dyn Fn(f64) -> f64]) -> String {
+    let names: Vec<String> = (1..=joints.len()).map(|k| format!("q{k}")).collect();
+    let mut text = format!("time,{}\n", names.join(","));
+    let mut t = 0.0;
+    while t <= seconds + 1e-9 {
+        let places: Vec<String> = joints.iter().map(|joint| joint(t).to_string()).collect();
+        writeln!(text, "{t},{}", places.join(",")).expect("a string takes all");
+        t += 0.005;
+    }
+    text
+}
+
+fn value(report: &Value, name: &str) -> Option<[f64; 2]> {
+    let parameters = report["parameters"].as_array().expect("a list");
+    let found = parameters.iter().find(|entry| entry["name"] == name)?;
+    Some([found["value"].as_f64()?, found["std"].as_f64()?])
+}
+
+fn costs(report: &Value) -> Vec<f64> {
+    let iterates = report["iterates"].as_array().expect("a list");
+    let costs = iterates.iter().map(|iterate| iterate["cost"].as_f64());
+    costs.collect::<Option<_>>().expect("numbers")
+}
+
+/// Inertia of a first motor and of its link are one base parameter, and least squares bends the spring by both.
+#[test]
+fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &soft("(stiffness = 500)"));
+    folder.write("open.robot", &soft(""));
+    folder.write(
+        "values.json",
+        r#"{"a.motor_inertia.ia": 0.3, "a.viscous_friction.fv": 0.8}"#,
+    );
+    let swing = |t: f64| 0.6 * (3.0 * t).sin() + 0.2 * (11.0 * t).cos();
+    folder.write("wanted.csv", &wanted(2.0, &[&swing]));
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let more = ["--parameters", "values.json", "--frequency", "20"];
+    folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &more].concat());
+    let start = r#"{"a.motor_inertia.ia": 0.2, "a.viscous_friction.fv": 0.5, "a.joint_elasticity.stiffness": 800}"#;
+    folder.write("start.json", start);
+    let basics = ["identify", "open.robot", "log.csv", "--json", "fit.json"];
+    let options = ["--method", "output-error", "--start", "start.json"];
+    folder.succeed(&[&basics[..], &options, &["--window", "2"]].concat());
+    let report = json(&folder.read("fit.json"));
+    for (name, expected) in [
+        ("a.motor_inertia.ia", 0.3),
+        ("a.viscous_friction.fv", 0.8),
+        ("a.joint_elasticity.stiffness", 500.0),
+    ] {
+        let [found, std] = value(&report, name).expect("a value");
+        assert!(
+            (found - expected).abs() < 2e-3 * expected,
+            "{name}: {found}"
+        );
+        assert!(std > 0.0 && std < 0.01 * expected, "{name}: {std}");
+    }
+    // Mass and inertia of the link are one about its joint, which is said.
+    assert_eq!(value(&report, "a.m"), None);
+    let silent = report["directions"].as_array().expect("a list");
+    assert!(
+        silent
+            .iter()
+            .any(|direction| direction["is_silent"] == true),
+        "{report:#}"
+    );
+    folder.succeed(&[&basics[..], &["--method", "wls"]].concat());
+    let report = json(&folder.read("fit.json"));
+    let biased = report["parameters"]
+        .as_array()
+        .expect("a list")
+        .last()
+        .expect("a shape")["value"]
+        .as_f64()
+        .expect("a value");
+    assert!(biased > 600.0, "{biased}");
+}
+
+/// Two links that are let go, as in Trojanova and Cakurda 2020: without a torque nothing tells how heavy they are.
+#[test]
+fn what_falls_freely_is_known_up_to_a_common_factor() {
+    let folder = Folder::new();
+    let spec = "robot Arm {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint up: revolute { a = 0.552; alpha = 0; d = 0; }
+        joint lo: revolute { a = 0.4; alpha = 0; d = 0; }
+        effects { viscous_friction on all; coulomb_friction on all; }
+    }";
+    folder.write("arm.robot", spec);
+    // Of their table 6, about the ends of the links.
+    let (m, l, c, i) = ([6.813, 3.361], [0.552, 0.4], [0.346, 0.212], [0.264, 0.012]);
+    let about_end = |k: usize| i[k] + m[k] * (c[k] - l[k]) * (c[k] - l[k]) - l[k] * l[k] * m[k];
+    let truth = [
+        ("up.mxr", m[0] * c[0] + m[1] * l[0]),
+        ("up.my", 0.0),
+        ("up.izzr", about_end(0) - l[0] * l[0] * m[1]),
+        ("lo.mxr", m[1] * c[1]),
+        ("lo.my", 0.0),
+        ("lo.izzr", about_end(1)),
+        ("up.viscous_friction.fv", 0.335),
+        ("lo.viscous_friction.fv", 0.279),
+        ("up.coulomb_friction.fc", 0.203),
+        ("lo.coulomb_friction.fc", 0.076),
+    ];
+    let write = |file: &str, factor: &dyn Fn(usize) -> f64| {
+        let entries = truth.iter().enumerate();
+        let entries: Vec<String> = entries
+            .map(|(k, (name, value))| format!("\"{name}\": {}", value * factor(k)))
+            .collect();
+        folder.write(file, &format!("{{{}}}", entries.join(",")));
+    };
+    write("values.json", &|_| 1.0);
+    write("start.json", &|k| if k % 2 == 0 { 1.1 } else { 0.93 });
+    folder.write("wanted.csv", &wanted(1.5, &[&|_| -1.1, &|_| 0.3]));
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let free = ["--controller", "none", "--rate", "200"];
+    let values = ["--parameters", "values.json"];
+    folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &free, &values].concat());
+
+    let basics = [
+        "identify",
+        "arm.robot",
+        "log.csv",
+        "--method",
+        "output-error",
+    ];
+    let options = [
+        "--start",
+        "start.json",
+        "--window",
+        "9",
+        "--json",
+        "fit.json",
+    ];
+    let bounds = r#"{"lo.viscous_friction.fv": [0.05, 0.27], "up.viscous_friction.fv": [0.1, 9]}"#;
+    folder.write("bounds.json", bounds);
+    let searches = [
+        vec!["--search", "levenberg-marquardt"],
+        vec!["--search", "trust-region"],
+        vec!["--search", "trust-region", "--bounds", "bounds.json"],
+    ];
+    for (k, search) in searches.iter().enumerate() {
+        let said = folder.succeed(&[&basics[..], &options, search].concat());
+        let report = json(&folder.read("fit.json"));
+        assert_eq!(report["rank"], truth.len() - 1, "{said}");
+        let silent =
+            &report["directions"][report["directions"].as_array().expect("a list").len() - 1];
+        assert_eq!(silent["is_silent"], true, "{said}");
+        let fits = report["position"]["nrmse_fit_percent"]
+            .as_array()
+            .expect("a list");
+        let is_bounded = k == 2;
+        for fit in fits {
+            let fit = fit.as_f64().expect("a number");
+            assert!(if is_bounded { fit > 90.0 } else { fit > 99.999 }, "{said}");
+        }
+        if !is_bounded {
+            assert_eq!(silent["is_common_factor"], true, "{said}");
+            assert!(
+                said.contains("a common factor of up.mxr, up.izzr, lo.mxr"),
+                "{said}"
+            );
+            // No value of any is claimed but of what is zero.
+            assert_eq!(value(&report, "up.izzr"), None);
+            assert!(value(&report, "up.my").is_some());
+            // The last iterate has the ratios.
+            let last = report["iterates"]
+                .as_array()
+                .and_then(|all| all.last())
+                .expect("one");
+            let found = last["values"].as_array().expect("a list");
+            let found: Vec<f64> = found
+                .iter()
+                .map(|x| x.as_f64().expect("a number"))
+                .collect();
+            for (k, (name, expected)) in truth.iter().enumerate() {
+                let ratio = found[k] / found[0] * truth[0].1;
+                assert!(
+                    (ratio - expected).abs() < 1e-3,
+                    "{name}: {ratio} {expected}"
+                );
+            }
+        }
+        let costs = costs(&report);
+        assert!(costs.len() >= 4, "{said}");
+        let stages: Vec<&Value> = report["iterates"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .map(|iterate| &iterate["stage"])
+            .collect();
+        for (pair, stage) in costs.windows(2).zip(stages.windows(2)) {
+            assert!(pair[1] <= pair[0] || stage[0] != stage[1], "{said}");
+        }
+    }
+    // A bound that the truth is beyond holds.
+    let report = json(&folder.read("fit.json"));
+    let last = report["iterates"]
+        .as_array()
+        .and_then(|all| all.last())
+        .expect("one");
+    let fv = last["values"][7].as_f64().expect("a number");
+    assert!((0.05..=0.27).contains(&fv), "{fv}");
+}
+
+#[test]
+fn what_a_simulation_cannot_take_is_told() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &soft("(stiffness = 500)"));
+    folder.write(
+        "start.json",
+        r#"{"a.motor_inertia.ia": 0.3, "a.viscous_friction.fv": 0.8}"#,
+    );
+    let mut log = String::from("time,q1,tau1,ref1\n");
+    for k in 0..400 {
+        let t = 0.005 * f64::from(k);
+        let (q, tau) = (0.3 * (3.0 * t).sin(), 5.0 * (3.0 * t).cos());
+        writeln!(log, "{t},{q},{tau},{q}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    folder.write(
+        "two.json",
+        r#"{"joints": [{"position": [1]}, {"position": [1]}]}"#,
+    );
+    folder.write("typo.json", r#"{"joints": [{"positions": [1]}]}"#);
+    folder.write("other.json", r#"{"joints": [{"columns": {"qref1": [1]}}]}"#);
+    folder.write(
+        "limit.json",
+        r#"{"joints": [{"position": [-1], "limit": 0}]}"#,
+    );
+    folder.write("wild.json", r#"{"joints": [{"position": [1e9]}]}"#);
+    folder.write("far.json", r#"{"a.viscous_friction.fv": [1, 2]}"#);
+    folder.write("name.json", r#"{"a.fv": [1, 2]}"#);
+    folder.write("fall.json", r#"{"a.viscous_friction.fv": [2, 1]}"#);
+    let basics = ["identify", "arm.robot", "log.csv"];
+    let simulated = ["--method", "output-error", "--start", "start.json"];
+    for (options, word) in [
+        (
+            &["--start", "start.json"][..],
+            "`--start` is of `--method output-error`",
+        ),
+        (
+            &["--method", "wls", "--window", "1"],
+            "`--window` is of `--method output-error`",
+        ),
+        (
+            &["--method", "output-error", "--prior", "0.2"],
+            "`--prior` is of methods with equations",
+        ),
+        (
+            &["--method", "output-error", "--form", "filtered"],
+            "`--form filtered` is of methods",
+        ),
+        (
+            &["--method", "output-error"],
+            "give one with `--start FILE.json`",
+        ),
+        (
+            &[&simulated[..], &["--window", "0.02"]].concat(),
+            "too few samples for a motion",
+        ),
+        (
+            &[&simulated[..], &["--window", "0"]].concat(),
+            "`--window` has to be positive",
+        ),
+        (
+            &[&simulated[..], &["--controller", "two.json"]].concat(),
+            "has 2 laws for an arm with 1 joint",
+        ),
+        (
+            &[&simulated[..], &["--controller", "typo.json"]].concat(),
+            "unknown field `positions`",
+        ),
+        (
+            &[&simulated[..], &["--controller", "other.json"]].concat(),
+            "no column `qref1`, which the controller reads",
+        ),
+        (
+            &[&simulated[..], &["--controller", "limit.json"]].concat(),
+            "joint a: `limit` has to be positive",
+        ),
+        (
+            &[&simulated[..], &["--controller", "wild.json"]].concat(),
+            "with the parameters that the search starts from",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "far.json"]].concat(),
+            "starts at 0.8, outside of its bounds 1 .. 2",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "name.json"]].concat(),
+            "no parameter is called `a.fv`",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "fall.json"]].concat(),
+            "two numbers that rise",
+        ),
+    ] {
+        let said = folder.refuse(&[&basics[..], options].concat());
+        assert!(said.contains(word), "{options:?}: {said}");
+    }
+}

@@ -1,0 +1,202 @@
+//! What logs say of parameters, and what they do not.
+//!
+//! In: a triangular factor `R` of the sensitivities. Out: singular values of `R D^-1`, `D` the lengths of its columns, and the directions of
+//! the parameters along which (almost) no output changes.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Of the largest singular value: below, outputs do not change at all; below, they change so little that noise decides.
+const SILENT: f64 = 1e-5;
+const WEAK: f64 = 1e-3;
+
+/// What logs say of which parameters.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Identifiability {
+    /// Singular values of the sensitivities with columns of length 1, over the largest, falling.
+    pub singular: Vec<f64>,
+    /// How many directions change any output.
+    pub rank: usize,
+    /// Directions that change it little or not at all, the weakest last.
+    pub directions: Vec<Direction>,
+    identified: Vec<bool>,
+    /// Lengths of the columns, and directions with their singular values, without those that change nothing.
+    lengths: DVector<f64>,
+}
+
+/// Parameters that may move together while outputs (almost) do not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// Singular value over the largest.
+    pub singular: f64,
+    /// Parameters by name, with the share of their value by which they move, the largest 1.
+    pub moves: Vec<(String, f64)>,
+}
+
+impl Direction {
+    /// Whether outputs do not change at all.
+    #[must_use]
+    pub fn is_silent(&self) -> bool {
+        self.singular < SILENT
+    }
+
+    /// Whether it scales all of its parameters by the same factor: then their ratios are known.
+    #[must_use]
+    pub fn is_scale(&self) -> bool {
+        self.moves.len() > 1
+            && self
+                .moves
+                .iter()
+                .all(|(_, share)| (share - 1.0).abs() < 0.05)
+    }
+}
+
+impl std::fmt::Display for Direction {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let how = if self.is_silent() {
+            "not identified"
+        } else {
+            "hardly identified"
+        };
+        let names: Vec<&str> = self.moves.iter().map(|(name, _)| name.as_str()).collect();
+        if let [name] = names.as_slice() {
+            return write!(
+                f,
+                "{how}: {name} (relative singular value {:.1e})",
+                self.singular
+            );
+        }
+        if self.is_scale() {
+            return write!(
+                f,
+                "{how}: a common factor of {}; their ratios are (relative singular value {:.1e})",
+                names.join(", "),
+                self.singular
+            );
+        }
+        let shares = self.moves.iter();
+        let shares: Vec<String> = shares
+            .map(|(name, share)| format!("{name} by {:+.2} %", *share))
+            .collect();
+        write!(
+            f,
+            "{how}: moving {} together (relative singular value {:.1e})",
+            shares.join(", "),
+            self.singular
+        )
+    }
+}
+
+impl Identifiability {
+    pub(super) fn new(r: &DMatrix<f64>, values: &[f64], names: &[String]) -> Self {
+        let unknowns = r.ncols();
+        let lengths = DVector::from_iterator(unknowns, r.column_iter().map(|x| x.norm()));
+        let Some((singular, v)) = decomposed(r, &lengths) else {
+            return Self {
+                singular: Vec::new(),
+                rank: 0,
+                directions: Vec::new(),
+                identified: Vec::new(),
+                lengths,
+            };
+        };
+        let largest = singular.max();
+        let share = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
+        let singular: Vec<f64> = singular.iter().map(|&x| share(x)).collect();
+        let directions = (0..unknowns).filter(|&k| singular[k] < WEAK).map(|k| {
+            let vector = v.row(k);
+            // A step of a parameter over its value; one that is zero or moves nothing has no other measure.
+            let moves = (0..unknowns).map(|p| {
+                let step = if lengths[p] > 0.0 {
+                    vector[p] / lengths[p]
+                } else {
+                    vector[p]
+                };
+                if values[p] == 0.0 || lengths[p] == 0.0 {
+                    step
+                } else {
+                    step / values[p]
+                }
+            });
+            // Parts that are noise in scaled parameters are none of the direction.
+            let loud = (0..unknowns).map(|p| vector[p].abs() > 1e-3);
+            let moves: Vec<(usize, f64)> = moves
+                .zip(loud)
+                .enumerate()
+                .filter(|(_, (_, is_loud))| *is_loud)
+                .map(|(p, (share, _))| (p, share))
+                .collect();
+            let largest = moves
+                .iter()
+                .map(|(_, share)| *share)
+                .fold(0.0, |most: f64, share| {
+                    if share.abs() > most.abs() {
+                        share
+                    } else {
+                        most
+                    }
+                });
+            let named = moves.into_iter();
+            Direction {
+                singular: singular[k],
+                moves: named
+                    .map(|(p, share)| (names[p].clone(), share / largest))
+                    .collect(),
+            }
+        });
+        let directions: Vec<Direction> = directions.collect();
+        let rank = singular.iter().filter(|x| **x >= SILENT).count();
+        let is_quiet = |p: usize| {
+            (rank..unknowns)
+                .map(|k| v[(k, p)].powi(2))
+                .sum::<f64>()
+                .sqrt()
+                > 1e-2
+        };
+        let identified = (0..unknowns)
+            .map(|p| lengths[p] > 0.0 && !is_quiet(p))
+            .collect();
+        Self {
+            singular,
+            rank,
+            directions,
+            identified,
+            lengths,
+        }
+    }
+
+    /// Whether logs say anything of a parameter by itself.
+    #[must_use]
+    pub fn is_identified(&self, parameter: usize) -> bool {
+        self.identified.get(parameter).copied().unwrap_or(false)
+    }
+
+    /// `(R'R)^-1`, without directions that change nothing.
+    pub(super) fn inverse(&self, r: &DMatrix<f64>) -> DMatrix<f64> {
+        let unknowns = r.ncols();
+        let mut inverse = DMatrix::zeros(unknowns, unknowns);
+        let Some((singular, v)) = decomposed(r, &self.lengths) else {
+            return inverse;
+        };
+        for k in 0..self.rank {
+            let vector = v.row(k).transpose();
+            inverse += &vector * vector.transpose() / singular[k].powi(2);
+        }
+        let over = |x: f64| if x > 0.0 { 1.0 / x } else { 0.0 };
+        let lengths = self.lengths.map(over);
+        DMatrix::from_fn(unknowns, unknowns, |i, j| {
+            inverse[(i, j)] * lengths[i] * lengths[j]
+        })
+    }
+}
+
+/// Singular values of `R D^-1`, falling, and its right singular vectors, one a row.
+fn decomposed(r: &DMatrix<f64>, lengths: &DVector<f64>) -> Option<(DVector<f64>, DMatrix<f64>)> {
+    let mut scaled = r.clone();
+    for (mut column, &length) in scaled.column_iter_mut().zip(lengths.iter()) {
+        if length > 0.0 {
+            column /= length;
+        }
+    }
+    let svd = scaled.svd(false, true);
+    Some((svd.singular_values, svd.v_t?))
+}

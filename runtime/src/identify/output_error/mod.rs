@@ -1,0 +1,468 @@
+//! Output error: the parameters with which a simulated arm moves as the measured one did.
+//!
+//! In: an [`Adjustable`] plant, logs and where to start. Out: an [`OutputEstimate`]. A simulation is driven by the logged torque, or by the
+//! controller of the experiment, and its positions are compared with the logged ones:
+//! `J = 1/2 sum_j sum_k ((q_j(t_k; u) - y_jk) / s_j)^2`. Nothing is differentiated but the model, so noise of positions biases nothing; a
+//! motion that runs away from its log biases all.
+//!
+//! Sources: Ljung 1999, System Identification, section 7.2; Janot, Vandanjon, Gautier 2014, A generic instrumental variable approach for
+//! industrial robot identification, on closed loops.
+
+mod identifiable;
+mod law;
+mod search;
+mod window;
+
+use nalgebra::{DMatrix, DVector};
+use thiserror::Error;
+
+use super::hac::long_run_sum;
+use crate::simulate::{Adjustable, SimulateError};
+
+pub use identifiable::{Direction, Identifiability};
+pub use law::{JointLaw, Law, Tap};
+pub use search::{Iterate, Search};
+pub use window::{Hold, Recording};
+
+use search::Reduced;
+use window::{Rows, Run, Window};
+
+/// Of the window that is asked for, for the first part of a search.
+const FIRST_SHARE: f64 = 0.25;
+
+/// How an output-error estimate is made.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct OutputError {
+    /// Who looks for the least cost.
+    pub search: Search,
+    /// Least and largest value of each parameter; none are no bounds.
+    pub bounds: Vec<[f64; 2]>,
+    /// Logs are cut into windows of this many seconds, each with a start of its own and memories of effects at zero; none leaves them whole.
+    /// Where torques drive the arm, the search begins with shorter ones.
+    pub window: Option<f64>,
+    /// The controller of the experiment; without it logged torques drive the arm.
+    pub law: Option<Law>,
+    /// Logged torque between samples.
+    pub hold: Hold,
+}
+
+/// How far a simulated channel is from its log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// Root of the mean square.
+    pub rmse: f64,
+    /// Mean absolute error.
+    pub mae: f64,
+    /// `100 |y - y_s| / |y|`
+    pub relative_percent: f64,
+    /// `100 (1 - |y - y_s| / |y - mean y|)`; none of a channel that stands.
+    pub nrmse_fit_percent: Option<f64>,
+}
+
+/// A simulated motion beside its log, a distance a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Of positions.
+    pub position: Vec<Distance>,
+    /// Of torques, where a controller made them.
+    pub torque: Option<Vec<Distance>>,
+}
+
+/// What output error found.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct OutputEstimate {
+    /// One value a parameter.
+    pub values: Vec<f64>,
+    /// Standard deviations, that know how errors are alike from sample to sample; none where the logs say nothing of a parameter by itself.
+    pub std: Vec<Option<f64>>,
+    /// The way of the search, from its start.
+    pub iterates: Vec<Iterate>,
+    /// What the logs say of which parameters.
+    pub identifiability: Identifiability,
+    /// On the logs that were fitted.
+    pub fit: Comparison,
+    /// Samples a joint.
+    pub samples: usize,
+}
+
+/// Why there is no estimate.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum OutputErrorError {
+    /// The arm cannot be simulated where the search starts.
+    #[error(
+        "{log}: with the parameters that the search starts from: {error}; start nearer to the arm, cut the log into windows, or simulate its controller too"
+    )]
+    Start {
+        /// The log.
+        log: String,
+        /// What happened.
+        error: SimulateError,
+    },
+    /// Parts have other sizes than the arm.
+    #[error("{what}: {found} for an arm with {expected}")]
+    Size {
+        /// What it is.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// A start outside of its bounds.
+    #[error("parameter {name} starts at {value}, outside of its bounds {low} .. {high}")]
+    Outside {
+        /// The parameter.
+        name: String,
+        /// Where it starts.
+        value: f64,
+        /// Its least value.
+        low: f64,
+        /// Its largest.
+        high: f64,
+    },
+    /// A log lacks what its controller reads.
+    #[error("{log}: it has no column `{channel}`, which the controller reads")]
+    NoChannel {
+        /// The log.
+        log: String,
+        /// The channel.
+        channel: String,
+    },
+    /// A window without room for a motion.
+    #[error("windows of {seconds} s have too few samples for a motion; make them longer")]
+    Short {
+        /// Its length, s.
+        seconds: f64,
+    },
+}
+
+/// A place of the search: parameters, and where each window starts.
+#[derive(Debug, Clone)]
+struct Place {
+    values: Vec<f64>,
+    starts: Vec<DVector<f64>>,
+}
+
+/// All windows with what they are fitted by.
+struct Problem<'a, P> {
+    plant: P,
+    windows: Vec<Window<'a>>,
+    law: Option<&'a Law>,
+    hold: Hold,
+    /// One a joint.
+    scale: Vec<f64>,
+}
+
+impl<P: Adjustable + Clone> Problem<'_, P> {
+    fn run(
+        &mut self,
+        place: &Place,
+        with_slopes: bool,
+    ) -> Result<Vec<Run>, (usize, SimulateError)> {
+        self.plant.adjust(&place.values);
+        let windows = self.windows.iter().zip(&place.starts).enumerate();
+        windows
+            .map(|(k, (window, start))| {
+                let run = window.run(&self.plant, start, self.law, self.hold, with_slopes);
+                run.map_err(|error| (k, error))
+            })
+            .collect()
+    }
+
+    /// These parameters, and starts as logs have them.
+    fn place(&mut self, values: &[f64]) -> Place {
+        self.plant.adjust(values);
+        let windows = self.windows.iter();
+        Place {
+            starts: windows.map(|window| window.start(&self.plant)).collect(),
+            values: values.to_vec(),
+        }
+    }
+
+    fn rows(&self, runs: &[Run]) -> Vec<Rows> {
+        let runs = self.windows.iter().zip(runs);
+        runs.map(|(window, run)| window.rows(run, &self.scale))
+            .collect()
+    }
+
+    fn cost(&self, runs: &[Run]) -> f64 {
+        let rows = self.windows.iter().zip(runs);
+        let squares = rows.map(|(window, run)| window.squares(run, &self.scale));
+        0.5 * squares.flatten().sum::<f64>()
+    }
+
+    /// Root mean square of the errors of each joint.
+    fn spread(&self, runs: &[Run]) -> Vec<f64> {
+        let ones = vec![1.0; self.scale.len()];
+        let mut sums = vec![0.0; ones.len()];
+        let mut samples = 0;
+        for (window, run) in self.windows.iter().zip(runs) {
+            samples += window.counted();
+            let squares = window.squares(run, &ones);
+            sums.iter_mut().zip(squares).for_each(|(sum, x)| *sum += x);
+        }
+        let root = |sum: f64| (sum / samples.max(1) as f64).sqrt();
+        sums.into_iter().map(root).collect()
+    }
+}
+
+impl OutputError {
+    /// Looks for the parameters, from `start` on. `names` are theirs, for messages; `progress` is told each iterate.
+    ///
+    /// # Errors
+    /// [`OutputErrorError`].
+    pub fn fit<P: Adjustable + Clone>(
+        &self,
+        plant: P,
+        names: &[String],
+        start: &[f64],
+        recordings: &[Recording],
+        progress: &mut dyn FnMut(&Iterate),
+    ) -> Result<OutputEstimate, OutputErrorError> {
+        self.check(&plant, names, start)?;
+        let bounds = if self.bounds.is_empty() {
+            vec![[f64::NEG_INFINITY, f64::INFINITY]; start.len()]
+        } else {
+            self.bounds.clone()
+        };
+        let joints = plant.joints();
+        let mut scale = vec![1.0; joints];
+        let mut values = start.to_vec();
+        let mut iterates = Vec::new();
+        // From a start that is far away a short motion leads back sooner than a long one.
+        let short = self.window.filter(|_| self.law.is_none());
+        let stages = short.map(|window| Some(FIRST_SHARE * window));
+        let stages = stages.into_iter().chain([self.window]);
+        let mut last = None;
+        for window in stages {
+            let mut problem = match self.problem(plant.clone(), recordings, window) {
+                Err(OutputErrorError::Short { .. }) if window != self.window => continue,
+                problem => problem?,
+            };
+            let mut place = problem.place(&values);
+            // A joint counts by what its errors are, once they are known.
+            for _ in 0..if joints > 1 { 2 } else { 1 } {
+                problem.scale.clone_from(&scale);
+                let runs = problem.run(&place, false);
+                let runs = runs.map_err(|(k, error)| no_start(&problem, k, error))?;
+                let runs = search::search(
+                    self.search,
+                    &mut problem,
+                    &mut place,
+                    &runs,
+                    &bounds,
+                    &mut iterates,
+                    progress,
+                );
+                if joints > 1 {
+                    scale = problem.spread(&runs).iter().map(|x| x.max(1e-12)).collect();
+                }
+                last = Some(runs);
+            }
+            values.clone_from(&place.values);
+            if window == self.window
+                && let Some(runs) = last.take()
+            {
+                return Ok(result(&mut problem, place, &runs, iterates, names));
+            }
+        }
+        unreachable!("the last stage has the window that was asked for")
+    }
+
+    /// How an arm with given parameters moves beside logs, with the start of each window fitted to it where no controller is known.
+    ///
+    /// # Errors
+    /// As [`Self::fit`].
+    pub fn compare<P: Adjustable + Clone>(
+        &self,
+        plant: P,
+        values: &[f64],
+        recordings: &[Recording],
+    ) -> Result<Comparison, OutputErrorError> {
+        let mut problem = self.problem(plant, recordings, self.window)?;
+        let mut place = problem.place(values);
+        let runs = problem.run(&place, false);
+        let runs = runs.map_err(|(k, error)| no_start(&problem, k, error))?;
+        let bounds: Vec<[f64; 2]> = values.iter().map(|&value| [value, value]).collect();
+        let (mut way, mut nobody) = (Vec::new(), |_: &Iterate| ());
+        let runs = search::search(
+            self.search,
+            &mut problem,
+            &mut place,
+            &runs,
+            &bounds,
+            &mut way,
+            &mut nobody,
+        );
+        Ok(comparison(&problem.windows, &runs, self.law.is_some()))
+    }
+
+    fn problem<'a, P: Adjustable + Clone>(
+        &'a self,
+        plant: P,
+        recordings: &'a [Recording],
+        window: Option<f64>,
+    ) -> Result<Problem<'a, P>, OutputErrorError> {
+        let windows = recordings.iter().map(|recording| {
+            if recording.torque.len() != plant.joints() {
+                return Err(OutputErrorError::Size {
+                    what: "joints of a log",
+                    found: recording.torque.len(),
+                    expected: plant.joints(),
+                });
+            }
+            Window::cut(recording, window, self.law.as_ref())
+        });
+        let windows: Vec<Vec<Window>> = windows.collect::<Result<_, _>>()?;
+        Ok(Problem {
+            scale: vec![1.0; plant.joints()],
+            windows: windows.into_iter().flatten().collect(),
+            law: self.law.as_ref(),
+            hold: self.hold,
+            plant,
+        })
+    }
+
+    fn check(
+        &self,
+        plant: &impl Adjustable,
+        names: &[String],
+        start: &[f64],
+    ) -> Result<(), OutputErrorError> {
+        let expected = plant.parameters();
+        let sizes = [
+            ("names of parameters", names.len(), expected),
+            ("values to start from", start.len(), expected),
+        ];
+        let bounds = (!self.bounds.is_empty()).then_some(("bounds", self.bounds.len(), expected));
+        let law = self.law.as_ref();
+        let law = law.map(|law| ("joints of the controller", law.joints.len(), plant.joints()));
+        for (what, found, expected) in sizes.into_iter().chain(bounds).chain(law) {
+            if found != expected {
+                return Err(OutputErrorError::Size {
+                    what,
+                    found,
+                    expected,
+                });
+            }
+        }
+        for ((&[low, high], &value), name) in self.bounds.iter().zip(start).zip(names) {
+            if !(low <= value && value <= high) {
+                return Err(OutputErrorError::Outside {
+                    name: name.clone(),
+                    value,
+                    low,
+                    high,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn no_start<P>(problem: &Problem<'_, P>, window: usize, error: SimulateError) -> OutputErrorError {
+    OutputErrorError::Start {
+        log: problem.windows[window].source().to_owned(),
+        error,
+    }
+}
+
+fn result<P: Adjustable + Clone>(
+    problem: &mut Problem<'_, P>,
+    place: Place,
+    runs: &[Run],
+    iterates: Vec<Iterate>,
+    names: &[String],
+) -> OutputEstimate {
+    let rows = problem.rows(runs);
+    let reduced = Reduced::new(&rows);
+    let identifiability = Identifiability::new(&reduced.r, &place.values, names);
+    let std = deviations(problem, &rows, &reduced, &identifiability);
+    OutputEstimate {
+        std,
+        iterates,
+        fit: comparison(&problem.windows, runs, problem.law.is_some()),
+        samples: problem.windows.iter().map(Window::counted).sum(),
+        identifiability,
+        values: place.values,
+    }
+}
+
+/// Long-run deviations of what the errors add up to; see [`super::hac`].
+fn deviations<P: Adjustable>(
+    problem: &Problem<'_, P>,
+    rows: &[Rows],
+    reduced: &Reduced,
+    identifiability: &Identifiability,
+) -> Vec<Option<f64>> {
+    let joints = problem.scale.len();
+    let inverse = identifiability.inverse(&reduced.r);
+    let unknowns = reduced.r.ncols();
+    let mut variances = vec![0.0; unknowns];
+    let mut count = 0;
+    for (rows, start) in rows.iter().zip(&reduced.starts) {
+        let own = rows.own(start);
+        let samples = rows.errors.len() / joints;
+        count += rows.errors.len();
+        let mut scores = DMatrix::zeros(samples, unknowns);
+        for joint in 0..joints {
+            for k in 0..samples {
+                let row = joint * samples + k;
+                let mut score = scores.row_mut(k);
+                score += own.row(row) * rows.errors[row];
+            }
+        }
+        let series = scores * &inverse;
+        for (variance, column) in variances.iter_mut().zip(series.column_iter()) {
+            *variance += long_run_sum(&column.iter().copied().collect::<Vec<f64>>());
+        }
+    }
+    let freedom = count as f64 / (count as f64 - unknowns as f64).max(1.0);
+    let told = variances.into_iter().enumerate();
+    told.map(|(k, variance)| {
+        identifiability
+            .is_identified(k)
+            .then(|| (freedom * variance).max(0.0).sqrt())
+    })
+    .collect()
+}
+
+fn comparison(windows: &[Window<'_>], runs: &[Run], has_law: bool) -> Comparison {
+    let joints = runs.first().map_or(0, |run| run.q.len());
+    let distance = |joint: usize, of: &dyn Fn(&Window<'_>, &Run, usize) -> Vec<(f64, f64)>| {
+        let pairs = windows.iter().zip(runs);
+        let pairs: Vec<(f64, f64)> = pairs
+            .flat_map(|(window, run)| of(window, run, joint))
+            .collect();
+        Distance::new(&pairs)
+    };
+    let position = |window: &Window<'_>, run: &Run, joint: usize| window.positions(run, joint);
+    let torque = |window: &Window<'_>, run: &Run, joint: usize| window.torques(run, joint);
+    Comparison {
+        position: (0..joints)
+            .map(|joint| distance(joint, &position))
+            .collect(),
+        torque: has_law.then(|| (0..joints).map(|joint| distance(joint, &torque)).collect()),
+    }
+}
+
+impl Distance {
+    /// Of pairs of a measured and a simulated value.
+    fn new(pairs: &[(f64, f64)]) -> Self {
+        let count = pairs.len().max(1) as f64;
+        let sum = |value: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(value).sum::<f64>();
+        let squares = sum(&|(y, s)| (y - s).powi(2));
+        let mean = sum(&|(y, _)| *y) / count;
+        let level = sum(&|(y, _)| y * y);
+        let spread = sum(&|(y, _)| (y - mean).powi(2));
+        let share = |of: f64| 100.0 * (squares / of).sqrt();
+        Self {
+            rmse: (squares / count).sqrt(),
+            mae: sum(&|(y, s)| (y - s).abs()) / count,
+            relative_percent: if level > 0.0 { share(level) } else { 0.0 },
+            nrmse_fit_percent: (spread > 1e-12 * level).then(|| 100.0 - share(spread)),
+        }
+    }
+}

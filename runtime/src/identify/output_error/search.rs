@@ -1,0 +1,357 @@
+//! The search for the least cost: Levenberg's and Marquardt's, or within a trust region, both with bounds.
+//!
+//! In each step starts of windows follow the parameters (their equations are eliminated by orthogonal factors), and the parameters solve
+//! `min |z + R d|` with what keeps them near: `lambda |D d|^2`, or `|D d| <= Delta`.
+//!
+//! Sources: Marquardt 1963; More 1978 for the scales `D`; for the trust region Algorithm 1 of Trojanova, Cakurda 2020 with its constants
+//! `0, 2, 0.25, 0.25, 0.5`, where the radius shrinks to `0.25 |D d|` of the step (the paper prints the gradient's length).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::window::{Rows, Run};
+use super::{Place, Problem};
+use crate::simulate::Adjustable;
+
+/// Iterations at most.
+const MOST: usize = 60;
+
+/// Least damping, of columns of length one: directions that outputs do not answer to are left alone.
+const LEAST: f64 = 1e-10;
+
+/// Shares of the cost and of the parameters that are no progress.
+const STILL: f64 = 1e-10;
+const NO_STEP: f64 = 1e-9;
+
+/// Who looks for the least cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Search {
+    /// Levenberg and Marquardt: damped Gauss-Newton steps.
+    #[default]
+    LevenbergMarquardt,
+    /// Gauss-Newton steps within a radius that follows how well the last step was foretold.
+    TrustRegion,
+}
+
+/// A place on the way of a search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Iterate {
+    /// Part of the search, from 0: costs of different parts are of other windows, or of joints that are weighed otherwise.
+    pub stage: usize,
+    /// `J`
+    pub cost: f64,
+    /// Parameters.
+    pub values: Vec<f64>,
+    /// Damping of the next step, or radius of the trust region.
+    pub control: f64,
+    /// Simulations of all logs so far.
+    pub simulations: usize,
+}
+
+/// How the start of a window follows the parameters: `R11 s + R12 d + z1 = 0`.
+#[derive(Debug, Clone)]
+pub(super) struct Start {
+    /// Columns of the start that move anything.
+    moving: Vec<usize>,
+    count: usize,
+    r11: DMatrix<f64>,
+    r12: DMatrix<f64>,
+    z1: DVector<f64>,
+}
+
+impl Start {
+    fn solve(&self, right: DMatrix<f64>) -> DMatrix<f64> {
+        let svd = self.r11.clone().svd(true, true);
+        let least = 1e-12 * svd.singular_values.max();
+        let found = svd.solve(&right, least).unwrap_or(right * 0.0);
+        let mut all = DMatrix::zeros(self.count, found.ncols());
+        for (row, &k) in self.moving.iter().enumerate() {
+            all.set_row(k, &found.row(row));
+        }
+        all
+    }
+
+    /// Slope of the start by the parameters; none where nothing of it moves.
+    pub fn follow(&self) -> Option<DMatrix<f64>> {
+        (!self.moving.is_empty()).then(|| self.solve(-&self.r12))
+    }
+
+    /// Its step for one of the parameters.
+    fn step(&self, step: &DVector<f64>) -> DVector<f64> {
+        if self.moving.is_empty() {
+            return DVector::zeros(self.count);
+        }
+        let right = -(&self.z1 + &self.r12 * step);
+        let right = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
+        self.solve(right).column(0).into_owned()
+    }
+}
+
+/// Equations of all windows without their starts, `|z + R d|^2`.
+#[derive(Debug, Clone)]
+pub(super) struct Reduced {
+    pub r: DMatrix<f64>,
+    z: DVector<f64>,
+    pub starts: Vec<Start>,
+}
+
+/// The upper triangle of a QR factorization, square or with fewer rows.
+fn triangle(rows: DMatrix<f64>) -> DMatrix<f64> {
+    if rows.nrows() == 0 {
+        return rows;
+    }
+    rows.qr().r()
+}
+
+impl Reduced {
+    pub fn new(rows: &[Rows]) -> Self {
+        let unknowns = rows.first().map_or(0, |rows| rows.by_parameters.ncols());
+        let mut stacked = DMatrix::zeros(0, unknowns + 1);
+        let mut starts = Vec::new();
+        for rows in rows {
+            let count = rows.by_start.ncols();
+            let sizes: Vec<f64> = rows.by_start.column_iter().map(|x| x.norm()).collect();
+            let largest = sizes.iter().copied().fold(0.0, f64::max);
+            let moving: Vec<usize> = (0..count).filter(|&k| sizes[k] > 1e-12 * largest).collect();
+            let s = moving.len();
+            let mut all = DMatrix::zeros(rows.errors.len(), s + unknowns + 1);
+            for (place, &k) in moving.iter().enumerate() {
+                all.set_column(place, &rows.by_start.column(k));
+            }
+            all.columns_mut(s, unknowns).copy_from(&rows.by_parameters);
+            all.set_column(s + unknowns, &rows.errors);
+            let all = triangle(all);
+            starts.push(Start {
+                count,
+                r11: all.view((0, 0), (s, s)).into_owned(),
+                r12: all.view((0, s), (s, unknowns)).into_owned(),
+                z1: all.view((0, s + unknowns), (s, 1)).column(0).into_owned(),
+                moving,
+            });
+            let own = all.view((s, s), (all.nrows() - s, unknowns + 1));
+            let before = stacked.nrows();
+            stacked = stacked.resize_vertically(before + own.nrows(), 0.0);
+            stacked.rows_mut(before, own.nrows()).copy_from(&own);
+            stacked = triangle(stacked);
+        }
+        let stacked = stacked.resize_vertically(unknowns + 1, 0.0);
+        Self {
+            r: stacked.view((0, 0), (unknowns, unknowns)).into_owned(),
+            z: stacked
+                .view((0, unknowns), (unknowns, 1))
+                .column(0)
+                .into_owned(),
+            starts,
+        }
+    }
+
+    /// By how much a step is foretold to lower the cost.
+    fn predicted(&self, step: &DVector<f64>) -> f64 {
+        let starts: f64 = self
+            .starts
+            .iter()
+            .map(|start| start.z1.norm_squared())
+            .sum();
+        0.5 * (starts + self.z.norm_squared() - (&self.z + &self.r * step).norm_squared())
+    }
+}
+
+/// How far parameters may go from where they are.
+struct Room<'a> {
+    values: &'a [f64],
+    bounds: &'a [[f64; 2]],
+}
+
+impl Room<'_> {
+    /// The step of least `|z + R d|^2 + lambda |D d|^2` that stays within the bounds: parameters that would leave them are set there,
+    /// the others again.
+    fn damped(&self, reduced: &Reduced, scale: &DVector<f64>, lambda: f64) -> DVector<f64> {
+        let unknowns = self.values.len();
+        let mut step = DVector::zeros(unknowns);
+        let mut free: Vec<usize> = (0..unknowns)
+            .filter(|&k| self.bounds[k][0] < self.bounds[k][1] && scale[k] > 0.0)
+            .collect();
+        while !free.is_empty() {
+            let count = free.len();
+            let mut rows = DMatrix::zeros(unknowns + count, count + 1);
+            let right = &reduced.z + &reduced.r * &step;
+            for (place, &k) in free.iter().enumerate() {
+                rows.view_mut((0, place), (unknowns, 1))
+                    .copy_from(&reduced.r.column(k));
+                rows[(unknowns + place, place)] = lambda.sqrt() * scale[k];
+            }
+            rows.view_mut((0, count), (unknowns, 1)).copy_from(&right);
+            let rows = triangle(rows);
+            let r = rows.view((0, 0), (count, count)).into_owned();
+            let z: DVector<f64> = -rows.view((0, count), (count, 1)).column(0);
+            let Some(found) = r.solve_upper_triangular(&z) else {
+                return step;
+            };
+            let mut stays = Vec::new();
+            for (&k, &change) in free.iter().zip(found.iter()) {
+                let [low, high] = self.bounds[k];
+                let value = self.values[k] + change;
+                if value < low || value > high {
+                    step[k] = value.clamp(low, high) - self.values[k];
+                } else {
+                    stays.push((k, change));
+                }
+            }
+            if stays.len() == count {
+                for (k, change) in stays {
+                    step[k] = change;
+                }
+                return step;
+            }
+            free = stays.into_iter().map(|(k, _)| k).collect();
+        }
+        step
+    }
+
+    /// The same within a radius.
+    fn within(&self, reduced: &Reduced, scale: &DVector<f64>, radius: f64) -> DVector<f64> {
+        let size = |step: &DVector<f64>| step.component_mul(scale).norm();
+        let step = self.damped(reduced, scale, LEAST);
+        if size(&step) <= radius {
+            return step;
+        }
+        let (mut low, mut high) = (LEAST.ln(), 1e12_f64.ln());
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if size(&self.damped(reduced, scale, middle.exp())) > radius {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        self.damped(reduced, scale, high.exp())
+    }
+}
+
+/// Moves a place to where the cost is least, from runs of it without slopes on; gives its runs with slopes.
+pub(super) fn search<P: Adjustable + Clone>(
+    search: Search,
+    problem: &mut Problem<'_, P>,
+    place: &mut Place,
+    runs: &[Run],
+    bounds: &[[f64; 2]],
+    iterates: &mut Vec<Iterate>,
+    progress: &mut dyn FnMut(&Iterate),
+) -> Vec<Run> {
+    let mut cost = problem.cost(runs);
+    let last = iterates.last();
+    let (mut simulations, stage) =
+        last.map_or((1, 0), |iterate| (iterate.simulations, iterate.stage + 1));
+    // A start that can be simulated can be so with slopes.
+    let mut best = problem.run(place, true).unwrap_or_else(|_| runs.to_vec());
+    let mut scale = DVector::zeros(place.values.len());
+    let mut control: Option<f64> = None;
+    for iteration in 0..=MOST {
+        simulations += 1;
+        let reduced = Reduced::new(&problem.rows(&best));
+        for (scale, column) in scale.iter_mut().zip(reduced.r.column_iter()) {
+            *scale = f64::max(*scale, column.norm());
+        }
+        let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
+        let iterate = Iterate {
+            stage,
+            cost,
+            values: place.values.clone(),
+            control: now,
+            simulations,
+        };
+        progress(&iterate);
+        iterates.push(iterate);
+        if iteration == MOST {
+            break;
+        }
+        let mut next = None;
+        // Shorter and shorter steps, until one goes down.
+        for _ in 0..30 {
+            let room = Room {
+                values: &place.values,
+                bounds,
+            };
+            let step = match search {
+                Search::LevenbergMarquardt => room.damped(&reduced, &scale, now),
+                Search::TrustRegion => room.within(&reduced, &scale, now),
+            };
+            let length = step.component_mul(&scale).norm();
+            let trial = Place {
+                values: place
+                    .values
+                    .iter()
+                    .zip(step.iter())
+                    .map(|(value, step)| value + step)
+                    .collect(),
+                starts: place
+                    .starts
+                    .iter()
+                    .zip(&reduced.starts)
+                    .map(|(start, by)| start + by.step(&step))
+                    .collect(),
+            };
+            let predicted = reduced.predicted(&step);
+            if predicted <= STILL * cost {
+                break;
+            }
+            simulations += 1;
+            let after = problem.run(&trial, false).map(|runs| problem.cost(&runs));
+            let after = after.unwrap_or(f64::INFINITY);
+            let ratio = (cost - after) / predicted;
+            now = next_control(search, now, ratio, length);
+            if ratio > 0.0 {
+                next = Some((trial, after, length));
+                break;
+            }
+        }
+        let Some((trial, after, length)) = next else {
+            break;
+        };
+        let Ok(runs) = problem.run(&trial, true) else {
+            break;
+        };
+        let size = DVector::from_column_slice(&trial.values).component_mul(&scale);
+        let is_over = cost - after <= STILL * cost || length <= NO_STEP * size.norm();
+        (*place, cost, best, control) = (trial, after, runs, Some(now));
+        if is_over {
+            simulations += 1;
+            let iterate = Iterate {
+                stage,
+                cost,
+                values: place.values.clone(),
+                control: now,
+                simulations,
+            };
+            progress(&iterate);
+            iterates.push(iterate);
+            break;
+        }
+    }
+    problem.plant.adjust(&place.values);
+    best
+}
+
+fn first_control(search: Search, place: &Place, scale: &DVector<f64>) -> f64 {
+    match search {
+        Search::LevenbergMarquardt => 1e-3,
+        Search::TrustRegion => {
+            let values = DVector::from_column_slice(&place.values);
+            f64::max(0.3 * values.component_mul(scale).norm(), 1e-6)
+        }
+    }
+}
+
+/// Damping or radius after a step of a length, that lowered the cost by `ratio` of what was foretold.
+fn next_control(search: Search, now: f64, ratio: f64, length: f64) -> f64 {
+    // Not a number where the motion ran away.
+    let ratio = if ratio.is_nan() { -1.0 } else { ratio };
+    match search {
+        Search::LevenbergMarquardt if ratio > 0.75 => f64::max(0.1 * now, LEAST),
+        Search::LevenbergMarquardt if ratio > 0.25 => now,
+        Search::LevenbergMarquardt if ratio > 0.0 => 4.0 * now,
+        Search::LevenbergMarquardt => 10.0 * now,
+        Search::TrustRegion if ratio < 0.25 => f64::min(0.25 * length, 0.5 * now),
+        Search::TrustRegion if ratio > 0.75 => 2.0 * now,
+        Search::TrustRegion => now,
+    }
+}
