@@ -136,8 +136,13 @@ impl IdentifyArguments {
                 iterate.simulations, iterate.cost
             ));
         };
-        let plant = beginning.plant.clone();
-        let found = settings.fit(plant, &beginning.names, &start, &fitted, &mut tell);
+        let found = settings.fit(
+            &beginning.plant,
+            &beginning.names,
+            &start,
+            &fitted,
+            &mut tell,
+        );
         let found = found.map_err(|error| refused(&error))?;
         let linear = beginning.linear.as_ref();
         let linear = linear.map(|linear| of_simulation(&compiled, linear, &found));
@@ -153,8 +158,7 @@ impl IdentifyArguments {
         };
         let judge = |log: &Log| -> Result<Judged, Error> {
             let log = std::slice::from_ref(log);
-            let plant = beginning.plant.clone();
-            let comparison = settings.compare(plant, &found.values, &recordings(log)?);
+            let comparison = settings.compare(&beginning.plant, &found.values, &recordings(log)?);
             Ok(Judged {
                 comparison: comparison.map_err(|error| refused(&error))?,
                 torque: errors(log)?,
@@ -229,7 +233,10 @@ impl IdentifyArguments {
         let options = &self.output_error;
         let law = options.controller.as_deref();
         let law = law.map(|path| law::read(path, &compiled.model.joints));
-        if let Some(window) = options.window.filter(|window| !(*window > 0.0)) {
+        if let Some(window) = options
+            .window
+            .filter(|window| window.is_nan() || *window <= 0.0)
+        {
             return Err(Error::Argument(format!(
                 "`--window` has to be positive, not {window}"
             )));

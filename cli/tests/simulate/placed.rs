@@ -161,10 +161,12 @@ fn torque(arm: &mut InterpretedPlant, displacement: f64) -> (f64, [f64; 2]) {
     (torque[0], [0, 1].map(|k| slopes.torque[0][(0, k)]))
 }
 
+/// Load by displacement, and its slope.
+type Spring = fn(f64) -> [f64; 2];
+
 #[test]
 fn loads_of_all_sizes_are_found_with_their_slopes() {
-    // Load by displacement, and its slope.
-    let laws: [(&str, fn(f64) -> [f64; 2]); 3] = [
+    let laws: [(&str, Spring); 3] = [
         ("-rigid_torque(j)^3 / k", |x| {
             [
                 (-200.0 * x).cbrt(),

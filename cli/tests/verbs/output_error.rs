@@ -98,9 +98,8 @@ fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
     assert!(biased > 600.0, "{biased}");
 }
 
-/// Two links that are let go, as in Trojanova and Cakurda 2020: without a torque nothing tells how heavy they are.
-#[test]
-fn what_falls_freely_is_known_up_to_a_common_factor() {
+/// Two links that are let go, as in Trojanova and Cakurda 2020, and their parameters.
+fn falling() -> (Folder, [(&'static str, f64); 10]) {
     let folder = Folder::new();
     let spec = "robot Arm {
         gravity = [0, -9.81, 0];
@@ -139,7 +138,15 @@ fn what_falls_freely_is_known_up_to_a_common_factor() {
     let free = ["--controller", "none", "--rate", "200"];
     let values = ["--parameters", "values.json"];
     folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &free, &values].concat());
+    let bounds = r#"{"lo.viscous_friction.fv": [0.05, 0.27], "up.viscous_friction.fv": [0.1, 9]}"#;
+    folder.write("bounds.json", bounds);
+    (folder, truth)
+}
 
+/// Without a torque nothing tells how heavy they are.
+#[test]
+fn what_falls_freely_is_known_up_to_a_common_factor() {
+    let (folder, truth) = falling();
     let basics = [
         "identify",
         "arm.robot",
@@ -155,8 +162,6 @@ fn what_falls_freely_is_known_up_to_a_common_factor() {
         "--json",
         "fit.json",
     ];
-    let bounds = r#"{"lo.viscous_friction.fv": [0.05, 0.27], "up.viscous_friction.fv": [0.1, 9]}"#;
-    folder.write("bounds.json", bounds);
     let searches = [
         vec!["--search", "levenberg-marquardt"],
         vec!["--search", "trust-region"],

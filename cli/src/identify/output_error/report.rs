@@ -99,7 +99,7 @@ impl OutputReport<'_> {
     pub fn json(&self) -> JsonReport<'_> {
         let found = self.found;
         let values = self.names.iter().zip(found.values.iter().zip(&found.std));
-        let told = |judged: &Option<&'_ Judged>| {
+        let told = |judged: Option<&Judged>| {
             judged.and_then(|judged| judged.comparison.torque.as_deref().map(Distances::new))
         };
         let torque = self.train.torque.as_ref();
@@ -126,8 +126,8 @@ impl OutputReport<'_> {
             position_validate: self
                 .validation
                 .map(|judged| Distances::new(&judged.comparison.position)),
-            torque: told(&Some(self.train)),
-            torque_validate: told(&self.validation),
+            torque: told(Some(self.train)),
+            torque_validate: told(self.validation),
             singular_values: &found.identifiability.singular,
             directions: found
                 .identifiability

@@ -1,0 +1,144 @@
+//! What output error found, and how far simulated motions are from their logs.
+
+use nalgebra::DMatrix;
+
+use super::search::Reduced;
+use super::window::{Rows, Run, Window};
+use super::{Identifiability, Iterate, Place, Problem};
+use crate::identify::hac::long_run_sum;
+use crate::simulate::Adjustable;
+
+/// How far a simulated channel is from its log.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Distance {
+    /// Root of the mean square.
+    pub rmse: f64,
+    /// Mean absolute error.
+    pub mae: f64,
+    /// `100 |y - y_s| / |y|`
+    pub relative_percent: f64,
+    /// `100 (1 - |y - y_s| / |y - mean y|)`; none of a channel that stands.
+    pub nrmse_fit_percent: Option<f64>,
+}
+
+/// A simulated motion beside its log, a distance a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Of positions.
+    pub position: Vec<Distance>,
+    /// Of torques, where a controller made them.
+    pub torque: Option<Vec<Distance>>,
+}
+
+/// What output error found.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct OutputEstimate {
+    /// One value a parameter.
+    pub values: Vec<f64>,
+    /// Standard deviations, that know how errors are alike from sample to sample; none where the logs say nothing of a parameter by itself.
+    pub std: Vec<Option<f64>>,
+    /// The way of the search, from its start.
+    pub iterates: Vec<Iterate>,
+    /// What the logs say of which parameters.
+    pub identifiability: Identifiability,
+    /// On the logs that were fitted.
+    pub fit: Comparison,
+    /// Samples a joint.
+    pub samples: usize,
+}
+
+pub(super) fn result<P: Adjustable + Clone>(
+    problem: &mut Problem<'_, P>,
+    place: Place,
+    runs: &[Run],
+    iterates: Vec<Iterate>,
+    names: &[String],
+) -> OutputEstimate {
+    let rows = problem.rows(runs);
+    let reduced = Reduced::new(&rows);
+    let identifiability = Identifiability::new(&reduced.r, &place.values, names);
+    let std = deviations(problem, &rows, &reduced, &identifiability);
+    OutputEstimate {
+        std,
+        iterates,
+        fit: comparison(&problem.windows, runs, problem.law.is_some()),
+        samples: problem.windows.iter().map(Window::counted).sum(),
+        identifiability,
+        values: place.values,
+    }
+}
+
+/// Long-run deviations of what the errors add up to; see [`super::hac`].
+fn deviations<P: Adjustable>(
+    problem: &Problem<'_, P>,
+    rows: &[Rows],
+    reduced: &Reduced,
+    identifiability: &Identifiability,
+) -> Vec<Option<f64>> {
+    let joints = problem.scale.len();
+    let inverse = identifiability.inverse(&reduced.r);
+    let unknowns = reduced.r.ncols();
+    let mut variances = vec![0.0; unknowns];
+    let mut count = 0;
+    for (rows, start) in rows.iter().zip(&reduced.starts) {
+        let own = rows.own(start);
+        let samples = rows.errors.len() / joints;
+        count += rows.errors.len();
+        let mut scores = DMatrix::zeros(samples, unknowns);
+        for joint in 0..joints {
+            for k in 0..samples {
+                let row = joint * samples + k;
+                let mut score = scores.row_mut(k);
+                score += own.row(row) * rows.errors[row];
+            }
+        }
+        let series = scores * &inverse;
+        for (variance, column) in variances.iter_mut().zip(series.column_iter()) {
+            *variance += long_run_sum(&column.iter().copied().collect::<Vec<f64>>());
+        }
+    }
+    let freedom = count as f64 / (count as f64 - unknowns as f64).max(1.0);
+    let told = variances.into_iter().enumerate();
+    told.map(|(k, variance)| {
+        identifiability
+            .is_identified(k)
+            .then(|| (freedom * variance).max(0.0).sqrt())
+    })
+    .collect()
+}
+
+pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool) -> Comparison {
+    let joints = runs.first().map_or(0, |run| run.q.len());
+    let distances = |pairs: fn(&Window<'w>, &Run, usize) -> Vec<(f64, f64)>| -> Vec<Distance> {
+        let distance = |joint: usize| {
+            let runs = windows.iter().zip(runs);
+            let all = runs.flat_map(|(window, run)| pairs(window, run, joint));
+            Distance::new(&all.collect::<Vec<_>>())
+        };
+        (0..joints).map(distance).collect()
+    };
+    Comparison {
+        position: distances(Window::positions),
+        torque: has_law.then(|| distances(Window::torques)),
+    }
+}
+
+impl Distance {
+    /// Of pairs of a measured and a simulated value.
+    fn new(pairs: &[(f64, f64)]) -> Self {
+        let count = pairs.len().max(1) as f64;
+        let sum = |value: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(value).sum::<f64>();
+        let squares = sum(&|(y, s)| (y - s).powi(2));
+        let mean = sum(&|(y, _)| *y) / count;
+        let level = sum(&|(y, _)| y * y);
+        let spread = sum(&|(y, _)| (y - mean).powi(2));
+        let share = |of: f64| 100.0 * (squares / of).sqrt();
+        Self {
+            rmse: (squares / count).sqrt(),
+            mae: sum(&|(y, s)| (y - s).abs()) / count,
+            relative_percent: if level > 0.0 { share(level) } else { 0.0 },
+            nrmse_fit_percent: (spread > 1e-12 * level).then(|| 100.0 - share(spread)),
+        }
+    }
+}

@@ -1,0 +1,243 @@
+//! A block on a table, that is pushed.
+
+use nalgebra::{DMatrix, DVector};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+use crate::log::{Channel, Log};
+use crate::simulate::{
+    Drive, Instant, Integrator, Jumps, ParameterSlopes, Plant, Slopes, Tolerances,
+};
+
+/// `m ddq + c dq + f sign(dq) = tau`, and what does nothing.
+#[derive(Debug, Clone)]
+struct Block([f64; 4]);
+
+const TRUTH: [f64; 4] = [2.0, 0.7, 1.5, 1.0];
+const STEP: f64 = 0.01;
+
+impl Plant for Block {
+    fn dof(&self) -> usize {
+        1
+    }
+
+    fn switches(&self) -> usize {
+        1
+    }
+
+    fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
+        let [m, c, f, _] = self.0;
+        torque[0] = m * at.ddq[0] + c * at.dq[0] + f * at.switches[0];
+        inertia[(0, 0)] = m;
+    }
+
+    fn arguments(&mut self, at: &Instant<'_>, arguments: &mut [f64]) {
+        arguments[0] = at.dq[0];
+    }
+
+    fn jumps(&mut self, _: &Instant<'_>, jumps: &mut Jumps) {
+        jumps.halves[(0, 0)] = self.0[2];
+        jumps.directions[(0, 0)] = 1.0;
+    }
+
+    fn slopes(&mut self, _: &Instant<'_>, slopes: &mut Slopes) {
+        slopes.torque[0][(0, 0)] = 0.0;
+        slopes.torque[1][(0, 0)] = self.0[1];
+    }
+}
+
+impl Adjustable for Block {
+    fn values(&self) -> Vec<f64> {
+        self.0.to_vec()
+    }
+
+    fn adjust(&mut self, values: &[f64]) {
+        self.0.copy_from_slice(values);
+    }
+
+    fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
+        let by = [at.ddq[0], at.dq[0], at.switches[0], 0.0];
+        slopes.torque.copy_from_slice(&by);
+    }
+}
+
+fn names() -> Vec<String> {
+    ["m", "c", "f", "idle"].map(str::to_owned).to_vec()
+}
+
+/// A log of it under torques that are held, which turns and sticks.
+fn log(seconds: f64) -> Log {
+    let push = |t: f64| 4.0 * (2.3 * t).sin() + 2.5 * (5.1 * t + 0.4).cos();
+    let mut block =
+        Integrator::new(Block(TRUTH), &[0.2], &[0.5], Tolerances::default()).expect("sound");
+    let (mut time, mut q, mut tau) = (Vec::new(), Vec::new(), Vec::new());
+    while block.time() < seconds {
+        let t = block.time();
+        time.push(t);
+        q.push(block.q()[0]);
+        tau.push(push(t));
+        block.drive(Drive {
+            torque: vec![push(t)],
+            ..Drive::default()
+        });
+        block.advance(t + STEP).expect("a motion");
+    }
+    Log {
+        source: "block.csv".to_owned(),
+        time,
+        q: vec![q],
+        dq: Vec::new(),
+        tau: vec![tau],
+        extra: Vec::new(),
+        report: Vec::new(),
+        holes: Vec::new(),
+    }
+}
+
+fn noisy(mut log: Log, sigma: f64, seed: u64) -> Log {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    for q in &mut log.q[0] {
+        let noise: f64 = StandardNormal.sample(&mut random);
+        *q += sigma * noise;
+    }
+    log
+}
+
+fn fit(settings: &OutputError, log: &Log) -> OutputEstimate {
+    let recording = Recording::new(log, &[1.0], 0.0, Vec::new());
+    let start = [2.6, 0.4, 1.1, 1.0];
+    let found = settings.fit(&Block(start), &names(), &start, &[recording], &mut |_| ());
+    found.expect("an estimate")
+}
+
+const HELD: OutputError = OutputError {
+    search: Search::LevenbergMarquardt,
+    bounds: Vec::new(),
+    window: None,
+    law: None,
+    hold: Hold::Sample,
+};
+
+#[test]
+fn dry_friction_is_found_through_turns_and_rests() {
+    let log = log(4.0);
+    for (search, window) in [
+        (Search::LevenbergMarquardt, None),
+        (Search::TrustRegion, None),
+        (Search::LevenbergMarquardt, Some(1.0)),
+    ] {
+        let settings = OutputError {
+            search,
+            window,
+            ..HELD
+        };
+        let found = fit(&settings, &log);
+        for k in 0..3 {
+            let (value, truth) = (found.values[k], TRUTH[k]);
+            assert!((value - truth).abs() < 1e-5 * truth, "{search:?}: {value}");
+            assert!(found.std[k].is_some());
+        }
+        // What does nothing stays where it was, and nothing is claimed of it.
+        assert_eq!(found.values[3].to_bits(), 1.0_f64.to_bits());
+        assert_eq!(found.std[3], None);
+        assert_eq!(found.identifiability.rank, 3);
+        let idle = found.identifiability.directions.last().expect("one");
+        assert!(idle.is_silent() && idle.moves == [("idle".to_owned(), 1.0)]);
+        let rmse = found.fit.position[0].rmse;
+        assert!(rmse < 1e-6, "{rmse}");
+    }
+}
+
+#[test]
+fn deviations_are_those_of_repeated_fits() {
+    const DRAWS: u64 = 40;
+    let clean = log(4.0);
+    let fits = (0..DRAWS).map(|seed| fit(&HELD, &noisy(clean.clone(), 1e-3, seed)));
+    let fits: Vec<OutputEstimate> = fits.collect();
+    for k in 0..3 {
+        let errors = fits.iter().map(|found| found.values[k] - TRUTH[k]);
+        let errors: Vec<f64> = errors.collect();
+        let spread = (errors.iter().map(|x| x * x).sum::<f64>() / DRAWS as f64).sqrt();
+        let told = fits.iter().map(|found| found.std[k].expect("identified"));
+        let told = (told.map(|x| x * x).sum::<f64>() / DRAWS as f64).sqrt();
+        // Forty draws know a deviation to 11 %.
+        let ratio = told / spread;
+        assert!((0.7..1.4).contains(&ratio), "{k}: {told} {spread}");
+        let bias = errors.iter().sum::<f64>() / DRAWS as f64;
+        assert!(bias.abs() < 0.6 * spread, "{k}: {bias} {spread}");
+    }
+}
+
+/// A controller that is simulated, too: it holds the block on its way, so that even a wrong start is near.
+#[test]
+fn the_controller_of_the_experiment_takes_part() {
+    let reference = |t: f64| 0.3 * (2.0 * t).sin() + 0.1 * (5.0 * t).cos();
+    let law = JointLaw {
+        position: vec![-1400.0, 0.0, 1000.0],
+        torque: vec![0.2],
+        channels: vec![
+            Tap {
+                channel: "wish".to_owned(),
+                weights: vec![400.0],
+                is_optional: false,
+            },
+            Tap {
+                channel: "pulse".to_owned(),
+                weights: vec![3.0],
+                is_optional: true,
+            },
+        ],
+        limit: Some(6.0),
+    };
+    let mut block =
+        Integrator::new(Block(TRUTH), &[0.1], &[0.6], Tolerances::default()).expect("sound");
+    let mut log = log(0.2);
+    (log.time, log.q[0], log.tau[0]) = (Vec::new(), Vec::new(), Vec::new());
+    let mut wish = Vec::new();
+    let mut cut = 0;
+    for k in 0..300_u32 {
+        let t = STEP * f64::from(k);
+        log.time.push(t);
+        log.q[0].push(block.q()[0]);
+        wish.push(reference(t));
+        let at = |back: usize| log.q[0][log.q[0].len().saturating_sub(1 + back)];
+        let before = log.tau[0].last().copied().unwrap_or(0.0);
+        let torque = -1400.0 * at(0) + 1000.0 * at(2) + 0.2 * before + 400.0 * reference(t);
+        cut += u32::from(torque.abs() > 6.0);
+        log.tau[0].push(torque.clamp(-6.0, 6.0));
+        block.drive(Drive {
+            torque: vec![torque.clamp(-6.0, 6.0)],
+            ..Drive::default()
+        });
+        block.advance(t + STEP).expect("a motion");
+    }
+    assert!(cut > 5 && cut < 250, "{cut} of 300 samples at the limit");
+    log.extra = vec![Channel {
+        name: "wish".to_owned(),
+        values: wish,
+    }];
+    let settings = OutputError {
+        law: Some(Law { joints: vec![law] }),
+        ..HELD
+    };
+    let found = fit(&settings, &log);
+    for k in 0..3 {
+        let (value, truth) = (found.values[k], TRUTH[k]);
+        assert!((value - truth).abs() < 1e-4 * truth, "{value} {truth}");
+    }
+    let torque = found.fit.torque.as_ref().expect("a controller made it")[0];
+    assert!(torque.relative_percent < 0.01, "{torque:?}");
+    // A log without what the controller reads is refused by name.
+    log.extra.clear();
+    let recording = Recording::new(&log, &[1.0], 0.0, Vec::new());
+    let refusal = settings.compare(&Block(TRUTH), &TRUTH, &[recording]);
+    assert_eq!(
+        refusal,
+        Err(OutputErrorError::NoChannel {
+            log: "block.csv".to_owned(),
+            channel: "wish".to_owned()
+        })
+    );
+}
