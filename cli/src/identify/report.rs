@@ -78,7 +78,7 @@ pub(super) struct Parameter<'a> {
     pub name: &'a str,
     /// None where the logs do not separate the parameter from others.
     pub value: Option<f64>,
-    /// None for shape parameters of least squares, too.
+    /// None for shape parameters of methods that do not tell, too.
     pub std: Option<f64>,
 }
 
@@ -94,7 +94,11 @@ pub(crate) fn report<'a>(
         value: measured(parameter).then_some(parameter.value),
         std: measured(parameter).then_some(parameter.std),
     });
-    let shapes = estimate.shapes.iter().map(known);
+    let shapes = estimate.shapes.iter().zip(&estimate.shape_std);
+    let shapes = shapes.map(|(shape, std)| Parameter {
+        std: *std,
+        ..known(shape)
+    });
     let (domain, corner) = match estimate.form {
         Form::Acceleration => ("raw", None),
         Form::Filtered { corner } => ("filtered", Some(corner)),

@@ -214,3 +214,81 @@ fn a_joint_that_stands_says_nothing() {
         }
     }
 }
+
+/// Deviations of shapes, and of what is found beside them, are those of repeated logs.
+#[test]
+fn shapes_have_deviations() {
+    const DRAWS: u32 = 16;
+    let folder = Folder::new();
+    let arm = |stribeck: &str| {
+        format!(
+            "robot A {{
+                gravity = [0, -9.81, 0];
+                convention = standard_dh;
+                joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+                link up {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0, 0, 0, 0, 0, 0.05]; }}
+                effects {{ viscous_friction on up; coulomb_friction on up; stribeck{stribeck} on up; }}
+            }}"
+        )
+    };
+    folder.write("arm.robot", &arm("(vs = 0.4)"));
+    folder.write("open.robot", &arm(""));
+    let values =
+        r#"{"up.viscous_friction.fv": 3, "up.coulomb_friction.fc": 2, "up.stribeck.fs": 1.5}"#;
+    folder.write("values.json", values);
+    let mut wanted = String::from("time,q1\n");
+    for k in 0..=1600 {
+        let t = f64::from(k) / 200.0;
+        writeln!(
+            wanted,
+            "{t},{}",
+            0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).cos()
+        )
+        .expect("a string");
+    }
+    folder.write("wanted.csv", &wanted);
+    let mut found: [Vec<[f64; 2]>; 2] = [Vec::new(), Vec::new()];
+    for seed in 0..DRAWS {
+        let seed = seed.to_string();
+        let motion = [
+            "--trajectory",
+            "wanted.csv",
+            "--parameters",
+            "values.json",
+            "--out",
+            "log.csv",
+        ];
+        let noise = ["--torque-noise", "0.1", "--seed", &seed, "--rate", "500"];
+        folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &noise].concat());
+        let (report, said) = identify(&folder, "open.robot", &[]);
+        let parameters = report["parameters"].as_array().expect("a list");
+        for (name, found) in ["up.stribeck.vs", "up.stribeck.fs"].iter().zip(&mut found) {
+            let entry = parameters.iter().find(|entry| entry["name"] == *name);
+            let entry = entry.expect("the parameter");
+            let number = |key: &str| entry[key].as_f64().unwrap_or_else(|| panic!("{said}"));
+            found.push([number("value"), number("std")]);
+        }
+    }
+    for found in &found {
+        let root = |values: &dyn Fn(&[f64; 2]) -> f64| {
+            (found.iter().map(values).map(|x| x * x).sum::<f64>() / f64::from(DRAWS)).sqrt()
+        };
+        let mean = found.iter().map(|x| x[0]).sum::<f64>() / f64::from(DRAWS);
+        let (told, spread) = (root(&|x| x[1]), root(&|x| x[0] - mean));
+        assert!(
+            (0.5..2.0).contains(&(told / spread)),
+            "{told} {spread}: {found:?}"
+        );
+    }
+    // What filters do to a motion that turns round is in no deviation; a simulation has no filters.
+    let (report, said) = identify(&folder, "open.robot", &["--method", "output-error"]);
+    let parameters = report["parameters"].as_array().expect("a list");
+    for (name, truth) in [("up.stribeck.vs", 0.4), ("up.stribeck.fs", 1.5)] {
+        let entry = parameters.iter().find(|entry| entry["name"] == name);
+        let [value, std] = ["value", "std"].map(|key| {
+            let number = entry.and_then(|entry| entry[key].as_f64());
+            number.unwrap_or_else(|| panic!("{said}"))
+        });
+        assert!((value - truth).abs() < 3.0 * std, "{said}");
+    }
+}

@@ -95,6 +95,8 @@ pub struct Estimate {
     pub parameters: Vec<Identified>,
     /// Identified shape parameters: name and value.
     pub shapes: Vec<(String, f64)>,
+    /// Their standard deviations, of least squares linearized about the estimate; none where a method or the logs do not tell.
+    pub shape_std: Vec<Option<f64>>,
     /// Names of the parameters that the logs do not excite; their value is given as 0.
     pub unexcited: Vec<String>,
     /// Condition number of the weighted regressor with columns of unit norm.
@@ -165,6 +167,7 @@ impl Estimate {
                 .zip(shapes)
                 .map(|(shape, value)| (shape.name.clone(), value))
                 .collect(),
+            shape_std: vec![None; arm.shapes().len()],
             unexcited: solution.unexcited.iter().map(name).collect(),
             condition: solution.condition,
             rank: arm.unknowns().len() - solution.unexcited.len(),
@@ -348,8 +351,17 @@ impl fmt::Display for Estimate {
                 )?;
             }
         }
-        for (name, value) in &self.shapes {
-            writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?;
+        for ((name, value), std) in self.shapes.iter().zip(&self.shape_std) {
+            match std {
+                Some(std) => {
+                    let relative = 100.0 * (std / value).abs();
+                    writeln!(
+                        f,
+                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}  (shape)"
+                    )?;
+                }
+                None => writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?,
+            }
         }
         writeln!(
             f,

@@ -57,6 +57,7 @@ impl Identify {
             corner: filtered.corner,
         };
         let shapes = solved.1.clone();
+        let solved = self.deviated(&filtered, &prepared, solved);
         self.estimate(&filtered, form, bands, solved, &|| {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
             Ok(Stack::new(&filtered, &wanted, &shapes))

@@ -17,6 +17,7 @@
 //! ```
 
 mod band;
+mod deviated;
 mod error;
 mod estimate;
 mod factor;
@@ -33,6 +34,7 @@ mod shapes;
 mod stack;
 mod total;
 
+use deviated::Solved;
 pub use error::IdentifyError;
 use estimate::Fitted;
 pub use estimate::{Errors, Estimate, Form, Identified};
@@ -105,15 +107,17 @@ impl Identify {
         };
         let mut prepared = prepare_all(logs, &bands)?;
         let solved = self.solve(arm, &mut prepared, None)?;
+        let shapes = solved.1.clone();
+        let solved = self.deviated(arm, &prepared, solved);
+        let found = solved.solution.estimate.clone();
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
             let wanted = self.wanted(logs)?;
             let mut wanted = prepare_all(&wanted, &bands)?;
             // What effects read of the load is that of the estimate.
-            update_load(arm, &mut wanted, shapes, &solved.0.estimate);
+            update_load(arm, &mut wanted, shapes, &found);
             Ok(Stack::new(arm, &wanted, shapes))
         };
-        let shapes = solved.1.clone();
-        self.estimate(arm, Form::Acceleration, bands, solved.clone(), &|| {
+        self.estimate(arm, Form::Acceleration, bands, solved, &|| {
             instruments(&shapes)
         })
     }
@@ -138,10 +142,19 @@ impl Identify {
         arm: &dyn Arm,
         form: Form,
         bands: Bands,
-        (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
+        solved: Solved,
         instruments: &dyn Fn() -> Result<Stack, IdentifyError>,
     ) -> Result<Estimate, IdentifyError> {
-        solution.std = self.deviations(&stack, &solution);
+        let Solved {
+            mut solution,
+            shapes,
+            mut shape_std,
+            stack,
+        } = solved;
+        if !matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
+            // Others solve for the linear unknowns alone.
+            shape_std.fill(None);
+        }
         let mut beside = Beside::default();
         match self.method {
             Method::Ls | Method::Wls => {}
@@ -161,17 +174,9 @@ impl Identify {
             possible: beside.possible,
             outliers: beside.outliers,
             hausman: beside.hausman,
+            shape_std,
             ..estimate
         })
-    }
-
-    /// Standard deviations of a solution of least squares; see [`hac`].
-    fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
-        let weights = match self.method {
-            Method::Robust => robust::weights(stack, &solution.estimate),
-            _ => robust::of_all(stack),
-        };
-        hac::deviations(stack, solution, &weights)
     }
 
     /// A first estimate over a wide band shows how far the model's torque reaches.

@@ -4,10 +4,11 @@ mod simplex;
 
 use std::ops::Range;
 
-use crate::columns::Arm;
+use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
 
 use super::IdentifyError;
+use super::stack::Stack;
 use simplex::simplex;
 
 /// Rounds over all effects, one at a time.
@@ -67,6 +68,48 @@ pub(super) fn search(
         }
     }
     Ok(shapes)
+}
+
+/// A stack with a column for each free shape parameter, by which the torque of an estimate changes with it: how far it is known beside
+/// the linear unknowns.
+pub(super) fn with_slopes(
+    arm: &dyn Arm,
+    logs: &[Prepared],
+    shapes: &[f64],
+    mut stack: Stack,
+    estimate: &[f64],
+) -> Stack {
+    let free = arm.shapes().iter().enumerate();
+    let slopes = free.flat_map(|(number, shape)| {
+        let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
+        let step = 1e-4 * shapes[number].abs().max(1e-3 * (high - low));
+        let ends = [shapes[number] - step, shapes[number] + step].map(|end| end.clamp(low, high));
+        let [below, above] = ends.map(|end| {
+            let mut near = shapes.to_vec();
+            near[number] = end;
+            Stack::new(arm, logs, &near).residuals(estimate)
+        });
+        let joints = below.into_iter().zip(above).enumerate();
+        let entries = joints.map(move |(joint, (below, above))| Entry {
+            joint,
+            column: number,
+            values: below
+                .iter()
+                .zip(&above)
+                .map(|(below, above)| (below - above) / (ends[1] - ends[0]))
+                .collect(),
+        });
+        entries.collect::<Vec<_>>()
+    });
+    let unknowns = arm.shapes().iter().map(|shape| Unknown {
+        name: shape.name.clone(),
+        nonnegative: false,
+    });
+    stack.append(
+        &unknowns.collect::<Vec<_>>(),
+        &slopes.collect::<Vec<Entry>>(),
+    );
+    stack
 }
 
 /// Neighbors of one effect, by their names `JOINT.EFFECT.SHAPE`.

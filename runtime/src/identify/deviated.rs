@@ -1,0 +1,76 @@
+//! Deviations of a solution of least squares, its shapes' too.
+
+use super::least_squares::{Factors, Solution};
+use super::stack::Stack;
+use super::{Identify, Method, hac, robust, shapes};
+use crate::columns::Arm;
+use crate::signal::Prepared;
+
+/// A solution with its deviations.
+pub(super) struct Solved {
+    pub solution: Solution,
+    pub shapes: Vec<f64>,
+    pub shape_std: Vec<Option<f64>>,
+    pub stack: Stack,
+}
+
+impl Identify {
+    /// A solution with its deviations and those of shapes, which the former have a share of.
+    pub(super) fn deviated(
+        &self,
+        arm: &dyn Arm,
+        logs: &[Prepared],
+        (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
+    ) -> Solved {
+        let linear = solution.estimate.len();
+        if shapes.is_empty() {
+            solution.std = self.deviations(&stack, &solution);
+            return Solved {
+                solution,
+                shapes,
+                shape_std: Vec::new(),
+                stack,
+            };
+        }
+        let whole = shapes::with_slopes(arm, logs, &shapes, stack, &solution.estimate);
+        // Shapes stay where they were found; which of them, and of the others, the logs separate is seen with all columns.
+        let joint = Factors::new(&whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
+        let mut with_shapes = solution.clone();
+        with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
+        with_shapes.unexcited = joint.unexcited;
+        let mut is_known = vec![true; whole.unknowns.len()];
+        for &k in &with_shapes.unexcited {
+            is_known[k] = false;
+        }
+        let lost = (0..linear).any(|k| !is_known[k] && !solution.unexcited.contains(&k));
+        let mut stack = whole;
+        let shape_std = if lost {
+            // A shape does what a linear unknown does: beside it nothing is known of either.
+            vec![None; shapes.len()]
+        } else {
+            let std = self.deviations(&stack, &with_shapes);
+            solution.std = std[..linear].to_vec();
+            let told = (linear..std.len()).map(|k| is_known[k].then_some(std[k]));
+            told.collect()
+        };
+        stack.truncate(linear);
+        if lost {
+            solution.std = self.deviations(&stack, &solution);
+        }
+        Solved {
+            solution,
+            shapes,
+            shape_std,
+            stack,
+        }
+    }
+
+    /// Standard deviations of a solution of least squares; see [`hac`].
+    pub(super) fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
+        let weights = match self.method {
+            Method::Robust => robust::weights(stack, &solution.estimate),
+            _ => robust::of_all(stack),
+        };
+        hac::deviations(stack, solution, &weights)
+    }
+}
