@@ -164,7 +164,14 @@ impl IdentifyArguments {
                 torque: errors(log)?,
             })
         };
-        let validation = validate.as_ref().map(judge).transpose()?;
+        let validation = match validate.as_ref().map(judge) {
+            Some(Err(error)) => {
+                // What was found is not lost with it.
+                progress.note(&format!("note: not validated: {error}"));
+                None
+            }
+            judged => judged.transpose()?,
+        };
         drop(progress);
         let report = OutputReport {
             compiled: &compiled,
@@ -172,6 +179,7 @@ impl IdentifyArguments {
             found: &found,
             train: &train,
             validation: validation.as_ref(),
+            window: settings.window,
             faults: &faults,
         };
         if let Some(file) = json {
@@ -231,6 +239,34 @@ impl IdentifyArguments {
 
     fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {
         let options = &self.output_error;
+        if options.controller.is_some() {
+            let others = [
+                ("--window", options.window.is_some()),
+                ("--hold", options.hold.is_some()),
+            ];
+            if let Some((option, _)) = others.into_iter().find(|(_, is_given)| *is_given) {
+                return Err(Error::Argument(format!(
+                    "`{option}` is of arms that the logged torque drives; with `--controller` logs are simulated whole, and its torque \
+                     is held"
+                )));
+            }
+        }
+        let delay = compiled.delay();
+        let reads = delay
+            .iter()
+            .flat_map(robot_model_codegen::interpreter::Program::symbols);
+        let free = compiled.free_shapes();
+        let open = reads.filter_map(|symbol| match symbol {
+            Symbol::Shape(k) if free.contains(k) => Some(compiled.shape_names()[*k].clone()),
+            _ => None,
+        });
+        if let Some(name) = open.into_iter().next() {
+            return Err(Error::Argument(format!(
+                "{}: `{name}` delays the torque that drives the arm, and is not looked for by simulation; give it the value that `--method \
+                 wls` finds",
+                compiled.model.source
+            )));
+        }
         let law = options.controller.as_deref();
         let law = law.map(|path| law::read(path, &compiled.model.joints));
         if let Some(window) = options

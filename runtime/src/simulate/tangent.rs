@@ -48,6 +48,9 @@ pub trait Adjustable: Plant {
     /// Their values.
     fn values(&self) -> Vec<f64>;
 
+    /// Makes what sensitivities need, so that copies of the plant have it.
+    fn prepare(&mut self) {}
+
     /// Takes other values.
     fn adjust(&mut self, values: &[f64]);
 
@@ -256,7 +259,9 @@ impl<P: Adjustable> Watch<P> for Tangent {
         for u in 0..unknowns {
             by_unknowns[u] += self.slopes.arguments[(switch, u)];
         }
-        self.arrival = (speed != 0.0).then(|| (rate, by_unknowns / -speed));
+        // One that grazes its jump has no instant to speak of.
+        let is_crossed = speed.abs() > 1e-9 * rate.amax();
+        self.arrival = is_crossed.then(|| (rate, by_unknowns / -speed));
         Ok(())
     }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use robot_model::identify::output_error::{Comparison, Distance, OutputEstimate};
+use robot_model::identify::output_error::{Comparison, Distance, Ending, OutputEstimate};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
 use serde::Serialize;
@@ -17,6 +17,8 @@ pub(super) struct OutputReport<'a> {
     pub found: &'a OutputEstimate,
     pub train: &'a Judged,
     pub validation: Option<&'a Judged>,
+    /// Of windows, s.
+    pub window: Option<f64>,
     pub faults: &'a [(String, Fault)],
 }
 
@@ -40,6 +42,11 @@ pub(super) struct JsonReport<'a> {
     /// Of simulated torques, where a controller made them.
     torque: Option<Distances>,
     torque_validate: Option<Distances>,
+    /// Seconds of windows; null where logs were simulated whole.
+    window: Option<f64>,
+    is_converged: bool,
+    /// Parameters that a bound holds.
+    at_bounds: Vec<&'a str>,
     singular_values: &'a [f64],
     /// Directions of the parameters that the logs say little or nothing of.
     directions: Vec<DirectionReport<'a>>,
@@ -87,13 +94,26 @@ impl OutputReport<'_> {
     /// Over the weakest; none where a direction is silent.
     fn condition(&self) -> Option<f64> {
         let weakest = self.found.identifiability.singular.last()?;
-        (self.found.identifiability.rank == self.names.len()).then(|| 1.0 / weakest)
+        let free = self.names.len() - self.found.bound.len();
+        (self.found.identifiability.rank == free).then(|| 1.0 / weakest)
+    }
+
+    /// Whether a parameter has a value of its own: the logs tell it, or a bound does.
+    fn has_value(&self, parameter: usize) -> bool {
+        let bound = &self.found.bound;
+        match bound.binary_search(&parameter) {
+            Ok(_) => true,
+            Err(before) => self.found.identifiability.is_identified(parameter - before),
+        }
     }
 
     fn unidentified(&self) -> impl Iterator<Item = &String> {
         let names = self.names.iter().enumerate();
-        let told = &self.found.identifiability;
-        names.filter_map(|(k, name)| (!told.is_identified(k)).then_some(name))
+        names.filter_map(|(k, name)| (!self.has_value(k)).then_some(name))
+    }
+
+    fn on_bounds(&self) -> impl Iterator<Item = &String> {
+        self.found.bound.iter().map(|&k| &self.names[k])
     }
 
     pub fn json(&self) -> JsonReport<'_> {
@@ -108,9 +128,10 @@ impl OutputReport<'_> {
             method: "output-error",
             form: "simulation",
             parameters: values
-                .map(|(name, (value, std))| Parameter {
+                .enumerate()
+                .map(|(k, (name, (value, std)))| Parameter {
                     name,
-                    value: std.map(|_| *value),
+                    value: self.has_value(k).then_some(*value),
                     std: *std,
                 })
                 .collect(),
@@ -128,6 +149,9 @@ impl OutputReport<'_> {
                 .map(|judged| Distances::new(&judged.comparison.position)),
             torque: told(Some(self.train)),
             torque_validate: told(self.validation),
+            window: self.window,
+            is_converged: found.ending == Ending::Converged,
+            at_bounds: self.on_bounds().map(String::as_str).collect(),
             singular_values: &found.identifiability.singular,
             directions: found
                 .identifiability
@@ -178,6 +202,7 @@ impl OutputReport<'_> {
         for (k, (name, (value, std))) in values.enumerate() {
             let shape = if k < base { "" } else { "  (shape)" };
             match std {
+                None if self.has_value(k) => writeln!(text, "{name:width$}  {value:>12.5}{shape}")?,
                 Some(std) => {
                     let relative = 100.0 * (std / value).abs();
                     writeln!(
@@ -194,9 +219,19 @@ impl OutputReport<'_> {
             text,
             "rank {} of {}, condition {condition}, {} samples a joint, output-error",
             found.identifiability.rank,
-            self.names.len(),
+            self.names.len() - found.bound.len(),
             found.samples
         )?;
+        if found.ending == Ending::OutOfIterations {
+            writeln!(
+                text,
+                "the search ran out of iterations: values are on their way; start nearer, with `--start`, or with longer windows"
+            )?;
+        }
+        let bound: Vec<String> = self.on_bounds().cloned().collect();
+        if !bound.is_empty() {
+            writeln!(text, "held by a bound, not by the logs: {}", listed(&bound))?;
+        }
         for direction in &found.identifiability.directions {
             writeln!(text, "{direction}")?;
         }
@@ -225,7 +260,14 @@ impl OutputReport<'_> {
         let joints = &self.compiled.model.joints;
         let width = joints.iter().map(|joint| joint.name.len()).max();
         let width = width.unwrap_or(0).max("joint".len());
-        writeln!(text, "\nSimulated beside logged, rad or m, N m or N")?;
+        let windows = match self.window {
+            Some(seconds) => format!("in windows of {seconds} s, the start of each fitted"),
+            None => "logs whole, their starts fitted".to_owned(),
+        };
+        writeln!(
+            text,
+            "\nSimulated beside logged, {windows}; rad or m, N m or N"
+        )?;
         let columns = std::iter::once(("identification", self.train));
         let columns = columns.chain(self.validation.map(|judged| ("validation", judged)));
         for (name, judged) in columns {

@@ -65,6 +65,14 @@ impl Adjustable for InterpretedPlant {
         base.chain(free.map(|k| self.numbers.shapes[k])).collect()
     }
 
+    fn prepare(&mut self) {
+        self.slope_runners();
+        if self.parametric.is_none() {
+            let slopes = self.compiled.plant_parameters();
+            self.parametric = Some(Box::new(ParameterRunners::new(slopes, &self.numbers)));
+        }
+    }
+
     fn adjust(&mut self, values: &[f64]) {
         let (beta, shapes) = values.split_at(self.compiled.base.kept.len());
         self.numbers.parameters = self.compiled.parameter_values(beta);
@@ -94,13 +102,10 @@ impl Adjustable for InterpretedPlant {
 
     fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
         let (n, p, u) = (self.joints, self.states, self.parameters());
-        let parametric = self.parametric.take();
-        let mut parametric = parametric.unwrap_or_else(|| {
-            Box::new(ParameterRunners::new(
-                self.compiled.plant_parameters(),
-                &self.numbers,
-            ))
-        });
+        self.prepare();
+        let Some(mut parametric) = self.parametric.take() else {
+            unreachable!("prepared above");
+        };
         let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);

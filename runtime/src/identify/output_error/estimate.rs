@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::search::Reduced;
+use super::search::{Ending, Equations, Found, Reduced};
 use super::window::{Rows, Run, Window};
 use super::{Identifiability, Iterate, Place, Problem};
 use crate::identify::hac::long_run_sum;
@@ -40,7 +40,11 @@ pub struct OutputEstimate {
     pub std: Vec<Option<f64>>,
     /// The way of the search, from its start.
     pub iterates: Vec<Iterate>,
-    /// What the logs say of which parameters.
+    /// How the last part of the search ended; where it ran out of iterations there are no deviations.
+    pub ending: Ending,
+    /// Parameters on a bound, by their places: the logs would have them beyond.
+    pub bound: Vec<usize>,
+    /// What the logs say of which of the other parameters.
     pub identifiability: Identifiability,
     /// On the logs that were fitted.
     pub fit: Comparison,
@@ -49,19 +53,37 @@ pub struct OutputEstimate {
 }
 
 pub(super) fn result<P: Adjustable + Clone>(
-    problem: &mut Problem<'_, P>,
+    problem: &Problem<'_, P>,
     place: Place,
-    runs: &[Run],
+    (runs, ending): &Found,
+    bounds: &[[f64; 2]],
     iterates: Vec<Iterate>,
     names: &[String],
 ) -> OutputEstimate {
     let rows = problem.rows(runs);
-    let reduced = Reduced::new(&rows);
-    let identifiability = Identifiability::new(&reduced.r, &place.values, names);
-    let std = deviations(problem, &rows, &reduced, &identifiability);
+    let reduced = Equations::new(&rows).reduced(0.0);
+    let is_bound = |k: usize| {
+        let [low, high] = bounds[k];
+        place.values[k] <= low || place.values[k] >= high
+    };
+    let (bound, free): (Vec<usize>, Vec<usize>) = (0..names.len()).partition(|&k| is_bound(k));
+    let values: Vec<f64> = free.iter().map(|&k| place.values[k]).collect();
+    let free_names: Vec<String> = free.iter().map(|&k| names[k].clone()).collect();
+    let r = reduced.r.select_columns(&free);
+    let identifiability = Identifiability::new(&r, &values, &free_names);
+    let mut std = vec![None; names.len()];
+    if *ending == Ending::Converged {
+        let inverse = identifiability.inverse(&r);
+        let found = deviations(problem, &rows, &reduced, &free, &inverse);
+        for (place, (&k, deviation)) in free.iter().zip(found).enumerate() {
+            std[k] = identifiability.is_identified(place).then_some(deviation);
+        }
+    }
     OutputEstimate {
         std,
         iterates,
+        ending: *ending,
+        bound,
         fit: comparison(&problem.windows, runs, problem.law.is_some()),
         samples: problem.windows.iter().map(Window::counted).sum(),
         identifiability,
@@ -69,23 +91,23 @@ pub(super) fn result<P: Adjustable + Clone>(
     }
 }
 
-/// Long-run deviations of what the errors add up to; see [`super::hac`].
+/// Long-run deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs.
 fn deviations<P: Adjustable>(
     problem: &Problem<'_, P>,
     rows: &[Rows],
     reduced: &Reduced,
-    identifiability: &Identifiability,
-) -> Vec<Option<f64>> {
+    free: &[usize],
+    inverse: &DMatrix<f64>,
+) -> Vec<f64> {
     let joints = problem.scale.len();
-    let inverse = identifiability.inverse(&reduced.r);
-    let unknowns = reduced.r.ncols();
-    let mut variances = vec![0.0; unknowns];
-    let mut count = 0;
+    let mut variances = vec![0.0; free.len()];
+    let (mut count, mut fitted) = (0, free.len());
     for (rows, start) in rows.iter().zip(&reduced.starts) {
-        let own = rows.own(start);
+        let own = rows.own(start).select_columns(free);
         let samples = rows.errors.len() / joints;
         count += rows.errors.len();
-        let mut scores = DMatrix::zeros(samples, unknowns);
+        fitted += start.moving();
+        let mut scores = DMatrix::zeros(samples, free.len());
         for joint in 0..joints {
             for k in 0..samples {
                 let row = joint * samples + k;
@@ -93,19 +115,14 @@ fn deviations<P: Adjustable>(
                 score += own.row(row) * rows.errors[row];
             }
         }
-        let series = scores * &inverse;
+        let series = scores * inverse;
         for (variance, column) in variances.iter_mut().zip(series.column_iter()) {
             *variance += long_run_sum(&column.iter().copied().collect::<Vec<f64>>());
         }
     }
-    let freedom = count as f64 / (count as f64 - unknowns as f64).max(1.0);
-    let told = variances.into_iter().enumerate();
-    told.map(|(k, variance)| {
-        identifiability
-            .is_identified(k)
-            .then(|| (freedom * variance).max(0.0).sqrt())
-    })
-    .collect()
+    let freedom = count as f64 / (count as f64 - fitted as f64).max(1.0);
+    let root = |variance: f64| (freedom * variance).max(0.0).sqrt();
+    variances.into_iter().map(root).collect()
 }
 
 pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool) -> Comparison {

@@ -9,6 +9,23 @@ use nalgebra::{DMatrix, DVector};
 const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
+/// All of a parameter, over all of the one that does most, that is nothing but rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Lengths of columns, 0 where all of a parameter does nothing.
+pub(super) fn audible(lengths: &[f64], values: &[f64]) -> Vec<f64> {
+    let effect = |k: usize| lengths[k] * values[k].abs().max(1e-6);
+    let largest = (0..lengths.len()).map(effect).fold(0.0, f64::max);
+    let length = |k: usize| {
+        if effect(k) > ROUNDING * largest {
+            lengths[k]
+        } else {
+            0.0
+        }
+    };
+    (0..lengths.len()).map(length).collect()
+}
+
 /// What logs say of which parameters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Identifiability {
@@ -75,11 +92,11 @@ impl std::fmt::Display for Direction {
         }
         let shares = self.moves.iter();
         let shares: Vec<String> = shares
-            .map(|(name, share)| format!("{name} by {:+.2} %", *share))
+            .map(|(name, share)| format!("{name} {share:+.2}"))
             .collect();
         write!(
             f,
-            "{how}: moving {} together (relative singular value {:.1e})",
+            "{how}: moving together, in shares of themselves, {} (relative singular value {:.1e})",
             shares.join(", "),
             self.singular
         )
@@ -89,7 +106,8 @@ impl std::fmt::Display for Direction {
 impl Identifiability {
     pub(super) fn new(r: &DMatrix<f64>, values: &[f64], names: &[String]) -> Self {
         let unknowns = r.ncols();
-        let lengths = DVector::from_iterator(unknowns, r.column_iter().map(|x| x.norm()));
+        let lengths: Vec<f64> = r.column_iter().map(|x| x.norm()).collect();
+        let lengths = DVector::from_vec(audible(&lengths, values));
         let Some((singular, v)) = decomposed(r, &lengths) else {
             return Self {
                 singular: Vec::new(),
@@ -195,7 +213,13 @@ fn decomposed(r: &DMatrix<f64>, lengths: &DVector<f64>) -> Option<(DVector<f64>,
     for (mut column, &length) in scaled.column_iter_mut().zip(lengths.iter()) {
         if length > 0.0 {
             column /= length;
+        } else {
+            column.fill(0.0);
         }
+    }
+    // What is no number would be turned for ever.
+    if !scaled.iter().all(|x| x.is_finite()) {
+        return None;
     }
     let svd = scaled.svd(false, true);
     Some((svd.singular_values, svd.v_t?))

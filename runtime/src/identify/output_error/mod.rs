@@ -24,7 +24,7 @@ use crate::simulate::{Adjustable, SimulateError};
 pub use estimate::{Comparison, Distance, OutputEstimate};
 pub use identifiable::{Direction, Identifiability};
 pub use law::{JointLaw, Law, Tap};
-pub use search::{Iterate, Search};
+pub use search::{Ending, Iterate, Search};
 pub use window::{Hold, Recording};
 
 use estimate::{comparison, result};
@@ -63,6 +63,19 @@ pub enum OutputErrorError {
         /// What happened.
         error: SimulateError,
     },
+    /// An arm with given parameters does not stay near its log.
+    #[error(
+        "{log}: with these parameters the simulated arm runs away from it: {error}; windows that are shorter keep it near"
+    )]
+    Away {
+        /// The log.
+        log: String,
+        /// What happened.
+        error: SimulateError,
+    },
+    /// A controller remembers across windows.
+    #[error("a controller is simulated along whole logs; leave the window out")]
+    WindowedLaw,
     /// Parts have other sizes than the arm.
     #[error("{what}: {found} for an arm with {expected}")]
     Size {
@@ -191,26 +204,26 @@ impl OutputError {
             self.bounds.clone()
         };
         let joints = plant.joints();
+        let mut plant = plant.clone();
+        plant.prepare();
         let mut scale = vec![1.0; joints];
         let mut values = start.to_vec();
         let mut iterates = Vec::new();
         // From a start that is far away a short motion leads back sooner than a long one.
-        let short = self.window.filter(|_| self.law.is_none());
-        let stages = short.map(|window| Some(FIRST_SHARE * window));
-        let stages = stages.into_iter().chain([self.window]);
-        let mut last = None;
-        for window in stages {
+        let first = self.window.map(|window| Some(FIRST_SHARE * window));
+        for window in first.into_iter().chain([self.window]) {
             let mut problem = match self.problem(plant.clone(), recordings, window) {
                 Err(OutputErrorError::Short { .. }) if window != self.window => continue,
                 problem => problem?,
             };
             let mut place = problem.place(&values);
             // A joint counts by what its errors are, once they are known.
+            let mut last = None;
             for _ in 0..if joints > 1 { 2 } else { 1 } {
                 problem.scale.clone_from(&scale);
                 let runs = problem.run(&place, false);
                 let runs = runs.map_err(|(k, error)| no_start(&problem, k, error))?;
-                let runs = search::search(
+                let found = search::search(
                     self.search,
                     &mut problem,
                     &mut place,
@@ -219,22 +232,26 @@ impl OutputError {
                     &mut iterates,
                     progress,
                 );
+                let found = found.map_err(|(k, error)| no_start(&problem, k, error))?;
                 if joints > 1 {
-                    scale = problem.spread(&runs).iter().map(|x| x.max(1e-12)).collect();
+                    scale = problem.spread(&found.0);
+                    let largest = scale.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+                    // One that is exact does not drown the others.
+                    for scale in &mut scale {
+                        *scale = scale.max(1e-3 * largest);
+                    }
                 }
-                last = Some(runs);
+                last = Some(found);
             }
             values.clone_from(&place.values);
-            if window == self.window
-                && let Some(runs) = last.take()
-            {
-                return Ok(result(&mut problem, place, &runs, iterates, names));
+            if let (Some(found), true) = (&last, window == self.window) {
+                return Ok(result(&problem, place, found, &bounds, iterates, names));
             }
         }
         unreachable!("the last stage has the window that was asked for")
     }
 
-    /// How an arm with given parameters moves beside logs, with the start of each window fitted to it where no controller is known.
+    /// How an arm with given parameters moves beside logs, with the start of each window fitted.
     ///
     /// # Errors
     /// As [`Self::fit`].
@@ -247,10 +264,15 @@ impl OutputError {
         let mut problem = self.problem(plant.clone(), recordings, self.window)?;
         let mut place = problem.place(values);
         let runs = problem.run(&place, false);
-        let runs = runs.map_err(|(k, error)| no_start(&problem, k, error))?;
+        let away =
+            |problem: &Problem<'_, P>, (k, error): (usize, SimulateError)| OutputErrorError::Away {
+                log: problem.windows[k].source().to_owned(),
+                error,
+            };
+        let runs = runs.map_err(|error| away(&problem, error))?;
         let bounds: Vec<[f64; 2]> = values.iter().map(|&value| [value, value]).collect();
         let (mut way, mut nobody) = (Vec::new(), |_: &Iterate| ());
-        let runs = search::search(
+        let found = search::search(
             self.search,
             &mut problem,
             &mut place,
@@ -259,6 +281,7 @@ impl OutputError {
             &mut way,
             &mut nobody,
         );
+        let (runs, _) = found.map_err(|error| away(&problem, error))?;
         Ok(comparison(&problem.windows, &runs, self.law.is_some()))
     }
 
@@ -295,6 +318,14 @@ impl OutputError {
         start: &[f64],
     ) -> Result<(), OutputErrorError> {
         let expected = plant.parameters();
+        if let Some(seconds) = self.window {
+            if seconds.is_nan() || seconds <= 0.0 {
+                return Err(OutputErrorError::Short { seconds });
+            }
+            if self.law.is_some() {
+                return Err(OutputErrorError::WindowedLaw);
+            }
+        }
         let sizes = [
             ("names of parameters", names.len(), expected),
             ("values to start from", start.len(), expected),

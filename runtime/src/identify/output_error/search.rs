@@ -8,9 +8,10 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::identifiable::audible;
 use super::window::{Rows, Run};
 use super::{Place, Problem};
-use crate::simulate::Adjustable;
+use crate::simulate::{Adjustable, SimulateError};
 
 /// Iterations at most.
 const MOST: usize = 60;
@@ -59,26 +60,35 @@ pub(super) struct Start {
 }
 
 impl Start {
+    /// How many of its entries move anything.
+    pub fn moving(&self) -> usize {
+        self.moving.len()
+    }
+
     fn solve(&self, right: DMatrix<f64>) -> DMatrix<f64> {
         let svd = self.r11.clone().svd(true, true);
         let least = 1e-12 * svd.singular_values.max();
-        let found = svd.solve(&right, least).unwrap_or(right * 0.0);
-        let mut all = DMatrix::zeros(self.count, found.ncols());
-        for (row, &k) in self.moving.iter().enumerate() {
-            all.set_row(k, &found.row(row));
-        }
-        all
+        svd.solve(&right, least).unwrap_or(right * 0.0)
     }
 
     /// Slope of the start by the parameters; none where nothing of it moves.
     pub fn follow(&self) -> Option<DMatrix<f64>> {
-        (!self.moving.is_empty()).then(|| self.solve(-&self.r12))
+        (!self.moving.is_empty()).then(|| self.spread(&self.solve(-&self.r12)))
     }
 
-    /// Its step for one of the parameters.
+    /// Rows of what moves, in the places of the whole start.
+    fn spread(&self, moving: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut all = DMatrix::zeros(self.count, moving.ncols());
+        for (row, &k) in self.moving.iter().enumerate() {
+            all.set_row(k, &moving.row(row));
+        }
+        all
+    }
+
+    /// Its step for one of the parameters, as far as it moves anything.
     fn step(&self, step: &DVector<f64>) -> DVector<f64> {
         if self.moving.is_empty() {
-            return DVector::zeros(self.count);
+            return DVector::zeros(0);
         }
         let right = -(&self.z1 + &self.r12 * step);
         let right = DMatrix::from_column_slice(right.len(), 1, right.as_slice());
@@ -86,7 +96,22 @@ impl Start {
     }
 }
 
-/// Equations of all windows without their starts, `|z + R d|^2`.
+/// Equations of a window, reduced to a triangle: columns of what moves of its start, of the parameters, and of the errors.
+#[derive(Debug, Clone)]
+struct Triangle {
+    moving: Vec<usize>,
+    count: usize,
+    rows: DMatrix<f64>,
+}
+
+/// Equations of all windows.
+#[derive(Debug, Clone)]
+pub(super) struct Equations {
+    unknowns: usize,
+    windows: Vec<Triangle>,
+}
+
+/// The same without their starts, `|z + R d|^2`.
 #[derive(Debug, Clone)]
 pub(super) struct Reduced {
     pub r: DMatrix<f64>,
@@ -94,20 +119,19 @@ pub(super) struct Reduced {
     pub starts: Vec<Start>,
 }
 
-/// The upper triangle of a QR factorization, square or with fewer rows.
+/// The upper triangle of a QR factorization, with rows of zeros where there were too few.
 fn triangle(rows: DMatrix<f64>) -> DMatrix<f64> {
+    let columns = rows.ncols();
     if rows.nrows() == 0 {
-        return rows;
+        return DMatrix::zeros(columns, columns);
     }
-    rows.qr().r()
+    rows.qr().r().resize_vertically(columns, 0.0)
 }
 
-impl Reduced {
+impl Equations {
     pub fn new(rows: &[Rows]) -> Self {
         let unknowns = rows.first().map_or(0, |rows| rows.by_parameters.ncols());
-        let mut stacked = DMatrix::zeros(0, unknowns + 1);
-        let mut starts = Vec::new();
-        for rows in rows {
+        let windows = rows.iter().map(|rows| {
             let count = rows.by_start.ncols();
             let sizes: Vec<f64> = rows.by_start.column_iter().map(|x| x.norm()).collect();
             let largest = sizes.iter().copied().fold(0.0, f64::max);
@@ -119,22 +143,46 @@ impl Reduced {
             }
             all.columns_mut(s, unknowns).copy_from(&rows.by_parameters);
             all.set_column(s + unknowns, &rows.errors);
+            Triangle {
+                moving,
+                count,
+                rows: triangle(all),
+            }
+        });
+        Self {
+            windows: windows.collect(),
+            unknowns,
+        }
+    }
+
+    /// Without the starts, whose steps are damped by `lambda` in units of their columns.
+    pub fn reduced(&self, lambda: f64) -> Reduced {
+        let unknowns = self.unknowns;
+        let mut stacked = DMatrix::zeros(0, unknowns + 1);
+        let mut starts = Vec::new();
+        for window in &self.windows {
+            let s = window.moving.len();
+            let size = window.rows.nrows();
+            let mut all = window.rows.clone().resize_vertically(size + s, 0.0);
+            for k in 0..s {
+                all[(size + k, k)] = lambda.sqrt() * window.rows.column(k).norm();
+            }
             let all = triangle(all);
             starts.push(Start {
-                count,
+                count: window.count,
                 r11: all.view((0, 0), (s, s)).into_owned(),
                 r12: all.view((0, s), (s, unknowns)).into_owned(),
                 z1: all.view((0, s + unknowns), (s, 1)).column(0).into_owned(),
-                moving,
+                moving: window.moving.clone(),
             });
-            let own = all.view((s, s), (all.nrows() - s, unknowns + 1));
+            let own = all.view((s, s), (unknowns + 1, unknowns + 1));
             let before = stacked.nrows();
-            stacked = stacked.resize_vertically(before + own.nrows(), 0.0);
-            stacked.rows_mut(before, own.nrows()).copy_from(&own);
+            stacked = stacked.resize_vertically(before + unknowns + 1, 0.0);
+            stacked.rows_mut(before, unknowns + 1).copy_from(&own);
             stacked = triangle(stacked);
         }
         let stacked = stacked.resize_vertically(unknowns + 1, 0.0);
-        Self {
+        Reduced {
             r: stacked.view((0, 0), (unknowns, unknowns)).into_owned(),
             z: stacked
                 .view((0, unknowns), (unknowns, 1))
@@ -144,31 +192,49 @@ impl Reduced {
         }
     }
 
-    /// By how much a step is foretold to lower the cost.
-    fn predicted(&self, step: &DVector<f64>) -> f64 {
-        let starts: f64 = self
-            .starts
-            .iter()
-            .map(|start| start.z1.norm_squared())
-            .sum();
-        0.5 * (starts + self.z.norm_squared() - (&self.z + &self.r * step).norm_squared())
+    /// By how much steps of parameters and starts are foretold to lower the cost, and how long they are in units of columns.
+    fn foretold(&self, step: &DVector<f64>, starts: &[DVector<f64>]) -> (f64, f64) {
+        let (mut gain, mut length) = (0.0, 0.0);
+        for (window, start) in self.windows.iter().zip(starts) {
+            let all = DVector::from_iterator(
+                start.len() + step.len() + 1,
+                start.iter().chain(step.iter()).copied().chain([1.0]),
+            );
+            let before = window.rows.column(all.len() - 1).norm_squared();
+            gain += 0.5 * (before - (&window.rows * all).norm_squared());
+            for (k, start) in start.iter().enumerate() {
+                length += (window.rows.column(k).norm() * start).powi(2);
+            }
+        }
+        (gain, length)
     }
+}
+
+/// A step of parameters and of the starts of windows.
+struct Step {
+    parameters: DVector<f64>,
+    starts: Vec<DVector<f64>>,
+    /// By how much it is foretold to lower the cost, and its length in units of columns.
+    predicted: f64,
+    length: f64,
 }
 
 /// How far parameters may go from where they are.
 struct Room<'a> {
     values: &'a [f64],
     bounds: &'a [[f64; 2]],
+    /// Lengths of their columns, 0 where they do nothing.
+    scale: &'a DVector<f64>,
 }
 
 impl Room<'_> {
     /// The step of least `|z + R d|^2 + lambda |D d|^2` that stays within the bounds: parameters that would leave them are set there,
     /// the others again.
-    fn damped(&self, reduced: &Reduced, scale: &DVector<f64>, lambda: f64) -> DVector<f64> {
+    fn parameters(&self, reduced: &Reduced, lambda: f64) -> DVector<f64> {
         let unknowns = self.values.len();
         let mut step = DVector::zeros(unknowns);
         let mut free: Vec<usize> = (0..unknowns)
-            .filter(|&k| self.bounds[k][0] < self.bounds[k][1] && scale[k] > 0.0)
+            .filter(|&k| self.bounds[k][0] < self.bounds[k][1] && self.scale[k] > 0.0)
             .collect();
         while !free.is_empty() {
             let count = free.len();
@@ -177,7 +243,7 @@ impl Room<'_> {
             for (place, &k) in free.iter().enumerate() {
                 rows.view_mut((0, place), (unknowns, 1))
                     .copy_from(&reduced.r.column(k));
-                rows[(unknowns + place, place)] = lambda.sqrt() * scale[k];
+                rows[(unknowns + place, place)] = lambda.sqrt() * self.scale[k];
             }
             rows.view_mut((0, count), (unknowns, 1)).copy_from(&right);
             let rows = triangle(rows);
@@ -207,27 +273,64 @@ impl Room<'_> {
         step
     }
 
-    /// The same within a radius.
-    fn within(&self, reduced: &Reduced, scale: &DVector<f64>, radius: f64) -> DVector<f64> {
-        let size = |step: &DVector<f64>| step.component_mul(scale).norm();
-        let step = self.damped(reduced, scale, LEAST);
-        if size(&step) <= radius {
+    /// The same with the starts, damped alike.
+    fn damped(&self, equations: &Equations, lambda: f64) -> Step {
+        let reduced = equations.reduced(lambda);
+        let parameters = self.parameters(&reduced, lambda);
+        let starts = reduced.starts.iter();
+        let starts: Vec<DVector<f64>> = starts.map(|start| start.step(&parameters)).collect();
+        let (predicted, square) = equations.foretold(&parameters, &starts);
+        let own = parameters.component_mul(self.scale).norm_squared();
+        Step {
+            parameters,
+            starts,
+            predicted,
+            length: (own + square).sqrt(),
+        }
+    }
+
+    /// The longest of them within a radius.
+    fn within(&self, equations: &Equations, radius: f64) -> Step {
+        let step = self.damped(equations, LEAST);
+        if step.length <= radius {
             return step;
         }
         let (mut low, mut high) = (LEAST.ln(), 1e12_f64.ln());
-        for _ in 0..60 {
+        for _ in 0..40 {
             let middle = 0.5 * (low + high);
-            if size(&self.damped(reduced, scale, middle.exp())) > radius {
+            if self.damped(equations, middle.exp()).length > radius {
                 low = middle;
             } else {
                 high = middle;
             }
         }
-        self.damped(reduced, scale, high.exp())
+        self.damped(equations, high.exp())
     }
 }
 
-/// Moves a place to where the cost is least, from runs of it without slopes on; gives its runs with slopes.
+/// Lengths of columns so far, 0 where all of a parameter is nothing beside the largest of the others.
+fn scales(now: &DMatrix<f64>, before: &DVector<f64>, values: &[f64]) -> DVector<f64> {
+    let lengths = now.column_iter().map(|column| column.norm());
+    let lengths: Vec<f64> = lengths
+        .zip(before.iter())
+        .map(|(now, before)| now.max(*before))
+        .collect();
+    DVector::from_vec(audible(&lengths, values))
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// No step lowers the cost any more.
+    Converged,
+    /// It ran out of iterations: it is on its way.
+    OutOfIterations,
+}
+
+/// Runs with slopes, and how the search that led there ended.
+pub(super) type Found = (Vec<Run>, Ending);
+
+/// Moves a place to where the cost is least, from runs of it without slopes on.
 pub(super) fn search<P: Adjustable + Clone>(
     search: Search,
     problem: &mut Problem<'_, P>,
@@ -236,21 +339,19 @@ pub(super) fn search<P: Adjustable + Clone>(
     bounds: &[[f64; 2]],
     iterates: &mut Vec<Iterate>,
     progress: &mut dyn FnMut(&Iterate),
-) -> Vec<Run> {
+) -> Result<Found, (usize, SimulateError)> {
     let mut cost = problem.cost(runs);
     let last = iterates.last();
     let (mut simulations, stage) =
         last.map_or((1, 0), |iterate| (iterate.simulations, iterate.stage + 1));
-    // A start that can be simulated can be so with slopes.
-    let mut best = problem.run(place, true).unwrap_or_else(|_| runs.to_vec());
+    let mut best = problem.run(place, true)?;
     let mut scale = DVector::zeros(place.values.len());
     let mut control: Option<f64> = None;
-    for iteration in 0..=MOST {
+    let mut ending = Ending::OutOfIterations;
+    for _ in 0..MOST {
         simulations += 1;
-        let reduced = Reduced::new(&problem.rows(&best));
-        for (scale, column) in scale.iter_mut().zip(reduced.r.column_iter()) {
-            *scale = f64::max(*scale, column.norm());
-        }
+        let equations = Equations::new(&problem.rows(&best));
+        scale = scales(&equations.reduced(0.0).r, &scale, &place.values);
         let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
         let iterate = Iterate {
             stage,
@@ -261,55 +362,37 @@ pub(super) fn search<P: Adjustable + Clone>(
         };
         progress(&iterate);
         iterates.push(iterate);
-        if iteration == MOST {
-            break;
-        }
         let mut next = None;
         // Shorter and shorter steps, until one goes down.
         for _ in 0..30 {
             let room = Room {
                 values: &place.values,
                 bounds,
+                scale: &scale,
             };
             let step = match search {
-                Search::LevenbergMarquardt => room.damped(&reduced, &scale, now),
-                Search::TrustRegion => room.within(&reduced, &scale, now),
+                Search::LevenbergMarquardt => room.damped(&equations, now),
+                Search::TrustRegion => room.within(&equations, now),
             };
-            let length = step.component_mul(&scale).norm();
-            let trial = Place {
-                values: place
-                    .values
-                    .iter()
-                    .zip(step.iter())
-                    .map(|(value, step)| value + step)
-                    .collect(),
-                starts: place
-                    .starts
-                    .iter()
-                    .zip(&reduced.starts)
-                    .map(|(start, by)| start + by.step(&step))
-                    .collect(),
-            };
-            let predicted = reduced.predicted(&step);
-            if predicted <= STILL * cost {
+            if step.predicted <= STILL * cost {
                 break;
             }
+            let trial = place.moved(&step, &equations);
             simulations += 1;
             let after = problem.run(&trial, false).map(|runs| problem.cost(&runs));
             let after = after.unwrap_or(f64::INFINITY);
-            let ratio = (cost - after) / predicted;
-            now = next_control(search, now, ratio, length);
+            let ratio = (cost - after) / step.predicted;
+            now = next_control(search, now, ratio, step.length);
             if ratio > 0.0 {
-                next = Some((trial, after, length));
+                next = Some((trial, after, step.length));
                 break;
             }
         }
         let Some((trial, after, length)) = next else {
+            ending = Ending::Converged;
             break;
         };
-        let Ok(runs) = problem.run(&trial, true) else {
-            break;
-        };
+        let runs = problem.run(&trial, true)?;
         let size = DVector::from_column_slice(&trial.values).component_mul(&scale);
         let is_over = cost - after <= STILL * cost || length <= NO_STEP * size.norm();
         (*place, cost, best, control) = (trial, after, runs, Some(now));
@@ -324,11 +407,31 @@ pub(super) fn search<P: Adjustable + Clone>(
             };
             progress(&iterate);
             iterates.push(iterate);
+            ending = Ending::Converged;
             break;
         }
     }
     problem.plant.adjust(&place.values);
-    best
+    Ok((best, ending))
+}
+
+impl Place {
+    fn moved(&self, step: &Step, equations: &Equations) -> Self {
+        let values = self.values.iter().zip(step.parameters.iter());
+        let starts = self.starts.iter().zip(&step.starts).zip(&equations.windows);
+        Self {
+            values: values.map(|(value, step)| value + step).collect(),
+            starts: starts
+                .map(|((start, step), window)| {
+                    let mut start = start.clone();
+                    for (&k, step) in window.moving.iter().zip(step.iter()) {
+                        start[k] += step;
+                    }
+                    start
+                })
+                .collect(),
+        }
+    }
 }
 
 fn first_control(search: Search, place: &Place, scale: &DVector<f64>) -> f64 {
@@ -350,7 +453,8 @@ fn next_control(search: Search, now: f64, ratio: f64, length: f64) -> f64 {
         Search::LevenbergMarquardt if ratio > 0.25 => now,
         Search::LevenbergMarquardt if ratio > 0.0 => 4.0 * now,
         Search::LevenbergMarquardt => 10.0 * now,
-        Search::TrustRegion if ratio < 0.25 => f64::min(0.25 * length, 0.5 * now),
+        Search::TrustRegion if ratio < 0.25 && length > 0.0 => f64::min(0.25 * length, 0.5 * now),
+        Search::TrustRegion if ratio < 0.25 => 0.5 * now,
         Search::TrustRegion if ratio > 0.75 => 2.0 * now,
         Search::TrustRegion => now,
     }

@@ -170,6 +170,78 @@ fn deviations_are_those_of_repeated_fits() {
     }
 }
 
+#[test]
+fn a_bound_holds_what_the_log_would_have_beyond_it() {
+    let log = log(4.0);
+    let open = [f64::NEG_INFINITY, f64::INFINITY];
+    for search in [Search::LevenbergMarquardt, Search::TrustRegion] {
+        let settings = OutputError {
+            search,
+            bounds: vec![open, [0.0, 0.5], open, open],
+            ..HELD
+        };
+        let found = fit(&settings, &log);
+        assert_eq!(found.ending, Ending::Converged);
+        assert_eq!(found.bound, [1], "{search:?}");
+        assert!((found.values[1] - 0.5).abs() < 1e-15 && found.std[1].is_none());
+        // Others make up for it: dry friction is larger, and is told with a deviation.
+        assert!(found.values[2] > TRUTH[2] && found.std[2].is_some());
+        assert_eq!(found.identifiability.rank, 2);
+    }
+}
+
+#[test]
+fn the_same_log_is_as_far_away_when_it_is_judged() {
+    let noisy = noisy(log(4.0), 1e-3, 7);
+    for window in [None, Some(0.5)] {
+        let settings = OutputError { window, ..HELD };
+        let found = fit(&settings, &noisy);
+        let recording = Recording::new(&noisy, &[1.0], 0.0, Vec::new());
+        let judged = settings.compare(&Block(TRUTH), &found.values, &[recording]);
+        let judged = judged.expect("a motion").position[0];
+        let fitted = found.fit.position[0];
+        assert!(
+            (judged.rmse - fitted.rmse).abs() < 1e-4 * fitted.rmse,
+            "{judged:?} {fitted:?}"
+        );
+        assert!((fitted.rmse - 1e-3).abs() < 1e-4, "{fitted:?}");
+    }
+}
+
+#[test]
+fn a_hole_that_covers_a_window_is_no_row() {
+    let mut holey = log(4.0);
+    holey.holes = vec![0.985..1.515];
+    let covered: Vec<usize> = (99..=151).collect();
+    for &k in &covered {
+        holey.q[0][k] = 0.5;
+    }
+    let settings = OutputError {
+        window: Some(0.5),
+        ..HELD
+    };
+    let found = fit(&settings, &holey);
+    assert_eq!(found.samples, holey.time.len() - covered.len());
+    for k in 0..3 {
+        let (value, truth) = (found.values[k], TRUTH[k]);
+        assert!((value - truth).abs() < 1e-3 * truth, "{value} {truth}");
+    }
+}
+
+#[test]
+fn a_late_torque_is_taken_from_where_it_belongs() {
+    let clean = log(4.0);
+    let mut late = clean.clone();
+    // Two samples later, as a drive would report it.
+    late.tau[0].rotate_right(2);
+    late.tau[0][..2].fill(clean.tau[0][0]);
+    let recording = Recording::new(&late, &[1.0], 2.0 * STEP, Vec::new());
+    let pairs = recording.torque[0].iter().zip(&clean.tau[0]);
+    for (found, expected) in pairs.take(390) {
+        assert!((found - expected).abs() < 1e-9, "{found} {expected}");
+    }
+}
+
 /// A controller that is simulated, too: it holds the block on its way, so that even a wrong start is near.
 #[test]
 fn the_controller_of_the_experiment_takes_part() {

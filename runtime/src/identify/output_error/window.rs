@@ -283,7 +283,8 @@ impl<'a> Window<'a> {
         for k in 0..count {
             for joint in 0..n {
                 let measured = log.q[joint][self.samples.start + k];
-                if (arm.q()[joint] - measured).abs() > far[joint] {
+                let away = (arm.q()[joint] - measured).abs();
+                if away.is_nan() || away > far[joint] {
                     return Err(SimulateError::Unbounded {
                         time: arm.time(),
                         joint: joint + 1,
@@ -352,7 +353,12 @@ impl<'a> Window<'a> {
                 None => arm.advance(next)?,
             }
         }
-        Ok(run)
+        match &run.slopes {
+            Some(slopes) if !slopes.iter().all(|slope| slope.is_finite()) => {
+                Err(SimulateError::NoInertia { time: arm.time() })
+            }
+            _ => Ok(run),
+        }
     }
 
     /// Measured and simulated positions of a joint.
