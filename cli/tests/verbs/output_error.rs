@@ -98,7 +98,7 @@ fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
     assert!(biased > 600.0, "{biased}");
 }
 
-/// Two links that are let go, as in Trojanova and Cakurda 2020, and their parameters.
+/// Two links that are let go, as in Trojanova et al., and their parameters.
 fn falling() -> (Folder, [(&'static str, f64); 10]) {
     let folder = Folder::new();
     let spec = "robot Arm {

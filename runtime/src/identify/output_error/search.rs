@@ -3,8 +3,9 @@
 //! In each step starts of windows follow the parameters (their equations are eliminated by orthogonal factors), and the parameters solve
 //! `min |z + R d|` with what keeps them near: `lambda |D d|^2`, or `|D d| <= Delta`.
 //!
-//! Sources: Marquardt 1963; More 1978 for the scales `D`; for the trust region Algorithm 1 of Trojanova, Cakurda 2020 with its constants
-//! `0, 2, 0.25, 0.25, 0.5`, where the radius shrinks to `0.25 |D d|` of the step (the paper prints the gradient's length).
+//! Sources: Marquardt 1963; More 1978 for the scales `D`; for the trust region Algorithm 1 of Trojanova, Cakurda, Hosovsky, Krenicky, on
+//! gravity tests of a pneumatic arm, with its constants `0, 2, 0.25, 0.25, 0.5`, where the radius shrinks to `0.25 |D d|` of the step (the
+//! paper prints the gradient's length).
 
 use nalgebra::{DMatrix, DVector};
 
