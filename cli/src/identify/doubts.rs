@@ -58,11 +58,19 @@ pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
 
 /// Parameters that no arm has below zero, and that are so by more than three deviations.
 pub(super) fn negative(estimate: &Estimate, unknowns: &[Unknown]) -> Option<String> {
-    let pairs = estimate.parameters.iter().zip(unknowns);
-    let below: Vec<&str> = pairs
-        .filter(|(found, unknown)| unknown.nonnegative && found.value < -3.0 * found.std)
-        .filter(|(found, _)| found.value < 0.0)
-        .map(|(found, _)| found.name.as_str())
+    let found = estimate.parameters.iter();
+    let found = found.map(|found| (found.name.as_str(), found.value, found.std));
+    below_zero(found.zip(unknowns))
+}
+
+/// The same of names, values and deviations.
+pub(super) fn below_zero<'a>(
+    found: impl Iterator<Item = ((&'a str, f64, f64), &'a Unknown)>,
+) -> Option<String> {
+    let below: Vec<&str> = found
+        .filter(|((_, value, std), unknown)| unknown.nonnegative && *value < -3.0 * std)
+        .filter(|((_, value, _), _)| *value < 0.0)
+        .map(|((name, ..), _)| name)
         .collect();
     if below.is_empty() {
         return None;
@@ -72,6 +80,43 @@ pub(super) fn negative(estimate: &Estimate, unknowns: &[Unknown]) -> Option<Stri
          and what `trace` and `audit` say",
         names_are(&below)
     ))
+}
+
+/// Times the noise of positions from where on simulated positions are off by something else, and their share of a joint's range that
+/// is nothing.
+const NOISE: f64 = 5.0;
+const NOTHING: f64 = 1e-5;
+
+/// Joints whose simulated positions are off by much more than their logs have noise, by root mean squares. That noise is told by third
+/// differences, to which motion adds next to nothing.
+pub(super) fn beyond_noise(model: &Model, logs: &[Log], rmse: &[f64]) -> Option<String> {
+    let joints = model.joints.iter().enumerate();
+    let told: Vec<String> = joints
+        .filter_map(|(k, joint)| {
+            let (mut squares, mut count, mut range) = (0.0, 0.0, 0.0_f64);
+            for log in logs {
+                let thirds = log.q[k].windows(4);
+                squares += thirds
+                    .map(|q| (q[3] - 3.0 * q[2] + 3.0 * q[1] - q[0]).powi(2) / 20.0)
+                    .sum::<f64>();
+                count += log.q[k].len() as f64;
+                let high = log.q[k].iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let low = log.q[k].iter().copied().fold(f64::INFINITY, f64::min);
+                range = range.max(high - low);
+            }
+            let noise = (squares / count).sqrt();
+            let is_beyond = rmse[k] > NOISE * noise && rmse[k] > NOTHING * range;
+            is_beyond.then(|| format!("{:.0} times on `{}`", rmse[k] / noise, joint.name))
+        })
+        .collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "simulated positions are off by more than the noise of the logs ({}): torques have noise of their own, the model or its controller \
+             is another than the arm's, or the search has ended in a valley that is not the deepest; deviations do not know of that, so \
+             compare the costs of other starts and windows",
+            told.join(", ")
+        )
+    })
 }
 
 fn names_are(below: &[&str]) -> String {

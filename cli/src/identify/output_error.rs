@@ -16,8 +16,8 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 use serde_json::Value;
 
-use super::IdentifyArguments;
 use super::fit::{ByAcceleration, Fit, errors_of_all};
+use super::{IdentifyArguments, doubts};
 use crate::interpreted::{InterpretedArm, InterpretedPlant};
 use crate::output::{self, Files, names};
 use crate::parameters::{self, Values};
@@ -128,7 +128,13 @@ impl IdentifyArguments {
         let settings = self.settings(&compiled, &beginning)?;
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
-        let start = beginning.plant.values();
+        let mut start = beginning.plant.values();
+        if self.output_error.start.is_none() {
+            // Nobody has chosen it.
+            for (value, [low, high]) in start.iter_mut().zip(&settings.bounds) {
+                *value = value.clamp(*low, *high);
+            }
+        }
         progress.step("simulating");
         let mut tell = |iterate: &Iterate| {
             progress.step(&format!(
@@ -144,6 +150,23 @@ impl IdentifyArguments {
             &mut tell,
         );
         let found = found.map_err(|error| refused(&error))?;
+        let told = beginning.names.iter().zip(&found.values).zip(&found.std);
+        let told = told.map(|((name, value), std)| (name.as_str(), *value, *std));
+        let told = told.filter_map(|(name, value, std)| Some((name, value, std?)));
+        let unknowns = form.unknowns();
+        let told = told.filter_map(|told| {
+            let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
+            Some((told, unknown))
+        });
+        let rmse = found.fit.position.iter().map(|distance| distance.rmse);
+        let rmse: Vec<f64> = rmse.collect();
+        let doubts = [
+            doubts::below_zero(told),
+            doubts::beyond_noise(&compiled.model, &logs, &rmse),
+        ];
+        for doubt in doubts.into_iter().flatten() {
+            progress.note(&format!("note: {doubt}"));
+        }
         let linear = beginning.linear.as_ref();
         let linear = linear.map(|linear| of_simulation(&compiled, linear, &found));
         let errors = |logs: &[Log]| -> Result<Option<Errors>, Error> {

@@ -83,6 +83,11 @@ fn parts(x: &DVector<f64>, dof: usize) -> (&[f64], &[f64], &[f64]) {
     (q, dq, z)
 }
 
+/// What shares that are looked for are measured by: all of a jump, not the little of it that may hold a joint.
+pub(super) fn share_size(looked_for: &[usize]) -> f64 {
+    if looked_for.is_empty() { 0.0 } else { 1.0 }
+}
+
 /// Whether a pivot of a factored matrix is nothing but rounding.
 fn is_singular(factored: &DMatrix<f64>) -> bool {
     let pivots = factored.diagonal().abs();
@@ -201,7 +206,7 @@ impl<P: Plant> Moving<P> {
                     self.ddq[joint] = 0.0;
                 }
             }
-            let largest = self.ddq.amax() + self.shares.amax();
+            let largest = self.ddq.amax() + share_size(&held);
             if is_one_step || (step > 0 && change.amax() <= SETTLED * largest) {
                 return Ok(matrix);
             }

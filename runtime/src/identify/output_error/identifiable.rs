@@ -9,6 +9,9 @@ use nalgebra::{DMatrix, DVector};
 const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
+/// Parts of a direction that are smaller are noise of the decomposition.
+const LOUD: f64 = 1e-3;
+
 /// All of a parameter, over all of the one that does most, that is nothing but rounding.
 const ROUNDING: f64 = 1e-9;
 
@@ -120,59 +123,47 @@ impl Identifiability {
         let largest = singular.max();
         let share = |x: f64| if largest > 0.0 { x / largest } else { 0.0 };
         let singular: Vec<f64> = singular.iter().map(|&x| share(x)).collect();
-        let directions = (0..unknowns).filter(|&k| singular[k] < WEAK).map(|k| {
-            let vector = v.row(k);
-            // A step of a parameter over its value; one that is zero or moves nothing has no other measure.
-            let moves = (0..unknowns).map(|p| {
-                let step = if lengths[p] > 0.0 {
-                    vector[p] / lengths[p]
-                } else {
-                    vector[p]
+        // Steps of parameters along a direction, in shares of their values; one that is zero has no other measure than its step.
+        let shares = |k: usize| -> Vec<(usize, f64)> {
+            let steps = (0..unknowns).map(|p| {
+                let step = match lengths[p] {
+                    length if length > 0.0 => v[(k, p)] / length,
+                    _ => v[(k, p)],
                 };
-                if values[p] == 0.0 || lengths[p] == 0.0 {
-                    step
-                } else {
-                    step / values[p]
-                }
+                let value = if lengths[p] > 0.0 { values[p] } else { 0.0 };
+                if value == 0.0 { step } else { step / value }
             });
-            // Parts that are noise in scaled parameters are none of the direction.
-            let loud = (0..unknowns).map(|p| vector[p].abs() > 1e-3);
-            let moves: Vec<(usize, f64)> = moves
-                .zip(loud)
-                .enumerate()
-                .filter(|(_, (_, is_loud))| *is_loud)
-                .map(|(p, (share, _))| (p, share))
-                .collect();
-            let largest = moves
-                .iter()
-                .map(|(_, share)| *share)
-                .fold(0.0, |most: f64, share| {
-                    if share.abs() > most.abs() {
-                        share
-                    } else {
-                        most
-                    }
-                });
-            let named = moves.into_iter();
-            Direction {
-                singular: singular[k],
-                moves: named
-                    .map(|(p, share)| (names[p].clone(), share / largest))
-                    .collect(),
-            }
+            let steps: Vec<f64> = steps.collect();
+            let valued = (0..unknowns).filter(|&p| values[p] != 0.0);
+            let largest =
+                valued.map(|p| steps[p]).fold(
+                    0.0,
+                    |most: f64, x| if x.abs() > most.abs() { x } else { most },
+                );
+            let largest = if largest == 0.0 { 1.0 } else { largest };
+            let loud = (0..unknowns).filter(|&p| {
+                let is_part = values[p] != 0.0 && (steps[p] / largest).abs() > LOUD;
+                is_part || v[(k, p)].abs() > LOUD
+            });
+            loud.map(|p| (p, steps[p] / largest)).collect()
+        };
+        let directions = (0..unknowns).filter(|&k| singular[k] < WEAK);
+        let directions = directions.map(|k| Direction {
+            singular: singular[k],
+            moves: shares(k)
+                .into_iter()
+                .map(|(p, share)| (names[p].clone(), share))
+                .collect(),
         });
         let directions: Vec<Direction> = directions.collect();
         let rank = singular.iter().filter(|x| **x >= SILENT).count();
-        let is_quiet = |p: usize| {
-            (rank..unknowns)
-                .map(|k| v[(k, p)].powi(2))
-                .sum::<f64>()
-                .sqrt()
-                > 1e-2
-        };
-        let identified = (0..unknowns)
-            .map(|p| lengths[p] > 0.0 && !is_quiet(p))
-            .collect();
+        // What a silent direction moves by a part of itself is not known by itself.
+        let mut identified: Vec<bool> = lengths.iter().map(|length| *length > 0.0).collect();
+        for k in rank..unknowns {
+            for (p, _) in shares(k) {
+                identified[p] = false;
+            }
+        }
         Self {
             singular,
             rank,

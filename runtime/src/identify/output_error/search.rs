@@ -349,20 +349,23 @@ pub(super) fn search<P: Adjustable + Clone>(
     let mut scale = DVector::zeros(place.values.len());
     let mut control: Option<f64> = None;
     let mut ending = Ending::OutOfIterations;
+    let mut note = |place: &Place, cost: f64, control: f64, simulations: usize| {
+        let iterate = Iterate {
+            stage,
+            cost,
+            values: place.values.clone(),
+            control,
+            simulations,
+        };
+        progress(&iterate);
+        iterates.push(iterate);
+    };
     for _ in 0..MOST {
         simulations += 1;
         let equations = Equations::new(&problem.rows(&best));
         scale = scales(&equations.reduced(0.0).r, &scale, &place.values);
         let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
-        let iterate = Iterate {
-            stage,
-            cost,
-            values: place.values.clone(),
-            control: now,
-            simulations,
-        };
-        progress(&iterate);
-        iterates.push(iterate);
+        note(place, cost, now, simulations);
         let mut next = None;
         // Shorter and shorter steps, until one goes down.
         for _ in 0..30 {
@@ -399,15 +402,7 @@ pub(super) fn search<P: Adjustable + Clone>(
         (*place, cost, best, control) = (trial, after, runs, Some(now));
         if is_over {
             simulations += 1;
-            let iterate = Iterate {
-                stage,
-                cost,
-                values: place.values.clone(),
-                control: now,
-                simulations,
-            };
-            progress(&iterate);
-            iterates.push(iterate);
+            note(place, cost, now, simulations);
             ending = Ending::Converged;
             break;
         }

@@ -5,7 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Moving, STEPS, Side, ZERO};
+use super::{Moving, STEPS, Side, ZERO, share_size};
 use crate::simulate::complementarity;
 use crate::simulate::error::SimulateError;
 use crate::simulate::plant::Plant;
@@ -80,7 +80,7 @@ impl<P: Plant> Moving<P> {
                 .iter()
                 .map(|&k| (self.shares[k] - before.1[k]).abs());
             let moved = (&self.ddq - before.0).amax() + shares.fold(0.0, f64::max);
-            let largest = self.ddq.amax() + self.shares.amax();
+            let largest = self.ddq.amax() + share_size(&on);
             if step > 0 && moved <= 1e-9 * largest {
                 self.choose_sides(&on, &holding, &d);
                 return Ok(());
