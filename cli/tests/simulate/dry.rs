@@ -1,6 +1,6 @@
 //! Dry friction: rest, breakaway, joints that hold each other.
 
-use robot_model::simulate::{Drive, Integrator, Loop};
+use robot_model::simulate::{Integrator, Loop};
 use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{Law, compiled, plant, released, spec, still};
@@ -206,34 +206,4 @@ fn jumps_that_crowd_end_in_impulses() {
     assert!(work.impulses > 0, "{work:?}");
     let steps = work.events + work.explicit + work.implicit + work.impulses + work.rejected;
     assert!(steps < 200_000, "{work:?}");
-}
-
-/// What friction holds may be next to nothing of it, with the rounding of the weight that the motor carries.
-#[test]
-fn a_share_of_next_to_nothing_holds() {
-    let text = "robot Hanging {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
-        link turn { mass = 2; com = [-0.2, 0.01, 0]; inertia = [0, 0, 0, 0, 0, 0.05]; }
-        effects { coulomb_friction on turn; asymmetric_coulomb on turn; }
-    }";
-    let more = [
-        ("coulomb_friction.fc", 1.0),
-        ("asymmetric_coulomb.delta", 0.25),
-    ];
-    for k in 0..60 {
-        let q = 0.3 + 0.01 * f64::from(k);
-        let mut arm = released(plant(compiled(text), &more), &[q], &[0.0]);
-        let weight = 2.0 * 9.81 * (0.3 * q.cos() - 0.01 * q.sin());
-        for rest in [0.0, 1e-14, -1e-13, 1e-11, -1e-8] {
-            arm.drive(Drive {
-                torque: vec![weight + rest],
-                ..Drive::default()
-            });
-            let end = arm.time() + 0.01;
-            arm.advance(end).expect("it rests");
-            assert!(arm.dq()[0] == 0.0 && arm.held() == [true], "{q} {rest}");
-        }
-    }
 }

@@ -77,3 +77,46 @@ fn sides_that_do_nothing_do_not_keep_an_arm_from_moving() {
         "log.csv",
     ]);
 }
+
+/// Where friction holds next to nothing, its share is found to rounding of all of it, not of itself.
+#[test]
+fn friction_that_holds_next_to_nothing_is_found() {
+    let folder = Folder::new();
+    let spec = "robot Arm {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint j: revolute { a = 0.5; alpha = 0; d = 0; }
+        effects { viscous_friction on j; coulomb_friction on j; asymmetric_viscous on j; asymmetric_coulomb on j; }
+    }";
+    folder.write("arm.robot", spec);
+    let values = r#"{"j.m": 2, "j.mx": -0.6, "j.my": 0, "j.izz": 0.25, "j.viscous_friction.fv": 0.4, "j.coulomb_friction.fc": 1,
+        "j.asymmetric_viscous.delta": 0.1, "j.asymmetric_coulomb.delta": 0.25}"#;
+    folder.write("values.json", values);
+    let mut wanted = String::from("time,q1\n");
+    for k in 0..=400 {
+        let t = f64::from(k) / 200.0;
+        let q = 0.6 * (2.0 * t).sin() + 0.3 * (5.0 * t).cos();
+        writeln!(wanted, "{t},{q}").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    for seed in ["1", "2", "3"] {
+        let motion = [
+            "--trajectory",
+            "wanted.csv",
+            "--out",
+            "log.csv",
+            "--frequency",
+            "30",
+        ];
+        let values = [
+            "--parameters",
+            "values.json",
+            "--rate",
+            "500",
+            "--seed",
+            seed,
+        ];
+        let sensors = ["--encoder-bits", "18", "--position-noise", "5e-5"];
+        folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &values, &sensors].concat());
+    }
+}
