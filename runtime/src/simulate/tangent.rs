@@ -70,49 +70,37 @@ pub(super) struct Passage<'a> {
 /// Steps times the fastest rate of the motion: shorter ones are not worth the stages of an explicit step.
 const SHORT: f64 = 0.02;
 
-/// What looks on while a plant moves.
+/// What looks on while a plant moves; by itself it does nothing.
 pub(super) trait Watch<P> {
     /// A step without events went from one state to another; sides are those of the step.
-    fn moved(&mut self, moving: &mut Moving<P>, step: &Passage<'_>) -> Result<(), SimulateError>;
-
-    /// A motion has come to the jump of a switch; sides are still those before it.
-    fn arrived(
-        &mut self,
-        moving: &mut Moving<P>,
-        time: f64,
-        x: &DVector<f64>,
-        switch: usize,
-    ) -> Result<(), SimulateError>;
-
-    /// Sides are those after an event.
-    fn left(
-        &mut self,
-        moving: &mut Moving<P>,
-        time: f64,
-        x: &DVector<f64>,
-    ) -> Result<(), SimulateError>;
-}
-
-/// Nobody looks on.
-impl<P> Watch<P> for () {
     fn moved(&mut self, _: &mut Moving<P>, _: &Passage<'_>) -> Result<(), SimulateError> {
         Ok(())
     }
 
+    /// A motion has come to the jump of a switch; sides are still those before it.
     fn arrived(
         &mut self,
         _: &mut Moving<P>,
-        _: f64,
-        _: &DVector<f64>,
-        _: usize,
+        _time: f64,
+        _x: &DVector<f64>,
+        _switch: usize,
     ) -> Result<(), SimulateError> {
         Ok(())
     }
 
-    fn left(&mut self, _: &mut Moving<P>, _: f64, _: &DVector<f64>) -> Result<(), SimulateError> {
+    /// Sides are those after an event.
+    fn left(
+        &mut self,
+        _: &mut Moving<P>,
+        _time: f64,
+        _x: &DVector<f64>,
+    ) -> Result<(), SimulateError> {
         Ok(())
     }
 }
+
+/// Nobody looks on.
+impl<P> Watch<P> for () {}
 
 /// Sensitivities of a motion. Unknowns are the parameters of the plant, and whatever else the start or the drive depends on.
 #[derive(Debug, Clone)]

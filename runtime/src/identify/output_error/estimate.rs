@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::search::{Ending, Equations, Found, Reduced};
+use super::equations::{Equations, Reduced};
+use super::search::{Ending, Found};
 use super::window::{Rows, Run, Window};
 use super::{Identifiability, Iterate, Place, Problem};
 use crate::identify::hac::long_run_sum;

@@ -8,9 +8,11 @@
 //! Sources: Ljung 1999, System Identification, section 7.2; Janot, Vandanjon, Gautier 2014, A generic instrumental variable approach for
 //! industrial robot identification, on closed loops.
 
+mod equations;
 mod estimate;
 mod identifiable;
 mod law;
+mod recording;
 mod search;
 #[cfg(test)]
 mod tests;
@@ -24,8 +26,8 @@ use crate::simulate::{Adjustable, SimulateError};
 pub use estimate::{Comparison, Distance, OutputEstimate};
 pub use identifiable::{Direction, Identifiability};
 pub use law::{JointLaw, Law, Tap};
+pub use recording::{Hold, Recording};
 pub use search::{Ending, Iterate, Search};
-pub use window::{Hold, Recording};
 
 use estimate::{comparison, result};
 use window::{Rows, Run, Window};

@@ -5,10 +5,10 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::OutputErrorError;
+use super::equations::Start;
 use super::law::{JointLaw, Law};
-use super::search::Start;
-use crate::log::Log;
-use crate::signal::resample::{cubic, whole_steps};
+use super::recording::{Hold, Recording};
+use crate::signal::resample::whole_steps;
 use crate::simulate::{
     Adjustable, Drive, Instant, Integrator, Plant, SimulateError, Tangent, Tolerances,
 };
@@ -25,53 +25,6 @@ const GUESS: usize = 21;
 
 /// A simulation that is so many ranges of its log away from it, and so many rad or m, has run away: what follows says nothing, and takes long.
 const FAR: f64 = 10.0;
-
-/// Logged torque between samples.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Hold {
-    /// The mean of both, as of a straight line: for torques that are means over the interval around their sample, or measured.
-    #[default]
-    Mean,
-    /// That of the sample before: for commands that are held.
-    Sample,
-}
-
-/// A log as it drives a simulation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Recording {
-    log: Log,
-    /// Joint torques, at the instants of positions.
-    pub(super) torque: Vec<Vec<f64>>,
-    /// Places of the channels that effects read, in their order.
-    inputs: Vec<usize>,
-}
-
-impl Recording {
-    /// `gain` is joint torque over what is logged, one a joint; logged torques are `late` by so many seconds; `inputs` are channels that
-    /// effects read, by their places.
-    #[must_use]
-    pub fn new(log: &Log, gain: &[f64], late: f64, inputs: Vec<usize>) -> Self {
-        let (first, last) = (log.time[0], log.time[log.time.len() - 1]);
-        let instants: Vec<f64> = log
-            .time
-            .iter()
-            .map(|t| (t + late).clamp(first, last))
-            .collect();
-        let torque = log.tau.iter().zip(gain).map(|(tau, gain)| {
-            let tau: Vec<f64> = tau.iter().map(|tau| gain * tau).collect();
-            if late == 0.0 {
-                tau
-            } else {
-                cubic(&log.time, &tau, &instants)
-            }
-        });
-        Self {
-            torque: torque.collect(),
-            log: log.clone(),
-            inputs,
-        }
-    }
-}
 
 /// Some samples of a recording, with a start that is fitted.
 #[derive(Debug, Clone)]
