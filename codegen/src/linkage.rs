@@ -1,12 +1,8 @@
 //! Where links stand against their joints, as a simulation wants it.
 //!
-//! A spec says `position(j) = d(..)`: the link of joint `j` is at `q_j + d`. Where `d` follows the load of its own joint that is a
-//! spring: the link has a place of its own, and the load is what the spring carries there. Else the link is where its joint puts it,
-//! as behind an encoder with an error, and its motion follows from that of the joints.
-
-use std::fmt;
-
-use robot_model_spec::model::Model;
+//! A spec says `position(j) = d(..)`: the link of joint `j` is at `q_j + d`. Where `d` reads positions, time and channels alone, as behind
+//! an encoder with an error, the link is where its joint puts it, and its motion follows from that of the joints. Else the link has a
+//! place of its own, and its joint a spring: what that carries is the load at which the link is displaced as it is.
 
 use crate::compiled::Compiled;
 use crate::expr::{Dag, ExprId, Symbol};
@@ -18,10 +14,16 @@ use crate::plant::jacobian;
 pub struct Linkage {
     /// Joints with a spring, `s` of them, ascending.
     pub springs: Vec<usize>,
+    /// Which of them follow no load of their own joint.
+    pub led: Vec<bool>,
     /// `d` of springs and its slopes by the load of their joints, `2 s` outputs.
     pub give: Program,
-    /// Other slopes of springs, by `q`, `dq` and `z`: `s n`, `s n` and `s p` outputs.
+    /// Slopes of `d` of springs by `q`, `dq`, `ddq`, loads of all joints and `z`: four times `s n` outputs and `s p`.
     pub give_slopes: Program,
+    /// Whether springs follow loads of other joints, or accelerations.
+    pub is_coupled: bool,
+    /// Whether what springs carry is affine in accelerations.
+    pub is_affine: bool,
     /// Joints that place their links, `k` of them, ascending.
     pub placed: Vec<usize>,
     /// `d`, `dd/dt` and `d^2 d/dt^2` of those: `3 k` outputs. Channels are taken to change slowly.
@@ -32,42 +34,21 @@ pub struct Linkage {
     pub is_timed: bool,
 }
 
-/// A displacement from which no motion follows.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct NoMotion {
-    joint: String,
-    follows: &'static str,
-}
-
-impl fmt::Display for NoMotion {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { joint, follows } = self;
-        write!(
-            f,
-            "joint {joint}: its link is displaced by {follows}; links move behind springs, whose `position(j)` follows \
-             `rigid_torque(j)`, or where positions, time and channels put them; another displacement can be identified, not \
-             simulated"
-        )
-    }
-}
-
-impl std::error::Error for NoMotion {}
-
-/// What a displacement reads that no motion follows from.
-fn unfit(model: &Model, joint: usize, reads: &[Symbol]) -> Option<NoMotion> {
-    let is_spring = reads.contains(&Symbol::RigidTorque(joint));
-    let unfit = |symbol: &Symbol| match symbol {
-        Symbol::RigidTorque(other) if *other != joint => Some("the load of another joint"),
-        Symbol::Ddq(_) => Some("an acceleration"),
-        Symbol::Dq(_) if !is_spring => Some("a velocity"),
-        Symbol::State(_) if !is_spring => Some("an internal state"),
-        Symbol::MeasuredTorque(_) if !is_spring => Some("a motor's torque"),
-        _ => None,
-    };
-    let follows = reads.iter().find_map(unfit)?;
-    Some(NoMotion {
-        joint: model.joints[joint].name.clone(),
-        follows,
+/// Whether a link is where its joint puts it, by a displacement that reads these.
+fn is_place(reads: &[Symbol]) -> bool {
+    reads.iter().all(|symbol| match symbol {
+        Symbol::Dq(_)
+        | Symbol::Ddq(_)
+        | Symbol::RigidTorque(_)
+        | Symbol::MeasuredTorque(_)
+        | Symbol::State(_)
+        | Symbol::Switch(_) => false,
+        Symbol::Q(_)
+        | Symbol::Time
+        | Symbol::Input(_)
+        | Symbol::Parameter(_)
+        | Symbol::Shape(_)
+        | Symbol::Weight(_) => true,
     })
 }
 
@@ -105,9 +86,8 @@ impl Compiled {
         let mut dag = self.dag.clone();
         let dof = self.dof();
         let displacements = self.measurement(&mut dag).displacements.into_iter();
-        let (springs, placed): (Vec<_>, Vec<_>) = displacements.partition(|&(joint, value)| {
-            dag.symbols(&[value]).contains(&Symbol::RigidTorque(joint))
-        });
+        let (placed, springs): (Vec<_>, Vec<_>) =
+            displacements.partition(|&(_, value)| is_place(&dag.symbols(&[value])));
         let (springs, gives) = springs.into_iter().unzip();
         let (placed, places): (Vec<usize>, Vec<ExprId>) = placed.into_iter().unzip();
         let first = rates(&mut dag, &places, dof);
@@ -122,11 +102,8 @@ impl Compiled {
     }
 
     /// Where links stand against their joints.
-    ///
-    /// # Errors
-    /// [`NoMotion`] where a displacement follows an acceleration or the load of another joint; where it follows a velocity, an
-    /// internal state or a motor's torque and not the load.
-    pub fn linkage(&self) -> Result<Linkage, NoMotion> {
+    #[must_use]
+    pub fn linkage(&self) -> Linkage {
         let LinkEquations {
             mut dag,
             springs,
@@ -134,12 +111,23 @@ impl Compiled {
             placed,
             places: [places, first, second],
         } = self.link_equations();
-        let joints = springs.iter().zip(&gives).chain(placed.iter().zip(&places));
-        for (&joint, &value) in joints {
-            if let Some(error) = unfit(&self.model, joint, &dag.symbols(&[value])) {
-                return Err(error);
+        let (mut is_coupled, mut is_moved, mut led) = (false, false, Vec::new());
+        for (&joint, &give) in springs.iter().zip(&gives) {
+            let reads = dag.symbols(&[give]);
+            led.push(!reads.contains(&Symbol::RigidTorque(joint)));
+            for symbol in reads {
+                match symbol {
+                    Symbol::Ddq(_) => is_moved = true,
+                    Symbol::RigidTorque(other) if !springs.contains(&other) => is_moved = true,
+                    Symbol::RigidTorque(other) => is_coupled |= other != joint,
+                    _ => {}
+                }
             }
         }
+        let is_affine = !is_moved
+            || dag.is_affine(&gives, &|symbol| {
+                matches!(symbol, Symbol::Ddq(_) | Symbol::RigidTorque(_))
+            });
         let by_load = springs.iter().zip(&gives);
         let by_load: Vec<ExprId> = by_load
             .map(|(&joint, &give)| dag.derivative(give, Symbol::RigidTorque(joint)))
@@ -148,6 +136,8 @@ impl Compiled {
         let give_slopes = [
             jacobian(&mut dag, &gives, dof, Symbol::Q),
             jacobian(&mut dag, &gives, dof, Symbol::Dq),
+            jacobian(&mut dag, &gives, dof, Symbol::Ddq),
+            jacobian(&mut dag, &gives, dof, Symbol::RigidTorque),
             jacobian(&mut dag, &gives, states, Symbol::State),
         ];
         let place_slopes = [
@@ -158,14 +148,17 @@ impl Compiled {
         ];
         let all = dag.symbols(&[&gives[..], &places].concat());
         let is_timed = |symbol: &Symbol| matches!(symbol, Symbol::Time | Symbol::Input(_));
-        Ok(Linkage {
+        Linkage {
             give: Program::new(&dag, &[&gives[..], &by_load].concat()),
             give_slopes: Program::new(&dag, &give_slopes.concat()),
             place: Program::new(&dag, &[places, first, second].concat()),
             place_slopes: Program::new(&dag, &place_slopes.concat()),
             is_timed: all.iter().any(is_timed),
+            is_coupled: is_coupled || is_moved,
+            is_affine,
+            led,
             springs,
             placed,
-        })
+        }
     }
 }

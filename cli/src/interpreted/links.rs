@@ -5,7 +5,7 @@ use robot_model::simulate::Instant;
 use robot_model_codegen::Compiled;
 
 use super::runner::{Numbers, Runner, matrix};
-use super::springs::{Carried, Springs};
+use super::springs::{Carried, SpringSlopes, Springs};
 use crate::Error;
 
 /// Links of an arm. Degrees of freedom are the joints, where motors and encoders are, and then the links behind springs.
@@ -61,18 +61,14 @@ fn downhill(slopes: &DMatrix<f64>, slope: &DVector<f64>) -> Option<DVector<f64>>
 
 impl Links {
     pub fn new(compiled: &Compiled, numbers: &Numbers) -> Result<Self, Error> {
-        let model = &compiled.model;
-        let refuse = |what: String| Err(Error::Argument(format!("{}: {what}", model.source)));
-        let linkage = match compiled.linkage() {
-            Ok(linkage) => linkage,
-            Err(error) => return refuse(error.to_string()),
-        };
+        let linkage = compiled.linkage();
         let is_rigid = linkage.springs.is_empty() && linkage.placed.is_empty();
         if let (false, Some(name)) = (is_rigid, compiled.mixed().first()) {
-            return refuse(format!(
-                "motors and links move apart, and base parameter `{name}` is of both; give standard parameters, whose values are \
-                 known one by one"
-            ));
+            return Err(Error::Argument(format!(
+                "{}: motors and links move apart, and base parameter `{name}` is of both; give standard parameters, whose values \
+                 are known one by one",
+                compiled.model.source
+            )));
         }
         Ok(Self {
             joints: compiled.dof(),
@@ -199,31 +195,48 @@ impl Links {
         own.into_iter().chain(self.springs.runners())
     }
 
-    /// What springs carry.
-    pub fn carried(&mut self, at: &Instant<'_>) -> Vec<Carried> {
-        let displacements: Vec<f64> = self
-            .springs
-            .joints
-            .iter()
-            .zip(&at.q[self.joints..])
-            .map(|(&joint, link)| link - at.q[joint])
-            .collect();
-        let springs = displacements.into_iter().enumerate();
-        springs
-            .map(|(k, x)| self.springs.carried(at, k, x))
-            .collect()
+    /// Whether springs follow loads of other joints, or accelerations.
+    pub fn is_coupled(&self) -> bool {
+        self.springs.is_coupled
     }
 
-    /// Slopes of what springs carry by `q`, `dq` and `z` of all degrees of freedom, one row a spring.
-    pub fn carried_slopes(&mut self, at: &Instant<'_>, carried: &[Carried]) -> [DMatrix<f64>; 3] {
+    /// Whether what springs carry is affine in accelerations.
+    pub fn is_affine(&self) -> bool {
+        self.springs.is_affine
+    }
+
+    /// What springs carry, where links have the load `body`. Where an instant has velocities of joints alone, links move with them.
+    pub fn carried(&mut self, at: &Instant<'_>, body: &[f64]) -> Vec<Carried> {
+        let links = self.springs.joints.iter().zip(&self.springs.lag);
+        let displacement = |(k, (&joint, lag)): (usize, (&usize, &f64))| {
+            let speed = at.dq.get(self.joints + k);
+            let rate = speed.map_or(0.0, |link| link - at.dq[joint]);
+            at.q[self.joints + k] - at.q[joint] + lag * rate
+        };
+        let displacements: Vec<f64> = links.enumerate().map(displacement).collect();
+        self.springs.carried(at, &displacements, body)
+    }
+
+    /// Slopes of what springs carry; those by the motion are by that of all degrees of freedom.
+    pub fn carried_slopes(
+        &mut self,
+        at: &Instant<'_>,
+        carried: &[Carried],
+        body: &[f64],
+    ) -> SpringSlopes {
         let dof = self.dof();
-        let [q, dq, z] = self.springs.slopes(at, carried);
-        let mut q = q.resize_horizontally(dof, 0.0);
-        for (k, carried) in carried.iter().enumerate() {
-            q[(k, self.joints + k)] += carried.by_displacement;
-            q[(k, self.springs.joints[k])] -= carried.by_displacement;
+        let mut slopes = self.springs.slopes(at, carried, body);
+        slopes.by = slopes.by.map(|by| by.resize_horizontally(dof, 0.0));
+        for (k, &joint) in self.springs.joints.iter().enumerate() {
+            for (order, factor) in [1.0, self.springs.lag[k]].into_iter().enumerate() {
+                let own = slopes.by_displacement.column(k) * factor;
+                let mut link = slopes.by[order].column_mut(self.joints + k);
+                link += &own;
+                let mut motor = slopes.by[order].column_mut(joint);
+                motor -= &own;
+            }
         }
-        [q, dq.resize_horizontally(dof, 0.0), z]
+        slopes
     }
 
     /// Puts what springs carry in place of the load of their joints, and gives what is then missing at each link behind one.
@@ -248,7 +261,7 @@ impl Links {
     }
 
     /// Positions of all where links hang quietly behind motors as at an instant; `torque` is that of the rigid body with its
-    /// links at a position. Where several places are quiet, one whose energy is least around it.
+    /// links at a position. Where several places are quiet, one whose energy is least around it, unless springs are coupled.
     pub fn hang(
         &mut self,
         motors: &Instant<'_>,
@@ -265,11 +278,12 @@ impl Links {
         if count == 0 {
             return q;
         }
-        // What pulls links away, the slope of the energy by their positions.
+        let is_coupled = self.is_coupled();
+        // What pulls links away: where springs are not coupled, the slope of an energy by their positions.
         let mut pull = |q: &[f64]| -> DVector<f64> {
             let at = Instant { q, ..*motors };
-            let carried = self.carried(&at);
             let mut load = torque(&self.positions(&at));
+            let carried = self.carried(&at, &load);
             DVector::from_vec(self.carry(&carried, &mut load))
         };
         let mut now = pull(&q);
@@ -283,18 +297,28 @@ impl Links {
                 };
                 slopes.set_column(k, &((side(1.0) - side(-1.0)) / (2.0 * NEAR)));
             }
-            let slopes = (&slopes + slopes.transpose()) * 0.5;
-            let Some(mut step) = downhill(&slopes, &now) else {
+            let step = if is_coupled {
+                slopes.lu().solve(&-&now)
+            } else {
+                downhill(&((&slopes + slopes.transpose()) * 0.5), &now)
+            };
+            let Some(mut step) = step else {
                 break;
             };
-            // Not beyond the lowest place along the step.
+            // Not beyond the lowest place along the step, or to where more is missing.
             let mut next = q.clone();
+            let before = now.norm();
             loop {
                 for k in 0..count {
                     next[joints + k] = q[joints + k] + step[k];
                 }
                 now = pull(&next);
-                if now.dot(&step) <= 1e-9 * now.norm() * step.norm() || step.amax() <= STILL {
+                let is_lower = if is_coupled {
+                    now.norm() < before
+                } else {
+                    now.dot(&step) <= 1e-9 * now.norm() * step.norm()
+                };
+                if is_lower || step.amax() <= STILL {
                     break;
                 }
                 step *= 0.5;

@@ -48,7 +48,8 @@ impl InterpretedPlant {
     /// The arm with base parameters `beta` and shape parameters `shapes`, each in their order.
     ///
     /// # Errors
-    /// [`Error`] where no motion follows from a displacement, see [`Compiled::linkage`]; where a motor with a spring has no inertia; where base parameters are those of motors and links together, see [`Compiled::ungrouped`].
+    /// [`Error`] where a motor with a spring has no inertia, or a spring gives way against its load; where base parameters are those of
+    /// motors and links together, see [`Compiled::ungrouped`].
     pub fn new(compiled: Compiled, beta: &[f64], shapes: &[f64]) -> Result<Self, Error> {
         let numbers = Numbers {
             parameters: compiled.parameter_values(beta),
@@ -60,9 +61,9 @@ impl InterpretedPlant {
         let mut found = Self {
             joints: plant.dof,
             is_timed: plant.is_timed || links.is_timed,
-            links,
             states: plant.states,
-            is_affine: plant.is_affine,
+            is_affine: plant.is_affine && links.is_affine(),
+            links,
             rigid: runner(plant.rigid_torque),
             inertia: runner(plant.mass_matrix),
             effects: ShareRunner::new(plant.effects, plant.dof, &numbers),
@@ -271,13 +272,15 @@ impl Plant for InterpretedPlant {
         let LinkSlopes { position, .. } = self.links.slopes(at);
         let forces = loads.forces.as_ref();
         let forces = forces.and_then(|forces| loads.force_slopes(&forces.by_acceleration, &mass));
-        let springs = DMatrix::zeros(loads.springs.len(), self.dof());
+        let rigid = mass * &position;
+        let springs = if self.links.is_coupled() {
+            let slopes = self.links.carried_slopes(at, &loads.springs, &loads.body);
+            slopes.along(2, &rigid)
+        } else {
+            DMatrix::zeros(loads.springs.len(), self.dof())
+        };
         *inertia = self
-            .load_slopes(
-                &(mass * &position),
-                forces.map(|forces| forces * &position),
-                &springs,
-            )
+            .load_slopes(&rigid, forces.map(|forces| forces * &position), &springs)
             .with_effects(effects.by_acceleration, &effects.by_load);
     }
 
@@ -345,8 +348,9 @@ impl Plant for InterpretedPlant {
         let loads = self.loads(at, &there);
         let by_load = self.effects.torque(at, &loads.seen).by_load;
         let motion = self.links.slopes(at);
-        let springs = self.links.carried_slopes(at, &loads.springs);
-        let no_spring = DMatrix::zeros(loads.springs.len(), dof);
+        let springs = self
+            .links
+            .carried_slopes(at, &loads.springs, &loads.body);
         let rigid = self.rigid_slopes(&there);
         let shared = self.shared_slopes(&there, &loads);
         let forces = shared.as_ref().zip(loads.forces.as_ref());
@@ -368,15 +372,15 @@ impl Plant for InterpretedPlant {
         };
         for k in [0, 1] {
             let forces = forces.as_ref().map(|forces| forces[k].clone());
-            let load = self.load_slopes(&rigid[k], forces, &springs[k]);
+            let load = self.load_slopes(&rigid[k], forces, &springs.along(k, &rigid[k]));
             slopes.rates[k] = rates_by(k, &load.seen);
             slopes.torque[k] = load.with_effects(effects.by[k].clone(), &by_load);
         }
-        let load = self.load_slopes(&rigid[2], None, &no_spring);
+        let load = self.load_slopes(&rigid[2], None, &springs.along(2, &rigid[2]));
         slopes.rates_by_acceleration = rates_by(2, &load.seen);
         let still = DMatrix::zeros(n, p);
         let by_state = shared.map(|shared| shared.by_state);
-        let load = self.load_slopes(&still, by_state, &springs[2]);
+        let load = self.load_slopes(&still, by_state, &springs.by_state);
         slopes.rates[2] = rates_by_state + &rates_by_load * &load.seen;
         slopes.torque[2] = load.with_effects(effects.by_state, &by_load);
     }

@@ -1,10 +1,11 @@
 //! Arms with everything at once: slopes by differences, gains.
 
 use nalgebra::{DMatrix, DVector};
-use robot_model::simulate::{Instant, Plant, Slopes};
+use robot_model::simulate::Plant;
 use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{pendulum_with, plant};
+use crate::differences::{State, at, differences};
 
 /// Everything at once: a spring with play on the second of two joints, friction that remembers and friction that loads bend, and a world
 /// that the second link rubs against, harder by `bite` times its load and acceleration.
@@ -58,79 +59,6 @@ fn gains_are_for_motors_with_their_links_while_others_are_free() {
         (free[0] - (one - both * both / other)).abs() < 1e-12,
         "{free:?}"
     );
-}
-
-/// Positions, velocities, accelerations and the state of all at an instant: of two motors and a link.
-type State = [Vec<f64>; 4];
-
-fn at<'a>([q, dq, ddq, memory]: &'a State, switches: &'a [f64]) -> Instant<'a> {
-    Instant {
-        time: 0.0,
-        q,
-        dq,
-        ddq,
-        memory,
-        switches,
-        torque: &[0.0; 3],
-        inputs: &[],
-    }
-}
-
-/// Torque and rates by `q`, `dq`, `ddq` and `z` of all, by differences; those of the plant are to be the same.
-fn differences(arm: &mut InterpretedPlant, state: &State) -> [DMatrix<f64>; 4] {
-    const STEP: f64 = 1e-6;
-    let switches = vec![0.6; arm.switches()];
-    // Torque and rates beside each other.
-    let value = |arm: &mut InterpretedPlant, state: &State| -> DVector<f64> {
-        let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
-        arm.torque(&at(state, &switches), &mut torque, &mut inertia);
-        let mut rates = [0.0; 2];
-        arm.rates(&at(state, &switches), &mut rates);
-        DVector::from_iterator(5, torque.iter().copied().chain(rates))
-    };
-    let mut difference = |part: usize| -> DMatrix<f64> {
-        let columns: Vec<DVector<f64>> = (0..state[part].len())
-            .map(|k| {
-                let [up, down] = [STEP, -STEP].map(|step| {
-                    let mut state = state.clone();
-                    state[part][k] += step;
-                    value(arm, &state)
-                });
-                (up - down) / (2.0 * STEP)
-            })
-            .collect();
-        DMatrix::from_columns(&columns)
-    };
-    let differences = [0, 1, 2, 3].map(&mut difference);
-    let mut slopes = Slopes::zeros(arm);
-    arm.slopes(&at(state, &switches), &mut slopes);
-    let (mut torque, mut inertia) = (DVector::zeros(3), DMatrix::zeros(3, 3));
-    arm.torque(&at(state, &switches), &mut torque, &mut inertia);
-    let Slopes {
-        torque: [q, dq, z],
-        rates: [rates_q, rates_dq, rates_z],
-        rates_by_acceleration,
-    } = slopes;
-    for (found, (torque, rates)) in differences.iter().zip([
-        (q, rates_q),
-        (dq, rates_dq),
-        (inertia, rates_by_acceleration),
-        (z, rates_z),
-    ]) {
-        let expected = DMatrix::from_fn(5, found.ncols(), |i, j| {
-            if i < 3 {
-                torque[(i, j)]
-            } else {
-                rates[(i - 3, j)]
-            }
-        });
-        let size = expected.amax().max(1.0);
-        assert!(
-            (found - &expected).amax() < 1e-6 * size,
-            "{found} {expected}"
-        );
-    }
-    differences
 }
 
 #[test]

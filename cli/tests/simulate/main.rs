@@ -2,6 +2,8 @@
 
 mod common;
 mod conservation;
+mod coupled;
+mod differences;
 mod dry;
 mod everything;
 mod lugre;

@@ -4,7 +4,6 @@ use robot_model::simulate::{Adjustable, Instant, ParameterSlopes};
 use robot_model_codegen::PlantParameters;
 
 use super::super::runner::{Numbers, Runner, matrix};
-use super::super::springs::Carried;
 use super::share::ShareRunner;
 use super::{InterpretedPlant, of_links};
 
@@ -138,7 +137,10 @@ impl Adjustable for InterpretedPlant {
         let forces = forces.and_then(|forces| loads.force_slopes(&forces, &rigid));
         let give = parametric.give.run(at, &loads.seen);
         let give = matrix(give, 0, loads.springs.len(), u);
-        let springs = Carried::slopes(&loads.springs, give);
+        let springs = self
+            .links
+            .carried_slopes(at, &loads.springs, &loads.body);
+        let springs = springs.through(&give) + &springs.by_load * &rigid;
         let by_load = self.effects.torque(at, &loads.seen).by_load;
         let load = self.load_slopes(&rigid, forces, &springs);
         slopes.rates = matrix(parametric.rates.run(at, &loads.seen), 0, p, u);

@@ -42,7 +42,7 @@ impl InterpretedPlant {
                 *carried += force;
             }
         }
-        let springs = self.links.carried(at);
+        let springs = self.links.carried(at, &body);
         let rests = self.links.carry(&springs, &mut carried);
         let mut seen = body.clone();
         for &joint in self.links.sprung() {
