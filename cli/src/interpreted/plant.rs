@@ -348,9 +348,7 @@ impl Plant for InterpretedPlant {
         let loads = self.loads(at, &there);
         let by_load = self.effects.torque(at, &loads.seen).by_load;
         let motion = self.links.slopes(at);
-        let springs = self
-            .links
-            .carried_slopes(at, &loads.springs, &loads.body);
+        let springs = self.links.carried_slopes(at, &loads.springs, &loads.body);
         let rigid = self.rigid_slopes(&there);
         let shared = self.shared_slopes(&there, &loads);
         let forces = shared.as_ref().zip(loads.forces.as_ref());

@@ -264,12 +264,7 @@ impl Springs {
     }
 
     /// Slopes of what springs carry, with joints at `body` where they have none.
-    pub fn slopes(
-        &mut self,
-        at: &Instant<'_>,
-        carried: &[Carried],
-        body: &[f64],
-    ) -> SpringSlopes {
+    pub fn slopes(&mut self, at: &Instant<'_>, carried: &[Carried], body: &[f64]) -> SpringSlopes {
         self.load.copy_from_slice(body);
         for (&joint, carried) in self.joints.iter().zip(carried) {
             self.load[joint] = carried.load;

@@ -52,7 +52,11 @@ fn springs_that_bend_each_other_move_as_their_modes() {
         position(j) = -a * rigid_torque(j) - b * rigid_torque(k);
         position(k) = -b * rigid_torque(j) - c * rigid_torque(k);
     }";
-    let arm = gantry(frame, "frame(a = 0.002, b = 0.0015, c = 0.004) on (x, y);", &[]);
+    let arm = gantry(
+        frame,
+        "frame(a = 0.002, b = 0.0015, c = 0.004) on (x, y);",
+        &[],
+    );
     let compliance = DMatrix::from_row_slice(2, 2, &[0.002, 0.0015, 0.0015, 0.004]);
     let stiffness = compliance.try_inverse().expect("stiff");
     // Motors, then links.
@@ -71,7 +75,10 @@ fn springs_that_bend_each_other_move_as_their_modes() {
         arm.advance(time).expect("a motion");
         let expected = linear(&mass, &k, &start, time);
         for (found, expected) in arm.q().iter().zip(expected.iter()) {
-            assert!((found - expected).abs() < 1e-6, "{time}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < 1e-6,
+                "{time}: {found} {expected}"
+            );
         }
         least = least.min(arm.q()[2] - arm.q()[0]);
     }
@@ -137,7 +144,8 @@ fn a_belt_hangs_where_its_loads_put_it() {
         inputs: &[],
     };
     let q = arm.start(&at);
-    let weight = 9.81 * (0.6 * q[2].cos() + 0.4 * q[2].cos() + 0.1 * (q[2] + q[3]).cos() - 0.2 * q[2].cos());
+    let weight =
+        9.81 * (0.6 * q[2].cos() + 0.4 * q[2].cos() + 0.1 * (q[2] + q[3]).cos() - 0.2 * q[2].cos());
     let bent = q[2] - q[0];
     assert!((bent + weight / 300.0).abs() < 1e-9, "{bent} {weight}");
     assert!((q[3] - q[1] + bent).abs() < 2e-5, "{q:?}");
@@ -153,7 +161,10 @@ fn links_follow_what_has_no_load_of_their_own() {
     for (name, states) in [("lead", 0), ("late", 1), ("push", 0), ("lift", 0)] {
         let effects = format!("{name} on x;");
         let arm = gantry(laws, &effects, &[]);
-        assert_eq!((arm.dof(), arm.states(), arm.is_affine()), (3, states, true));
+        assert_eq!(
+            (arm.dof(), arm.states(), arm.is_affine()),
+            (3, states, true)
+        );
         let mut moving = released(arm, &[0.0; 3], &[0.0; 3]);
         let (mut before, mut time) = (0.0, 0.0);
         let drive = |time: f64| 4.0 * (6.0 * time).sin();
@@ -218,11 +229,17 @@ fn slopes_of_coupled_springs_are_those_of_differences() {
         ("frame.c", 0.02),
     ];
     // Both on springs that read each other, and one on a spring that reads the load of a stiff joint.
-    for (effects, dof) in [("frame on (upper, lower);", 4), ("sag on (upper, lower);", 3)] {
+    for (effects, dof) in [
+        ("frame on (upper, lower);", 4),
+        ("sag on (upper, lower);", 3),
+    ] {
         let mut arm = plant(compiled(&text(effects)).ungrouped(), &more);
         assert_eq!(arm.dof(), dof);
         let behind = [0.27, -0.43];
-        let q: Vec<f64> = [0.3, -0.4].into_iter().chain(behind[4 - dof..].iter().copied()).collect();
+        let q: Vec<f64> = [0.3, -0.4]
+            .into_iter()
+            .chain(behind[4 - dof..].iter().copied())
+            .collect();
         let state: State = [
             q,
             vec![0.7, -0.9, 0.4, 0.2][..dof].to_vec(),

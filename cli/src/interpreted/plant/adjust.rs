@@ -137,9 +137,7 @@ impl Adjustable for InterpretedPlant {
         let forces = forces.and_then(|forces| loads.force_slopes(&forces, &rigid));
         let give = parametric.give.run(at, &loads.seen);
         let give = matrix(give, 0, loads.springs.len(), u);
-        let springs = self
-            .links
-            .carried_slopes(at, &loads.springs, &loads.body);
+        let springs = self.links.carried_slopes(at, &loads.springs, &loads.body);
         let springs = springs.through(&give) + &springs.by_load * &rigid;
         let by_load = self.effects.torque(at, &loads.seen).by_load;
         let load = self.load_slopes(&rigid, forces, &springs);
