@@ -8,7 +8,9 @@ use robot_model::identify::{Factor, Method};
 use crate::Error;
 use crate::identify::fit::{ByAcceleration, Fit};
 use crate::identify::reduced;
-use crate::identify::report::{report, table};
+use crate::identify::report::report;
+use crate::identify::table::table;
+use crate::identify::told_apart;
 use crate::interpreted::InterpretedArm;
 use crate::output::{self, Files};
 use crate::progress::Progress;
@@ -31,6 +33,9 @@ pub(crate) struct Merge {
     /// Write the factor of all.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
+    /// Take what can be had where the factors do not tell all parameters apart: sums of them, each with a value of its own.
+    #[arg(long)]
+    partial: bool,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -73,6 +78,9 @@ impl Merge {
             MethodArgument::Wls => Method::Wls,
         };
         let estimate = factor.estimate(arm, method)?;
+        if !self.partial {
+            told_apart(&estimate)?;
+        }
         let mut faults = Vec::new();
         let validation = match &self.validate {
             None => None,

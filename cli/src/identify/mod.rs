@@ -2,14 +2,16 @@
 
 mod doubts;
 pub(crate) mod fit;
+mod options;
 mod output_error;
 pub(crate) mod reduced;
 pub(crate) mod report;
+pub(crate) mod table;
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
-use robot_model::identify::{Errors, Estimate, Identify, IdentifyError, Method, Weights};
+use clap::Args;
+use robot_model::identify::{Errors, Estimate, Identify, IdentifyError, Method};
 use robot_model::log::{Fault, Log};
 use robot_model::signal::{Bands, SignalError};
 
@@ -20,8 +22,10 @@ use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
+use options::{FormArgument, MethodArgument, WeightsArgument, parse_bands, parse_corner};
 use reduced::Streams;
-use report::{report, table};
+use report::report;
+use table::table;
 
 /// Identify an arm's parameters from measured logs.
 #[derive(Debug, Args)]
@@ -56,6 +60,15 @@ pub(crate) struct IdentifyArguments {
     /// kinematics; without it they are chosen from the logs.
     #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
     bands: Option<Bands>,
+    /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.
+    #[arg(long)]
+    partial: bool,
+    /// Draw blocks of the logs so often, for intervals that need no formula; of `ls`, `wls`, `robust`.
+    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    bootstrap: Option<u32>,
+    /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
+    #[arg(long)]
+    essential: bool,
     /// Take logs as they are: spikes and holds are left where they stand.
     #[arg(long)]
     as_logged: bool,
@@ -67,95 +80,6 @@ pub(crate) struct IdentifyArguments {
     json: Option<PathBuf>,
     #[command(flatten)]
     output_error: output_error::Options,
-}
-
-#[derive(Debug, Clone, Copy, Default, ValueEnum)]
-enum MethodArgument {
-    /// Ordinary least squares.
-    Ls,
-    /// Least squares weighted joint by joint.
-    #[default]
-    Wls,
-    /// The same, in which samples far from the rest count less.
-    Robust,
-    /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
-    Physical,
-    /// Least squares weighted by each joint's residual, with the spec's nominal values as measurements.
-    Ridge,
-    /// Total least squares: columns have errors as the torque has.
-    Tls,
-    /// Instrumental variables, and whether least squares is biased (Durbin, Wu, Hausman).
-    Iv,
-    /// The arm is simulated, and moves as the measured one did.
-    OutputError,
-}
-
-impl MethodArgument {
-    /// The method of least squares that it is; none where the arm is simulated.
-    fn of_equations(self) -> Option<Method> {
-        match self {
-            Self::Ls => Some(Method::Ls),
-            Self::Wls => Some(Method::Wls),
-            Self::Robust => Some(Method::Robust),
-            Self::Physical => Some(Method::Physical),
-            Self::Ridge => Some(Method::Ridge),
-            Self::Tls => Some(Method::Total),
-            Self::Iv => Some(Method::Instrumental),
-            Self::OutputError => None,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum WeightsArgument {
-    /// The deviation of its residual.
-    #[default]
-    Residual,
-    /// The length of its torque.
-    TorqueNorm,
-    /// The largest size of its torque.
-    MaxTorque,
-}
-
-impl From<WeightsArgument> for Weights {
-    fn from(weights: WeightsArgument) -> Self {
-        match weights {
-            WeightsArgument::Residual => Self::Residual,
-            WeightsArgument::TorqueNorm => Self::TorqueNorm,
-            WeightsArgument::MaxTorque => Self::MaxTorque,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum FormArgument {
-    /// With accelerations; errors are of the raw torque.
-    #[default]
-    Acceleration,
-    /// Without accelerations; errors are of the filtered torque.
-    Filtered,
-}
-
-fn parse_corner(text: &str) -> Result<f64, String> {
-    match text.trim().parse::<f64>() {
-        Ok(corner) if corner > 0.0 && corner.is_finite() => Ok(corner),
-        _ => Err("write a positive number in rad/s, such as `60`".to_owned()),
-    }
-}
-
-fn parse_bands(text: &str) -> Result<Bands, String> {
-    let numbers: Result<Vec<f64>, _> = text
-        .split(',')
-        .map(|part| part.trim().parse::<f64>())
-        .collect();
-    match numbers.as_deref() {
-        Ok(&[shared_hz, smooth_hz, wide_hz]) => Ok(Bands {
-            smooth_hz,
-            wide_hz,
-            shared_hz,
-        }),
-        _ => Err("write three numbers, such as `10,30,90`".to_owned()),
-    }
 }
 
 impl IdentifyArguments {
@@ -189,67 +113,6 @@ impl IdentifyArguments {
         }
     }
 
-    /// Options that the method does not read are mistakes.
-    fn check_options(&self) -> Result<(), Error> {
-        let refuse = |what: &str| Err(Error::Argument(what.to_owned()));
-        let Some(method) = self.method.of_equations() else {
-            return self.check_simulation();
-        };
-        if let Some(option) = self.output_error.given() {
-            return refuse(&format!("`{option}` is of `--method output-error`"));
-        }
-        if !method.takes_weights() && self.weights != WeightsArgument::Residual {
-            return refuse(&format!(
-                "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
-                method.name()
-            ));
-        }
-        if self.factor.is_some() {
-            if self.form == FormArgument::Filtered {
-                return refuse("`--factor` is of `--form acceleration`");
-            }
-            if !matches!(method, Method::Ls | Method::Wls)
-                || self.weights != WeightsArgument::Residual
-            {
-                return refuse(
-                    "`--factor` is of `--method ls` and `wls`, weighted by residuals: others need all samples at once",
-                );
-            }
-        }
-        if self.prior.is_some() && method != Method::Ridge {
-            return refuse("`--prior` is of `--method ridge`");
-        }
-        if !self.instruments.is_empty() && method != Method::Instrumental {
-            return refuse("`--instruments` are of `--method iv`");
-        }
-        if method == Method::Instrumental && self.instruments.len() != self.logs.len() {
-            return refuse(&format!(
-                "`--method iv` wants a motion without noise for each log, `--instruments MOTION ..`: {} for {}; take the wanted \
-                 motion, or the log that `simulate` makes of it with the parameters of `--method wls`",
-                output::counted(self.instruments.len(), "motion"),
-                output::counted(self.logs.len(), "log")
-            ));
-        }
-        Ok(())
-    }
-
-    /// The same where the arm is simulated.
-    fn check_simulation(&self) -> Result<(), Error> {
-        let others = [
-            ("--weights", self.weights != WeightsArgument::Residual),
-            ("--prior", self.prior.is_some()),
-            ("--instruments", !self.instruments.is_empty()),
-            ("--form filtered", self.form == FormArgument::Filtered),
-            ("--factor", self.factor.is_some()),
-        ];
-        match others.into_iter().find(|(_, is_given)| *is_given) {
-            None => Ok(()),
-            Some((option, _)) => Err(Error::Argument(format!(
-                "`{option}` is of methods with equations; `output-error` simulates"
-            ))),
-        }
-    }
-
     fn fit(&self, form: &dyn Fit, method: Method) -> Result<(), Error> {
         let dof = form.dof();
         let inputs = std::iter::once(&self.spec)
@@ -270,6 +133,8 @@ impl IdentifyArguments {
             weights: self.weights.into(),
             bands: self.bands,
             instruments: instruments.collect::<Result<_, _>>()?,
+            bootstrap: self.bootstrap.map_or(0, |draws| draws as usize),
+            essential: self.essential,
             ..Identify::default()
         };
         if let Some(prior) = self.prior {
@@ -279,6 +144,9 @@ impl IdentifyArguments {
         let estimate = form
             .fit(&identify, &logs)
             .map_err(|error| self.refused(error))?;
+        if !self.partial {
+            told_apart(&estimate)?;
+        }
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..errors_of_all(&estimate, form, &logs)?
@@ -344,6 +212,16 @@ impl IdentifyArguments {
         }
         print(&estimate, &train, validation.as_ref())
     }
+}
+
+/// That all parameters have values, or the ways out.
+pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
+    estimate.separated().map_err(|error| {
+        Error::Argument(format!(
+            "{error}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, take its nominal values \
+             where logs are silent (`--method ridge`, `physical`), or take what the logs tell: `--partial`"
+        ))
+    })
 }
 
 /// Errors on a log that was not fitted; a log that the filters do not fit is named.

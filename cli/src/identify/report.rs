@@ -1,12 +1,8 @@
-//! What is written and printed of an estimate.
+//! What is written of an estimate.
 
-use std::fmt::Write;
-
-use robot_model::identify::{Errors, Estimate, Form, Identified};
+use robot_model::identify::{Combination, Errors, Essential, Estimate, Form, Identified};
 use robot_model::log::Fault;
 use serde::Serialize;
-
-use crate::output;
 
 /// What `--json` writes; a contract.
 #[derive(Serialize)]
@@ -31,6 +27,10 @@ pub(crate) struct Report<'a> {
     condition: f64,
     rank: usize,
     unexcited: &'a [String],
+    /// What the logs tell of parameters that have no value of their own.
+    combinations: Vec<CombinationReport<'a>>,
+    /// Independent samples per joint; null where samples were not at hand.
+    effective_samples: Option<&'a [f64]>,
     bands_hz: [f64; 3],
     /// Of `robust` only: samples per joint that are far from the others.
     outliers: Option<&'a [usize]>,
@@ -38,6 +38,9 @@ pub(crate) struct Report<'a> {
     possible: Option<PossibleReport<'a>>,
     /// Of `iv` only.
     hausman: Option<HausmanReport<'a>>,
+    /// Where they were asked for.
+    bootstrap: Option<BootstrapReport>,
+    essential: Option<EssentialReport<'a>>,
     /// Faults of the logs, which were mended where that can be.
     data_faults: Vec<FaultReport<'a>>,
 }
@@ -80,6 +83,66 @@ pub(super) struct Parameter<'a> {
     pub value: Option<f64>,
     /// None for shape parameters of methods that do not tell, too.
     pub std: Option<f64>,
+    /// With 95 % of the draws of a bootstrap, where there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interval: Option<[f64; 2]>,
+}
+
+/// What the logs tell of parameters that they do not tell apart.
+#[derive(Serialize)]
+struct CombinationReport<'a> {
+    terms: Vec<Term<'a>>,
+    value: f64,
+    std: f64,
+}
+
+#[derive(Serialize)]
+struct Term<'a> {
+    name: &'a str,
+    factor: f64,
+}
+
+/// The parameters that are essential.
+#[derive(Serialize)]
+struct EssentialReport<'a> {
+    parameters: Vec<Parameter<'a>>,
+    relative_percent: &'a [f64],
+}
+
+/// How often blocks were drawn, and of how many.
+#[derive(Serialize)]
+struct BootstrapReport {
+    draws: usize,
+    blocks: usize,
+}
+
+fn combination(found: &Combination) -> CombinationReport<'_> {
+    let terms = found.terms.iter();
+    CombinationReport {
+        terms: terms
+            .map(|(name, factor)| Term {
+                name,
+                factor: *factor,
+            })
+            .collect(),
+        value: found.value,
+        std: found.std,
+    }
+}
+
+fn essential(found: &Essential) -> EssentialReport<'_> {
+    let parameters = found.parameters.iter();
+    EssentialReport {
+        parameters: parameters
+            .map(|parameter| Parameter {
+                name: &parameter.name,
+                value: Some(parameter.value),
+                std: Some(parameter.std),
+                interval: None,
+            })
+            .collect(),
+        relative_percent: &found.relative_percent,
+    }
 }
 
 pub(crate) fn report<'a>(
@@ -88,11 +151,20 @@ pub(crate) fn report<'a>(
     validation: Option<&'a Errors>,
     faults: &'a [(String, Fault)],
 ) -> Report<'a> {
-    let measured = |parameter: &Identified| !estimate.unexcited.contains(&parameter.name);
+    let measured = |parameter: &Identified| estimate.is_separated(&parameter.name);
     let linear = estimate.parameters.iter().map(|parameter| Parameter {
         name: &parameter.name,
         value: measured(parameter).then_some(parameter.value),
         std: measured(parameter).then_some(parameter.std),
+        interval: None,
+    });
+    let interval = |k: usize| {
+        let found = estimate.bootstrap.as_ref()?;
+        found.intervals[k].filter(|_| measured(&estimate.parameters[k]))
+    };
+    let linear = linear.enumerate().map(|(k, parameter)| Parameter {
+        interval: interval(k),
+        ..parameter
     });
     let shapes = estimate.shapes.iter().zip(&estimate.shape_std);
     let shapes = shapes.map(|(shape, std)| Parameter {
@@ -120,6 +192,8 @@ pub(crate) fn report<'a>(
         condition: estimate.condition,
         rank: estimate.rank,
         unexcited: &estimate.unexcited,
+        combinations: estimate.combinations.iter().map(combination).collect(),
+        effective_samples: estimate.effective_samples.as_deref(),
         bands_hz: [
             estimate.bands.shared_hz,
             estimate.bands.smooth_hz,
@@ -143,10 +217,16 @@ pub(crate) fn report<'a>(
                     name: &parameter.name,
                     value: measured(parameter).then_some(*value),
                     std: None,
+                    interval: None,
                 })
                 .collect(),
             differences: &hausman.differences,
         }),
+        bootstrap: estimate.bootstrap.as_ref().map(|found| BootstrapReport {
+            draws: found.draws,
+            blocks: found.blocks,
+        }),
+        essential: estimate.essential.as_ref().map(essential),
         data_faults: fault_reports(faults),
     }
 }
@@ -168,47 +248,6 @@ fn known((name, value): &(String, f64)) -> Parameter<'_> {
         name,
         value: Some(*value),
         std: None,
+        interval: None,
     }
-}
-
-/// Errors per joint, of several logs side by side.
-///
-/// ```text
-/// joint   identification          validation
-///             RMSE    relative        RMSE    relative
-/// ```
-pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String {
-    let width = estimate
-        .joints
-        .iter()
-        .map(String::len)
-        .max()
-        .unwrap_or(0)
-        .max("joint".len());
-    let domain = match estimate.form {
-        Form::Acceleration => output::ERRORS.to_owned(),
-        Form::Filtered { corner } => output::filtered_errors(corner),
-    };
-    let mut text = format!("{domain}\n{:width$}", "joint");
-    for (name, _) in columns {
-        write!(text, "  {name:>22}").expect("a string takes all");
-    }
-    write!(text, "\n{:width$}", "").expect("a string takes all");
-    for _ in columns {
-        write!(text, "  {:>10}  {:>10}", "RMSE", "relative").expect("a string takes all");
-    }
-    text.push('\n');
-    for (joint, name) in estimate.joints.iter().enumerate() {
-        write!(text, "{name:width$}").expect("a string takes all");
-        for (_, errors) in columns {
-            write!(
-                text,
-                "  {:>10.4}  {:>8.2} %",
-                errors.rmse[joint], errors.relative_percent[joint]
-            )
-            .expect("a string takes all");
-        }
-        text.push('\n');
-    }
-    text
 }

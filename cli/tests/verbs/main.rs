@@ -1,5 +1,6 @@
 //! Every verb on inputs that are sound, and on inputs that are not.
 
+mod apart;
 mod audit;
 mod c;
 mod common;

@@ -2,7 +2,7 @@
 
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
-use super::{Identify, Method, hac, robust, shapes};
+use super::{Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -67,10 +67,25 @@ impl Identify {
 
     /// Standard deviations of a solution of least squares; see [`hac`].
     pub(super) fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
-        let weights = match self.method {
+        hac::deviations(stack, solution, &self.row_weights(stack, solution))
+    }
+
+    /// Intervals from blocks that are drawn, where they are wanted.
+    pub(super) fn draw(
+        &self,
+        stack: &Stack,
+        solution: &Solution,
+    ) -> Result<Option<Bootstrap>, IdentifyError> {
+        let weights = self.row_weights(stack, solution);
+        let draws = (self.bootstrap > 0).then_some(self.bootstrap);
+        let found = draws.map(|draws| bootstrap::intervals(stack, solution, &weights, draws));
+        found.transpose()
+    }
+
+    fn row_weights(&self, stack: &Stack, solution: &Solution) -> Vec<Vec<f64>> {
+        match self.method {
             Method::Robust => robust::weights(stack, &solution.estimate),
             _ => robust::of_all(stack),
-        };
-        hac::deviations(stack, solution, &weights)
+        }
     }
 }

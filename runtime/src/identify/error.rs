@@ -46,6 +46,29 @@ pub enum IdentifyError {
         /// Unknowns.
         unknowns: usize,
     },
+    /// The logs do not tell all unknowns apart.
+    #[error("the logs do not tell all parameters apart (rank {rank} of {unknowns}): {why}")]
+    NotSeparated {
+        /// Numerical rank of the regressor.
+        rank: usize,
+        /// Unknowns.
+        unknowns: usize,
+        /// Which are not told, and what is told of them.
+        why: String,
+    },
+    /// Logs too short to be cut into blocks.
+    #[error(
+        "a bootstrap wants {blocks} blocks of {samples:.0} rows, over which errors are alike, and the logs have {rows} rows; give longer logs, \
+         or take the deviations that are there without it"
+    )]
+    FewBlocks {
+        /// Least number of blocks.
+        blocks: usize,
+        /// Rows in a block.
+        samples: f64,
+        /// Rows there are.
+        rows: usize,
+    },
     /// Nothing says what bodies the unknowns are made of.
     #[error(
         "a robot that says its energies has no links whose bodies could be possible; identify it by another method"

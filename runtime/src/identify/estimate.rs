@@ -1,20 +1,15 @@
 //! What an identification found, and how well it predicts.
 
-use std::fmt;
-
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, prepare};
 
 use super::instruments::Hausman;
-use super::least_squares::Solution;
+use super::least_squares::{Solution, correlation_time};
 use super::possible::Possible;
 use super::stack::{Stack, norm, percent, torque_of};
-use super::{IdentifyError, Method, load_motion};
-
-/// Outliers are many from one sample in so many on.
-const MANY: usize = 10;
+use super::{Bootstrap, Combination, Essential, IdentifyError, Method, Shared, load_motion};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
 const ERROR_BORDER_S: f64 = 1.0;
@@ -99,6 +94,8 @@ pub struct Estimate {
     pub shape_std: Vec<Option<f64>>,
     /// Names of the parameters that the logs do not excite; their value is given as 0.
     pub unexcited: Vec<String>,
+    /// What the logs tell of parameters that they do not tell apart. The first term of each has the value of the whole for its own.
+    pub combinations: Vec<Combination>,
     /// Condition number of the weighted regressor with columns of unit norm.
     pub condition: f64,
     /// Numerical rank of the regressor.
@@ -115,6 +112,13 @@ pub struct Estimate {
     pub outliers: Option<Vec<usize>>,
     /// The comparison with least squares where instruments were taken: [`Method::Instrumental`].
     pub hausman: Option<Hausman>,
+    /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
+    /// at hand.
+    pub effective_samples: Option<Vec<f64>>,
+    /// Intervals from blocks that were drawn, where [`Identify::bootstrap`](super::Identify::bootstrap) asks for them.
+    pub bootstrap: Option<Bootstrap>,
+    /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
+    pub essential: Option<Essential>,
 }
 
 /// How rows were fitted.
@@ -123,14 +127,20 @@ pub(super) struct Fitted {
     pub relative_percent: Vec<f64>,
     /// Samples per joint.
     pub samples: usize,
+    /// Of these, independent ones per joint.
+    pub effective_samples: Option<Vec<f64>>,
 }
 
 impl Fitted {
     /// By an estimate.
     pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
+        let residuals = stack.residuals(estimate);
+        let samples = stack.samples() as f64;
+        let effective = residuals.iter().map(|r| samples / correlation_time(r));
         Self {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),
+            effective_samples: Some(effective.collect()),
         }
     }
 }
@@ -146,6 +156,17 @@ impl Estimate {
         fitted: Fitted,
     ) -> Self {
         let name = |c: &usize| arm.unknowns()[*c].name.clone();
+        let combination = |shared: &Shared| {
+            let others = shared.others.iter();
+            let others = others.map(|(c, factor)| (name(c), *factor));
+            Combination {
+                terms: std::iter::once((name(&shared.lead), 1.0))
+                    .chain(others)
+                    .collect(),
+                value: solution.estimate[shared.lead],
+                std: solution.std[shared.lead],
+            }
+        };
         let parameters = arm
             .unknowns()
             .iter()
@@ -169,6 +190,7 @@ impl Estimate {
                 .collect(),
             shape_std: vec![None; arm.shapes().len()],
             unexcited: solution.unexcited.iter().map(name).collect(),
+            combinations: solution.shared.iter().map(combination).collect(),
             condition: solution.condition,
             rank: arm.unknowns().len() - solution.unexcited.len(),
             relative_percent: fitted.relative_percent,
@@ -177,6 +199,9 @@ impl Estimate {
             possible: None,
             outliers: None,
             hausman: None,
+            effective_samples: fitted.effective_samples,
+            bootstrap: None,
+            essential: None,
         }
     }
 
@@ -318,86 +343,4 @@ fn spread(values: &[f64], stride: usize, count: usize) -> Vec<f64> {
             values[at] + part * (next - values[at])
         })
         .collect()
-}
-
-impl fmt::Display for Estimate {
-    /// The table that a paper would print.
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let width = self
-            .parameters
-            .iter()
-            .map(|p| p.name.len())
-            .max()
-            .unwrap_or(9)
-            .max(9);
-        writeln!(
-            f,
-            "{:width$}  {:>12}  {:>10}  {:>7}",
-            "parameter", "value", "std", "std %"
-        )?;
-        for p in &self.parameters {
-            if self.unexcited.contains(&p.name) {
-                writeln!(f, "{:width$}  {:>12}", p.name, "not separable")?;
-            } else {
-                let relative = if p.value == 0.0 {
-                    f64::INFINITY
-                } else {
-                    100.0 * (p.std / p.value).abs()
-                };
-                writeln!(
-                    f,
-                    "{:width$}  {:>12.5}  {:>10.2e}  {relative:>7.2}",
-                    p.name, p.value, p.std
-                )?;
-            }
-        }
-        for ((name, value), std) in self.shapes.iter().zip(&self.shape_std) {
-            match std {
-                Some(std) => {
-                    let relative = 100.0 * (std / value).abs();
-                    writeln!(
-                        f,
-                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}  (shape)"
-                    )?;
-                }
-                None => writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?,
-            }
-        }
-        writeln!(
-            f,
-            "rank {} of {}, condition {:.1}, {} samples a joint below {:.0} Hz, {}",
-            self.rank,
-            self.parameters.len(),
-            self.condition,
-            self.samples,
-            self.bands.shared_hz,
-            self.method.name()
-        )?;
-        if let Some(possible) = &self.possible {
-            write!(f, "{possible}")?;
-        }
-        if let Some(outliers) = &self.outliers {
-            let joints = self.joints.iter().zip(outliers);
-            let told: Vec<String> = joints
-                .map(|(name, count)| format!("{name} {count}"))
-                .collect();
-            writeln!(f, "samples far from the others: {}", told.join(", "))?;
-            if outliers.iter().any(|count| MANY * count > self.samples) {
-                writeln!(
-                    f,
-                    "more than a few: what they say is in no parameter; look at them before you trust the rest"
-                )?;
-            }
-        }
-        if let Some(hausman) = &self.hausman {
-            hausman.tell(f, &self.parameters)?;
-        }
-        if self.unexcited.is_empty() {
-            return Ok(());
-        }
-        writeln!(
-            f,
-            "not separable: these columns cannot be told from others in the logs: their effect is in the other parameters"
-        )
-    }
 }

@@ -190,6 +190,7 @@ impl Factor {
         let fitted = Fitted {
             relative_percent: self.relative_percent(&solution.estimate),
             samples: self.samples(),
+            effective_samples: None,
         };
         Ok(Estimate::new(
             arm,

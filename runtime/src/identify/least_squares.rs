@@ -6,6 +6,7 @@
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
+use super::combination::{Shared, shared};
 use super::stack::Stack;
 
 /// A column is called not excited when its pivot, after every column was scaled to unit norm, is below this: its estimate
@@ -35,6 +36,8 @@ pub struct Solution {
     pub std: Vec<f64>,
     /// Unknowns that the logs do not excite, ascending.
     pub unexcited: Vec<usize>,
+    /// Excited unknowns that stand for a combination with others.
+    pub shared: Vec<Shared>,
     /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.
     pub condition: f64,
     /// Standard deviation of the residual per joint; never below a tiny share of the largest.
@@ -128,15 +131,17 @@ impl Factors {
         let scale = &not_tiny(scale);
         let n = self.unknowns;
         let r = self.stacked(scale);
+        let found = Excited::new(&r, n);
+        let unexcited: Vec<usize> = (0..n)
+            .filter(|c| found.columns.binary_search(c).is_err())
+            .collect();
+        let shared = shared(&r, &found, &unexcited);
         let Excited {
             columns: excited,
             norms,
             kept,
-        } = Excited::new(&r, n);
+        } = found;
         let rank = excited.len();
-        let unexcited: Vec<usize> = (0..n)
-            .filter(|c| excited.binary_search(c).is_err())
-            .collect();
         let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
         let qr = kept.qr();
         let solved = qr.solve_lstsq(&right);
@@ -154,6 +159,7 @@ impl Factors {
             estimate,
             std,
             unexcited,
+            shared,
             condition,
             sigma,
             scale: scale.clone(),

@@ -17,8 +17,11 @@
 //! ```
 
 mod band;
+mod bootstrap;
+mod combination;
 mod deviated;
 mod error;
+mod essential;
 mod estimate;
 mod factor;
 mod filtered;
@@ -32,10 +35,14 @@ mod ridge;
 mod robust;
 mod shapes;
 mod stack;
+mod table;
 mod total;
 
+pub use bootstrap::Bootstrap;
+pub use combination::{Combination, Shared};
 use deviated::Solved;
 pub use error::IdentifyError;
+pub use essential::Essential;
 use estimate::Fitted;
 pub use estimate::{Errors, Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock};
@@ -71,6 +78,10 @@ pub struct Identify {
     pub prior: f64,
     /// Of [`Method::Instrumental`]: a motion without noise for each log, the wanted one or a simulated one, that starts with it.
     pub instruments: Vec<Trajectory>,
+    /// Of [`Method::Ls`], [`Method::Wls`] and [`Method::Robust`]: how often blocks of the logs are drawn for intervals; 0 for none.
+    pub bootstrap: usize,
+    /// Of the same methods: whether to look for the parameters that are essential.
+    pub essential: bool,
 }
 
 impl Default for Identify {
@@ -81,6 +92,8 @@ impl Default for Identify {
             bands: None,
             prior: 0.3,
             instruments: Vec::new(),
+            bootstrap: 0,
+            essential: false,
         }
     }
 }
@@ -88,6 +101,8 @@ impl Default for Identify {
 /// What a method leaves beside the solution.
 #[derive(Debug, Clone, Default)]
 struct Beside {
+    bootstrap: Option<Bootstrap>,
+    essential: Option<Essential>,
     possible: Option<Possible>,
     outliers: Option<Vec<usize>>,
     hausman: Option<Hausman>,
@@ -151,11 +166,15 @@ impl Identify {
             mut shape_std,
             stack,
         } = solved;
-        if !matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
+        let mut beside = Beside::default();
+        if matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
+            beside.bootstrap = self.draw(&stack, &solution)?;
+            let mut essential = || essential::find(self, stack.clone(), &solution);
+            beside.essential = self.essential.then(&mut essential).transpose()?;
+        } else {
             // Others solve for the linear unknowns alone.
             shape_std.fill(None);
         }
-        let mut beside = Beside::default();
         match self.method {
             Method::Ls | Method::Wls => {}
             Method::Robust => beside.outliers = Some(robust::outliers(&stack, &solution.estimate)),
@@ -174,6 +193,8 @@ impl Identify {
             possible: beside.possible,
             outliers: beside.outliers,
             hausman: beside.hausman,
+            bootstrap: beside.bootstrap,
+            essential: beside.essential,
             shape_std,
             ..estimate
         })

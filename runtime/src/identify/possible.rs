@@ -113,6 +113,7 @@ pub(super) fn make(
     let nearest = nearest.ok_or(IdentifyError::NoEnd)?;
     let border = arms.border(&solution.estimate, &nearest.standard);
     solution.estimate = nearest.estimate;
+    solution.shared.clear();
     let standard = arms.names.into_iter().zip(nearest.standard);
     Ok(Possible {
         standard: standard.collect(),

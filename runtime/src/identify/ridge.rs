@@ -67,6 +67,7 @@ pub(super) fn make(
     solution.unexcited = (0..n)
         .filter(|c| columns.binary_search(c).is_err())
         .collect();
+    solution.shared.clear();
     solution.sigma = factors.sigma(&solution.estimate, columns.len());
     Ok(())
 }

@@ -133,6 +133,7 @@ impl OutputReport<'_> {
                     name,
                     value: self.has_value(k).then_some(*value),
                     std: *std,
+                    interval: None,
                 })
                 .collect(),
             rmse: torque.map(|errors| errors.rmse.as_slice()),

@@ -1,0 +1,174 @@
+//! Options of `identify`, and which of them belong together.
+
+use clap::ValueEnum;
+use robot_model::identify::{Method, Weights};
+use robot_model::signal::Bands;
+
+use super::IdentifyArguments;
+use crate::{Error, output};
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+pub(super) enum MethodArgument {
+    /// Ordinary least squares.
+    Ls,
+    /// Least squares weighted joint by joint.
+    #[default]
+    Wls,
+    /// The same, in which samples far from the rest count less.
+    Robust,
+    /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
+    Physical,
+    /// Least squares weighted by each joint's residual, with the spec's nominal values as measurements.
+    Ridge,
+    /// Total least squares: columns have errors as the torque has.
+    Tls,
+    /// Instrumental variables, and whether least squares is biased (Durbin, Wu, Hausman).
+    Iv,
+    /// The arm is simulated, and moves as the measured one did.
+    OutputError,
+}
+
+impl MethodArgument {
+    /// The method of least squares that it is; none where the arm is simulated.
+    pub fn of_equations(self) -> Option<Method> {
+        match self {
+            Self::Ls => Some(Method::Ls),
+            Self::Wls => Some(Method::Wls),
+            Self::Robust => Some(Method::Robust),
+            Self::Physical => Some(Method::Physical),
+            Self::Ridge => Some(Method::Ridge),
+            Self::Tls => Some(Method::Total),
+            Self::Iv => Some(Method::Instrumental),
+            Self::OutputError => None,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum WeightsArgument {
+    /// The deviation of its residual.
+    #[default]
+    Residual,
+    /// The length of its torque.
+    TorqueNorm,
+    /// The largest size of its torque.
+    MaxTorque,
+}
+
+impl From<WeightsArgument> for Weights {
+    fn from(weights: WeightsArgument) -> Self {
+        match weights {
+            WeightsArgument::Residual => Self::Residual,
+            WeightsArgument::TorqueNorm => Self::TorqueNorm,
+            WeightsArgument::MaxTorque => Self::MaxTorque,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum FormArgument {
+    /// With accelerations; errors are of the raw torque.
+    #[default]
+    Acceleration,
+    /// Without accelerations; errors are of the filtered torque.
+    Filtered,
+}
+
+pub(super) fn parse_corner(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(corner) if corner > 0.0 && corner.is_finite() => Ok(corner),
+        _ => Err("write a positive number in rad/s, such as `60`".to_owned()),
+    }
+}
+
+pub(super) fn parse_bands(text: &str) -> Result<Bands, String> {
+    let numbers: Result<Vec<f64>, _> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect();
+    match numbers.as_deref() {
+        Ok(&[shared_hz, smooth_hz, wide_hz]) => Ok(Bands {
+            smooth_hz,
+            wide_hz,
+            shared_hz,
+        }),
+        _ => Err("write three numbers, such as `10,30,90`".to_owned()),
+    }
+}
+
+impl IdentifyArguments {
+    /// Options that the method does not read are mistakes.
+    pub(super) fn check_options(&self) -> Result<(), Error> {
+        let refuse = |what: &str| Err(Error::Argument(what.to_owned()));
+        let Some(method) = self.method.of_equations() else {
+            return self.check_simulation();
+        };
+        if let Some(option) = self.output_error.given() {
+            return refuse(&format!("`{option}` is of `--method output-error`"));
+        }
+        if !method.takes_weights() && self.weights != WeightsArgument::Residual {
+            return refuse(&format!(
+                "`--weights` is of `wls`, `robust`, `tls` and `iv`; `{}` has its own",
+                method.name()
+            ));
+        }
+        if !matches!(method, Method::Ls | Method::Wls | Method::Robust) || self.factor.is_some() {
+            let asked = [
+                ("--bootstrap", self.bootstrap.is_some()),
+                ("--essential", self.essential),
+            ];
+            if let Some((option, _)) = asked.into_iter().find(|(_, is_given)| *is_given) {
+                return refuse(&format!(
+                    "`{option}` is of `--method ls`, `wls` and `robust`, and wants the logs themselves, not a factor"
+                ));
+            }
+        }
+        if self.factor.is_some() {
+            if self.form == FormArgument::Filtered {
+                return refuse("`--factor` is of `--form acceleration`");
+            }
+            if !matches!(method, Method::Ls | Method::Wls)
+                || self.weights != WeightsArgument::Residual
+            {
+                return refuse(
+                    "`--factor` is of `--method ls` and `wls`, weighted by residuals: others need all samples at once",
+                );
+            }
+        }
+        if self.prior.is_some() && method != Method::Ridge {
+            return refuse("`--prior` is of `--method ridge`");
+        }
+        if !self.instruments.is_empty() && method != Method::Instrumental {
+            return refuse("`--instruments` are of `--method iv`");
+        }
+        if method == Method::Instrumental && self.instruments.len() != self.logs.len() {
+            return refuse(&format!(
+                "`--method iv` wants a motion without noise for each log, `--instruments MOTION ..`: {} for {}; take the wanted \
+                 motion, or the log that `simulate` makes of it with the parameters of `--method wls`",
+                output::counted(self.instruments.len(), "motion"),
+                output::counted(self.logs.len(), "log")
+            ));
+        }
+        Ok(())
+    }
+
+    /// The same where the arm is simulated.
+    fn check_simulation(&self) -> Result<(), Error> {
+        let others = [
+            ("--weights", self.weights != WeightsArgument::Residual),
+            ("--prior", self.prior.is_some()),
+            ("--instruments", !self.instruments.is_empty()),
+            ("--form filtered", self.form == FormArgument::Filtered),
+            ("--factor", self.factor.is_some()),
+            ("--bootstrap", self.bootstrap.is_some()),
+            ("--essential", self.essential),
+            ("--partial", self.partial),
+        ];
+        match others.into_iter().find(|(_, is_given)| *is_given) {
+            None => Ok(()),
+            Some((option, _)) => Err(Error::Argument(format!(
+                "`{option}` is of methods with equations; `output-error` simulates"
+            ))),
+        }
+    }
+}

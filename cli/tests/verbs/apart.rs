@@ -1,0 +1,140 @@
+//! What logs tell of parameters that they do not tell apart, which parameters matter, and intervals without a formula.
+
+use crate::common::{CART, Folder, cart_log, json, numbers};
+
+/// A cart whose spec has friction that is another one's where its log is, and one that this never reaches.
+fn twice() -> Folder {
+    let folder = Folder::new();
+    let spec = CART.replace(
+        "viscous_friction on rail;",
+        "one on rail; more on rail; coulomb_friction on rail; stop on rail;",
+    ) + "effect one(j) { linear c; torque(j) = c * dq(j) * (2 - sign(q(j) + 1)); }\n\
+         effect more(j) { linear c; torque(j) = 4 * c * dq(j) * (2 + sign(q(j) - 1)); }\n\
+         effect stop(j) { linear c; torque(j) = c * (1 + sign(q(j) - 1)); }\n";
+    folder.write("cart.robot", &spec);
+    folder.write("log.csv", &cart_log(20, 2.0, 0.0));
+    folder
+}
+
+#[test]
+fn logs_that_do_not_tell_all_apart_are_refused_with_what_they_tell() {
+    let folder = twice();
+    let said = folder.refuse(&["identify", "cart.robot", "log.csv", "--json", "out.json"]);
+    for part in [
+        "rank 3 of 5",
+        "nothing is told of `rail.stop.c`",
+        "cannot be told from others, only `",
+        "--partial",
+        "excite",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
+#[test]
+fn what_they_tell_is_taken_where_that_is_wanted() {
+    let folder = twice();
+    let partial = ["--partial", "--json", "out.json"];
+    let table = folder.succeed(&[&["identify", "cart.robot", "log.csv"][..], &partial].concat());
+    let out = json(&folder.read("out.json"));
+    let unexcited = out["unexcited"].as_array().expect("a list");
+    assert!(unexcited.len() == 2 && unexcited.contains(&"rail.stop.c".into()));
+    let combinations = out["combinations"].as_array().expect("a list");
+    assert_eq!(combinations.len(), 1, "{combinations:?}");
+    let terms = combinations[0]["terms"].as_array().expect("a list");
+    let term = |k: usize| {
+        let name = terms[k]["name"].as_str().expect("a name");
+        (name, terms[k]["factor"].as_f64().expect("a number"))
+    };
+    // Both are shares of the same friction, which is 5, whichever leads.
+    let (expected, factor) = match term(0) {
+        ("rail.one.c", _) => (5.0, 4.0),
+        ("rail.more.c", _) => (1.25, 0.25),
+        other => panic!("{other:?} is told by itself"),
+    };
+    assert_eq!(terms.len(), 2);
+    assert!((term(0).1 - 1.0).abs() < 1e-12 && (term(1).1 - factor).abs() < 1e-6 * factor);
+    let value = combinations[0]["value"].as_f64().expect("a number");
+    assert!(
+        (value - expected).abs() < 0.01 * expected,
+        "{value} {expected}"
+    );
+    let parameters = out["parameters"].as_array().expect("a list");
+    for k in [0, 1] {
+        let own = parameters.iter().find(|p| p["name"] == *term(k).0);
+        assert!(
+            own.expect("listed")["value"].is_null(),
+            "no claim on a part"
+        );
+    }
+    let line = format!("  {} + {factor:.4} {} = ", term(0).0, term(1).0);
+    assert!(table.contains(&line), "{table}");
+    let mass = &parameters[0];
+    assert!((mass["value"].as_f64().expect("told by itself") - 3.0).abs() < 0.02);
+}
+
+#[test]
+fn intervals_of_draws_and_independent_samples_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(30, 0.0, 0.0));
+    let asked = ["--bootstrap", "400", "--json", "out.json"];
+    let identify = [&["identify", "cart.robot", "log.csv"][..], &asked].concat();
+    let table = folder.succeed(&identify);
+    assert!(
+        table.contains("intervals hold 95 % of 400 draws of"),
+        "{table}"
+    );
+    let out = json(&folder.read("out.json"));
+    for parameter in out["parameters"].as_array().expect("a list") {
+        let [low, high] = numbers(&parameter["interval"])[..] else {
+            panic!("{parameter}");
+        };
+        let (value, std) = (&parameter["value"], &parameter["std"]);
+        let (value, std) = (
+            value.as_f64().expect("a number"),
+            std.as_f64().expect("a number"),
+        );
+        let wide = (high - low) / (2.0 * 1.96 * std);
+        assert!(low < value && value < high, "{parameter}");
+        assert!((0.6..1.5).contains(&wide), "{parameter} {wide}");
+    }
+    let effective = numbers(&out["effective_samples"]);
+    assert!(effective.len() == 1 && effective[0] > 100.0);
+    for (method, said) in [("iv", "--bootstrap"), ("output-error", "--bootstrap")] {
+        let options = [&identify[..], &["--method", method]].concat();
+        assert!(folder.refuse(&options).contains(said));
+    }
+}
+
+#[test]
+fn parameters_that_are_not_told_from_zero_are_not_essential() {
+    let folder = Folder::new();
+    let friction = "viscous_friction on rail; coulomb_friction on rail; quadratic_viscous on rail; joint_spring on rail;";
+    folder.write(
+        "cart.robot",
+        &CART.replace("viscous_friction on rail;", friction),
+    );
+    folder.write("log.csv", &cart_log(30, 0.0, 0.0));
+    let asked = ["--essential", "--json", "out.json"];
+    let table = folder.succeed(&[&["identify", "cart.robot", "log.csv"][..], &asked].concat());
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["parameters"].as_array().expect("a list").len(), 6);
+    let essential = out["essential"]["parameters"].as_array().expect("a list");
+    let names: Vec<&str> = essential
+        .iter()
+        .filter_map(|p| p["name"].as_str())
+        .collect();
+    assert!(names.len() <= 3, "{names:?}");
+    for (name, truth) in [("cart.m", 3.0), ("rail.viscous_friction.fv", 5.0)] {
+        let k = names.iter().position(|found| *found == name).expect(name);
+        let value = essential[k]["value"].as_f64().expect("a number");
+        assert!((value - truth).abs() < 0.01 * truth, "{name}: {value}");
+    }
+    let (alone, all) = (
+        &out["essential"]["relative_percent"],
+        &out["relative_percent"],
+    );
+    assert!(numbers(alone)[0] < 1.01 * numbers(all)[0]);
+    assert!(table.contains("essential: "), "{table}");
+}

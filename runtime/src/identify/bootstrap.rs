@@ -1,0 +1,133 @@
+//! Intervals without a formula: the logs are cut into blocks, which are drawn again and again.
+//!
+//! Each draw has as many blocks as the logs, some of them twice and some not at all, and an estimate of its own; how these spread is
+//! how the estimate does. Blocks are as long as errors stay alike, so they are what is independent.
+//!
+//! Source: Carlstein 1986, The use of subseries values for estimating the variance of a general statistic from a stationary sequence;
+//! Kuensch 1989, The jackknife and the bootstrap for general stationary observations.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::IdentifyError;
+use super::hac::{Rows, weighed};
+use super::least_squares::{Solution, correlation_time};
+use super::stack::Stack;
+use crate::signal::resample::whole_steps;
+
+/// Blocks are at least so many times as long as errors are alike.
+const LONG: f64 = 5.0;
+
+/// Fewer blocks than this say nothing of a spread.
+const LEAST_BLOCKS: usize = 10;
+
+/// Most blocks: more say nothing more, and take longer.
+const MOST_BLOCKS: usize = 200;
+
+/// Of the middle of the draws.
+const INSIDE: f64 = 0.95;
+
+/// Intervals of a bootstrap.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bootstrap {
+    /// How often blocks were drawn.
+    pub draws: usize,
+    /// Blocks.
+    pub blocks: usize,
+    /// Per parameter the interval with 95 % of the draws; none where the logs do not tell the parameter.
+    pub intervals: Vec<Option<[f64; 2]>>,
+}
+
+/// The sums of one block.
+struct Block {
+    information: Mat<f64>,
+    score: Mat<f64>,
+}
+
+/// Intervals of a least-squares solution; `weights` are those of the rows' residuals.
+pub(super) fn intervals(
+    stack: &Stack,
+    solution: &Solution,
+    weights: &[Vec<f64>],
+    draws: usize,
+) -> Result<Bootstrap, IdentifyError> {
+    let residuals = stack.residuals(&solution.estimate);
+    let alike = residuals.iter().map(|r| correlation_time(r));
+    let alike = alike.fold(1.0, f64::max);
+    let samples = stack.samples();
+    let count = samples as f64 / (LONG * alike);
+    if count < LEAST_BLOCKS as f64 {
+        return Err(IdentifyError::FewBlocks {
+            blocks: LEAST_BLOCKS,
+            samples: LONG * alike,
+            rows: samples,
+        });
+    }
+    let count = whole_steps(count).min(MOST_BLOCKS);
+    let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
+    let residuals = weighed(residuals, &solution.scale, weights);
+    let blocks = blocks(&rows, &residuals, weights, count);
+    let size = rows.excited.len();
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    let mut moves: Vec<Vec<f64>> = vec![Vec::with_capacity(draws); size];
+    // About the mean of as many draws with replacement, the spread is too small by one block.
+    let correction = (count as f64 / (count - 1) as f64).sqrt();
+    for _ in 0..draws {
+        let mut information = Mat::<f64>::zeros(size, size);
+        let mut score = Mat::<f64>::zeros(size, 1);
+        for _ in 0..count {
+            let block = &blocks[random.random_range(0..count)];
+            information += &block.information;
+            score += &block.score;
+        }
+        let step = information.partial_piv_lu().solve(&score);
+        for (k, moves) in moves.iter_mut().enumerate() {
+            moves.push(correction * step[(k, 0)] / rows.length[k]);
+        }
+    }
+    let mut intervals = vec![None; stack.unknowns.len()];
+    for (k, &c) in rows.excited.iter().enumerate() {
+        moves[k].sort_unstable_by(f64::total_cmp);
+        let cut = 0.5 * (1.0 - INSIDE);
+        intervals[c] =
+            Some([cut, 1.0 - cut].map(|share| solution.estimate[c] + quantile(&moves[k], share)));
+    }
+    Ok(Bootstrap {
+        draws,
+        blocks: count,
+        intervals,
+    })
+}
+
+/// Sums over blocks of alike length.
+fn blocks(rows: &Rows, residuals: &[Vec<f64>], weights: &[Vec<f64>], count: usize) -> Vec<Block> {
+    let samples = rows.joints.first().map_or(0, Mat::nrows);
+    let size = rows.excited.len();
+    let of = |b: usize| {
+        let (start, end) = (b * samples / count, (b + 1) * samples / count);
+        let mut information = Mat::<f64>::zeros(size, size);
+        let mut score = Mat::<f64>::zeros(size, 1);
+        for ((rows, residuals), weights) in rows.joints.iter().zip(residuals).zip(weights) {
+            let part = rows.subrows(start, end - start);
+            let weighed = Mat::from_fn(end - start, size, |k, c| weights[start + k] * part[(k, c)]);
+            let rest = Mat::from_fn(end - start, 1, |k, _| residuals[start + k]);
+            information += weighed.transpose() * part;
+            score += part.transpose() * rest;
+        }
+        Block { information, score }
+    };
+    (0..count).map(of).collect()
+}
+
+/// Of ascending values, linearly between them.
+fn quantile(values: &[f64], share: f64) -> f64 {
+    let at = share * (values.len() - 1) as f64;
+    let low = whole_steps(at).min(values.len() - 1);
+    let high = (low + 1).min(values.len() - 1);
+    values[low] + (at - low as f64) * (values[high] - values[low])
+}
+
+#[cfg(test)]
+mod tests;

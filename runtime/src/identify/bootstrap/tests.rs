@@ -1,0 +1,94 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+use crate::columns::Unknown;
+use crate::identify::{Identify, JointRows, Stack};
+
+/// `tau = 2 x + 3 y + noise`, with noise over so many rows alike.
+fn stack(seed: u64, slow: f64) -> Stack {
+    const COUNT: i32 = 4000;
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let series = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        (0..COUNT).map(|k| f(0.1 * f64::from(k))).collect()
+    };
+    let columns = vec![
+        (0, series(&|t| (0.31 * t).sin())),
+        (1, series(&|t| t.cos())),
+    ];
+    let (mut state, keep) = (0.0, (-1.0 / slow).exp());
+    let noise = columns[0].1.iter().map(|_| {
+        let white: f64 = StandardNormal.sample(&mut random);
+        state = keep * state + (1.0_f64 - keep * keep).sqrt() * white;
+        state
+    });
+    let noise: Vec<f64> = noise.collect();
+    let target: Vec<f64> = (0..noise.len())
+        .map(|k| 2.0 * columns[0].1[k] + 3.0 * columns[1].1[k] + noise[k])
+        .collect();
+    let unknown = |name: &str| Unknown {
+        name: name.to_owned(),
+        nonnegative: false,
+    };
+    Stack {
+        unknowns: vec![unknown("x"), unknown("y")],
+        joints: vec![JointRows {
+            tau: target.clone(),
+            target,
+            columns,
+        }],
+        segments: Vec::new(),
+    }
+}
+
+fn bootstrap(stack: &Stack, draws: usize) -> (Solution, Result<Bootstrap, IdentifyError>) {
+    let solution = Identify::default().solve_stack(stack).expect("enough");
+    let weights = vec![vec![1.0; stack.samples()]];
+    let found = intervals(stack, &solution, &weights, draws);
+    (solution, found)
+}
+
+#[test]
+fn intervals_hold_the_truth_about_as_often_as_they_say() {
+    const LOGS: u64 = 150;
+    for slow in [0.5, 8.0] {
+        let mut inside = [0; 2];
+        for seed in 0..LOGS {
+            let (_, found) = bootstrap(&stack(seed, slow), 200);
+            let intervals = found.expect("long enough").intervals;
+            for (k, truth) in [2.0, 3.0].into_iter().enumerate() {
+                let [low, high] = intervals[k].expect("excited");
+                inside[k] += u32::from(low < truth && truth < high);
+            }
+        }
+        for inside in inside {
+            let share = f64::from(inside) / LOGS as f64;
+            assert!((0.88..=0.985).contains(&share), "{slow}: {share}");
+        }
+    }
+}
+
+#[test]
+fn draws_are_the_same_each_time() {
+    let stack = stack(3, 4.0);
+    let (solution, first) = bootstrap(&stack, 50);
+    let (_, second) = bootstrap(&stack, 50);
+    assert_eq!(first, second);
+    let first = first.expect("long enough");
+    assert_eq!((first.draws, first.intervals.len()), (50, 2));
+    for (interval, value) in first.intervals.iter().zip(&solution.estimate) {
+        let [low, high] = interval.expect("excited");
+        assert!(low < *value && *value < high);
+    }
+}
+
+#[test]
+fn errors_alike_over_the_whole_log_have_no_blocks() {
+    let (_, found) = bootstrap(&stack(1, 3000.0), 50);
+    let error = found.expect_err("one block");
+    assert!(
+        matches!(error, IdentifyError::FewBlocks { blocks: 10, .. }),
+        "{error}"
+    );
+}

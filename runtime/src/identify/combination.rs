@@ -1,0 +1,206 @@
+//! What logs tell of unknowns that they do not tell apart.
+//!
+//! Columns `W_u` that the others already span, `W_u = W_e K`, add nothing to what those explain: the torque is `W_e (beta_e + K beta_u)`,
+//! and only the combinations `beta_e + K beta_u` can be found.
+
+use std::fmt;
+
+use faer::Mat;
+use faer::linalg::solvers::SolveLstsq;
+
+use super::least_squares::Excited;
+use super::{Estimate, IdentifyError, Method};
+
+/// Shares of a column in another, both of one length, below this are rounding, filters or noise.
+const SHARE: f64 = 1e-4;
+
+/// An unknown that cannot be told from others, and its place in what can be found: `unknowns[lead] + sum factor * unknowns[other]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shared {
+    /// The unknown with factor 1, whose place in the estimate holds the value of the combination.
+    pub lead: usize,
+    /// Unknowns that the logs do not excite beside the others, with their factors; not empty.
+    pub others: Vec<(usize, f64)>,
+}
+
+/// A combination of parameters that the logs tell, where they do not tell its parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combination {
+    /// Names and factors; the first has factor 1.
+    pub terms: Vec<(String, f64)>,
+    /// Estimate, SI.
+    pub value: f64,
+    /// Its standard deviation.
+    pub std: f64,
+}
+
+impl fmt::Display for Combination {
+    /// `a + 0.5 b - 2 c`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (k, (name, factor)) in self.terms.iter().enumerate() {
+            let sign = if *factor < 0.0 { "-" } else { "+" };
+            match (k, *factor) {
+                (0, _) => write!(f, "{name}")?,
+                (_, factor) if (factor.abs() - 1.0).abs() < 1e-6 => write!(f, " {sign} {name}")?,
+                (_, factor) => write!(f, " {sign} {:.4} {name}", factor.abs())?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which excited unknowns stand for combinations, of the first `n` columns of a factor.
+pub(super) fn shared(factor: &Mat<f64>, excited: &Excited, unexcited: &[usize]) -> Vec<Shared> {
+    let Excited {
+        columns,
+        norms,
+        kept,
+    } = excited;
+    let spanned: Vec<usize> = unexcited
+        .iter()
+        .copied()
+        .filter(|&c| norms[c] > 0.0)
+        .collect();
+    if spanned.is_empty() || columns.is_empty() {
+        return Vec::new();
+    }
+    let right = Mat::from_fn(factor.nrows(), spanned.len(), |row, k| {
+        factor[(row, spanned[k])] / norms[spanned[k]]
+    });
+    let shares = kept.qr().solve_lstsq(&right);
+    let of = |(row, &lead): (usize, &usize)| {
+        let others = spanned.iter().enumerate();
+        let others = others.filter(|&(k, _)| shares[(row, k)].abs() > SHARE);
+        let others = others.map(|(k, &c)| (c, shares[(row, k)] * norms[c] / norms[lead]));
+        let others: Vec<(usize, f64)> = others.collect();
+        (!others.is_empty()).then_some(Shared { lead, others })
+    };
+    columns.iter().enumerate().filter_map(of).collect()
+}
+
+impl Estimate {
+    /// Whether a parameter has a value of its own: the logs excite it, and not only in a combination with others.
+    #[must_use]
+    pub fn is_separated(&self, name: &str) -> bool {
+        let in_combination = |combination: &Combination| combination.terms[0].0 == name;
+        !self.unexcited.iter().any(|unexcited| unexcited == name)
+            && !self.combinations.iter().any(in_combination)
+    }
+
+    /// That all parameters have values of their own. [`Method::Physical`] has values for all, nominal ones where logs are silent.
+    ///
+    /// # Errors
+    /// [`IdentifyError::NotSeparated`] with what the logs tell instead.
+    pub fn separated(&self) -> Result<(), IdentifyError> {
+        if self.unexcited.is_empty() || self.method == Method::Physical {
+            return Ok(());
+        }
+        let in_any = |name: &&String| {
+            let terms = self.combinations.iter().flat_map(|found| &found.terms);
+            terms.map(|(name, _)| name).any(|term| term == *name)
+        };
+        let (mixed, silent): (Vec<&String>, Vec<&String>) = self.unexcited.iter().partition(in_any);
+        let mut why = Vec::new();
+        if !silent.is_empty() {
+            why.push(format!("nothing is told of {}", list(&silent)));
+        }
+        if !mixed.is_empty() {
+            let combinations: Vec<String> =
+                self.combinations.iter().map(|x| format!("`{x}`")).collect();
+            why.push(format!(
+                "{} cannot be told from others, only {}",
+                list(&mixed),
+                combinations.join(", ")
+            ));
+        }
+        Err(IdentifyError::NotSeparated {
+            rank: self.rank,
+            unknowns: self.parameters.len(),
+            why: why.join("; "),
+        })
+    }
+}
+
+fn list(names: &[&String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::Factors;
+    use crate::identify::stack::{JointRows, Stack};
+
+    /// Rows of one joint for columns as given.
+    fn stack(columns: &[&dyn Fn(f64) -> f64], truth: &[f64]) -> Stack {
+        let time: Vec<f64> = (0..200).map(|k| 0.05 * f64::from(k)).collect();
+        let columns: Vec<(usize, Vec<f64>)> = columns
+            .iter()
+            .map(|column| time.iter().map(|t| column(*t)).collect())
+            .enumerate()
+            .collect();
+        let target: Vec<f64> = (0..time.len())
+            .map(|k| {
+                columns
+                    .iter()
+                    .map(|(c, values)| truth[*c] * values[k])
+                    .sum()
+            })
+            .collect();
+        let unknown = |c: usize| Unknown {
+            name: format!("p{c}"),
+            nonnegative: false,
+        };
+        Stack {
+            unknowns: (0..truth.len()).map(unknown).collect(),
+            joints: vec![JointRows {
+                tau: target.clone(),
+                target,
+                columns,
+            }],
+            segments: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn what_is_found_is_the_combination_that_is_told() {
+        // Column 2 is three times column 0 less column 1, column 3 is dead, column 4 stands by itself.
+        let (a, b, c) = (f64::sin, |t: f64| (2.3 * t).cos(), |t: f64| (0.7 * t).sin());
+        let mixed = |t: f64| 3.0 * a(t) - b(t);
+        let truth = [1.0, 2.0, 0.5, 7.0, -1.0];
+        let stack = stack(&[&a, &b, &mixed, &|_| 0.0, &c], &truth);
+        let found = Factors::new(&stack).ordinary(&[1.0]);
+        assert_eq!(found.unexcited.len(), 2);
+        assert!(found.unexcited.contains(&3));
+        assert_eq!(found.shared.len(), 2);
+        for Shared { lead, others } in &found.shared {
+            assert!(*lead != 4 && others.len() == 1);
+            let sum = truth[*lead] + others[0].1 * truth[others[0].0];
+            assert!((found.estimate[*lead] - sum).abs() < 1e-9, "{found:?}");
+        }
+        assert!((found.estimate[4] + 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn columns_that_are_apart_have_no_combinations() {
+        let stack = stack(&[&f64::sin, &f64::cos], &[1.0, 2.0]);
+        let found = Factors::new(&stack).ordinary(&[1.0]);
+        assert!(found.shared.is_empty() && found.unexcited.is_empty());
+    }
+
+    #[test]
+    fn combinations_read_as_sums() {
+        let combination = Combination {
+            terms: vec![
+                ("a.m".to_owned(), 1.0),
+                ("b.m".to_owned(), -1.0),
+                ("c.m".to_owned(), 0.25),
+            ],
+            value: 1.0,
+            std: 0.1,
+        };
+        assert_eq!(combination.to_string(), "a.m - b.m + 0.2500 c.m");
+    }
+}

@@ -1,0 +1,60 @@
+//! Essential parameters: those without which an arm is predicted worse than the noise of the logs allows.
+//!
+//! Parameter after parameter is left out, each time the one whose value is least beside its deviation, and the rest is identified
+//! anew, until every one that is left is told from zero.
+//!
+//! Source: Pham, Gautier 1991, Essential parameters of robots, with a fixed confidence in place of a ratio of deviations.
+
+use super::least_squares::Solution;
+use super::stack::Stack;
+use super::{Identified, Identify, IdentifyError};
+
+/// A value is told from zero when it is at least so many deviations from it: 95 %.
+const TOLD: f64 = 1.96;
+
+/// The parameters that are essential, identified without the others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Essential {
+    /// What is left, with values and deviations of its own fit, in the arm's order.
+    pub parameters: Vec<Identified>,
+    /// `100 || residual || / || tau ||` per joint with those alone.
+    pub relative_percent: Vec<f64>,
+}
+
+/// What is essential of a solution with its deviations.
+pub(super) fn find(
+    identify: &Identify,
+    mut stack: Stack,
+    solution: &Solution,
+) -> Result<Essential, IdentifyError> {
+    let mut solution = solution.clone();
+    while let Some(worst) = least_told(&solution) {
+        stack.silence(&[worst]);
+        solution = identify.solve_stack(&stack)?;
+        solution.std = identify.deviations(&stack, &solution);
+    }
+    let told = (0..solution.estimate.len()).filter(|c| !solution.unexcited.contains(c));
+    let parameters = told.map(|c| Identified {
+        name: stack.unknowns[c].name.clone(),
+        value: solution.estimate[c],
+        std: solution.std[c],
+    });
+    Ok(Essential {
+        parameters: parameters.collect(),
+        relative_percent: stack.relative_percent(&solution.estimate),
+    })
+}
+
+/// The parameter that is least of all told from zero, where there is one; the last one stays.
+fn least_told(solution: &Solution) -> Option<usize> {
+    let n = solution.estimate.len();
+    if solution.unexcited.len() + 1 >= n {
+        return None;
+    }
+    let told = (0..n).filter(|c| !solution.unexcited.contains(c));
+    let told = told.map(|c| (c, solution.estimate[c].abs() / solution.std[c]));
+    let least = told.min_by(|one, other| one.1.total_cmp(&other.1));
+    least
+        .filter(|(_, ratio)| *ratio < TOLD)
+        .map(|(column, _)| column)
+}

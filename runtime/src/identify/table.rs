@@ -1,0 +1,177 @@
+//! The table that a paper would print of an estimate.
+
+use std::fmt;
+
+use super::Estimate;
+
+/// Outliers are many from one sample in so many on.
+const MANY: usize = 10;
+
+impl fmt::Display for Estimate {
+    /// The table that a paper would print.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names = self.parameters.iter().map(|p| p.name.len());
+        let width = names.max().unwrap_or(0).max("parameter".len());
+        self.tell_parameters(f, width)?;
+        self.tell_shapes(f, width)?;
+        writeln!(
+            f,
+            "rank {} of {}, condition {:.1}, {} samples a joint below {:.0} Hz, {}",
+            self.rank,
+            self.parameters.len(),
+            self.condition,
+            self.samples,
+            self.bands.shared_hz,
+            self.method.name()
+        )?;
+        if let Some(effective) = &self.effective_samples {
+            let joints = self.joints.iter().zip(effective);
+            let told: Vec<String> = joints
+                .map(|(name, count)| format!("{name} {count:.0}"))
+                .collect();
+            writeln!(f, "independent ones among them: {}", told.join(", "))?;
+        }
+        if let Some(bootstrap) = &self.bootstrap {
+            writeln!(
+                f,
+                "intervals hold 95 % of {} draws of {} blocks of the logs",
+                bootstrap.draws, bootstrap.blocks
+            )?;
+        }
+        if let Some(possible) = &self.possible {
+            write!(f, "{possible}")?;
+        }
+        self.tell_outliers(f)?;
+        if let Some(hausman) = &self.hausman {
+            hausman.tell(f, &self.parameters)?;
+        }
+        self.tell_combinations(f)?;
+        self.tell_essential(f)
+    }
+}
+
+/// Deviation in percent of a value.
+fn percent(value: f64, std: f64) -> f64 {
+    if value == 0.0 {
+        f64::INFINITY
+    } else {
+        100.0 * (std / value).abs()
+    }
+}
+
+impl Estimate {
+    fn tell_parameters(&self, f: &mut fmt::Formatter<'_>, width: usize) -> fmt::Result {
+        let interval = self
+            .bootstrap
+            .as_ref()
+            .map_or("", |_| "             interval");
+        writeln!(
+            f,
+            "{:width$}  {:>12}  {:>10}  {:>7}{interval}",
+            "parameter", "value", "std", "std %"
+        )?;
+        for (k, p) in self.parameters.iter().enumerate() {
+            if !self.is_separated(&p.name) {
+                writeln!(f, "{:width$}  {:>12}", p.name, "not separable")?;
+                continue;
+            }
+            write!(
+                f,
+                "{:width$}  {:>12.5}  {:>10.2e}  {:>7.2}",
+                p.name,
+                p.value,
+                p.std,
+                percent(p.value, p.std)
+            )?;
+            let intervals = self.bootstrap.as_ref().map(|found| &found.intervals);
+            match intervals.and_then(|intervals| intervals[k]) {
+                Some([low, high]) => writeln!(f, "  {low:>10.5} .. {high:<10.5}")?,
+                None => writeln!(f)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn tell_shapes(&self, f: &mut fmt::Formatter<'_>, width: usize) -> fmt::Result {
+        for ((name, value), std) in self.shapes.iter().zip(&self.shape_std) {
+            match std {
+                Some(std) => {
+                    let relative = percent(*value, *std);
+                    writeln!(
+                        f,
+                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}  (shape)"
+                    )?;
+                }
+                None => writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?,
+            }
+        }
+        Ok(())
+    }
+
+    fn tell_outliers(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(outliers) = &self.outliers else {
+            return Ok(());
+        };
+        let joints = self.joints.iter().zip(outliers);
+        let told: Vec<String> = joints
+            .map(|(name, count)| format!("{name} {count}"))
+            .collect();
+        writeln!(f, "samples far from the others: {}", told.join(", "))?;
+        if outliers.iter().any(|count| MANY * count > self.samples) {
+            writeln!(
+                f,
+                "more than a few: what they say is in no parameter; look at them before you trust the rest"
+            )?;
+        }
+        Ok(())
+    }
+
+    fn tell_combinations(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.unexcited.is_empty() {
+            return Ok(());
+        }
+        if self.combinations.is_empty() {
+            return writeln!(
+                f,
+                "not separable: the logs do not excite these; all others are as they would be without them"
+            );
+        }
+        writeln!(
+            f,
+            "not separable: the logs tell these only in sums with others"
+        )?;
+        for combination in &self.combinations {
+            let (value, std) = (combination.value, combination.std);
+            writeln!(f, "  {combination} = {value:.5} +- {std:.2e}")?;
+        }
+        Ok(())
+    }
+
+    fn tell_essential(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(essential) = &self.essential else {
+            return Ok(());
+        };
+        let count = essential.parameters.len();
+        let of = self.parameters.len();
+        writeln!(
+            f,
+            "essential: {count} of {of} parameters, told from zero when all others are left out"
+        )?;
+        let names = essential.parameters.iter().map(|p| p.name.len());
+        let width = names.max().unwrap_or(0);
+        for p in &essential.parameters {
+            let relative = percent(p.value, p.std);
+            writeln!(
+                f,
+                "  {:width$}  {:>12.5}  {:>10.2e}  {relative:>7.2}",
+                p.name, p.value, p.std
+            )?;
+        }
+        let joints = self.joints.iter().zip(&essential.relative_percent);
+        let joints = joints.zip(&self.relative_percent);
+        let told: Vec<String> = joints
+            .map(|((name, alone), all)| format!("{name} {alone:.2} for {all:.2} %"))
+            .collect();
+        writeln!(f, "relative error with these alone: {}", told.join(", "))
+    }
+}
