@@ -3,6 +3,7 @@
 mod law;
 mod options;
 mod report;
+mod starts;
 
 use std::path::PathBuf;
 
@@ -32,6 +33,8 @@ struct Beginning {
     names: Vec<String>,
     shapes: Vec<f64>,
     linear: Option<Estimate>,
+    /// Parameters of the plant to start from: of several the one that leads deepest is to be found.
+    starts: Vec<Vec<f64>>,
 }
 
 /// What is said of one log after the other.
@@ -66,13 +69,10 @@ impl IdentifyArguments {
         let settings = self.settings(&compiled, &beginning)?;
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
-        let mut start = beginning.plant.values();
-        if self.output_error.start.is_none() {
-            // Nobody has chosen it.
-            for (value, [low, high]) in start.iter_mut().zip(&settings.bounds) {
-                *value = value.clamp(*low, *high);
-            }
-        }
+        let starts = match self.output_error.start {
+            Some(_) => beginning.starts.clone(),
+            None => starts::within(&beginning.starts, &settings.bounds),
+        };
         progress.step("simulating");
         let mut tell = |iterate: &Iterate| {
             progress.step(&format!(
@@ -80,13 +80,12 @@ impl IdentifyArguments {
                 iterate.simulations, iterate.cost
             ));
         };
-        let found = settings.fit(
-            &beginning.plant,
-            &beginning.names,
-            &start,
-            &fitted,
-            &mut tell,
-        );
+        let (plant, names) = (&beginning.plant, &beginning.names);
+        let found = settings
+            .nearest(plant, names, &starts, &fitted, &mut |_| {
+                progress.step("comparing starts");
+            })
+            .and_then(|start| settings.fit(plant, names, &start, &fitted, &mut tell));
         let found = found.map_err(|error| refused(&error))?;
         let told = beginning.names.iter().zip(&found.values).zip(&found.std);
         let told = told.map(|((name, value), std)| (name.as_str(), *value, *std));
@@ -166,6 +165,7 @@ impl IdentifyArguments {
         };
         let linear = form.fit(&identify, logs);
         let both = |values: Values| (values.beta, values.shapes);
+        let mut others = Vec::new();
         let (beta, shapes) = match (&self.output_error.start, &linear) {
             (Some(file), _) => both(parameters::resolve(compiled, Some(file))?),
             (None, Ok(estimate)) if estimate.unexcited.is_empty() => {
@@ -173,6 +173,7 @@ impl IdentifyArguments {
                 for (&k, (_, value)) in free.iter().zip(&estimate.shapes) {
                     shapes[k] = *value;
                 }
+                others = starts::starts(form, estimate, logs);
                 (estimate.values(), shapes)
             }
             (None, linear) => both(parameters::resolve(compiled, None).map_err(|_| {
@@ -190,9 +191,13 @@ impl IdentifyArguments {
                 ))
             })?),
         };
+        let plant = InterpretedPlant::new(compiled.clone(), &beta, &shapes)?;
+        let others = others.into_iter().skip(1);
+        let others = others.map(|(beta, shapes)| [beta, shapes].concat());
         Ok(Beginning {
             names: names.collect(),
-            plant: InterpretedPlant::new(compiled.clone(), &beta, &shapes)?,
+            starts: std::iter::once(plant.values()).chain(others).collect(),
+            plant,
             shapes,
             linear: linear.ok(),
         })

@@ -56,6 +56,16 @@ pub enum IdentifyError {
         /// Which are not told, and what is told of them.
         why: String,
     },
+    /// Not one value for each open shape.
+    #[error(
+        "{given} values for the {open} shapes that the spec leaves open; give one for each, in its order"
+    )]
+    Shapes {
+        /// Values that were given.
+        given: usize,
+        /// Shapes.
+        open: usize,
+    },
     /// Logs too short to be cut into blocks.
     #[error(
         "a bootstrap wants {blocks} blocks of {samples:.0} rows, over which errors are alike, and the logs have {rows} rows; give longer logs, \

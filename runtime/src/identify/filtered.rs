@@ -52,7 +52,7 @@ impl Identify {
         };
         let filtered = FilteredArm::new(arm, bands, corner);
         let mut prepared = filtered.prepare_all(logs)?;
-        let solved = self.solve(&filtered, &mut prepared, None)?;
+        let solved = self.solve(&filtered, &mut prepared, self.given_shapes(&filtered)?)?;
         let form = Form::Filtered {
             corner: filtered.corner,
         };

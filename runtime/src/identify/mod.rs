@@ -78,6 +78,8 @@ pub struct Identify {
     pub prior: f64,
     /// Of [`Method::Instrumental`]: a motion without noise for each log, the wanted one or a simulated one, that starts with it.
     pub instruments: Vec<Trajectory>,
+    /// Values of the shapes that the spec leaves open, in its order; `None`: they are looked for.
+    pub shapes: Option<Vec<f64>>,
     /// Of [`Method::Ls`], [`Method::Wls`] and [`Method::Robust`]: how often blocks of the logs are drawn for intervals; 0 for none.
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
@@ -92,6 +94,7 @@ impl Default for Identify {
             bands: None,
             prior: 0.3,
             instruments: Vec::new(),
+            shapes: None,
             bootstrap: 0,
             essential: false,
         }
@@ -121,7 +124,7 @@ impl Identify {
             None => self.choose_bands(arm, logs)?,
         };
         let mut prepared = prepare_all(logs, &bands)?;
-        let solved = self.solve(arm, &mut prepared, None)?;
+        let solved = self.solve(arm, &mut prepared, self.given_shapes(arm)?)?;
         let shapes = solved.1.clone();
         let solved = self.deviated(arm, &prepared, solved);
         let found = solved.solution.estimate.clone();
@@ -135,6 +138,17 @@ impl Identify {
         self.estimate(arm, Form::Acceleration, bands, solved, &|| {
             instruments(&shapes)
         })
+    }
+
+    /// Shapes that are not looked for.
+    fn given_shapes(&self, arm: &dyn Arm) -> Result<Option<Vec<f64>>, IdentifyError> {
+        match &self.shapes {
+            Some(shapes) if shapes.len() != arm.shapes().len() => Err(IdentifyError::Shapes {
+                given: shapes.len(),
+                open: arm.shapes().len(),
+            }),
+            shapes => Ok(shapes.clone()),
+        }
     }
 
     /// The motions of the instruments at the samples of the logs.

@@ -14,6 +14,7 @@ mod identifiable;
 mod law;
 mod recording;
 mod search;
+mod starts;
 #[cfg(test)]
 mod tests;
 mod window;
@@ -131,6 +132,8 @@ struct Problem<'a, P> {
     hold: Hold,
     /// One a joint.
     scale: Vec<f64>,
+    /// Iterations of a search.
+    most: usize,
 }
 
 impl<P: Adjustable + Clone> Problem<'_, P> {
@@ -200,11 +203,7 @@ impl OutputError {
         progress: &mut dyn FnMut(&Iterate),
     ) -> Result<OutputEstimate, OutputErrorError> {
         self.check(plant, names, start)?;
-        let bounds = if self.bounds.is_empty() {
-            vec![[f64::NEG_INFINITY, f64::INFINITY]; start.len()]
-        } else {
-            self.bounds.clone()
-        };
+        let bounds = self.bounds_of(start.len());
         let joints = plant.joints();
         let mut plant = plant.clone();
         plant.prepare();
@@ -212,7 +211,7 @@ impl OutputError {
         let mut values = start.to_vec();
         let mut iterates = Vec::new();
         // From a start that is far away a short motion leads back sooner than a long one.
-        let first = self.window.map(|window| Some(FIRST_SHARE * window));
+        let first = self.first_window().map(Some);
         for window in first.into_iter().chain([self.window]) {
             let mut problem = match self.problem(plant.clone(), recordings, window) {
                 Err(OutputErrorError::Short { .. }) if window != self.window => continue,
@@ -287,6 +286,14 @@ impl OutputError {
         Ok(comparison(&problem.windows, &runs, self.law.is_some()))
     }
 
+    fn bounds_of(&self, parameters: usize) -> Vec<[f64; 2]> {
+        if self.bounds.is_empty() {
+            vec![[f64::NEG_INFINITY, f64::INFINITY]; parameters]
+        } else {
+            self.bounds.clone()
+        }
+    }
+
     fn problem<'a, P: Adjustable + Clone>(
         &'a self,
         plant: P,
@@ -309,6 +316,7 @@ impl OutputError {
             windows: windows.into_iter().flatten().collect(),
             law: self.law.as_ref(),
             hold: self.hold,
+            most: search::MOST,
             plant,
         })
     }

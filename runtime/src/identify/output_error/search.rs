@@ -15,8 +15,8 @@ use super::window::Run;
 use super::{Place, Problem};
 use crate::simulate::{Adjustable, SimulateError};
 
-/// Iterations at most.
-const MOST: usize = 60;
+/// Iterations at most of a search that is to end.
+pub(super) const MOST: usize = 60;
 
 /// Least damping, of columns of length one: directions that outputs do not answer to are left alone.
 const LEAST: f64 = 1e-10;
@@ -199,7 +199,7 @@ pub(super) fn search<P: Adjustable + Clone>(
         progress(&iterate);
         iterates.push(iterate);
     };
-    for _ in 0..MOST {
+    for _ in 0..problem.most {
         simulations += 1;
         let equations = Equations::new(&problem.rows(&best));
         scale = scales(&equations.reduced(0.0).r, &scale, &place.values);

@@ -1,0 +1,75 @@
+//! Where a search by simulation starts that nobody has given a start.
+
+use robot_model::columns::{Columns, Shape};
+use robot_model::identify::{Estimate, Identify};
+use robot_model::log::Log;
+
+use super::super::fit::{ByAcceleration, Fit};
+
+/// Values of each shape that are tried, where there are one, two or more.
+const OF_ONE: usize = 6;
+const OF_TWO: usize = 3;
+const OF_MANY: usize = 2;
+
+/// Shapes to start from: those of least squares, which filters blur, and others from their ranges.
+fn candidates(shapes: &[Shape], found: &[f64]) -> Vec<Vec<f64>> {
+    let mut all = vec![found.to_vec()];
+    match shapes {
+        [] => {}
+        [one] => all.extend(spread(&one.grid, OF_ONE).map(|value| vec![value])),
+        [one, two] => {
+            for first in spread(&one.grid, OF_TWO) {
+                all.extend(spread(&two.grid, OF_TWO).map(|second| vec![first, second]));
+            }
+        }
+        many => {
+            for (k, shape) in many.iter().enumerate() {
+                all.extend(spread(&shape.grid, OF_MANY).map(|value| {
+                    let mut values = found.to_vec();
+                    values[k] = value;
+                    values
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// So many values of a grid, away from its ends.
+fn spread(grid: &[f64], count: usize) -> impl Iterator<Item = f64> {
+    (0..count).map(move |k| grid[(2 * k + 1) * (grid.len() - 1) / (2 * count)])
+}
+
+/// Linear parameters and open shapes to start from, the first of them those of least squares. Others are of least squares with given
+/// shapes.
+pub(super) fn starts(
+    form: &ByAcceleration,
+    estimate: &Estimate,
+    logs: &[Log],
+) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let found: Vec<f64> = estimate.shapes.iter().map(|(_, value)| *value).collect();
+    let candidates = candidates(form.0.shapes(), &found).into_iter();
+    let others = candidates.skip(1).filter_map(|shapes| {
+        let identify = Identify {
+            bands: Some(estimate.bands),
+            shapes: Some(shapes.clone()),
+            ..Identify::default()
+        };
+        let other = form.fit(&identify, logs).ok()?;
+        other.unexcited.is_empty().then(|| (other.values(), shapes))
+    });
+    std::iter::once((estimate.values(), found.clone()))
+        .chain(others)
+        .collect()
+}
+
+/// The same within bounds: nobody has chosen them.
+pub(super) fn within(starts: &[Vec<f64>], bounds: &[[f64; 2]]) -> Vec<Vec<f64>> {
+    let start = |start: &Vec<f64>| -> Vec<f64> {
+        let values = start.iter().zip(bounds);
+        values
+            .map(|(value, [low, high])| value.clamp(*low, *high))
+            .collect()
+    };
+    starts.iter().map(start).collect()
+}

@@ -1,0 +1,90 @@
+//! Which of several starts leads deepest.
+//!
+//! Costs have several valleys where shapes matter, as that of a Stribeck curve, and a search ends in the one where it starts. A few
+//! steps from each of several starts tell which valley is the deepest.
+
+use super::{Iterate, OutputError, OutputErrorError, Recording, search};
+use crate::simulate::Adjustable;
+
+/// Steps from each start.
+const STEPS: usize = 8;
+
+impl OutputError {
+    /// Where a few steps from the best of several starts lead; costs are compared by the sum of the logarithms of each joint's error.
+    /// Starts from which the arm does not move, or that are out of bounds, do not count, unless none is left: then it is the first.
+    ///
+    /// # Errors
+    /// [`OutputErrorError`] where nothing can be simulated.
+    pub fn nearest<P: Adjustable + Clone>(
+        &self,
+        plant: &P,
+        names: &[String],
+        starts: &[Vec<f64>],
+        recordings: &[Recording],
+        progress: &mut dyn FnMut(&Iterate),
+    ) -> Result<Vec<f64>, OutputErrorError> {
+        let Some(first) = starts.first() else {
+            return Err(OutputErrorError::Size {
+                what: "starts",
+                found: 0,
+                expected: 1,
+            });
+        };
+        if starts.len() == 1 {
+            return Ok(first.clone());
+        }
+        let mut plant = plant.clone();
+        plant.prepare();
+        let mut best: Option<(f64, Vec<f64>)> = None;
+        for start in starts {
+            if self.check(&plant, names, start).is_err() {
+                continue;
+            }
+            let window = self.first_window();
+            let mut problem = match self.problem(plant.clone(), recordings, window) {
+                Err(OutputErrorError::Short { .. }) => {
+                    self.problem(plant.clone(), recordings, self.window)?
+                }
+                problem => problem?,
+            };
+            problem.most = STEPS;
+            let mut place = problem.place(start);
+            let bounds = self.bounds_of(start.len());
+            let mut iterates = Vec::new();
+            let found = problem.run(&place, false).and_then(|runs| {
+                problem.scale = problem.spread(&runs);
+                let least = problem
+                    .scale
+                    .iter()
+                    .copied()
+                    .fold(f64::MIN_POSITIVE, f64::max);
+                for scale in &mut problem.scale {
+                    *scale = scale.max(1e-3 * least);
+                }
+                search::search(
+                    self.search,
+                    &mut problem,
+                    &mut place,
+                    &runs,
+                    &bounds,
+                    &mut iterates,
+                    progress,
+                )
+            });
+            let Ok((runs, _)) = found else {
+                continue;
+            };
+            let spread = problem.spread(&runs).into_iter();
+            let cost: f64 = spread.map(|x| x.max(f64::MIN_POSITIVE).ln()).sum();
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, place.values));
+            }
+        }
+        Ok(best.map_or_else(|| first.clone(), |(_, values)| values))
+    }
+
+    /// The window of the first part of a search.
+    pub(super) fn first_window(&self) -> Option<f64> {
+        self.window.map(|window| super::FIRST_SHARE * window)
+    }
+}
