@@ -41,7 +41,7 @@ pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 pub use compiled::{Block, Compiled, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
-pub use linkage::Linkage;
+pub use linkage::{Driven, Linkage};
 pub use measured::NotInstantaneous;
 pub use parametric::PlantParameters;
 pub use plant::{Plant, PlantSlopes, Share};

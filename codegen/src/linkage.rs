@@ -14,16 +14,16 @@ use crate::plant::jacobian;
 pub struct Linkage {
     /// Joints with a spring, `s` of them, ascending.
     pub springs: Vec<usize>,
-    /// Which of them follow no load of their own joint.
+    /// Which of them follow more than their own load, positions, time and channels, and may take energy from that.
     pub led: Vec<bool>,
     /// `d` of springs and its slopes by the load of their joints, `2 s` outputs.
     pub give: Program,
     /// Slopes of `d` of springs by `q`, `dq`, `ddq`, loads of all joints and `z`: four times `s n` outputs and `s p`.
     pub give_slopes: Program,
-    /// Whether springs follow loads of other joints, or accelerations.
+    /// Whether springs follow loads of other springs.
     pub is_coupled: bool,
-    /// Whether what springs carry is affine in accelerations.
-    pub is_affine: bool,
+    /// How springs follow accelerations.
+    pub driven: Driven,
     /// Joints that place their links, `k` of them, ascending.
     pub placed: Vec<usize>,
     /// `d`, `dd/dt` and `d^2 d/dt^2` of those: `3 k` outputs. Channels are taken to change slowly.
@@ -32,6 +32,17 @@ pub struct Linkage {
     pub place_slopes: Program,
     /// Whether a link's place depends on time or on channels.
     pub is_timed: bool,
+}
+
+/// How springs follow accelerations, or loads of joints without a spring, which do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Driven {
+    /// Not at all.
+    Not,
+    /// What they carry is affine in accelerations.
+    Affinely,
+    /// It is bent.
+    Otherwise,
 }
 
 /// Whether a link is where its joint puts it, by a displacement that reads these.
@@ -111,23 +122,25 @@ impl Compiled {
             placed,
             places: [places, first, second],
         } = self.link_equations();
-        let (mut is_coupled, mut is_moved, mut led) = (false, false, Vec::new());
+        let (mut is_coupled, mut is_driven, mut led) = (false, false, Vec::new());
         for (&joint, &give) in springs.iter().zip(&gives) {
-            let reads = dag.symbols(&[give]);
-            led.push(!reads.contains(&Symbol::RigidTorque(joint)));
+            let mut reads = dag.symbols(&[give]);
+            reads.retain(|symbol| *symbol != Symbol::RigidTorque(joint));
+            led.push(!is_place(&reads));
             for symbol in reads {
                 match symbol {
-                    Symbol::Ddq(_) => is_moved = true,
-                    Symbol::RigidTorque(other) if !springs.contains(&other) => is_moved = true,
-                    Symbol::RigidTorque(other) => is_coupled |= other != joint,
+                    Symbol::RigidTorque(other) if springs.contains(&other) => is_coupled = true,
+                    Symbol::Ddq(_) | Symbol::RigidTorque(_) => is_driven = true,
                     _ => {}
                 }
             }
         }
-        let is_affine = !is_moved
-            || dag.is_affine(&gives, &|symbol| {
-                matches!(symbol, Symbol::Ddq(_) | Symbol::RigidTorque(_))
-            });
+        let is_affine = |symbol| matches!(symbol, Symbol::Ddq(_) | Symbol::RigidTorque(_));
+        let driven = match is_driven {
+            false => Driven::Not,
+            true if dag.is_affine(&gives, &is_affine) => Driven::Affinely,
+            true => Driven::Otherwise,
+        };
         let by_load = springs.iter().zip(&gives);
         let by_load: Vec<ExprId> = by_load
             .map(|(&joint, &give)| dag.derivative(give, Symbol::RigidTorque(joint)))
@@ -154,8 +167,8 @@ impl Compiled {
             place: Program::new(&dag, &[places, first, second].concat()),
             place_slopes: Program::new(&dag, &place_slopes.concat()),
             is_timed: all.iter().any(is_timed),
-            is_coupled: is_coupled || is_moved,
-            is_affine,
+            is_coupled,
+            driven,
             led,
             springs,
             placed,

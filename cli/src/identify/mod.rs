@@ -96,6 +96,13 @@ impl IdentifyArguments {
         let Some(method) = self.method.of_equations() else {
             return self.by_simulation(compiled);
         };
+        if let (true, Some(name)) = (compiled.displacements().is_some(), compiled.mixed().first()) {
+            output::say(&format!(
+                "note: {}: `{name}` is of a motor and of its link, and the load that displaces the link has both; springs come out wrong \
+                 where the motor has a share in it, `--method output-error` tells them apart",
+                compiled.model.source
+            ));
+        }
         match self.form {
             FormArgument::Acceleration => {
                 let form = ByAcceleration(InterpretedArm::new(compiled));

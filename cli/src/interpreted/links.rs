@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::Instant;
-use robot_model_codegen::Compiled;
+use robot_model_codegen::{Compiled, Driven};
 
 use super::runner::{Numbers, Runner, matrix};
 use super::springs::{Carried, SpringSlopes, Springs};
@@ -80,8 +80,8 @@ impl Links {
         })
     }
 
-    /// Gives teeth to springs that do not give; `inertia` has all degrees of freedom.
-    pub fn set_teeth(&mut self, compiled: &Compiled, inertia: &DMatrix<f64>) {
+    /// Gives teeth to springs that do not give; `inertia` has all degrees of freedom, each by itself.
+    pub fn set_teeth(&mut self, compiled: &Compiled, inertia: &[f64]) {
         self.springs.set_teeth(compiled, inertia);
     }
 
@@ -195,48 +195,24 @@ impl Links {
         own.into_iter().chain(self.springs.runners())
     }
 
-    /// Whether springs follow loads of other joints, or accelerations.
-    pub fn is_coupled(&self) -> bool {
-        self.springs.is_coupled
+    /// How springs follow accelerations.
+    pub fn driven(&self) -> Driven {
+        self.springs.driven
     }
 
-    /// Whether what springs carry is affine in accelerations.
-    pub fn is_affine(&self) -> bool {
-        self.springs.is_affine
-    }
-
-    /// What springs carry, where links have the load `body`. Where an instant has velocities of joints alone, links move with them.
+    /// What springs carry, where links have the load `body`.
     pub fn carried(&mut self, at: &Instant<'_>, body: &[f64]) -> Vec<Carried> {
-        let links = self.springs.joints.iter().zip(&self.springs.lag);
-        let displacement = |(k, (&joint, lag)): (usize, (&usize, &f64))| {
-            let speed = at.dq.get(self.joints + k);
-            let rate = speed.map_or(0.0, |link| link - at.dq[joint]);
-            at.q[self.joints + k] - at.q[joint] + lag * rate
-        };
-        let displacements: Vec<f64> = links.enumerate().map(displacement).collect();
-        self.springs.carried(at, &displacements, body)
+        self.springs.carried(at, body)
     }
 
-    /// Slopes of what springs carry; those by the motion are by that of all degrees of freedom.
+    /// Slopes of what springs carry.
     pub fn carried_slopes(
         &mut self,
         at: &Instant<'_>,
         carried: &[Carried],
         body: &[f64],
     ) -> SpringSlopes {
-        let dof = self.dof();
-        let mut slopes = self.springs.slopes(at, carried, body);
-        slopes.by = slopes.by.map(|by| by.resize_horizontally(dof, 0.0));
-        for (k, &joint) in self.springs.joints.iter().enumerate() {
-            for (order, factor) in [1.0, self.springs.lag[k]].into_iter().enumerate() {
-                let own = slopes.by_displacement.column(k) * factor;
-                let mut link = slopes.by[order].column_mut(self.joints + k);
-                link += &own;
-                let mut motor = slopes.by[order].column_mut(joint);
-                motor -= &own;
-            }
-        }
-        slopes
+        self.springs.slopes(at, carried, body)
     }
 
     /// Puts what springs carry in place of the load of their joints, and gives what is then missing at each link behind one.
@@ -261,11 +237,11 @@ impl Links {
     }
 
     /// Positions of all where links hang quietly behind motors as at an instant; `torque` is that of the rigid body with its
-    /// links at a position. Where several places are quiet, one whose energy is least around it, unless springs are coupled.
+    /// links at a position, without forces of the world and with them. Where several places are quiet, one whose energy is least around it, where springs follow their own loads alone.
     pub fn hang(
         &mut self,
         motors: &Instant<'_>,
-        mut torque: impl FnMut(&[f64]) -> Vec<f64>,
+        mut torque: impl FnMut(&[f64]) -> [Vec<f64>; 2],
     ) -> Vec<f64> {
         /// Newton's steps, and rad or m that are no step.
         const STEPS: usize = 200;
@@ -278,12 +254,12 @@ impl Links {
         if count == 0 {
             return q;
         }
-        let is_coupled = self.is_coupled();
-        // What pulls links away: where springs are not coupled, the slope of an energy by their positions.
+        let has_energy = !self.springs.is_coupled && self.driven() == Driven::Not;
+        // What pulls links away: where springs follow their own loads alone, the slope of an energy by their positions.
         let mut pull = |q: &[f64]| -> DVector<f64> {
             let at = Instant { q, ..*motors };
-            let mut load = torque(&self.positions(&at));
-            let carried = self.carried(&at, &load);
+            let [body, mut load] = torque(&self.positions(&at));
+            let carried = self.carried(&at, &body);
             DVector::from_vec(self.carry(&carried, &mut load))
         };
         let mut now = pull(&q);
@@ -297,12 +273,22 @@ impl Links {
                 };
                 slopes.set_column(k, &((side(1.0) - side(-1.0)) / (2.0 * NEAR)));
             }
-            let step = if is_coupled {
-                slopes.lu().solve(&-&now)
-            } else {
-                downhill(&((&slopes + slopes.transpose()) * 0.5), &now)
+            let valley = |slopes: &DMatrix<f64>| {
+                let step = downhill(&((slopes + slopes.transpose()) * 0.5), &now)?;
+                Some((step, true))
             };
-            let Some(mut step) = step else {
+            let newton = |slopes: &DMatrix<f64>| {
+                let step = slopes.clone().lu().solve(&-&now)?;
+                let is_step = step.iter().all(|x| x.is_finite());
+                is_step.then_some((step, false))
+            };
+            let step = if has_energy {
+                valley(&slopes)
+            } else {
+                // Within a gap there is no slope.
+                newton(&slopes).or_else(|| valley(&slopes))
+            };
+            let Some((mut step, is_downhill)) = step else {
                 break;
             };
             // Not beyond the lowest place along the step, or to where more is missing.
@@ -313,12 +299,12 @@ impl Links {
                     next[joints + k] = q[joints + k] + step[k];
                 }
                 now = pull(&next);
-                let is_lower = if is_coupled {
-                    now.norm() < before
-                } else {
+                let is_lower = if is_downhill {
                     now.dot(&step) <= 1e-9 * now.norm() * step.norm()
+                } else {
+                    now.norm() < before
                 };
-                if is_lower || step.amax() <= STILL {
+                if is_lower || step.amax() <= STILL || !now.norm().is_finite() {
                     break;
                 }
                 step *= 0.5;

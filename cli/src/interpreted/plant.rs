@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, Jumps, Plant, Slopes};
-use robot_model_codegen::Compiled;
+use robot_model_codegen::{Compiled, Driven};
 
 mod adjust;
 mod believed;
@@ -62,7 +62,7 @@ impl InterpretedPlant {
             joints: plant.dof,
             is_timed: plant.is_timed || links.is_timed,
             states: plant.states,
-            is_affine: plant.is_affine && links.is_affine(),
+            is_affine: plant.is_affine && links.driven() != Driven::Otherwise,
             links,
             rigid: runner(plant.rigid_torque),
             inertia: runner(plant.mass_matrix),
@@ -78,8 +78,7 @@ impl InterpretedPlant {
             compiled,
         };
         if !found.links.sprung().is_empty() {
-            let still = vec![0.0; found.dof()];
-            let inertia = found.inertia_at(&still, &vec![0.0; found.compiled.model.inputs().len()]);
+            let inertia = found.parted_inertia();
             found.check_motors(&inertia)?;
             found.links.set_teeth(&found.compiled, &inertia);
         }
@@ -87,11 +86,9 @@ impl InterpretedPlant {
     }
 
     /// Motors that are parted from their links have an inertia of their own.
-    fn check_motors(&self, inertia: &DMatrix<f64>) -> Result<(), Error> {
+    fn check_motors(&self, inertia: &[f64]) -> Result<(), Error> {
         let mut joints = self.links.sprung().iter();
-        match joints
-            .find(|&&joint| inertia[(joint, joint)].is_nan() || inertia[(joint, joint)] <= 0.0)
-        {
+        match joints.find(|&&joint| inertia[joint].is_nan() || inertia[joint] <= 0.0) {
             None => Ok(()),
             Some(&joint) => {
                 let model = &self.compiled.model;
@@ -103,6 +100,37 @@ impl InterpretedPlant {
                 )))
             }
         }
+    }
+
+    /// What each degree of freedom has to accelerate by itself at the position zero, as if springs carried nothing.
+    fn parted_inertia(&mut self) -> Vec<f64> {
+        let dof = self.dof();
+        let (still, memory) = (vec![0.0; dof], vec![0.0; self.states]);
+        let (switches, inputs) = (
+            vec![0.0; self.switches()],
+            vec![0.0; self.compiled.model.inputs().len()],
+        );
+        let at = Instant {
+            time: 0.0,
+            q: &still,
+            dq: &still,
+            ddq: &still,
+            memory: &memory,
+            switches: &switches,
+            torque: &still,
+            inputs: &inputs,
+        };
+        let links = self.links.motion(&at);
+        let there = of_links(&at, &links);
+        let load = self.rigid_torque(&there);
+        let LinkSlopes { position, .. } = self.links.slopes(&at);
+        let rigid = self.mass_matrix(&there) * position;
+        let springs = DMatrix::zeros(self.links.sprung().len(), dof);
+        let effects = self.effects.torque(&at, &load);
+        let inertia = self
+            .load_slopes(&rigid, None, &springs)
+            .with_effects(effects.by_acceleration, &effects.by_load);
+        inertia.diagonal().iter().copied().collect()
     }
 
     /// `d tau / d ddq` where nothing moves, by all degrees of freedom.
@@ -160,7 +188,10 @@ impl InterpretedPlant {
             torque: &still,
             inputs,
         };
-        let q = self.links.hang(&motors, |_| vec![0.0; q.len()]);
+        let nothing = vec![0.0; q.len()];
+        let q = self
+            .links
+            .hang(&motors, |_| [nothing.clone(), nothing.clone()]);
         let inertia = self.inertia_at(&q, inputs);
         let inverse = self.links.of_joints(&inertia).try_inverse();
         let free = |joint: usize| {
@@ -245,15 +276,16 @@ impl Plant for InterpretedPlant {
                 switches: &switches,
                 ..at
             };
-            let mut torque = self.rigid_torque(&at);
+            let body = self.rigid_torque(&at);
+            let mut torque = body.clone();
             if let Some(forces) = &mut self.forces {
-                let more = forces.torque(&at, &torque).torque;
+                let more = forces.torque(&at, &body).torque;
                 torque
                     .iter_mut()
                     .zip(&more)
                     .for_each(|(x, more)| *x += more);
             }
-            torque
+            [body, torque]
         })
     }
 
@@ -273,11 +305,12 @@ impl Plant for InterpretedPlant {
         let forces = loads.forces.as_ref();
         let forces = forces.and_then(|forces| loads.force_slopes(&forces.by_acceleration, &mass));
         let rigid = mass * &position;
-        let springs = if self.links.is_coupled() {
-            let slopes = self.links.carried_slopes(at, &loads.springs, &loads.body);
-            slopes.along(2, &rigid)
-        } else {
-            DMatrix::zeros(loads.springs.len(), self.dof())
+        let springs = match self.links.driven() {
+            Driven::Not => DMatrix::zeros(loads.springs.len(), self.dof()),
+            Driven::Affinely | Driven::Otherwise => {
+                let slopes = self.links.carried_slopes(at, &loads.springs, &loads.body);
+                slopes.along(2, &rigid)
+            }
         };
         *inertia = self
             .load_slopes(&rigid, forces.map(|forces| forces * &position), &springs)

@@ -160,3 +160,38 @@ fn springs_memory_and_a_force_of_the_world() {
     let silent = columns.filter(|column| column.amax() == 0.0).count();
     assert!(silent <= 12, "{silent} columns of {}", slopes.ncols());
 }
+
+#[test]
+fn links_that_other_joints_loads_displace() {
+    let laws = "effect sag(j, k) { shape c in 0.0001 .. 1; position(k) = -0.004 * rigid_torque(k) + c * rigid_torque(j); }
+        effect frame(j, k) {
+            shape a in 0.0001 .. 1; shape b in 0.0001 .. 1;
+            position(j) = -a * rigid_torque(j) - b * rigid_torque(k);
+            position(k) = -b * rigid_torque(j) - 2 * a * (rigid_torque(k) + rigid_torque(k)^3 / 100);
+        }";
+    for (effect, links) in [("sag", 1), ("frame", 2)] {
+        let effects =
+            format!("motor_inertia on all; viscous_friction on all; {effect} on (upper, lower);");
+        let more = [
+            ("motor_inertia.ia", 0.3),
+            ("viscous_friction.fv", 0.4),
+            ("sag.c", 0.0005),
+            ("frame.a", 0.004),
+            ("frame.b", 0.002),
+        ];
+        let arm = plant(pendulum_with(laws, &effects).ungrouped(), &more);
+        assert_eq!(arm.dof(), 2 + links);
+        let start = [-1.2, 0.4, -1.2, 0.4];
+        let q = match links {
+            1 => vec![-1.2, 0.4, 0.4],
+            _ => start.to_vec(),
+        };
+        let motion = Motion {
+            dq: vec![0.0; q.len()],
+            q,
+            torques: pushes()[..6].to_vec(),
+        };
+        let (slopes, _) = motion.check(&arm, 1e-4);
+        assert!(slopes.amax() > 0.1);
+    }
+}

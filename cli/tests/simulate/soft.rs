@@ -179,12 +179,9 @@ fn refused(definitions: &str, effects: &str) -> String {
 }
 
 #[test]
-fn what_no_motion_follows_from_is_refused() {
-    let moved = |by: &str| {
-        format!(
-            "effect moved(j) {{ linear c; state z; shape a in 0.01 .. 1; position(j) = {by}; dot(z) = dq(j); torque(j) = c * z; }}"
-        )
-    };
+fn springs_that_no_motion_has_are_refused() {
+    let moved =
+        |by: &str| format!("effect moved(j) {{ shape a in 0.01 .. 1; position(j) = {by}; }}");
     let moving = "motor_inertia on turn; moved(a = 0.1) on turn;";
     for (definitions, effects, word) in [
         (

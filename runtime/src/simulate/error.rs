@@ -24,9 +24,9 @@ pub enum SimulateError {
         /// The joint, from 1.
         joint: usize,
     },
-    /// The load of a joint and friction that depends on it drive each other up.
+    /// The load of a joint and what depends on it drive each other up.
     #[error(
-        "at {time:.6} s the accelerations have no solution: the load and friction that depends on it drive each other up, or the motion is beyond all bounds; make that friction smaller, or the controller softer"
+        "at {time:.6} s the accelerations have no solution: the load and what depends on it, friction or a displaced link, drive each other up, or the motion is beyond all bounds; make that friction or displacement smaller, or the controller softer"
     )]
     NoAcceleration {
         /// Time, s.
