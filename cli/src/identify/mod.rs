@@ -4,6 +4,7 @@ mod doubts;
 pub(crate) mod fit;
 mod options;
 mod output_error;
+mod payload;
 pub(crate) mod reduced;
 pub(crate) mod report;
 pub(crate) mod table;
@@ -60,6 +61,12 @@ pub(crate) struct IdentifyArguments {
     /// kinematics; without it they are chosen from the logs.
     #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
     bands: Option<Bands>,
+    /// Logs of the arm with a payload, which is identified from all logs together.
+    #[arg(long, value_name = "LOG", num_args = 1..)]
+    payload: Vec<PathBuf>,
+    /// The link that carries the payload; without it the last one whose body is not fixed.
+    #[arg(long, value_name = "LINK", requires = "payload")]
+    payload_link: Option<String>,
     /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
@@ -107,6 +114,7 @@ impl IdentifyArguments {
             FormArgument::Acceleration => {
                 let form = ByAcceleration(InterpretedArm::new(compiled));
                 match &self.factor {
+                    _ if !self.payload.is_empty() => self.carried(&form, method),
                     Some(factor) => self.reduce(&form, method, factor),
                     None => self.fit(&form, method),
                 }

@@ -116,11 +116,22 @@ impl IdentifyArguments {
             let asked = [
                 ("--bootstrap", self.bootstrap.is_some()),
                 ("--essential", self.essential),
+                ("--payload", !self.payload.is_empty()),
             ];
             if let Some((option, _)) = asked.into_iter().find(|(_, is_given)| *is_given) {
                 return refuse(&format!(
                     "`{option}` is of `--method ls`, `wls` and `robust`, and wants the logs themselves, not a factor"
                 ));
+            }
+        }
+        if !self.payload.is_empty() {
+            let asked = [
+                ("--form filtered", self.form == FormArgument::Filtered),
+                ("--bootstrap", self.bootstrap.is_some()),
+                ("--essential", self.essential),
+            ];
+            if let Some((option, _)) = asked.into_iter().find(|(_, is_given)| *is_given) {
+                return refuse(&format!("`{option}` and `--payload` do not go together"));
             }
         }
         if self.factor.is_some() {
@@ -162,6 +173,7 @@ impl IdentifyArguments {
             ("--factor", self.factor.is_some()),
             ("--bootstrap", self.bootstrap.is_some()),
             ("--essential", self.essential),
+            ("--payload", !self.payload.is_empty()),
             ("--partial", self.partial),
         ];
         match others.into_iter().find(|(_, is_given)| *is_given) {

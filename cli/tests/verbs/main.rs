@@ -18,6 +18,7 @@ mod motions;
 mod output_error;
 mod outputs;
 mod parameters;
+mod payload;
 mod possible;
 mod simulate;
 mod trace;

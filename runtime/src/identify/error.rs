@@ -56,6 +56,14 @@ pub enum IdentifyError {
         /// Which are not told, and what is told of them.
         why: String,
     },
+    /// No link by that name whose body is looked for.
+    #[error(
+        "no such link can be told from its payload: links whose bodies are not fixed by the spec are {}; name one of these", if links.is_empty() { "none".to_owned() } else { links.join(", ") }
+    )]
+    NoLink {
+        /// Names of links that there are.
+        links: Vec<String>,
+    },
     /// Not one value for each open shape.
     #[error(
         "{given} values for the {open} shapes that the spec leaves open; give one for each, in its order"

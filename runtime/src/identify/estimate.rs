@@ -129,6 +129,8 @@ pub(super) struct Fitted {
     pub samples: usize,
     /// Of these, independent ones per joint.
     pub effective_samples: Option<Vec<f64>>,
+    /// Names of the unknowns.
+    pub names: Vec<String>,
 }
 
 impl Fitted {
@@ -141,6 +143,7 @@ impl Fitted {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),
             effective_samples: Some(effective.collect()),
+            names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
         }
     }
 }
@@ -155,7 +158,7 @@ impl Estimate {
         shapes: Vec<f64>,
         fitted: Fitted,
     ) -> Self {
-        let name = |c: &usize| arm.unknowns()[*c].name.clone();
+        let name = |c: &usize| fitted.names[*c].clone();
         let combination = |shared: &Shared| {
             let others = shared.others.iter();
             let others = others.map(|(c, factor)| (name(c), *factor));
@@ -167,12 +170,12 @@ impl Estimate {
                 std: solution.std[shared.lead],
             }
         };
-        let parameters = arm
-            .unknowns()
+        let parameters = fitted
+            .names
             .iter()
             .zip(solution.estimate.iter().zip(&solution.std))
-            .map(|(unknown, (value, std))| Identified {
-                name: unknown.name.clone(),
+            .map(|(name, (value, std))| Identified {
+                name: name.clone(),
                 value: *value,
                 std: *std,
             })
@@ -192,7 +195,7 @@ impl Estimate {
             unexcited: solution.unexcited.iter().map(name).collect(),
             combinations: solution.shared.iter().map(combination).collect(),
             condition: solution.condition,
-            rank: arm.unknowns().len() - solution.unexcited.len(),
+            rank: solution.estimate.len() - solution.unexcited.len(),
             relative_percent: fitted.relative_percent,
             samples: fitted.samples,
             joints: arm.joints().to_vec(),

@@ -191,6 +191,7 @@ impl Factor {
             relative_percent: self.relative_percent(&solution.estimate),
             samples: self.samples(),
             effective_samples: None,
+            names: self.unknowns.clone(),
         };
         Ok(Estimate::new(
             arm,

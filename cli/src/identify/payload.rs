@@ -1,0 +1,124 @@
+//! `identify --payload`: what the arm carries in some of its logs.
+
+use std::path::PathBuf;
+
+use robot_model::identify::{Carried, Errors, Identify, Method};
+use robot_model::log::Log;
+use serde::Serialize;
+
+use super::fit::{ByAcceleration, Fit, errors_of_all};
+use super::report::{Report, report};
+use super::table::table;
+use super::{IdentifyArguments, told_apart};
+use crate::Error;
+use crate::output::{self, Files};
+use crate::progress::Progress;
+
+/// What `--json` writes: the keys of all methods, with the payload's parameters behind the arm's, and these.
+#[derive(Serialize)]
+struct PayloadReport<'a> {
+    #[serde(flatten)]
+    both: Report<'a>,
+    payload: Body<'a>,
+}
+
+/// The payload as far as the logs tell.
+#[derive(Serialize)]
+struct Body<'a> {
+    link: &'a str,
+    /// kg
+    mass: Option<f64>,
+    /// In the link's frame, m.
+    center: [Option<f64>; 3],
+    /// Of logs with it.
+    rmse: &'a [f64],
+    relative_percent: &'a [f64],
+}
+
+impl IdentifyArguments {
+    /// The arm from the logs, what it carries from those of `--payload`.
+    pub(super) fn carried(&self, form: &ByAcceleration, method: Method) -> Result<(), Error> {
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.payload)
+            .chain(&self.validate);
+        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let progress = Progress::new();
+        let mut faults = Vec::new();
+        let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
+        let unloaded: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
+        let loaded: Vec<Log> = self
+            .payload
+            .iter()
+            .map(&mut read)
+            .collect::<Result<_, _>>()?;
+        let validate = self.validate.as_ref().map(read).transpose()?;
+        let identify = Identify {
+            method,
+            weights: self.weights.into(),
+            bands: self.bands,
+            ..Identify::default()
+        };
+        progress.step("identifying");
+        let link = self.payload_link.as_deref();
+        let found = identify.fit_payload(&form.0, &unloaded, &loaded, link)?;
+        if !self.partial {
+            told_apart(&found.estimate)?;
+        }
+        let train = Errors {
+            relative_percent: found.estimate.relative_percent.clone(),
+            ..errors_of_all(&found.estimate, form, &unloaded)?
+        };
+        let carrying = errors_of_all(&found.loaded, form, &loaded)?;
+        let validation = validate.as_ref();
+        let validation = validation.map(|log| form.errors(&found.loaded, log));
+        let validation = validation.transpose()?;
+        drop(progress);
+        let (mass, center) = found.mass_and_center();
+        if let Some(file) = json {
+            let report = PayloadReport {
+                both: report(&found.estimate, Some(&train), validation.as_ref(), &faults),
+                payload: Body {
+                    link: &found.link,
+                    mass,
+                    center,
+                    rmse: &carrying.rmse,
+                    relative_percent: &carrying.relative_percent,
+                },
+            };
+            file.commit(output::json(&report).as_bytes())?;
+        }
+        let columns = [("without payload", &train), ("with payload", &carrying)].into_iter();
+        let columns = columns.chain(
+            validation
+                .as_ref()
+                .map(|errors| ("validation, with it", errors)),
+        );
+        let columns: Vec<_> = columns.collect();
+        output::print(&format!(
+            "{}{}\n{}",
+            found.estimate,
+            told(&found),
+            table(&found.estimate, &columns)
+        ))
+    }
+}
+
+/// The body in a sentence.
+fn told(found: &Carried) -> String {
+    let (mass, center) = found.mass_and_center();
+    let Some(mass) = mass else {
+        return format!("payload on {}: its mass is not told\n", found.link);
+    };
+    let axes = ["x", "y", "z"].into_iter().zip(center);
+    let places = axes.map(|(axis, place)| match place {
+        Some(place) => format!("{axis} {place:.4} m"),
+        None => format!("{axis} not told"),
+    });
+    let places: Vec<String> = places.collect();
+    format!(
+        "payload on {}: {mass:.4} kg, its center of mass in the link's frame: {}\n",
+        found.link,
+        places.join(", ")
+    )
+}
