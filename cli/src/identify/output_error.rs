@@ -8,7 +8,7 @@ mod starts;
 use std::path::PathBuf;
 
 use robot_model::identify::output_error::{
-    Comparison, Hold, Iterate, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
+    Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
 };
 use robot_model::identify::{Errors, Estimate, Identify};
 use robot_model::log::{Fault, Log};
@@ -74,19 +74,13 @@ impl IdentifyArguments {
             None => starts::within(&beginning.starts, &settings.bounds),
         };
         progress.step("simulating");
-        let mut tell = |iterate: &Iterate| {
-            progress.step(&format!(
-                "simulation {}: cost {:.6e}",
-                iterate.simulations, iterate.cost
-            ));
+        let is_there = |found: &OutputEstimate| {
+            doubts::beyond_noise(&compiled.model, &logs, &rmse(found)).is_none()
         };
-        let (plant, names) = (&beginning.plant, &beginning.names);
-        let found = settings
-            .nearest(plant, names, &starts, &fitted, &mut |_| {
-                progress.step("comparing starts");
-            })
-            .and_then(|start| settings.fit(plant, names, &start, &fitted, &mut tell));
-        let found = found.map_err(|error| refused(&error))?;
+        let found = starts::search(
+            &settings, &beginning, &starts, &fitted, &is_there, &progress,
+        )
+        .map_err(|error| refused(&error))?;
         let told = beginning.names.iter().zip(&found.values).zip(&found.std);
         let told = told.map(|((name, value), std)| (name.as_str(), *value, *std));
         let told = told.filter_map(|(name, value, std)| Some((name, value, std?)));
@@ -95,11 +89,9 @@ impl IdentifyArguments {
             let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
             Some((told, unknown))
         });
-        let rmse = found.fit.position.iter().map(|distance| distance.rmse);
-        let rmse: Vec<f64> = rmse.collect();
         let doubts = [
             doubts::below_zero(told),
-            doubts::beyond_noise(&compiled.model, &logs, &rmse),
+            doubts::beyond_noise(&compiled.model, &logs, &rmse(&found)),
         ];
         for doubt in doubts.into_iter().flatten() {
             progress.note(&format!("note: {doubt}"));
@@ -258,6 +250,12 @@ impl IdentifyArguments {
             bounds: bounds(compiled, &beginning.names, options.bounds.as_deref())?,
         })
     }
+}
+
+/// Root mean square of the errors of each joint's position.
+fn rmse(found: &OutputEstimate) -> Vec<f64> {
+    let joints = found.fit.position.iter();
+    joints.map(|distance| distance.rmse).collect()
 }
 
 fn refused(error: &OutputErrorError) -> Error {

@@ -21,4 +21,5 @@ mod parameters;
 mod payload;
 mod possible;
 mod simulate;
+mod starts;
 mod trace;

@@ -1,15 +1,23 @@
 //! Where a search by simulation starts that nobody has given a start.
 
 use robot_model::columns::{Columns, Shape};
+use robot_model::identify::output_error::{
+    Iterate, OutputError, OutputErrorError, OutputEstimate, Recording,
+};
 use robot_model::identify::{Estimate, Identify};
 use robot_model::log::Log;
 
 use super::super::fit::{ByAcceleration, Fit};
+use super::{Beginning, rmse};
+use crate::progress::Progress;
 
 /// Values of each shape that are tried, where there are one, two or more.
 const OF_ONE: usize = 6;
 const OF_TWO: usize = 3;
 const OF_MANY: usize = 2;
+
+/// Searches to the end, from the best places of all starts, until one has found the arm.
+const SEARCHES: usize = 3;
 
 /// Shapes to start from: those of least squares, which filters blur, and others from their ranges.
 fn candidates(shapes: &[Shape], found: &[f64]) -> Vec<Vec<f64>> {
@@ -72,4 +80,56 @@ pub(super) fn within(starts: &[Vec<f64>], bounds: &[[f64; 2]]) -> Vec<Vec<f64>> 
             .collect()
     };
     starts.iter().map(start).collect()
+}
+
+/// What is found from the starts: of several searches the first that is there, or the one whose errors are least.
+pub(super) fn search(
+    settings: &OutputError,
+    beginning: &Beginning,
+    starts: &[Vec<f64>],
+    recordings: &[Recording],
+    is_there: &dyn Fn(&OutputEstimate) -> bool,
+    progress: &Progress,
+) -> Result<OutputEstimate, OutputErrorError> {
+    let (plant, names) = (&beginning.plant, &beginning.names);
+    let mut tell = |iterate: &Iterate| {
+        progress.step(&format!(
+            "simulation {}: cost {:.6e}",
+            iterate.simulations, iterate.cost
+        ));
+    };
+    let mut begun = 0;
+    let mut compare = |iterate: &Iterate| {
+        // The first one of each start.
+        if iterate.simulations == 2 {
+            begun += 1;
+            progress.step(&format!("looking from start {begun} of {}", starts.len()));
+        }
+    };
+    let places = settings.nearest(plant, names, starts, recordings, &mut compare)?;
+    let error = |found: &OutputEstimate| -> f64 {
+        let errors = rmse(found).into_iter();
+        errors.map(|rmse| rmse.max(f64::MIN_POSITIVE).ln()).sum()
+    };
+    let mut best: Option<OutputEstimate> = None;
+    let mut refusal = None;
+    for place in places.iter().take(SEARCHES) {
+        match settings.fit(plant, names, place, recordings, &mut tell) {
+            Ok(found) => {
+                let is_better = best.as_ref().is_none_or(|best| error(&found) < error(best));
+                if is_better {
+                    best = Some(found);
+                }
+            }
+            Err(error) => refusal = refusal.or(Some(error)),
+        }
+        if best.as_ref().is_some_and(is_there) {
+            break;
+        }
+    }
+    match (best, refusal) {
+        (Some(best), _) => Ok(best),
+        (None, Some(error)) => Err(error),
+        (None, None) => unreachable!("there is at least one place"),
+    }
 }

@@ -1,4 +1,4 @@
-//! Which of several starts leads deepest.
+//! Which of several starts lead deepest.
 //!
 //! Costs have several valleys where shapes matter, as that of a Stribeck curve, and a search ends in the one where it starts. A few
 //! steps from each of several starts tell which valley is the deepest.
@@ -10,8 +10,8 @@ use crate::simulate::Adjustable;
 const STEPS: usize = 8;
 
 impl OutputError {
-    /// Where a few steps from the best of several starts lead; costs are compared by the sum of the logarithms of each joint's error.
-    /// Starts from which the arm does not move, or that are out of bounds, do not count, unless none is left: then it is the first.
+    /// Where a few steps from each of several starts lead, the best first; costs are compared by the sum of the logarithms of each joint's
+    /// error. Starts from which the arm does not move, or that are out of bounds, do not count, unless none is left: then it is the first.
     ///
     /// # Errors
     /// [`OutputErrorError`] where nothing can be simulated.
@@ -22,7 +22,7 @@ impl OutputError {
         starts: &[Vec<f64>],
         recordings: &[Recording],
         progress: &mut dyn FnMut(&Iterate),
-    ) -> Result<Vec<f64>, OutputErrorError> {
+    ) -> Result<Vec<Vec<f64>>, OutputErrorError> {
         let Some(first) = starts.first() else {
             return Err(OutputErrorError::Size {
                 what: "starts",
@@ -31,11 +31,11 @@ impl OutputError {
             });
         };
         if starts.len() == 1 {
-            return Ok(first.clone());
+            return Ok(vec![first.clone()]);
         }
         let mut plant = plant.clone();
         plant.prepare();
-        let mut best: Option<(f64, Vec<f64>)> = None;
+        let mut places: Vec<(f64, Vec<f64>)> = Vec::new();
         for start in starts {
             if self.check(&plant, names, start).is_err() {
                 continue;
@@ -76,11 +76,13 @@ impl OutputError {
             };
             let spread = problem.spread(&runs).into_iter();
             let cost: f64 = spread.map(|x| x.max(f64::MIN_POSITIVE).ln()).sum();
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, place.values));
-            }
+            places.push((cost, place.values));
         }
-        Ok(best.map_or_else(|| first.clone(), |(_, values)| values))
+        if places.is_empty() {
+            return Ok(vec![first.clone()]);
+        }
+        places.sort_by(|one, other| one.0.total_cmp(&other.0));
+        Ok(places.into_iter().map(|(_, values)| values).collect())
     }
 
     /// The window of the first part of a search.
