@@ -64,7 +64,7 @@ pub(crate) struct IdentifyArguments {
     /// Logs of the arm with a payload, which is identified from all logs together.
     #[arg(long, value_name = "LOG", num_args = 1..)]
     payload: Vec<PathBuf>,
-    /// The link that carries the payload; without it the last one whose body is not fixed.
+    /// The link that carries the payload; without it the last one.
     #[arg(long, value_name = "LINK", requires = "payload")]
     payload_link: Option<String>,
     /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use robot_model::identify::{Carried, Errors, Identify, Method};
+use robot_model::identify::{Carried, Identify, Method};
 use robot_model::log::Log;
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
 use super::report::{Report, report};
 use super::table::table;
-use super::{IdentifyArguments, told_apart};
+use super::{IdentifyArguments, doubts, told_apart};
 use crate::Error;
 use crate::output::{self, Files};
 use crate::progress::Progress;
@@ -26,8 +26,9 @@ struct PayloadReport<'a> {
 #[derive(Serialize)]
 struct Body<'a> {
     link: &'a str,
-    /// kg
+    /// kg, and its standard deviation.
     mass: Option<f64>,
+    mass_std: Option<f64>,
     /// In the link's frame, m.
     center: [Option<f64>; 3],
     /// Of logs with it.
@@ -62,17 +63,25 @@ impl IdentifyArguments {
         progress.step("identifying");
         let link = self.payload_link.as_deref();
         let found = identify.fit_payload(&form.0, &unloaded, &loaded, link)?;
-        if !self.partial {
+        let own: Vec<&str> = found.payload().iter().map(|p| p.name.as_str()).collect();
+        // What no motion tells of a payload is no fault of the logs.
+        let is_of_arm = |name: &String| !own.contains(&name.as_str());
+        if !self.partial && found.estimate.unexcited.iter().any(is_of_arm) {
             told_apart(&found.estimate)?;
         }
-        let train = Errors {
-            relative_percent: found.estimate.relative_percent.clone(),
-            ..errors_of_all(&found.estimate, form, &unloaded)?
-        };
+        let train = errors_of_all(&found.estimate, form, &unloaded)?;
         let carrying = errors_of_all(&found.loaded, form, &loaded)?;
         let validation = validate.as_ref();
         let validation = validation.map(|log| form.errors(&found.loaded, log));
         let validation = validation.transpose()?;
+        let doubts = [
+            doubts::negative(&found.estimate, form.unknowns()),
+            doubts::unexplained(&found.estimate).map(str::to_owned),
+            negative(&found),
+        ];
+        for doubt in doubts.into_iter().flatten() {
+            progress.note(&format!("note: {doubt}"));
+        }
         drop(progress);
         let (mass, center) = found.mass_and_center();
         if let Some(file) = json {
@@ -80,7 +89,8 @@ impl IdentifyArguments {
                 both: report(&found.estimate, Some(&train), validation.as_ref(), &faults),
                 payload: Body {
                     link: &found.link,
-                    mass,
+                    mass: mass.map(|[mass, _]| mass),
+                    mass_std: mass.map(|[_, std]| std),
                     center,
                     rmse: &carrying.rmse,
                     relative_percent: &carrying.relative_percent,
@@ -107,7 +117,7 @@ impl IdentifyArguments {
 /// The body in a sentence.
 fn told(found: &Carried) -> String {
     let (mass, center) = found.mass_and_center();
-    let Some(mass) = mass else {
+    let Some([mass, std]) = mass else {
         return format!("payload on {}: its mass is not told\n", found.link);
     };
     let axes = ["x", "y", "z"].into_iter().zip(center);
@@ -117,8 +127,19 @@ fn told(found: &Carried) -> String {
     });
     let places: Vec<String> = places.collect();
     format!(
-        "payload on {}: {mass:.4} kg, its center of mass in the link's frame: {}\n",
+        "payload on {}: {mass:.4} kg +- {std:.2e}, its center of mass in the link's frame: {}\n",
         found.link,
         places.join(", ")
     )
+}
+
+/// A payload below nothing.
+fn negative(found: &Carried) -> Option<String> {
+    let [mass, std] = found.mass_and_center().0?;
+    (mass < -3.0 * std).then(|| {
+        format!(
+            "the payload on {} is {mass:.4} kg: are logs with and without it in each other's place?",
+            found.link
+        )
+    })
 }

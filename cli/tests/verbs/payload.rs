@@ -103,11 +103,12 @@ fn what_an_arm_carries_is_told_from_its_logs_with_and_without() {
         assert!((mass - 0.2).abs() < 0.02, "{mass}");
         let body = &fit["payload"];
         let kg = body["mass"].as_f64().expect("told");
+        assert!(body["mass_std"].as_f64().expect("told") < 0.02);
         let center = body["center"].as_array().expect("a list");
         let x = center[0].as_f64().expect("told");
         assert!((x - 0.15).abs() < 0.01 && center[2].is_null(), "{body}");
         assert!(
-            said.contains(&format!("payload on lo: {kg:.4} kg")),
+            said.contains(&format!("payload on lo: {kg:.4} kg +-")),
             "{said}"
         );
         for errors in [&body["relative_percent"], &fit["relative_percent_validate"]] {
@@ -124,6 +125,31 @@ fn links_and_options_that_do_not_fit_are_refused() {
     let said = |more: &[&str]| folder.refuse(&[&identify[..], more].concat());
     let loaded = ["--payload", "loaded.csv"];
     assert!(said(&[&loaded[..], &["--payload-link", "tip"]].concat()).contains("are up, lo"));
+    folder.write(
+        "fixed.robot",
+        &spec("").replace("link lo {", "link lo: fixed {"),
+    );
+    let fixed = ["identify", "fixed.robot", "empty.csv"];
+    let said_of_fixed = folder.refuse(&[&fixed[..], &loaded].concat());
+    assert!(
+        said_of_fixed.contains("link lo is fixed by the spec"),
+        "{said_of_fixed}"
+    );
+    // In each other's place.
+    let swapped = [
+        "identify",
+        "arm.robot",
+        "loaded.csv",
+        "--payload",
+        "empty.csv",
+    ];
+    let run = folder.run(&swapped);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("in each other's place?"),
+        "{}",
+        run.stderr
+    );
     for more in [
         &["--method", "physical"][..],
         &["--factor", "out.json"],

@@ -6,8 +6,8 @@
 //! Source: Carlstein 1986, The use of subseries values for estimating the variance of a general statistic from a stationary sequence;
 //! Kuensch 1989, The jackknife and the bootstrap for general stationary observations.
 
-use faer::Mat;
 use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -25,6 +25,10 @@ const LEAST_BLOCKS: usize = 10;
 
 /// Most blocks: more say nothing more, and take longer.
 const MOST_BLOCKS: usize = 200;
+
+/// A draw whose least pivot is below this share of that of all blocks does not tell all, and the least share of draws that do.
+const LEAST_PIVOT: f64 = 0.02;
+const LEAST_SHARE: f64 = 0.9;
 
 /// Of the middle of the draws.
 const INSIDE: f64 = 0.95;
@@ -72,6 +76,7 @@ pub(super) fn intervals(
     let size = rows.excited.len();
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let mut moves: Vec<Vec<f64>> = vec![Vec::with_capacity(draws); size];
+    let whole = whole_pivots(&blocks, size);
     // About the mean of as many draws with replacement, the spread is too small by one block.
     let correction = (count as f64 / (count - 1) as f64).sqrt();
     for _ in 0..draws {
@@ -82,10 +87,17 @@ pub(super) fn intervals(
             information += &block.information;
             score += &block.score;
         }
-        let step = information.partial_piv_lu().solve(&score);
+        let Some(step) = step(&information, &score, &whole) else {
+            // Blocks without which not all is told.
+            continue;
+        };
         for (k, moves) in moves.iter_mut().enumerate() {
-            moves.push(correction * step[(k, 0)] / rows.length[k]);
+            moves.push(correction * step[k] / rows.length[k]);
         }
+    }
+    let made = moves.first().map_or(0, Vec::len);
+    if (made as f64) < LEAST_SHARE * draws as f64 {
+        return Err(IdentifyError::FewDraws { draws, made });
     }
     let mut intervals = vec![None; stack.unknowns.len()];
     for (k, &c) in rows.excited.iter().enumerate() {
@@ -95,10 +107,36 @@ pub(super) fn intervals(
             Some([cut, 1.0 - cut].map(|share| solution.estimate[c] + quantile(&moves[k], share)));
     }
     Ok(Bootstrap {
-        draws,
+        draws: made,
         blocks: count,
         intervals,
     })
+}
+
+/// Pivots of the information of all blocks.
+fn whole_pivots(blocks: &[Block], size: usize) -> Vec<f64> {
+    let zero = Mat::<f64>::zeros(size, size);
+    let whole = blocks
+        .iter()
+        .fold(zero, |sum, block| sum + &block.information);
+    let factor = whole.llt(Side::Lower);
+    let pivot = |k: usize| {
+        factor
+            .as_ref()
+            .map_or(0.0, |factor| factor.L()[(k, k)].powi(2))
+    };
+    (0..size).map(pivot).collect()
+}
+
+/// `A^-1 b`, or none where a pivot is next to nothing beside that of all blocks.
+fn step(information: &Mat<f64>, score: &Mat<f64>, whole: &[f64]) -> Option<Vec<f64>> {
+    let factor = information.llt(Side::Lower).ok()?;
+    let pivots = whole.iter().enumerate();
+    let mut pivots = pivots.map(|(k, whole)| (factor.L()[(k, k)].powi(2), LEAST_PIVOT * whole));
+    let is_told = pivots.all(|(pivot, least)| pivot > least);
+    let step = factor.solve(score);
+    let step: Vec<f64> = (0..whole.len()).map(|k| step[(k, 0)]).collect();
+    (is_told && step.iter().all(|x| x.is_finite())).then_some(step)
 }
 
 /// Sums over blocks of alike length.
@@ -111,7 +149,9 @@ fn blocks(rows: &Rows, residuals: &[Vec<f64>], weights: &[Vec<f64>], count: usiz
         let mut score = Mat::<f64>::zeros(size, 1);
         for ((rows, residuals), weights) in rows.joints.iter().zip(residuals).zip(weights) {
             let part = rows.subrows(start, end - start);
-            let weighed = Mat::from_fn(end - start, size, |k, c| weights[start + k] * part[(k, c)]);
+            // Where a residual is cut off, it does not answer to the estimate.
+            let full = |k: usize| f64::from(u8::from(weights[start + k] >= 1.0));
+            let weighed = Mat::from_fn(end - start, size, |k, c| full(k) * part[(k, c)]);
             let rest = Mat::from_fn(end - start, 1, |k, _| residuals[start + k]);
             information += weighed.transpose() * part;
             score += part.transpose() * rest;

@@ -42,10 +42,19 @@ impl fmt::Display for Combination {
             match (k, *factor) {
                 (0, _) => write!(f, "{name}")?,
                 (_, factor) if (factor.abs() - 1.0).abs() < 1e-6 => write!(f, " {sign} {name}")?,
-                (_, factor) => write!(f, " {sign} {:.4} {name}", factor.abs())?,
+                (_, factor) => write!(f, " {sign} {} {name}", short(factor.abs()))?,
             }
         }
         Ok(())
+    }
+}
+
+/// Four digits of a positive number.
+fn short(number: f64) -> String {
+    if (1e-3..1e5).contains(&number) {
+        format!("{number:.4}")
+    } else {
+        format!("{number:.3e}")
     }
 }
 

@@ -56,6 +56,25 @@ pub enum IdentifyError {
         /// Which are not told, and what is told of them.
         why: String,
     },
+    /// Draws of blocks that do not tell all.
+    #[error(
+        "of {draws} draws of blocks only {made} tell all parameters apart: something is excited in a few places of the logs alone; give logs that \
+         do so again and again, or take the deviations that are there without a bootstrap"
+    )]
+    FewDraws {
+        /// Draws.
+        draws: usize,
+        /// Those that do.
+        made: usize,
+    },
+    /// The link that would carry a payload is known.
+    #[error(
+        "link {link} is fixed by the spec; declare its payload there in place of two kinds of logs: `payload on ..`"
+    )]
+    FixedLink {
+        /// Its name.
+        link: String,
+    },
     /// No link by that name whose body is looked for.
     #[error(
         "no such link can be told from its payload: links whose bodies are not fixed by the spec are {}; name one of these", if links.is_empty() { "none".to_owned() } else { links.join(", ") }

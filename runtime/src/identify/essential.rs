@@ -30,6 +30,12 @@ pub(super) fn find(
     let mut solution = solution.clone();
     while let Some(worst) = least_told(&solution) {
         stack.silence(&[worst]);
+        if solution.unexcited.len() + 1 == solution.estimate.len() {
+            // Nothing is told from zero.
+            solution.estimate.fill(0.0);
+            solution.unexcited = (0..solution.estimate.len()).collect();
+            break;
+        }
         solution = identify.solve_stack(&stack)?;
         solution.std = identify.deviations(&stack, &solution);
     }
@@ -45,12 +51,9 @@ pub(super) fn find(
     })
 }
 
-/// The parameter that is least of all told from zero, where there is one; the last one stays.
+/// The parameter that is least of all told from zero, where there is one.
 fn least_told(solution: &Solution) -> Option<usize> {
     let n = solution.estimate.len();
-    if solution.unexcited.len() + 1 >= n {
-        return None;
-    }
     let told = (0..n).filter(|c| !solution.unexcited.contains(c));
     let told = told.map(|c| (c, solution.estimate[c].abs() / solution.std[c]));
     let least = told.min_by(|one, other| one.1.total_cmp(&other.1));

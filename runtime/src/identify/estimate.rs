@@ -138,7 +138,14 @@ impl Fitted {
     pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
         let residuals = stack.residuals(estimate);
         let samples = stack.samples() as f64;
-        let effective = residuals.iter().map(|r| samples / correlation_time(r));
+        let effective = residuals.iter().map(|r| {
+            let is_dead = r.iter().all(|r| *r == 0.0);
+            if is_dead {
+                0.0
+            } else {
+                samples / correlation_time(r)
+            }
+        });
         Self {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),

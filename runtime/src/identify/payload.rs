@@ -10,10 +10,11 @@
 use super::stack::Stack;
 use super::{
     Estimate, Fitted, Form, Identified, Identify, IdentifyError, RIGID_TORQUE_PASSES, check_logs,
-    load_motion, prepare_all, update_load,
+    load_motion, prepare_all, slowest_bands, update_load,
 };
 use crate::columns::{Arm, Entry, Unknown};
 use crate::log::Log;
+use crate::signal::Bands;
 
 /// An arm and what it carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,17 +34,19 @@ impl Carried {
         &self.estimate.parameters[self.loaded.parameters.len()..]
     }
 
-    /// Its mass, kg, and center of mass in the link's frame, m, each as far as the logs tell.
+    /// Its mass, kg, with the standard deviation, and its center of mass in the link's frame, m, each as far as the logs tell; no center where
+    /// the mass is not two deviations above zero.
     #[must_use]
-    pub fn mass_and_center(&self) -> (Option<f64>, [Option<f64>; 3]) {
+    pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<f64>; 3]) {
         let told = |own: &str| {
             let name = format!("{}.payload.{own}", self.link);
             let found = self.payload().iter().find(|p| p.name == name)?;
             let is_told = self.estimate.is_separated(&name);
-            is_told.then_some(found.value)
+            is_told.then_some([found.value, found.std])
         };
-        let mass = told("m").filter(|mass| *mass > 0.0);
-        let center = ["mx", "my", "mz"].map(|own| Some(told(own)? / mass?));
+        let mass = told("m");
+        let body = mass.filter(|[mass, std]| *mass > 2.0 * std);
+        let center = ["mx", "my", "mz"].map(|own| Some(told(own)?[0] / body?[0]));
         (mass, center)
     }
 }
@@ -58,13 +61,27 @@ struct Shares {
 impl Shares {
     fn of(arm: &dyn Arm, link: Option<&str>) -> Result<Self, IdentifyError> {
         let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
-        let found = match link {
-            None => arms.links.last(),
-            Some(name) => arms.links.iter().find(|link| link.name == name),
-        };
-        let Some(found) = found else {
+        // Bodies of effects have names with a dot.
+        let links = arms.links.iter().filter(|link| !link.name.contains('.'));
+        let links: Vec<_> = links.collect();
+        let mut last = arms
+            .names
+            .iter()
+            .filter_map(|name| name.strip_suffix(".izz"));
+        let last = last.rfind(|name| !name.contains('.'));
+        let wanted = link.or(last).unwrap_or_default();
+        let Some(found) = links.iter().find(|link| link.name == wanted) else {
+            if arms
+                .names
+                .iter()
+                .any(|name| *name == format!("{wanted}.izz"))
+            {
+                return Err(IdentifyError::FixedLink {
+                    link: wanted.to_owned(),
+                });
+            }
             return Err(IdentifyError::NoLink {
-                links: arms.links.iter().map(|link| link.name.clone()).collect(),
+                links: links.iter().map(|link| link.name.clone()).collect(),
             });
         };
         let factor = |terms: &[(usize, f64)], place: usize| -> f64 {
@@ -134,11 +151,11 @@ impl Shares {
 }
 
 impl Identify {
-    /// Identifies an arm from logs without its payload, and the payload from logs with it; `link` carries it, without a name the last one
-    /// whose body is not fixed. Open shapes are those of the logs without it.
+    /// Identifies an arm from logs without its payload, and the payload from logs with it; `link` carries it, without a name the last one.
+    /// Open shapes are those of the logs without it.
     ///
     /// # Errors
-    /// Those of [`Self::fit`]; [`IdentifyError::NoLink`], [`IdentifyError::NoBodies`].
+    /// Those of [`Self::fit`]; [`IdentifyError::NoLink`], [`IdentifyError::FixedLink`], [`IdentifyError::NoBodies`].
     pub fn fit_payload(
         &self,
         arm: &dyn Arm,
@@ -146,10 +163,26 @@ impl Identify {
         loaded: &[Log],
         link: Option<&str>,
     ) -> Result<Carried, IdentifyError> {
+        check_logs(arm, unloaded)?;
         check_logs(arm, loaded)?;
         let shares = Shares::of(arm, link)?;
-        let alone = self.fit(arm, unloaded)?;
-        let bands = alone.bands;
+        let bands = self.bands.map_or_else(
+            || {
+                let without = self.choose_bands(arm, unloaded)?;
+                let with = slowest_bands(loaded);
+                Ok::<_, IdentifyError>(Bands {
+                    smooth_hz: without.smooth_hz.min(with.smooth_hz),
+                    wide_hz: without.wide_hz.min(with.wide_hz),
+                    shared_hz: without.shared_hz.min(with.shared_hz),
+                })
+            },
+            Ok,
+        )?;
+        let both = Self {
+            bands: Some(bands),
+            ..self.clone()
+        };
+        let alone = both.fit(arm, unloaded)?;
         let shapes: Vec<f64> = alone.shapes.iter().map(|(_, value)| *value).collect();
         let n = shares.coefficients.len();
         let mut values = alone.values();

@@ -92,3 +92,23 @@ fn errors_alike_over_the_whole_log_have_no_blocks() {
         "{error}"
     );
 }
+
+#[test]
+fn what_few_blocks_tell_has_no_interval() {
+    // A column that is there in one place of the log alone: some draws do not have it.
+    let mut stack = stack(2, 4.0);
+    let touched: Vec<f64> = (0..stack.samples())
+        .map(|k| if (700..720).contains(&k) { 1.0 } else { 0.0 })
+        .collect();
+    stack.unknowns.push(Unknown {
+        name: "stop".to_owned(),
+        nonnegative: false,
+    });
+    stack.joints[0].columns.push((2, touched));
+    let (_, found) = bootstrap(&stack, 200);
+    let error = found.expect_err("a third of the draws miss it");
+    assert!(
+        matches!(error, IdentifyError::FewDraws { draws: 200, .. }),
+        "{error}"
+    );
+}
