@@ -1,6 +1,8 @@
 //! Plants of specs.
 
-use robot_model::simulate::{Controller, Desired, Integrator, Measured, Tolerances, Trajectory};
+use robot_model::simulate::{
+    Controller, Desired, Instant, Integrator, Measured, Tolerances, Trajectory,
+};
 use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_codegen::base::shape_values;
 use robot_model_codegen::{Compiled, compile_model};
@@ -70,6 +72,20 @@ pub fn plant(compiled: Compiled, more: &[(&str, f64)]) -> InterpretedPlant {
 
 pub fn released(plant: InterpretedPlant, q: &[f64], dq: &[f64]) -> Integrator<InterpretedPlant> {
     Integrator::new(plant, q, dq, Tolerances::default()).expect("sound")
+}
+
+/// At rest with motors and a link at a position.
+pub fn resting<'a>(q: &'a [f64], dq: &'a [f64]) -> Instant<'a> {
+    Instant {
+        time: 0.0,
+        q,
+        dq,
+        ddq: dq,
+        memory: &[],
+        switches: &[],
+        torque: dq,
+        inputs: &[],
+    }
 }
 
 /// A controller of one line.

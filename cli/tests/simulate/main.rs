@@ -6,6 +6,7 @@ mod coupled;
 mod differences;
 mod dry;
 mod everything;
+mod led;
 mod lugre;
 mod placed;
 mod sensitivity;

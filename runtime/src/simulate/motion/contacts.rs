@@ -5,7 +5,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Moving, STEPS, Side, ZERO, share_size};
+use super::newton::STEPS;
+use super::{Moving, Side, ZERO, share_size};
 use crate::simulate::complementarity;
 use crate::simulate::error::SimulateError;
 use crate::simulate::plant::Plant;
