@@ -2,23 +2,23 @@
 
 use std::path::PathBuf;
 
-use robot_model::identify::{Carried, Identify, Method};
+use robot_model::identify::{Carried, Errors, Estimate, Identify, Method};
 use robot_model::log::Log;
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
-use super::report::{Report, report};
+use super::report::{Parameter, Report, report};
 use super::table::table;
 use super::{IdentifyArguments, doubts, told_apart};
 use crate::Error;
 use crate::output::{self, Files};
 use crate::progress::Progress;
 
-/// What `--json` writes: the keys of all methods, with the payload's parameters behind the arm's, and these.
+/// What `--json` writes: the keys of all methods for the arm alone, and these.
 #[derive(Serialize)]
 struct PayloadReport<'a> {
     #[serde(flatten)]
-    both: Report<'a>,
+    arm: Report<'a>,
     payload: Body<'a>,
 }
 
@@ -26,6 +26,8 @@ struct PayloadReport<'a> {
 #[derive(Serialize)]
 struct Body<'a> {
     link: &'a str,
+    /// About the origin of the link's frame.
+    parameters: Vec<Parameter<'a>>,
     /// kg, and its standard deviation.
     mass: Option<f64>,
     mass_std: Option<f64>,
@@ -85,10 +87,12 @@ impl IdentifyArguments {
         drop(progress);
         let (mass, center) = found.mass_and_center();
         if let Some(file) = json {
+            let arm = of_arm(&found, &train);
             let report = PayloadReport {
-                both: report(&found.estimate, Some(&train), validation.as_ref(), &faults),
+                arm: report(&arm, Some(&train), validation.as_ref(), &faults),
                 payload: Body {
                     link: &found.link,
+                    parameters: parameters(&found),
                     mass: mass.map(|[mass, _]| mass),
                     mass_std: mass.map(|[_, std]| std),
                     center,
@@ -112,6 +116,31 @@ impl IdentifyArguments {
             table(&found.estimate, &columns)
         ))
     }
+}
+
+/// The estimate of the arm alone.
+fn of_arm(found: &Carried, errors: &Errors) -> Estimate {
+    let mut arm = found.estimate.clone();
+    arm.relative_percent.clone_from(&errors.relative_percent);
+    arm.parameters.truncate(found.loaded.parameters.len());
+    let is_own = |name: &String| found.payload().iter().any(|p| p.name == *name);
+    arm.unexcited.retain(|name| !is_own(name));
+    arm.rank = arm.parameters.len() - arm.unexcited.len();
+    arm
+}
+
+/// What the logs tell of the payload.
+fn parameters(found: &Carried) -> Vec<Parameter<'_>> {
+    let own = found.payload().iter().map(|parameter| {
+        let is_told = found.estimate.is_separated(&parameter.name);
+        Parameter {
+            name: &parameter.name,
+            value: is_told.then_some(parameter.value),
+            std: is_told.then_some(parameter.std),
+            interval: None,
+        }
+    });
+    own.collect()
 }
 
 /// The body in a sentence.
