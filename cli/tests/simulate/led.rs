@@ -5,6 +5,7 @@ use robot_model_cli::interpreted::InterpretedPlant;
 
 use crate::common::{compiled, plant, released, resting};
 use crate::coupled::BELT;
+use crate::differences::{State, differences};
 
 /// A double pendulum in a gravity, with motors, and effects of its own.
 fn pendulum(gravity: &str, definitions: &str, effects: &str) -> InterpretedPlant {
@@ -20,7 +21,13 @@ fn pendulum(gravity: &str, definitions: &str, effects: &str) -> InterpretedPlant
             effects {{ motor_inertia on all; {effects} }}
         }}"
     );
-    let more = [("motor_inertia.ia", 0.1), ("push.f", 50.0)];
+    let more = [
+        ("motor_inertia.ia", 0.1),
+        ("push.f", 50.0),
+        ("cling.g", 0.001),
+        ("dahl.fc", 0.7),
+        ("dahl.d", 0.05),
+    ];
     plant(compiled(&text).ungrouped(), &more)
 }
 
@@ -101,5 +108,35 @@ fn a_link_that_the_next_joints_belt_leads_stays_where_it_leads() {
         let q = moving.q();
         let (led, bent) = (q[2] - q[0], q[3] - q[1]);
         assert!((led + bent).abs() < 1e-3, "{step}: {led} {bent}");
+    }
+}
+
+#[test]
+fn slopes_of_teeth_of_led_links_are_those_of_differences() {
+    let laws = format!(
+        "{BELT}
+        effect lead(j) {{ position(j) = 0.02 * dq(j) + 0.1 * q(j); }}
+        effect cling(j) {{ linear g; torque(j) = g * rigid_torque(j)^2; }}"
+    );
+    // Links are near where they are led.
+    for (effects, links) in [
+        (
+            "soft_belt(stiffness = 900) on (upper, lower);",
+            &[0.301, -0.401_001][..],
+        ),
+        ("lead on lower;", &[-0.441_801]),
+    ] {
+        let effects = format!("cling on all; dahl on lower; {effects}");
+        let mut arm = pendulum("0, -9.81, 0", &laws, &effects);
+        let dof = 2 + links.len();
+        assert_eq!(arm.dof(), dof);
+        let state: State = [
+            [&[0.3, -0.4], links].concat(),
+            vec![0.07, -0.09, 0.04, 0.02][..dof].to_vec(),
+            vec![1.1, 2.3, -0.6, 0.9][..dof].to_vec(),
+            vec![0.03],
+        ];
+        let [_, dq, ..] = differences(&mut arm, &state);
+        assert!(dq[(1, dof - 1)].abs() > 1.0, "teeth are damped: {dq}");
     }
 }
