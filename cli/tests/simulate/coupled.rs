@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{Instant, Plant};
 use robot_model_cli::interpreted::InterpretedPlant;
 
-use crate::common::{compiled, plant, released, resting};
+use crate::common::{compiled, pendulum_with, plant, released, resting};
 use crate::differences::{State, differences};
 
 /// Masses of motors, and of the links that each joint moves, kg.
@@ -223,20 +223,6 @@ fn slopes_of_coupled_springs_are_those_of_differences() {
         position(k) = b * rigid_torque(j)^2 - c * (rigid_torque(k) + rigid_torque(k)^3);
     }
     effect sag(j, k) { position(k) = -0.004 * rigid_torque(k) + 0.01 * rigid_torque(j); }";
-    let text = |effects: &str| {
-        format!(
-            "{laws}
-            robot Pendulum {{
-                gravity = [0, -9.81, 0];
-                convention = standard_dh;
-                joint upper: revolute {{ a = 0.5; alpha = 0; d = 0; }}
-                joint lower: revolute {{ a = 0.4; alpha = 0; d = 0; }}
-                link upper {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
-                link lower {{ mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
-                effects {{ motor_inertia on all; dahl on lower; load_dependent_friction on all; {effects} }}
-            }}"
-        )
-    };
     let more = [
         ("motor_inertia.ia", 0.1),
         ("dahl.fc", 0.7),
@@ -251,7 +237,10 @@ fn slopes_of_coupled_springs_are_those_of_differences() {
         ("frame on (upper, lower);", 4),
         ("sag on (upper, lower);", 3),
     ] {
-        let mut arm = plant(compiled(&text(effects)).ungrouped(), &more);
+        let effects = format!(
+            "motor_inertia on all; dahl on lower; load_dependent_friction on all; {effects}"
+        );
+        let mut arm = plant(pendulum_with(laws, &effects).ungrouped(), &more);
         assert_eq!(arm.dof(), dof);
         let behind = [0.27, -0.43];
         let q: Vec<f64> = [0.3, -0.4]
