@@ -119,6 +119,38 @@ pub(super) fn beyond_noise(model: &Model, logs: &[Log], rmse: &[f64]) -> Option<
     })
 }
 
+/// Condition numbers from where on noise of the columns themselves, which no deviation knows of, is in the values.
+const APART: f64 = 3000.0;
+
+/// Rad or m within which a joint hardly moves.
+const HARDLY: f64 = 0.05;
+
+/// Columns that are hardly apart, with the joints that hardly move.
+pub(super) fn hardly_apart(estimate: &Estimate, model: &Model, logs: &[Log]) -> Option<String> {
+    if estimate.condition <= APART {
+        return None;
+    }
+    let joints = model.joints.iter().enumerate();
+    let resting = joints.filter_map(|(k, joint)| {
+        let all = logs.iter().flat_map(|log| log.q[k].iter().copied());
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| {
+            (low.min(q), high.max(q))
+        });
+        (high - low < HARDLY).then_some(joint.name.as_str())
+    });
+    let resting: Vec<&str> = resting.collect();
+    let who = if resting.is_empty() {
+        String::new()
+    } else {
+        format!("; {} hardly moving in these logs", names_are(&resting))
+    };
+    Some(format!(
+        "the columns are hardly apart (condition {:.0}): noise of positions in them, which no deviation knows of, may be most of a value{who}; \
+         `excite` makes a motion that tells them apart",
+        estimate.condition
+    ))
+}
+
 fn names_are(below: &[&str]) -> String {
     let verb = if below.len() == 1 { "is" } else { "are" };
     format!("{} {verb}", names(below))

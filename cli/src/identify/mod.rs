@@ -176,6 +176,9 @@ impl IdentifyArguments {
         if let Some(doubt) = doubts::unexplained(&estimate) {
             progress.note(&format!("note: {doubt}"));
         }
+        if let Some(doubt) = doubts::hardly_apart(&estimate, form.model(), &logs) {
+            progress.note(&format!("note: {doubt}"));
+        }
         drop(progress);
 
         if let Some(file) = json {

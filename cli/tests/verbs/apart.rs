@@ -1,5 +1,7 @@
 //! What logs tell of parameters that they do not tell apart, which parameters matter, and intervals without a formula.
 
+use std::fmt::Write;
+
 use crate::common::{CART, Folder, cart_log, json, numbers};
 
 /// A cart whose spec has friction that is another one's where its log is, and one that this never reaches.
@@ -137,4 +139,55 @@ fn parameters_that_are_not_told_from_zero_are_not_essential() {
     );
     assert!(numbers(alone)[0] < 1.01 * numbers(all)[0]);
     assert!(table.contains("essential: "), "{table}");
+}
+
+/// Two of three joints are held, and move by what their controllers let go: friction comes out far beyond its deviation.
+#[test]
+fn joints_that_hardly_move_are_told() {
+    let folder = Folder::new();
+    let arm = "robot A {
+        gravity = [0, 0, -9.81];
+        convention = standard_dh;
+        joint j1: revolute { a = 0; alpha = 90 deg; d = 0.4; }
+        joint j2: revolute { a = 0.5; alpha = 0; d = 0; }
+        joint j3: revolute { a = 0.3; alpha = 90 deg; d = 0.1; }
+        link j1 { mass = 5; com = [0, -0.1, 0.02]; inertia = [0.05, 0, 0, 0.04, 0, 0.05]; }
+        link j2 { mass = 3; com = [-0.25, 0, 0.05]; inertia = [0.01, 0, 0, 0.07, 0, 0.07]; }
+        link j3 { mass = 2; com = [-0.1, 0.02, 0.05]; inertia = [0.01, 0, 0, 0.02, 0, 0.02]; }
+        effects { viscous_friction on all; coulomb_friction on all; }
+    }";
+    folder.write("arm.robot", arm);
+    let names = ["viscous_friction.fv", "coulomb_friction.fc"];
+    let joints = [1, 2, 3].map(|joint| names.map(|name| format!("\"j{joint}.{name}\": 0.5")));
+    folder.write(
+        "values.json",
+        &format!("{{{}}}", joints.concat().join(", ")),
+    );
+    let said = |others: &dyn Fn(f64) -> [f64; 2]| {
+        let mut wanted = String::from("time,q1,q2,q3\n");
+        for k in 0..=2000 {
+            let t = f64::from(k) / 200.0;
+            let first = 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
+            let [second, third] = others(t);
+            writeln!(wanted, "{t},{first},{second},{third}").expect("a string takes all");
+        }
+        folder.write("wanted.csv", &wanted);
+        let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+        let more = ["--parameters", "values.json", "--encoder-bits", "18"];
+        folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &more].concat());
+        let run = folder.run(&["identify", "arm.robot", "log.csv"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    let held = said(&|_| [-0.5, 0.3]);
+    assert!(held.contains("hardly apart (condition "), "{held}");
+    assert!(
+        held.contains("`j2`, `j3` are hardly moving in these logs"),
+        "{held}"
+    );
+    let moving = said(&|t| {
+        let second = 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos();
+        [second, 0.6 * (1.7 * t + 0.4).sin() + 0.2 * (4.7 * t).cos()]
+    });
+    assert!(!moving.contains("hardly"), "{moving}");
 }
