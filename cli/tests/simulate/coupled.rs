@@ -122,8 +122,8 @@ fn a_belt_takes_the_next_joint_along() {
         let moved = second / (other + second) * (x + bent);
         let [qx, qy, lx, ly] = [0, 1, 2, 3].map(|j| arm.q()[j]);
         assert!((lx - qx - x).abs() < 1e-6, "{time}: {} {x}", lx - qx);
-        assert!((ly - qy + x).abs() < 5e-5, "{time}: {} {x}", ly - qy);
-        assert!((qy - moved).abs() < 5e-5, "{time}: {qy} {moved}");
+        assert!((ly - qy + x).abs() < 5e-6, "{time}: {} {x}", ly - qy);
+        assert!((qy - moved).abs() < 5e-6, "{time}: {qy} {moved}");
     }
 }
 

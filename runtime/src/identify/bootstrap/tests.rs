@@ -4,7 +4,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::*;
 use crate::columns::Unknown;
-use crate::identify::{Identify, JointRows, Stack};
+use crate::identify::{Identify, JointRows, Method, Stack, robust};
 
 /// `tau = 2 x + 3 y + noise`, with noise over so many rows alike.
 fn stack(seed: u64, slow: f64) -> Stack {
@@ -110,5 +110,30 @@ fn what_few_blocks_tell_has_no_interval() {
     assert!(
         matches!(error, IdentifyError::FewDraws { draws: 200, .. }),
         "{error}"
+    );
+}
+
+/// Where residuals are cut off, an estimate answers to the others alone: intervals are as wide as estimates spread.
+#[test]
+fn intervals_of_robust_estimates_are_as_wide_as_these_spread() {
+    const LOGS: u64 = 60;
+    let identify = Identify {
+        method: Method::Robust,
+        ..Identify::default()
+    };
+    let (mut width, mut squares) = (0.0, 0.0);
+    for seed in 0..LOGS {
+        let stack = stack(seed, 0.5);
+        let solution = identify.solve_stack(&stack).expect("enough");
+        let weights = robust::weights(&stack, &solution.estimate);
+        let found = intervals(&stack, &solution, &weights, 200).expect("long enough");
+        let [low, high] = found.intervals[0].expect("excited");
+        width += (high - low) / (2.0 * 1.96);
+        squares += (solution.estimate[0] - 2.0).powi(2);
+    }
+    let told_over_spread = width / LOGS as f64 / (squares / LOGS as f64).sqrt();
+    assert!(
+        (0.85..1.2).contains(&told_over_spread),
+        "{told_over_spread}"
     );
 }

@@ -187,6 +187,15 @@ impl<P: Adjustable + Clone> Problem<'_, P> {
         let root = |sum: f64| (sum / samples.max(1) as f64).sqrt();
         sums.into_iter().map(root).collect()
     }
+
+    /// What joints are weighed by: their errors, but none by less than a share of the largest, so that one that is exact does not drown the
+    /// others.
+    fn scales(&self, runs: &[Run]) -> Vec<f64> {
+        let spread = self.spread(runs);
+        let largest = spread.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        let scales = spread.into_iter();
+        scales.map(|scale| scale.max(1e-3 * largest)).collect()
+    }
 }
 
 impl OutputError {
@@ -235,12 +244,7 @@ impl OutputError {
                 );
                 let found = found.map_err(|(k, error)| no_start(&problem, k, error))?;
                 if joints > 1 {
-                    scale = problem.spread(&found.0);
-                    let largest = scale.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-                    // One that is exact does not drown the others.
-                    for scale in &mut scale {
-                        *scale = scale.max(1e-3 * largest);
-                    }
+                    scale = problem.scales(&found.0);
                 }
                 last = Some(found);
             }

@@ -52,15 +52,7 @@ impl OutputError {
             let bounds = self.bounds_of(start.len());
             let mut iterates = Vec::new();
             let found = problem.run(&place, false).and_then(|runs| {
-                problem.scale = problem.spread(&runs);
-                let least = problem
-                    .scale
-                    .iter()
-                    .copied()
-                    .fold(f64::MIN_POSITIVE, f64::max);
-                for scale in &mut problem.scale {
-                    *scale = scale.max(1e-3 * least);
-                }
+                problem.scale = problem.scales(&runs);
                 search::search(
                     self.search,
                     &mut problem,
