@@ -76,7 +76,7 @@ impl Dissect {
         let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let progress = Progress::new();
-        let log = read_log(&self.log, compiled.dof(), &progress)?;
+        let log = read_log(&self.log, &compiled.model, &progress)?;
         drop(progress);
 
         let free = compiled.free_shapes();

@@ -85,8 +85,7 @@ impl Merge {
         let validation = match &self.validate {
             None => None,
             Some(path) => {
-                let dof = arm.compiled().dof();
-                let mended = read_mended(path, dof, &progress)?;
+                let mended = read_mended(path, &arm.compiled().model, &progress)?;
                 let source = path.display().to_string();
                 let found = mended.faults.into_iter();
                 faults.extend(found.map(|fault| (source.clone(), fault)));

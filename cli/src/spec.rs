@@ -3,10 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use robot_model::log::{Log, Mended};
+use robot_model::log::{Column, Columns, Log, Mended};
 use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
+use robot_model_spec::model::LogColumn;
 
 use crate::parameters::no_body;
 use crate::progress::Progress;
@@ -75,9 +76,41 @@ fn doubt(compiled: &Compiled) -> String {
     format!("{}: {}", compiled.model.source, compiled.base.rank)
 }
 
+/// Where logs of the robot have their channels.
+pub(crate) fn log_columns(model: &Model) -> Columns {
+    let column = |own: &LogColumn| Column {
+        name: own.name.clone(),
+        unit: own.unit,
+    };
+    let log = &model.log;
+    let mut columns = Columns::standard(model.joints.len());
+    if let Some(time) = &log.time {
+        columns.time = column(time);
+    }
+    let families = [
+        (&mut columns.q, &log.q),
+        (&mut columns.dq, &log.dq),
+        (&mut columns.tau, &log.tau),
+    ];
+    for (standard, own) in families {
+        if !own.is_empty() {
+            *standard = own.iter().map(column).collect();
+        }
+    }
+    let inputs = log.inputs.iter();
+    columns.extra = inputs
+        .map(|(name, own)| (name.clone(), column(own)))
+        .collect();
+    columns
+}
+
 /// Reads a log to identify from: without spikes, with holes where it stood still, and says what is wrong with it.
-pub(crate) fn read_mended(path: &Path, dof: usize, progress: &Progress) -> Result<Mended, Error> {
-    let log = read_log(path, dof, progress)?;
+pub(crate) fn read_mended(
+    path: &Path,
+    model: &Model,
+    progress: &Progress,
+) -> Result<Mended, Error> {
+    let log = read_log(path, model, progress)?;
     let source = log.source.clone();
     let mended = log.mended();
     for fault in &mended.faults {
@@ -86,10 +119,10 @@ pub(crate) fn read_mended(path: &Path, dof: usize, progress: &Progress) -> Resul
     Ok(mended)
 }
 
-/// Reads a log of an arm with `dof` joints, and says what is remarkable about it.
-pub(crate) fn read_log(path: &Path, dof: usize, progress: &Progress) -> Result<Log, Error> {
+/// Reads a log of a robot, and says what is remarkable about it.
+pub(crate) fn read_log(path: &Path, model: &Model, progress: &Progress) -> Result<Log, Error> {
     progress.step(&format!("reading {}", path.display()));
-    let log = Log::read(path, dof)?;
+    let log = Log::read_as(path, &log_columns(model))?;
     for note in &log.report {
         progress.note(&format!("note: {}: {note}", log.source));
     }

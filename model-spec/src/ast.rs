@@ -3,10 +3,15 @@
 //! Nothing here is known to make sense: keys may be misspelt, names unresolved, values of the wrong dimension. Every type
 //! can be built by hand and parsed with `syn`, so that a derive makes the same tree from attributes.
 
+mod expr;
+mod log;
+
 use proc_macro2::Span;
 use syn::Ident;
 
 pub use crate::model::BinaryOp;
+pub use expr::{Condition, Expr, ExprKind, Unit};
+pub use log::{LogBlock, LogChannel, LogColumn};
 
 /// A whole file: robots and effect definitions in the order of the text.
 #[derive(Debug, Clone, Default)]
@@ -32,6 +37,8 @@ pub struct Robot {
     pub energies: Energies,
     /// `effects { .. }`; at most one is allowed.
     pub effects: Vec<Effects>,
+    /// `log { .. }`; at most one is allowed.
+    pub logs: Vec<LogBlock>,
     /// The closing brace.
     pub close: Span,
 }
@@ -305,52 +312,6 @@ pub enum ActKind {
     Delay,
 }
 
-/// An expression with its place in the text.
-#[derive(Debug, Clone)]
-pub struct Expr {
-    /// What it is.
-    pub kind: ExprKind,
-    /// All of it.
-    pub span: Span,
-}
-
-/// The forms of an expression.
-#[derive(Debug, Clone)]
-pub enum ExprKind {
-    /// `90 deg`, `3 m^2`, `0.3`
-    Number(f64, Option<Unit>),
-    /// A parameter, `pi`, `time`, a unit, a word.
-    Name(Ident),
-    /// `f(x)`
-    Call(Ident, Vec<Expr>),
-    /// `-x`
-    Neg(Box<Expr>),
-    /// `x op y`
-    Binary(BinaryOp, Box<Expr>, Box<Expr>),
-    /// `if c { x } else { y }`
-    Choice(Box<Condition>, Box<Expr>, Box<Expr>),
-}
-
-/// `deg`, `m^2`: behind a number, and part of it.
-#[derive(Debug, Clone)]
-pub struct Unit {
-    /// Its name.
-    pub name: Ident,
-    /// Its power.
-    pub exponent: i32,
-}
-
-/// `greater > smaller`, or `greater >= smaller`; `x < y` is `y > x`.
-#[derive(Debug, Clone)]
-pub struct Condition {
-    /// `>=` or `<=`.
-    pub or_equal: bool,
-    /// What has to be larger.
-    pub greater: Expr,
-    /// Than this.
-    pub smaller: Expr,
-}
-
 impl ActKind {
     /// All of them with their words.
     pub const ALL: [(&'static str, Self); 5] = [
@@ -383,21 +344,4 @@ impl Value {
 /// From the start of one span to the end of another; the first where the compiler cannot join them.
 pub(crate) fn join(first: Span, last: Span) -> Span {
     first.join(last).unwrap_or(first)
-}
-
-impl Expr {
-    /// The part of the expression that a path of operands leads to, the whole where the path is empty.
-    #[must_use]
-    pub(crate) fn at(&self, path: &[usize]) -> &Self {
-        let [first, rest @ ..] = path else {
-            return self;
-        };
-        let operand = match (&self.kind, first) {
-            (ExprKind::Neg(x) | ExprKind::Binary(_, x, _), 0) => Some(&**x),
-            (ExprKind::Binary(_, _, y), 1) => Some(&**y),
-            (ExprKind::Call(_, arguments), k) => arguments.get(*k),
-            _ => None,
-        };
-        operand.map_or(self, |operand| operand.at(rest))
-    }
 }

@@ -6,6 +6,7 @@
 
 mod effect;
 mod expr;
+mod log;
 mod monomial;
 
 use std::sync::Arc;
@@ -15,6 +16,7 @@ pub use effect::{
     EffectTorque, LinearParameter, ShapeParameter, Signal,
 };
 pub use expr::{BinaryOp, Choice, Expr, Function};
+pub use log::{LogColumn, LogColumns};
 
 /// A robot: its coordinates, what moves with them, and the effects it declares.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +34,8 @@ pub struct Model {
     pub effects: Vec<Effect>,
     /// Every effect that this spec may declare: the standard ones by name, then its own in the order of the spec.
     pub definitions: Vec<Arc<EffectDefinition>>,
+    /// Where logs have their channels.
+    pub log: LogColumns,
 }
 
 /// How the rigid body is described.

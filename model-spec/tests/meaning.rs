@@ -251,6 +251,7 @@ fn a_derive_builds_the_same_tree_from_tokens() {
         }],
         links: vec![],
         energies: ast::Energies::default(),
+        logs: vec![],
         effects: vec![ast::Effects {
             keyword: word("effects").span(),
             declared: vec![
@@ -321,4 +322,55 @@ fn shapes_that_are_given_may_lie_outside_of_the_search() {
         model.effects[0].shapes,
         [Some(0.27), Some(0.838), Some(2.43)]
     );
+}
+
+/// Columns of logs: joints in order, units in SI, currents with a gain per ampere, inputs of the arm and of joints.
+#[test]
+fn a_log_says_where_its_channels_are() {
+    let text = r#"
+effect hot(j) { input motor_temperature(j); input room; linear a; torque(j) = a * (motor_temperature(j) - room); }
+robot Arm {
+    gravity = [0, 0, -9.81];
+    convention = standard_dh;
+    joint waist: revolute { a = 0; alpha = 90 deg; d = 0; actuator_gain = 250 mm*N/A; }
+    joint slide: prismatic { a = 0; alpha = 0; theta = 0; }
+    log {
+        time = "stamp": ms;
+        q = "pos.0": -360 deg/4096, " x ": mm;
+        dq = "rate": rpm, "v";
+        tau = "i0": mA, "f": kN;
+        motor_temperature = "t0", "t1": 0.1;
+        room = "t room";
+    }
+    effects { hot on all; }
+}"#;
+    let model = load("arm.robot", text).unwrap_or_else(|errors| panic!("{errors}"));
+    let said = |columns: &[robot_model_spec::model::LogColumn]| -> Vec<(String, f64)> {
+        columns
+            .iter()
+            .map(|own| (own.name.clone(), own.unit))
+            .collect()
+    };
+    let named = |pairs: &[(&str, f64)]| -> Vec<(String, f64)> {
+        pairs
+            .iter()
+            .map(|(name, unit)| ((*name).to_owned(), *unit))
+            .collect()
+    };
+    let log = &model.log;
+    let time = log.time.clone().expect("a time");
+    assert_eq!(said(&[time]), named(&[("stamp", 1e-3)]));
+    let count = std::f64::consts::TAU / 4096.0;
+    assert_eq!(said(&log.q), named(&[("pos.0", -count), ("x", 1e-3)]));
+    let rpm = std::f64::consts::TAU / 60.0;
+    assert_eq!(said(&log.dq), named(&[("rate", rpm), ("v", 1.0)]));
+    assert_eq!(said(&log.tau), named(&[("i0", 1e-3), ("f", 1e3)]));
+    let inputs: Vec<&str> = log.inputs.iter().map(|(name, _)| name.as_str()).collect();
+    assert_eq!(inputs, ["motor_temperature1", "motor_temperature2", "room"]);
+    let columns: Vec<_> = log.inputs.iter().map(|(_, own)| own.clone()).collect();
+    assert_eq!(
+        said(&columns),
+        named(&[("t0", 1.0), ("t1", 0.1), ("t room", 1.0)])
+    );
+    assert!((model.joints[0].actuator_gain - 0.25).abs() < 1e-15);
 }

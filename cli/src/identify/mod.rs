@@ -271,9 +271,9 @@ impl IdentifyArguments {
         progress: &Progress,
     ) -> Result<Log, Error> {
         if self.as_logged {
-            return read_log(path, form.dof(), progress);
+            return read_log(path, form.model(), progress);
         }
-        let mended = read_mended(path, form.dof(), progress)?;
+        let mended = read_mended(path, form.model(), progress)?;
         for doubt in doubts::far_positions(form.model(), &mended.log) {
             progress.note(&format!("note: {}: {doubt}", path.display()));
         }

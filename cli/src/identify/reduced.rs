@@ -11,6 +11,7 @@ use serde_json::Value;
 use super::fit::{ByAcceleration, Fit, mean_errors};
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
+use crate::spec::log_columns;
 use crate::{Error, json};
 
 /// Rows of a log in memory at a time, half of them at least.
@@ -154,7 +155,7 @@ impl Streams<'_> {
     }
 
     fn bands(&self, identify: &Identify, path: &Path) -> Result<Bands, Error> {
-        let mut pieces = Log::pieces(path, self.form.dof(), PIECE, 0.0)?;
+        let mut pieces = Log::pieces(path, &log_columns(self.form.model()), PIECE, 0.0)?;
         let first = pieces.next();
         let first = first.ok_or(robot_model::identify::IdentifyError::NoLog)??;
         Ok(identify.bands_of(&self.form.0, &first)?)
@@ -168,11 +169,16 @@ impl Streams<'_> {
         progress: &Progress,
         mut visit: impl FnMut(&Log, Vec<Fault>) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let dof = self.form.dof();
+        let columns = log_columns(self.form.model());
         // Filters cut one period of the band from either end.
         let overlap = 2.0 / bands.shared_hz;
-        for piece in Log::pieces(path, dof, PIECE, overlap)? {
+        for (k, piece) in Log::pieces(path, &columns, PIECE, overlap)?.enumerate() {
             let piece = piece?;
+            if k == 0 {
+                for note in &piece.report {
+                    progress.note(&format!("note: {}: {note}", path.display()));
+                }
+            }
             progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
             if self.as_logged {
                 visit(&piece, Vec::new())?;

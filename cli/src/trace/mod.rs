@@ -46,7 +46,7 @@ pub(crate) struct TraceArguments {
 impl TraceArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let text = read_text(&self.spec)?;
-        let dof = load(&self.spec)?.joints.len();
+        let model = load(&self.spec)?;
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
@@ -56,7 +56,7 @@ impl TraceArguments {
         let json = files.claim_if(self.json.as_deref())?;
 
         let progress = Progress::new();
-        let read = |path: &Path| read_log(path, dof, &progress);
+        let read = |path: &Path| read_log(path, &model, &progress);
         let logs = self
             .logs
             .iter()

@@ -3,6 +3,7 @@
 mod apart;
 mod audit;
 mod c;
+mod columns;
 mod common;
 mod dissect;
 mod energies;

@@ -145,7 +145,7 @@ fn check_joint(
         }),
         frame: written(joint),
         limits: check_limits(&settings, kind, errors),
-        actuator_gain: check_gain(&settings, errors),
+        actuator_gain: check_gain(&settings, kind, errors),
         link: check_link_name(joint, &settings, errors),
         line: joint.name.span().start().line,
     }
@@ -179,21 +179,17 @@ pub(super) fn coordinate_dimension(kind: JointKind) -> Dimension {
 }
 
 pub(super) fn check_limits(settings: &Settings, kind: JointKind, errors: &mut Errors) -> Limits {
-    let (speed, acceleration, torque) = match kind {
-        JointKind::Revolute => (
-            Dimension::ANGULAR_SPEED,
-            Dimension::ANGULAR_ACCELERATION,
-            Dimension::TORQUE,
-        ),
-        JointKind::Prismatic => (Dimension::SPEED, Dimension::ACCELERATION, Dimension::FORCE),
+    let acceleration = match kind {
+        JointKind::Revolute => Dimension::ANGULAR_ACCELERATION,
+        JointKind::Prismatic => Dimension::ACCELERATION,
     };
     let mut magnitude = |key, dimension| {
         let value = settings.get(key);
         optional(value, |v| positive(v, dimension), errors)
     };
-    let velocity = magnitude("velocity", speed);
+    let velocity = magnitude("velocity", speed_dimension(kind));
     let acceleration = magnitude("acceleration", acceleration);
-    let torque = magnitude("torque", torque);
+    let torque = magnitude("torque", torque_dimension(kind));
     Limits {
         position: optional(
             settings.get("position"),
@@ -217,22 +213,58 @@ fn positive(value: &Value, dimension: Dimension) -> Result<f64, Diagnostic> {
     )
 }
 
-pub(super) fn check_gain(settings: &Settings, errors: &mut Errors) -> f64 {
+pub(super) fn check_gain(settings: &Settings, kind: JointKind, errors: &mut Errors) -> f64 {
     let gain = |v: &Value| {
-        let gain = value::any_scalar(v)?;
-        if gain != 0.0 {
-            return Ok(gain);
+        let gain = value::quantity(v)?;
+        if gain.value.abs() == 0.0 {
+            return Err(Diagnostic::new(
+                v.span(),
+                "an actuator gain of zero",
+                "the log would tell nothing",
+            )
+            .help("write the joint torque per unit of the logged channel; 1 where the log holds torques"));
         }
-        Err(Diagnostic::new(
-            v.span(),
-            "an actuator gain of zero",
-            "the log would tell nothing",
-        )
-        .help(
-            "write the joint torque per unit of the logged channel; 1 where the log holds torques",
-        ))
+        let torque = torque_dimension(kind);
+        let known = [torque, torque.times(Dimension::CURRENT, -1)];
+        match gain.dimension {
+            Some(found) if !known.contains(&found) => Err(Diagnostic::new(
+                v.span(),
+                format!("an actuator gain cannot be {}", found.describe()),
+                "joint torque per unit of the logged channel",
+            )
+            .help(format!(
+                "write a plain number, or {} per ampere: `0.1 {}/A`",
+                torque.describe(),
+                torque_unit(kind)
+            ))),
+            _ => Ok(gain.value),
+        }
     };
     optional(settings.get("actuator_gain"), gain, errors).unwrap_or(1.0)
+}
+
+/// Dimension of what drives the joint.
+pub(super) fn torque_dimension(kind: JointKind) -> Dimension {
+    match kind {
+        JointKind::Revolute => Dimension::TORQUE,
+        JointKind::Prismatic => Dimension::FORCE,
+    }
+}
+
+/// Unit of what drives the joint, as it is written.
+pub(super) fn torque_unit(kind: JointKind) -> &'static str {
+    match kind {
+        JointKind::Revolute => "Nm",
+        JointKind::Prismatic => "N",
+    }
+}
+
+/// Dimension of the joint's speed.
+pub(super) fn speed_dimension(kind: JointKind) -> Dimension {
+    match kind {
+        JointKind::Revolute => Dimension::ANGULAR_SPEED,
+        JointKind::Prismatic => Dimension::SPEED,
+    }
 }
 
 fn check_link_name(joint: &ast::Joint, settings: &Settings, errors: &mut Errors) -> Ident {

@@ -11,6 +11,7 @@ mod energies;
 mod frame;
 mod linear;
 mod link;
+mod log;
 mod resolve;
 mod setting;
 mod unit;
@@ -65,6 +66,10 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
     else {
         return Err(errors);
     };
+    let log = log::check_log(robot, &joints, &definitions.sound, &mut errors);
+    if !errors.is_empty() {
+        return Err(errors);
+    }
     let source = source
         .rsplit(['/', '\\'])
         .next()
@@ -77,6 +82,7 @@ pub fn check(ast: &Ast, source: &str) -> Result<Model, Vec<Diagnostic>> {
         body,
         effects,
         definitions: definitions.sound,
+        log,
     })
 }
 

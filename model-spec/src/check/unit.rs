@@ -1,12 +1,13 @@
 //! Units and dimensions: the table of units, and what a quantity is called in messages.
 
-/// Exponents of kg, m, s and rad. An angle is a dimension of its own: `alpha = 3 mm` and `a = 3 deg` are mistakes.
+/// Exponents of kg, m, s, rad and A. An angle is a dimension of its own: `alpha = 3 mm` and `a = 3 deg` are mistakes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Dimension {
     pub(super) mass: i32,
     pub(super) length: i32,
     pub(super) time: i32,
     pub(super) angle: i32,
+    pub(super) current: i32,
 }
 
 impl Dimension {
@@ -21,7 +22,11 @@ impl Dimension {
     pub(super) const ANGULAR_ACCELERATION: Self = Self::of(0, 0, -2, 1);
     pub(super) const FORCE: Self = Self::of(1, 1, -2, 0);
     pub(super) const TORQUE: Self = Self::of(1, 2, -2, 0);
-    const TIME: Self = Self::of(0, 0, 1, 0);
+    pub(super) const TIME: Self = Self::of(0, 0, 1, 0);
+    pub(super) const CURRENT: Self = Self {
+        current: 1,
+        ..Self::NONE
+    };
 
     const fn of(mass: i32, length: i32, time: i32, angle: i32) -> Self {
         Self {
@@ -29,6 +34,7 @@ impl Dimension {
             length,
             time,
             angle,
+            current: 0,
         }
     }
 
@@ -40,6 +46,7 @@ impl Dimension {
             length: add(self.length, other.length),
             time: add(self.time, other.time),
             angle: add(self.angle, other.angle),
+            current: add(self.current, other.current),
         }
     }
 
@@ -70,6 +77,7 @@ impl Dimension {
             ("m", self.length),
             ("s", self.time),
             ("rad", self.angle),
+            ("A", self.current),
         ];
         let text: Vec<String> = factors
             .into_iter()
@@ -95,7 +103,7 @@ impl Dimension {
 }
 
 /// Dimension, name, how to write it.
-const NAMES: [(Dimension, &str, &str); 12] = [
+const NAMES: [(Dimension, &str, &str); 13] = [
     (Dimension::NONE, "a plain number", "no unit"),
     (Dimension::ANGLE, "an angle", "`rad` or `deg`"),
     (Dimension::LENGTH, "a length", "`m`, `cm` or `mm`"),
@@ -116,10 +124,11 @@ const NAMES: [(Dimension, &str, &str); 12] = [
     ),
     (Dimension::FORCE, "a force", "`N`"),
     (Dimension::TORQUE, "a torque", "`Nm`"),
+    (Dimension::CURRENT, "a current", "`A` or `mA`"),
 ];
 
 /// Name, factor to SI, dimension.
-pub(super) const UNITS: [(&str, f64, Dimension); 17] = [
+pub(super) const UNITS: [(&str, f64, Dimension); 21] = [
     ("rad", 1.0, Dimension::ANGLE),
     ("deg", std::f64::consts::PI / 180.0, Dimension::ANGLE),
     ("rev", std::f64::consts::TAU, Dimension::ANGLE),
@@ -131,6 +140,8 @@ pub(super) const UNITS: [(&str, f64, Dimension); 17] = [
     ("g", 1e-3, Dimension::MASS),
     ("s", 1.0, Dimension::TIME),
     ("ms", 1e-3, Dimension::TIME),
+    ("us", 1e-6, Dimension::TIME),
+    ("ns", 1e-9, Dimension::TIME),
     ("min", 60.0, Dimension::TIME),
     ("N", 1.0, Dimension::FORCE),
     ("kN", 1e3, Dimension::FORCE),
@@ -141,6 +152,8 @@ pub(super) const UNITS: [(&str, f64, Dimension); 17] = [
         std::f64::consts::TAU / 60.0,
         Dimension::ANGULAR_SPEED,
     ),
+    ("A", 1.0, Dimension::CURRENT),
+    ("mA", 1e-3, Dimension::CURRENT),
 ];
 
 /// The unit of that name.

@@ -36,7 +36,12 @@ pub(super) fn scalar(value: &Value, expected: Dimension) -> Checked<f64> {
 
 /// One number of any dimension.
 pub(super) fn any_scalar(value: &Value) -> Checked<f64> {
-    Ok(constant(single(value)?)?.value)
+    Ok(quantity(value)?.value)
+}
+
+/// One number with its dimension.
+pub(super) fn quantity(value: &Value) -> Checked<Quantity> {
+    constant(single(value)?)
 }
 
 fn single(value: &Value) -> Checked<&Expr> {
@@ -116,7 +121,8 @@ fn shape_of(span: Span, expected: &str, found: &str) -> Diagnostic {
         .help(format!("write {expected}"))
 }
 
-fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
+/// The number of the expected dimension that an expression is.
+pub(super) fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
     let quantity = constant(expr)?;
     match quantity.dimension {
         Some(found) if found != expected => Err(Diagnostic::new(

@@ -7,6 +7,7 @@ mod brackets;
 mod effect;
 mod energies;
 mod expr;
+mod log;
 mod robot;
 
 use std::str::FromStr;

@@ -3,7 +3,7 @@
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
-use super::{Sink, block, doc_comment, energies, semicolon, statements, with_sink, word};
+use super::{Sink, block, doc_comment, energies, log, semicolon, statements, with_sink, word};
 use crate::ast::{
     DeclaredEffect, Effects, Energies, Expr, Joint, Limits, Link, Robot, Setting, Target, Targets,
     Value, join,
@@ -20,6 +20,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
         links: vec![],
         energies: Energies::default(),
         effects: vec![],
+        logs: vec![],
         close,
     };
     statements(&content, errors, |input, errors| {
@@ -38,6 +39,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
             "joint" => robot.joints.push(joint(input, errors)?),
             "link" => robot.links.push(link(input, errors)?),
             "effects" => robot.effects.push(effects(input, &keyword, errors)?),
+            "log" => robot.logs.push(log::log(input, &keyword, errors)?),
             "limits" => robot.energies.limits.push(limits(input, errors)?),
             "coordinates" | "parameters" | "constants" | "point" => {
                 energies::statement(input, &keyword.to_string(), &doc, &mut robot.energies)?;
@@ -57,7 +59,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
                     keyword.span(),
                     &format!("a robot has no `{keyword}`"),
                     Some(
-                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }` or `effects { .. }`; or say its energies: `coordinates ..;`, `parameters ..;`, `constants ..;`, `let ..;`, `kinetic = ..;`, `potential = ..;`",
+                        "write `gravity = ..;`, `convention = ..;`, `joint name: kind { .. }`, `link name { .. }`, `effects { .. }` or `log { .. }`; or say its energies: `coordinates ..;`, `parameters ..;`, `constants ..;`, `let ..;`, `kinetic = ..;`, `potential = ..;`",
                     ),
                 ));
             }

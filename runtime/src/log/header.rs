@@ -3,79 +3,84 @@
 //! A name outside the families `time`, `q`, `dq`, `tau` is an extra channel. A name that is nearly of a family is an error:
 //! a misspelled torque that is silently set aside costs an afternoon.
 
-use super::LogError;
+use super::{Column, Columns, LogError};
 
 /// Families of one channel a joint.
 const FAMILIES: [&str; 3] = ["q", "dq", "tau"];
 
-/// Column indices of each channel.
+/// Where a channel is in a row, and what a one there is worth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub column: usize,
+    pub unit: f64,
+}
+
+/// Places of each channel.
 #[derive(Debug, PartialEq)]
 pub(super) struct Header {
-    pub time: usize,
-    pub q: Vec<usize>,
+    pub time: Place,
+    pub q: Vec<Place>,
     /// Empty where the log has no velocities.
-    pub dq: Vec<usize>,
-    pub tau: Vec<usize>,
-    /// Neither of the above.
-    pub extra: Vec<usize>,
+    pub dq: Vec<Place>,
+    pub tau: Vec<Place>,
+    /// Neither of the above, with their names; those that the arm has names for come first.
+    pub extra: Vec<(String, Place)>,
+    /// The file has the standard columns in place of the arm's own.
+    pub is_standard_instead: bool,
 }
 
 impl Header {
-    /// Finds the channels of an arm with `dof` joints.
-    pub(super) fn resolve(source: &str, names: &[String], dof: usize) -> Result<Self, LogError> {
-        let source_name = || source.to_owned();
-        let mut extra = Vec::new();
-        for (column, name) in names.iter().enumerate() {
-            if name.is_empty() {
-                return Err(LogError::UnnamedColumn {
-                    source_name: source_name(),
-                    column: column + 1,
+    /// Finds the channels. A log that has none of the arm's own names, and all standard ones, comes from a simulation or was
+    /// rewritten already.
+    pub(super) fn resolve(
+        source: &str,
+        names: &[String],
+        columns: &Columns,
+    ) -> Result<Self, LogError> {
+        check_names(source, names)?;
+        let own = columns.own_names();
+        let is_foreign = own.iter().all(|own| !names.iter().any(|name| name == own));
+        if !own.is_empty() && is_foreign {
+            let standard = Columns::standard(columns.dof());
+            if let Ok(header) = Self::find(source, names, &standard) {
+                return Ok(Self {
+                    is_standard_instead: true,
+                    ..header
                 });
-            }
-            if names[..column].contains(name) {
-                return Err(LogError::DuplicateColumn {
-                    source_name: source_name(),
-                    name: name.clone(),
-                });
-            }
-            match classify(name, dof) {
-                Kind::Known => {}
-                Kind::Extra => extra.push(column),
-                Kind::NoSuchJoint => {
-                    return Err(LogError::NoSuchJoint {
-                        source_name: source_name(),
-                        name: name.clone(),
-                        dof,
-                    });
-                }
-                Kind::NearMiss(suggestion) => {
-                    return Err(LogError::Misspelled {
-                        source_name: source_name(),
-                        name: name.clone(),
-                        suggestion,
-                    });
-                }
             }
         }
+        Self::find(source, names, columns)
+    }
+
+    fn find(source: &str, names: &[String], columns: &Columns) -> Result<Self, LogError> {
         let mut missing = Vec::new();
-        let mut find = |name: String| {
-            let place = names.iter().position(|other| *other == name);
-            place.unwrap_or_else(|| {
-                missing.push(name);
-                0
+        let place = |column: &Column| {
+            let place = names.iter().position(|name| *name == column.name)?;
+            Some(Place {
+                column: place,
+                unit: column.unit,
             })
         };
-        let time = find("time".to_owned());
-        let mut family = |family: &str| {
-            (1..=dof)
-                .map(|joint| find(format!("{family}{joint}")))
-                .collect::<Vec<_>>()
+        let mut find = |column: &Column| {
+            place(column).unwrap_or_else(|| {
+                missing.push(column.name.clone());
+                Place {
+                    column: 0,
+                    unit: 1.0,
+                }
+            })
         };
-        let q = family("q");
+        let time = find(&columns.time);
+        let q = columns.q.iter().map(&mut find).collect();
         // Velocities are optional, but not for some joints only.
-        let has_dq = (1..=dof).any(|joint| names.contains(&format!("dq{joint}")));
-        let dq = if has_dq { family("dq") } else { Vec::new() };
-        let tau = family("tau");
+        let has_dq = columns.dq.iter().any(|own| place(own).is_some());
+        let dq = if has_dq { columns.dq.as_slice() } else { &[] };
+        let dq = dq.iter().map(&mut find).collect();
+        let tau = columns.tau.iter().map(&mut find).collect();
+        let of_arm = columns.extra.iter();
+        let of_arm = of_arm.filter_map(|(name, own)| Some((name.clone(), place(own)?)));
+        let mut extra: Vec<(String, Place)> = of_arm.collect();
+        extra.extend(others(source, names, columns)?);
         if missing.is_empty() {
             Ok(Self {
                 time,
@@ -83,15 +88,82 @@ impl Header {
                 dq,
                 tau,
                 extra,
+                is_standard_instead: false,
             })
         } else {
             Err(LogError::MissingColumns {
-                source_name: source_name(),
+                source_name: source.to_owned(),
                 missing,
                 present: names.to_vec(),
             })
         }
     }
+
+    /// Columns that have to hold numbers.
+    pub(super) fn needed(&self) -> impl Iterator<Item = usize> {
+        let of_arm = self.q.iter().chain(&self.dq).chain(&self.tau);
+        let all = std::iter::once(&self.time).chain(of_arm);
+        all.map(|place| place.column)
+    }
+}
+
+/// Every column has a name of its own.
+fn check_names(source: &str, names: &[String]) -> Result<(), LogError> {
+    for (column, name) in names.iter().enumerate() {
+        if name.is_empty() {
+            return Err(LogError::UnnamedColumn {
+                source_name: source.to_owned(),
+                column: column + 1,
+            });
+        }
+        if names[..column].contains(name) {
+            return Err(LogError::DuplicateColumn {
+                source_name: source.to_owned(),
+                name: name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Columns that are no channel of the arm; names that are nearly those of one are refused.
+fn others(
+    source: &str,
+    names: &[String],
+    columns: &Columns,
+) -> Result<Vec<(String, Place)>, LogError> {
+    let source_name = || source.to_owned();
+    let own = columns.own_names();
+    let has_own = |family: &[Column]| family.iter().any(|c| own.contains(&c.name.as_str()));
+    let families = [&columns.q, &columns.dq, &columns.tau];
+    let standard = FAMILIES.into_iter().zip(families);
+    let standard = standard.filter(|(_, columns)| !has_own(columns));
+    let standard: Vec<&str> = standard.map(|(family, _)| family).collect();
+    let time = !own.contains(&columns.time.name.as_str());
+    let mut others = Vec::new();
+    for (column, name) in names.iter().enumerate() {
+        if columns.all().any(|known| known.name == *name) {
+            continue;
+        }
+        match classify(name, columns.dof(), &standard, time) {
+            Kind::Known | Kind::Extra => others.push((name.clone(), Place { column, unit: 1.0 })),
+            Kind::NoSuchJoint => {
+                return Err(LogError::NoSuchJoint {
+                    source_name: source_name(),
+                    name: name.clone(),
+                    dof: columns.dof(),
+                });
+            }
+            Kind::NearMiss(suggestion) => {
+                return Err(LogError::Misspelled {
+                    source_name: source_name(),
+                    name: name.clone(),
+                    suggestion,
+                });
+            }
+        }
+    }
+    Ok(others)
 }
 
 /// What a name may be.
@@ -104,12 +176,13 @@ enum Kind {
     NearMiss(String),
 }
 
-fn classify(name: &str, dof: usize) -> Kind {
-    if name == "time" {
+/// `families`, and `time` where it is true, have their standard names.
+fn classify(name: &str, dof: usize, families: &[&str], time: bool) -> Kind {
+    if time && name == "time" {
         return Kind::Known;
     }
     let (stem, digits) = split(name);
-    if FAMILIES.contains(&stem) && !digits.is_empty() {
+    if families.contains(&stem) && !digits.is_empty() {
         return match digits.parse::<usize>() {
             Ok(joint) if (1..=dof).contains(&joint) && !digits.starts_with('0') => Kind::Known,
             _ => Kind::NoSuchJoint,
@@ -123,9 +196,9 @@ fn classify(name: &str, dof: usize) -> Kind {
         .to_ascii_lowercase();
     let (stem, digits) = split(&plain);
     let meant = if digits.is_empty() {
-        ["time"].into_iter().find(|family| nearly(stem, family))
+        (time && nearly(stem, "time")).then_some("time")
     } else {
-        FAMILIES.into_iter().find(|family| nearly(stem, family))
+        families.iter().copied().find(|family| nearly(stem, family))
     };
     // Measured accelerations are a channel of their own right.
     match meant {
@@ -179,7 +252,7 @@ mod tests {
             "torque1",
             "x",
         ] {
-            assert_eq!(classify(name, 2), Kind::Extra, "{name}");
+            assert_eq!(classify(name, 2, &FAMILIES, true), Kind::Extra, "{name}");
         }
     }
 
@@ -198,7 +271,7 @@ mod tests {
             ("Time", "time"),
         ] {
             assert_eq!(
-                classify(name, 2),
+                classify(name, 2, &FAMILIES, true),
                 Kind::NearMiss(meant.to_owned()),
                 "{name}"
             );
@@ -208,7 +281,11 @@ mod tests {
     #[test]
     fn joints_count_from_one() {
         for name in ["q0", "q3", "dq7", "tau01", "q99999999999999999999999"] {
-            assert_eq!(classify(name, 2), Kind::NoSuchJoint, "{name}");
+            assert_eq!(
+                classify(name, 2, &FAMILIES, true),
+                Kind::NoSuchJoint,
+                "{name}"
+            );
         }
     }
 }

@@ -1,12 +1,16 @@
 //! Measured logs.
 //!
-//! In: CSV text, plain or gzip. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
+//! In: CSV text, plain or gzip, or Parquet. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
+mod columns;
 mod error;
 mod faults;
 mod header;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod pieces;
+mod rows;
 mod table;
 mod uniform;
 
@@ -15,12 +19,13 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
+pub use columns::{Column, Columns};
 pub use error::LogError;
 pub use faults::{Fault, Mended};
 pub use pieces::Pieces;
 
-use header::Header;
-use table::{Rows, Table};
+use header::{Header, Place};
+use rows::{Rows, Table};
 
 /// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
@@ -71,6 +76,13 @@ pub enum Note {
         /// Their names.
         names: Vec<String>,
     },
+    /// Columns that hold something else than numbers, and are left out.
+    NoNumbers {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
+    StandardColumns,
     /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
     Resampled {
         /// Samples as logged.
@@ -92,6 +104,15 @@ impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::ExtraChannels { names } => write!(f, "extra channels: {}", error::list(names)),
+            Self::NoNumbers { names } => write!(
+                f,
+                "columns that hold no numbers are left out: {}",
+                error::list(names)
+            ),
+            Self::StandardColumns => write!(
+                f,
+                "it has none of the columns that the spec's `log` names, but `time`, `q1` and so on: these are read, in SI units"
+            ),
             Self::Resampled {
                 logged,
                 resampled,
@@ -121,7 +142,7 @@ fn milliseconds(seconds: f64) -> String {
 }
 
 impl Log {
-    /// Reads a CSV file, plain or gzip (told by its first bytes, not by its name), of an arm with `dof` joints.
+    /// Reads a CSV file, plain or gzip, or with feature `parquet` a Parquet file (told by its first bytes, not by its name), of an arm with `dof` joints.
     ///
     /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
     /// resampled to the median step by cubic interpolation, which [`Log::report`] tells.
@@ -138,8 +159,18 @@ impl Log {
     /// assert!(error.to_string().starts_with("cannot open log `no-such-log.csv`"));
     /// ```
     pub fn read(path: impl AsRef<Path>, dof: usize) -> Result<Self, LogError> {
+        Self::read_as(path, &Columns::standard(dof))
+    }
+
+    /// Reads a log as [`Log::read`] does, from columns of other names and in other units. A file that has none of them but the
+    /// standard ones is read by those, which [`Log::report`] tells.
+    ///
+    /// # Errors
+    /// As [`Log::read`].
+    pub fn read_as(path: impl AsRef<Path>, columns: &Columns) -> Result<Self, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
-        Self::from_reader(source, file, dof)
+        let rows = Rows::of_file(&source, file)?;
+        Self::from_rows(source, rows, columns)
     }
 
     /// Reads a log as [`Log::read`] does; `source` names it in messages.
@@ -164,37 +195,65 @@ impl Log {
         reader: impl Read,
         dof: usize,
     ) -> Result<Self, LogError> {
-        let source = source.into();
-        let mut rows = Rows::new(&source, reader)?;
-        let header = Header::resolve(&source, &rows.names, dof)?;
-        let mut table = rows.table();
-        rows.fill(&mut table, usize::MAX)?;
-        Self::from_table(source, table, &rows.names, &header)
+        Self::from_reader_as(source, reader, &Columns::standard(dof))
     }
 
-    fn from_table(
-        source: String,
-        table: Table,
-        names: &[String],
-        header: &Header,
+    /// Reads a log as [`Log::read_as`] does; `source` names it in messages.
+    ///
+    /// # Errors
+    /// As [`Log::read`].
+    pub fn from_reader_as(
+        source: impl Into<String>,
+        reader: impl Read,
+        columns: &Columns,
     ) -> Result<Self, LogError> {
+        let source = source.into();
+        let rows = Rows::new(&source, reader)?;
+        Self::from_rows(source, rows, columns)
+    }
+
+    fn from_rows(source: String, mut rows: Rows, columns: &Columns) -> Result<Self, LogError> {
+        let header = Header::resolve(&source, rows.names(), columns)?;
+        let mut table = rows.table(header.needed());
+        rows.fill(&mut table, usize::MAX)?;
+        Self::from_table(source, table, &header)
+    }
+
+    fn from_table(source: String, table: Table, header: &Header) -> Result<Self, LogError> {
         let mut columns = table.columns;
-        let mut take = |column: &usize| std::mem::take(&mut columns[*column]);
+        let mut take = |place: &Place| {
+            let mut values = std::mem::take(&mut columns[place.column]);
+            for value in &mut values {
+                *value *= place.unit;
+            }
+            values
+        };
+        let (numbers, words): (Vec<_>, Vec<_>) = header
+            .extra
+            .iter()
+            .partition(|(_, place)| table.is_number[place.column]);
+        let mut report = Vec::new();
+        if header.is_standard_instead {
+            report.push(Note::StandardColumns);
+        }
+        if !words.is_empty() {
+            let names = words.into_iter().map(|(name, _)| name.clone()).collect();
+            report.push(Note::NoNumbers { names });
+        }
         let log = Self {
             time: take(&header.time),
             q: header.q.iter().map(&mut take).collect(),
             dq: header.dq.iter().map(&mut take).collect(),
             tau: header.tau.iter().map(&mut take).collect(),
-            extra: header
-                .extra
-                .iter()
-                .map(|column| Channel {
-                    name: names[*column].clone(),
-                    values: take(column),
+            extra: numbers
+                .into_iter()
+                .map(|(name, place)| Channel {
+                    name: name.clone(),
+                    values: take(place),
                 })
                 .collect(),
             source,
-            report: Vec::new(),
+            report,
             holes: Vec::new(),
         };
         log.finish(Some(&table.lines))

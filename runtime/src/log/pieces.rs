@@ -5,8 +5,8 @@ use std::io::Read;
 use std::path::Path;
 
 use super::header::Header;
-use super::table::{Rows, Table};
-use super::{Log, LogError};
+use super::rows::{Rows, Table};
+use super::{Columns, Log, LogError};
 use crate::signal::resample::whole_steps;
 
 /// Pieces of a log, one after the other; made by [`Log::pieces`].
@@ -21,19 +21,20 @@ pub struct Pieces<'a> {
 }
 
 impl Log {
-    /// Reads a CSV file as [`Log::read`] does, piece by piece of about so many samples; each begins `overlap` seconds before the end of
+    /// Reads a file as [`Log::read_as`] does, piece by piece of about so many samples; each begins `overlap` seconds before the end of
     /// the one before. Time is that of the whole; what jitters is resampled piece by piece.
     ///
     /// # Errors
     /// As [`Log::read`], here and with each piece.
     pub fn pieces(
         path: impl AsRef<Path>,
-        dof: usize,
+        columns: &Columns,
         samples: usize,
         overlap: f64,
     ) -> Result<Pieces<'static>, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
-        Pieces::new(source, file, dof, samples, overlap)
+        let rows = Rows::of_file(&source, file)?;
+        Pieces::of_rows(source, rows, columns, samples, overlap)
     }
 
     /// Opens a file to be read, and says its name.
@@ -63,12 +64,12 @@ impl<'a> Pieces<'a> {
     ///
     /// # Examples
     /// ```
-    /// use robot_model::log::Pieces;
+    /// use robot_model::log::{Columns, Pieces};
     /// let mut text = String::from("time,q1,tau1\n");
     /// for k in 0..1000 {
     ///     text += &format!("{},0.5,{k}\n", 0.0625 * f64::from(k));
     /// }
-    /// let pieces = Pieces::new("memory", text.as_bytes(), 1, 300, 1.25)?;
+    /// let pieces = Pieces::new("memory", text.as_bytes(), &Columns::standard(1), 300, 1.25)?;
     /// let starts: Result<Vec<f64>, _> = pieces.map(|piece| piece.map(|log| log.tau[0][0])).collect();
     /// assert_eq!(starts?, [0.0, 280.0, 560.0]);
     /// # Ok::<(), robot_model::log::LogError>(())
@@ -76,15 +77,26 @@ impl<'a> Pieces<'a> {
     pub fn new(
         source: impl Into<String>,
         reader: impl Read + 'a,
-        dof: usize,
+        columns: &Columns,
         samples: usize,
         overlap: f64,
     ) -> Result<Self, LogError> {
         let source = source.into();
         let rows = Rows::new(&source, reader)?;
+        Self::of_rows(source, rows, columns, samples, overlap)
+    }
+
+    fn of_rows(
+        source: String,
+        rows: Rows<'a>,
+        columns: &Columns,
+        samples: usize,
+        overlap: f64,
+    ) -> Result<Self, LogError> {
+        let header = Header::resolve(&source, rows.names(), columns)?;
         Ok(Self {
-            header: Header::resolve(&source, &rows.names, dof)?,
-            table: rows.table(),
+            table: rows.table(header.needed()),
+            header,
             rows,
             source,
             samples,
@@ -118,23 +130,17 @@ impl Iterator for Pieces<'_> {
             let source = self.source.clone();
             return Some(Log::from_table(
                 source,
-                self.rows.table(),
-                &self.rows.names,
+                self.rows.table(self.header.needed()),
                 &self.header,
             ));
         }
         // What overlaps is no more than half, so that every piece has samples of its own.
-        let time = &self.table.columns[self.header.time];
-        let lasts = time[count - 1] - time[0];
+        let time = &self.table.columns[self.header.time.column];
+        let lasts = (time[count - 1] - time[0]) * self.header.time.unit;
         let rate_hz = (count - 1) as f64 / lasts;
         let overlap = whole_steps((self.overlap * rate_hz).ceil()).min(count / 2);
         let table = self.table.split(count, overlap);
         let source = self.source.clone();
-        Some(Log::from_table(
-            source,
-            table,
-            &self.rows.names,
-            &self.header,
-        ))
+        Some(Log::from_table(source, table, &self.header))
     }
 }

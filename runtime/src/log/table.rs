@@ -6,30 +6,23 @@ use csv::{ByteRecord, ReaderBuilder, Trim};
 use flate2::read::MultiGzDecoder;
 
 use super::LogError;
+use super::rows::{Table, unreadable};
 
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Rows below a header, read as they are asked for; every row has one finite number per column.
-pub(super) struct Rows<'a> {
+/// Rows of a CSV text, read as they are asked for.
+pub(super) struct CsvRows<'a> {
     source: String,
     reader: csv::Reader<Box<dyn Read + 'a>>,
     record: ByteRecord,
     line: u64,
+    is_at_first: bool,
     /// Names of the columns.
     pub names: Vec<String>,
 }
 
-/// Columns of rows that were read.
-#[derive(Debug)]
-pub(super) struct Table {
-    /// `[column][row]`.
-    pub columns: Vec<Vec<f64>>,
-    /// Line of each row.
-    pub lines: Vec<u64>,
-}
-
-impl<'a> Rows<'a> {
+impl<'a> CsvRows<'a> {
     /// Reads the header.
     pub fn new(source: &str, mut reader: impl Read + 'a) -> Result<Self, LogError> {
         let mut start = Vec::with_capacity(GZIP.len());
@@ -80,16 +73,9 @@ impl<'a> Rows<'a> {
             reader,
             record,
             line,
+            is_at_first: true,
             names,
         })
-    }
-
-    /// Room for rows.
-    pub fn table(&self) -> Table {
-        Table {
-            columns: vec![Vec::new(); self.names.len()],
-            lines: Vec::new(),
-        }
     }
 
     /// Adds rows to a table until it has `most`; false where there are no more.
@@ -108,33 +94,20 @@ impl<'a> Rows<'a> {
                     expected,
                 });
             }
-            let columns = table.columns.iter_mut().zip(&self.names);
-            for (field, (column, name)) in record.iter().zip(columns) {
-                column.push(number(source, self.line, name, field)?);
+            for (k, (field, name)) in record.iter().zip(&self.names).enumerate() {
+                if self.is_at_first && !table.is_needed[k] {
+                    table.is_number[k] = number(source, self.line, name, field).is_ok();
+                }
+                table.columns[k].push(if table.is_number[k] {
+                    number(source, self.line, name, field)?
+                } else {
+                    f64::NAN
+                });
             }
+            self.is_at_first = false;
             table.lines.push(self.line);
         }
         Ok(true)
-    }
-}
-
-impl Table {
-    /// The first rows, of which the last `overlap` stay.
-    pub fn split(&mut self, count: usize, overlap: usize) -> Self {
-        let stays = count.saturating_sub(overlap);
-        let mut first = |column: &mut Vec<f64>| {
-            let first = column[..count].to_vec();
-            column.drain(..stays);
-            first
-        };
-        Self {
-            columns: self.columns.iter_mut().map(&mut first).collect(),
-            lines: {
-                let lines = self.lines[..count].to_vec();
-                self.lines.drain(..stays);
-                lines
-            },
-        }
     }
 }
 
@@ -178,12 +151,4 @@ fn text_of<'a>(source: &str, line: u64, field: &'a [u8]) -> Result<&'a str, LogE
         source_name: source.to_owned(),
         line,
     })
-}
-
-fn unreadable(source: &str, line: u64, error: &dyn std::error::Error) -> LogError {
-    LogError::Read {
-        source_name: source.to_owned(),
-        line,
-        reason: error.to_string(),
-    }
 }

@@ -98,7 +98,7 @@ fn check_coordinate(
         let settings = Settings::new(&own.settings, &owner, &keys, errors);
         (
             check_limits(&settings, kind, errors),
-            check_gain(&settings, errors),
+            check_gain(&settings, kind, errors),
         )
     });
     Joint {

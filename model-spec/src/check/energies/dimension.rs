@@ -10,10 +10,10 @@ use crate::check::unit::Dimension;
 use crate::model::{BinaryOp, EnergyExpr, EnergyLeaf, Expr, Function, JointKind};
 use crate::polynomial::Polynomial;
 
-/// Exponents of kg, m and s, with unknown dimensions as further factors: `known + sum of exponent * unknown`.
+/// Exponents of kg, m, s and A, with unknown dimensions as further factors: `known + sum of exponent * unknown`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Dimensions {
-    known: [f64; 3],
+    known: [f64; 4],
     /// `(unknown, exponent)`, by rising unknown; no exponent is zero.
     unknown: Vec<(usize, f64)>,
 }
@@ -23,13 +23,20 @@ const SAME: f64 = 1e-9;
 
 impl Dimensions {
     /// kg m^2/s^2
-    pub(super) const ENERGY: [f64; 3] = [1.0, 2.0, -2.0];
+    pub(super) const ENERGY: [f64; 4] = [1.0, 2.0, -2.0, 0.0];
 
     pub(super) fn of(dimension: Dimension) -> Self {
-        Self::from_known([dimension.mass, dimension.length, dimension.time].map(f64::from))
+        let Dimension {
+            mass,
+            length,
+            time,
+            angle: _,
+            current,
+        } = dimension;
+        Self::from_known([mass, length, time, current].map(f64::from))
     }
 
-    pub(super) fn from_known(known: [f64; 3]) -> Self {
+    pub(super) fn from_known(known: [f64; 4]) -> Self {
         Self {
             known,
             unknown: Vec::new(),
@@ -68,7 +75,7 @@ impl Dimensions {
                 format!("{name}^{exponent}")
             }
         };
-        let named = || ["kg", "m", "s"].into_iter().zip(self.known);
+        let named = || ["kg", "m", "s", "A"].into_iter().zip(self.known);
         let above: Vec<String> = named()
             .filter(|(_, k)| *k > SAME)
             .map(|(name, k)| factor(name, k))
@@ -120,7 +127,7 @@ impl Inference {
     pub(super) fn unknown(&mut self) -> Dimensions {
         self.unknowns += 1;
         Dimensions {
-            known: [0.0; 3],
+            known: [0.0; 4],
             unknown: vec![(self.unknowns - 1, 1.0)],
         }
     }
@@ -147,7 +154,7 @@ impl Inference {
         &mut self,
         statement: Statement,
         found: &Dimensions,
-        wanted: [f64; 3],
+        wanted: [f64; 4],
         what: &str,
     ) -> Checked<()> {
         let wanted = Dimensions::from_known(wanted);
@@ -231,7 +238,7 @@ impl Walk<'_> {
     }
 
     fn leaf(&self, leaf: EnergyLeaf) -> Dimensions {
-        let second = Dimensions::from_known([0.0, 0.0, 1.0]);
+        let second = Dimensions::from_known([0.0, 0.0, 1.0, 0.0]);
         match leaf {
             EnergyLeaf::Coordinate(k) => self.inference.coordinates[k].clone(),
             EnergyLeaf::Rate(k) => self.inference.coordinates[k].times(&second, -1.0),

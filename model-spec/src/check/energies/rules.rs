@@ -68,7 +68,7 @@ impl Rules<'_> {
             ));
         }
         self.inference
-            .expect(statement, &found.dimensions, [0.0, 1.0, 0.0], what)
+            .expect(statement, &found.dimensions, [0.0, 1.0, 0.0, 0.0], what)
             .map_err(|mut fault| {
                 // What most often has no unit is the length of a link.
                 "a number inside an expression has no unit: make lengths constants, as in `constants l = 0.4 m;`"

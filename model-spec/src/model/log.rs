@@ -1,0 +1,29 @@
+//! Where logs have their channels.
+
+/// The columns of logs, and what they are worth in SI units.
+///
+/// Channels of which the spec says nothing have their standard names, `time`, `q1`, `dq1`, `tau1`, and SI units.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct LogColumns {
+    /// The time.
+    pub time: Option<LogColumn>,
+    /// Positions, one a joint, or none.
+    pub q: Vec<LogColumn>,
+    /// Velocities, one a joint, or none.
+    pub dq: Vec<LogColumn>,
+    /// Torques or currents, one a joint, or none.
+    pub tau: Vec<LogColumn>,
+    /// Inputs of effects, by the name that a log would have for them otherwise: `temperature`, `current2`.
+    pub inputs: Vec<(String, LogColumn)>,
+}
+
+/// A column of a log.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LogColumn {
+    /// Its name in the header.
+    pub name: String,
+    /// What a one in it is worth, in SI units; amperes where it is a current.
+    pub unit: f64,
+}

@@ -1,0 +1,96 @@
+//! Which columns of a file are which channels, and what they are worth.
+
+/// A column of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name in the header.
+    pub name: String,
+    /// What a one in it is worth: SI units for time, positions and velocities; for torques and others whatever the arm reads.
+    pub unit: f64,
+}
+
+/// The columns of an arm's logs.
+///
+/// # Examples
+/// ```
+/// use robot_model::log::{Column, Columns, Log};
+/// let column = |name: &str, unit: f64| Column { name: name.to_owned(), unit };
+/// let mut columns = Columns::standard(1);
+/// columns.time = column("stamp", 1e-3);
+/// columns.q = vec![column("angle", std::f64::consts::PI / 180.0)];
+/// let mut text = String::from("stamp,angle,tau1\n");
+/// for k in 0..20 {
+///     text += &format!("{},90,{k}\n", 10 * k);
+/// }
+/// let log = Log::from_reader_as("memory", text.as_bytes(), &columns)?;
+/// assert_eq!(log.q[0][0], std::f64::consts::FRAC_PI_2);
+/// assert!((log.rate_hz() - 100.0).abs() < 1e-9);
+/// # Ok::<(), robot_model::log::LogError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    /// The time.
+    pub time: Column,
+    /// Positions, one a joint.
+    pub q: Vec<Column>,
+    /// Velocities, one a joint, which a log may lack as a whole.
+    pub dq: Vec<Column>,
+    /// Torques, or what the drive logs in their place, one a joint.
+    pub tau: Vec<Column>,
+    /// Other channels that have a name of their own for the arm: that name, and their column.
+    pub extra: Vec<(String, Column)>,
+}
+
+impl Columns {
+    /// `time`, `q1..qn`, `dq1..dqn`, `tau1..taun`, in SI units.
+    #[must_use]
+    pub fn standard(dof: usize) -> Self {
+        let family = |family: &str| {
+            let numbered = (1..=dof).map(|joint| Column::standard(&format!("{family}{joint}")));
+            numbered.collect::<Vec<_>>()
+        };
+        Self {
+            time: Column::standard("time"),
+            q: family("q"),
+            dq: family("dq"),
+            tau: family("tau"),
+            extra: Vec::new(),
+        }
+    }
+
+    /// Number of joints.
+    #[must_use]
+    pub fn dof(&self) -> usize {
+        self.q.len()
+    }
+
+    /// Those of the arm itself, time first.
+    fn of_arm(&self) -> impl Iterator<Item = &Column> {
+        let time = std::iter::once(&self.time);
+        time.chain(&self.q).chain(&self.dq).chain(&self.tau)
+    }
+
+    /// All of them.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Column> {
+        self.of_arm().chain(self.extra.iter().map(|(_, own)| own))
+    }
+
+    /// Names that are not the standard ones.
+    pub(super) fn own_names(&self) -> Vec<&str> {
+        let standard = Self::standard(self.dof());
+        let is_own = |own: &&Column| standard.of_arm().all(|known| known.name != own.name);
+        self.all()
+            .filter(is_own)
+            .map(|own| own.name.as_str())
+            .collect()
+    }
+}
+
+impl Column {
+    fn standard(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            unit: 1.0,
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! Parquet files to columns of finite numbers, a row group at a time.
+//!
+//! Columns of whole and real numbers are read; time stamps come as seconds. Lists, texts and decimals hold no numbers here.
+
+use std::cell::Cell;
+use std::fs::File;
+use std::panic::{self, AssertUnwindSafe};
+use std::sync::Once;
+
+use bytes::Bytes;
+use parquet::basic::{LogicalType, TimeUnit};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::data_type::DataType;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
+
+use super::LogError;
+use super::rows::{Table, unreadable};
+
+/// Rows of a Parquet file.
+pub(super) struct ParquetRows {
+    source: String,
+    reader: Box<dyn FileReader>,
+    /// Names of the columns; those of nested ones have points in them.
+    pub names: Vec<String>,
+    next_group: usize,
+    /// Columns of the group that is being handed on, `[column][row]`; none where they hold no numbers.
+    group: Vec<Option<Vec<f64>>>,
+    next_row: usize,
+    rows_of_group: usize,
+    /// Rows handed on so far.
+    rows: u64,
+}
+
+impl ParquetRows {
+    pub fn of_file(source: &str, file: File) -> Result<Self, LogError> {
+        Self::new(source, guarded(|| SerializedFileReader::new(file)))
+    }
+
+    pub fn of_memory(source: &str, bytes: Vec<u8>) -> Result<Self, LogError> {
+        let bytes = Bytes::from(bytes);
+        Self::new(source, guarded(|| SerializedFileReader::new(bytes)))
+    }
+
+    fn new(
+        source: &str,
+        reader: Result<impl FileReader + 'static, ParquetError>,
+    ) -> Result<Self, LogError> {
+        let reader = reader.map_err(|error| unreadable(source, 1, &error))?;
+        let schema = reader.metadata().file_metadata().schema_descr();
+        let columns = schema.columns().iter();
+        Ok(Self {
+            source: source.to_owned(),
+            names: columns.map(|column| column.path().string()).collect(),
+            reader: Box::new(reader),
+            next_group: 0,
+            group: Vec::new(),
+            next_row: 0,
+            rows_of_group: 0,
+            rows: 0,
+        })
+    }
+
+    /// Adds rows to a table until it has `most`; false where there are no more.
+    pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
+        while table.lines.len() < most {
+            if self.next_row == self.rows_of_group && !self.read_group()? {
+                return Ok(false);
+            }
+            let room = most - table.lines.len();
+            let end = self.rows_of_group.min(self.next_row + room);
+            self.hand_on(table, end)?;
+        }
+        Ok(true)
+    }
+
+    /// Rows of the group up to `end`.
+    fn hand_on(&mut self, table: &mut Table, end: usize) -> Result<(), LogError> {
+        let rows = self.next_row..end;
+        for (k, column) in self.group.iter().enumerate() {
+            let values = column.as_ref().map(|column| &column[rows.clone()]);
+            let has_first =
+                values.is_some_and(|values| values.first().is_some_and(|v| v.is_finite()));
+            if self.rows == 0 && !table.is_needed[k] {
+                table.is_number[k] = has_first;
+            }
+            if !table.is_number[k] {
+                table.columns[k].extend(rows.clone().map(|_| f64::NAN));
+                continue;
+            }
+            let Some(values) = values else {
+                return Err(self.no_number(k, 0, "no whole or real number"));
+            };
+            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
+                return Err(self.no_number(k, row, "a null or no finite number"));
+            }
+            table.columns[k].extend_from_slice(values);
+        }
+        for _ in rows {
+            self.rows += 1;
+            table.lines.push(self.rows);
+        }
+        self.next_row = end;
+        Ok(())
+    }
+
+    fn no_number(&self, column: usize, row: usize, text: &str) -> LogError {
+        LogError::NotANumber {
+            source_name: self.source.clone(),
+            line: self.rows + row as u64 + 1,
+            column: self.names[column].clone(),
+            text: text.to_owned(),
+        }
+    }
+
+    /// Reads the next group that has rows; false at the end.
+    fn read_group(&mut self) -> Result<bool, LogError> {
+        while self.next_group < self.reader.num_row_groups() {
+            let damaged = |error: ParquetError| unreadable(&self.source, self.rows + 1, &error);
+            let place = self.next_group;
+            self.next_group += 1;
+            self.next_row = 0;
+            let read = guarded(|| {
+                let group = self.reader.get_row_group(place)?;
+                let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+                let columns = (0..self.names.len()).map(|k| column(&*group, k, rows));
+                Ok((rows, columns.collect::<Result<_, _>>()?))
+            });
+            (self.rows_of_group, self.group) = read.map_err(damaged)?;
+            if self.rows_of_group > 0 {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+}
+
+thread_local! {
+    static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Reads from a file that may be damaged: the crate that decodes it panics at some damages, which are errors here, and are not
+/// printed as panics.
+fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
+    static HOOK: Once = Once::new();
+    HOOK.call_once(|| {
+        let others = panic::take_hook();
+        panic::set_hook(Box::new(move |info| {
+            if !IS_GUARDED.get() {
+                others(info);
+            }
+        }));
+    });
+    IS_GUARDED.set(true);
+    let read = panic::catch_unwind(AssertUnwindSafe(read));
+    IS_GUARDED.set(false);
+    read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".to_owned())))
+}
+
+/// Numbers of a column of a group, NaN where it has none; nothing where it holds something else.
+fn column(
+    group: &dyn RowGroupReader,
+    place: usize,
+    rows: usize,
+) -> Result<Option<Vec<f64>>, ParquetError> {
+    let about = group.metadata().column(place).column_descr_ptr();
+    let Some(unit) = unit(&about) else {
+        return Ok(None);
+    };
+    let present = about.max_def_level();
+    let mut values = match group.get_column_reader(place)? {
+        ColumnReader::Int32ColumnReader(reader) => all(reader, rows, present, f64::from),
+        ColumnReader::Int64ColumnReader(reader) => all(reader, rows, present, |value| value as f64),
+        ColumnReader::FloatColumnReader(reader) => all(reader, rows, present, f64::from),
+        ColumnReader::DoubleColumnReader(reader) => all(reader, rows, present, |value| value),
+        _ => return Ok(None),
+    }?;
+    for value in &mut values {
+        *value *= unit;
+    }
+    Ok(Some(values))
+}
+
+/// Seconds that a one of a time stamp is, 1 for plain numbers; nothing for what is no number.
+fn unit(about: &ColumnDescriptor) -> Option<f64> {
+    if about.max_rep_level() > 0 {
+        return None;
+    }
+    let of_time = |unit: &TimeUnit| match unit {
+        TimeUnit::MILLIS => 1e-3,
+        TimeUnit::MICROS => 1e-6,
+        TimeUnit::NANOS => 1e-9,
+    };
+    match about.logical_type_ref() {
+        None | Some(LogicalType::Integer { .. }) => Some(1.0),
+        Some(LogicalType::Timestamp(stamp)) => Some(of_time(&stamp.unit)),
+        Some(LogicalType::Time(time)) => Some(of_time(&time.unit)),
+        Some(_) => None,
+    }
+}
+
+/// All rows of a column; levels of definition below `present` are nulls.
+fn all<T: DataType>(
+    mut reader: ColumnReaderImpl<T>,
+    rows: usize,
+    present: i16,
+    number: impl Fn(T::T) -> f64,
+) -> Result<Vec<f64>, ParquetError>
+where
+    T::T: Copy,
+{
+    let (mut levels, mut values) = (Vec::new(), Vec::new());
+    while reader
+        .read_records(rows, Some(&mut levels), None, &mut values)?
+        .0
+        > 0
+    {}
+    let mut numbers = values.into_iter().map(number);
+    let numbers: Vec<f64> = if present == 0 {
+        numbers.collect()
+    } else {
+        let of_level = |level: &i16| {
+            let is_there = *level == present;
+            is_there
+                .then(|| numbers.next())
+                .flatten()
+                .unwrap_or(f64::NAN)
+        };
+        levels.iter().map(of_level).collect()
+    };
+    if numbers.len() == rows {
+        return Ok(numbers);
+    }
+    Err(ParquetError::General(format!(
+        "a column of {} rows in a group of {rows}",
+        numbers.len()
+    )))
+}
