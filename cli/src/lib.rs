@@ -4,6 +4,7 @@
 //! or to files, messages and progress to standard error. Exit codes: 0 done, 1 the input is at fault, 2 usage.
 
 mod audit;
+mod calibrate;
 mod check;
 mod close_the_loop;
 mod demo;
@@ -58,6 +59,7 @@ enum Verb {
     Trace(trace::TraceArguments),
     Dissect(dissect::Dissect),
     Audit(audit::Audit),
+    Calibrate(calibrate::Calibrate),
     Demo(demo::Demo),
 }
 
@@ -76,6 +78,7 @@ impl Verb {
             Self::Trace(verb) => verb.run(),
             Self::Dissect(verb) => verb.run(),
             Self::Audit(verb) => verb.run(),
+            Self::Calibrate(verb) => verb.run(),
             Self::Demo(verb) => verb.run(),
         }
     }

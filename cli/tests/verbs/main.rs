@@ -4,6 +4,7 @@ mod apart;
 mod audit;
 mod c;
 mod columns;
+mod calibrate;
 mod common;
 mod dissect;
 mod energies;

@@ -145,7 +145,7 @@ pub(super) fn deviations(stack: &Stack, solution: &Solution, weights: &[Vec<f64>
 
 /// Variance of the sum of a series, `n` times its spectral density at frequency zero: that of the autoregression which fits it best,
 /// `sigma_e^2 / (1 - sum phi)^2`, by Burg's recursion with the order of least AIC.
-pub(super) fn long_run_sum(series: &[f64]) -> f64 {
+pub(crate) fn long_run_sum(series: &[f64]) -> f64 {
     let n = series.len() as f64;
     let mut error = series.iter().map(|x| x * x).sum::<f64>() / n.max(1.0);
     if error == 0.0 {

@@ -47,6 +47,7 @@ pub use essential::Essential;
 use estimate::Fitted;
 pub use estimate::{Errors, Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock};
+pub(crate) use hac::long_run_sum;
 pub use instruments::Hausman;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 pub use method::{Method, Weights};

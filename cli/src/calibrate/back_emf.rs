@@ -1,0 +1,353 @@
+//! `calibrate back-emf`: the voltage of a motor that turns.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model::calibrate::{CalibrateError, Commanded, Measured, MotorVoltage, Windows};
+use serde::Serialize;
+
+use crate::Error;
+use crate::output::{self, Files, counted};
+
+use super::figure;
+use super::table::Table;
+use super::words::{measured, significant};
+
+/// Correlation of current and velocity from which on they are called hardly apart.
+const ALIKE: f64 = 0.98;
+
+/// Percent that noise of the velocity may hide before it is noted.
+const ATTENUATED: f64 = 2.0;
+
+/// Pieces that are printed.
+const SHOWN: usize = 12;
+
+/// The back electromotive force of a motor, and its resistance where its voltage is logged.
+///
+/// With `--voltage`: `v = R i + k w + v0` by least squares; the inductance is left out. Without: the voltage was commanded between
+/// constants, and `k` is the factor that makes `u + k w` constant in pieces, where `u` is `--current`: amperes, or the voltage across
+/// a known resistance. Velocities of `--position` are means over five samples, as are the others then.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model calibrate back-emf log.csv --current i --velocity w --voltage v
+  robot-model calibrate back-emf log.csv --current u --position q1 --figure wave.svg")]
+pub(crate) struct BackEmf {
+    /// A CSV log with a header.
+    log: PathBuf,
+    /// The column of the current, A, or of the voltage across a known resistance.
+    #[arg(long, value_name = "COLUMN")]
+    current: String,
+    /// The column of the velocity, rad/s.
+    #[arg(long, value_name = "COLUMN", required_unless_present = "position")]
+    velocity: Option<String>,
+    /// The column of the position, rad, in place of a velocity.
+    #[arg(long, value_name = "COLUMN", conflicts_with = "velocity")]
+    position: Option<String>,
+    /// The column of the voltage at the motor's terminals, V.
+    #[arg(long, value_name = "COLUMN")]
+    voltage: Option<String>,
+    /// The column of time, s.
+    #[arg(long, value_name = "COLUMN", default_value = "time")]
+    time: String,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Current, velocity and voltage over time.
+    #[arg(long, value_name = "FILE.svg")]
+    figure: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct VoltageReport {
+    resistance: f64,
+    resistance_std: f64,
+    resistance_interval: [f64; 2],
+    back_emf: f64,
+    back_emf_std: f64,
+    back_emf_interval: [f64; 2],
+    offset: f64,
+    offset_std: f64,
+    offset_interval: [f64; 2],
+    residual_std: f64,
+    current_velocity_r: f64,
+    samples: usize,
+}
+
+#[derive(Serialize)]
+struct CommandedReport {
+    back_emf: f64,
+    back_emf_std: f64,
+    back_emf_interval: [f64; 2],
+    attenuation_percent: f64,
+    residual_std: f64,
+    samples: usize,
+    held_percent: f64,
+    explained_percent: f64,
+    by_jumps_percent: f64,
+    levels: Vec<Constant>,
+    switches: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct Constant {
+    start: f64,
+    end: f64,
+    level: f64,
+}
+
+/// Where a velocity comes from.
+enum Motion {
+    Logged(Vec<f64>),
+    Windows(Windows),
+}
+
+impl BackEmf {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let motion = match (&self.velocity, &self.position) {
+            (Some(velocity), _) => ("--velocity", velocity.as_str()),
+            (None, Some(position)) => ("--position", position.as_str()),
+            (None, None) => unreachable!("one of both is required"),
+        };
+        let mut wanted = vec![
+            ("--time", self.time.as_str()),
+            ("--current", &self.current),
+            motion,
+        ];
+        wanted.extend(self.voltage.as_deref().map(|column| ("--voltage", column)));
+        let mut files = Files::reading([self.log.as_path()]);
+        let json = files.claim_if(self.json.as_deref())?;
+        let figure = files.claim_if(self.figure.as_deref())?;
+        let table = Table::read(&self.log, &wanted)?;
+        let refused = |error: CalibrateError| table.refused(&error);
+        let [time, current, moved, voltage @ ..] = &table.columns[..] else {
+            unreachable!("as many columns as were asked for");
+        };
+        let motion = match &self.velocity {
+            Some(_) => Motion::Logged(moved.clone()),
+            None => Motion::Windows(Windows::new(time, moved).map_err(refused)?),
+        };
+        let results = if let Some(voltage) = voltage.first() {
+            of_voltage(&motion.curves(time, current, Some(voltage)))
+        } else {
+            of_commands(&motion, time, current)
+        };
+        let results = results.map_err(refused)?;
+        if let Some(file) = json {
+            file.commit(results.json.as_bytes())?;
+        }
+        if let Some(file) = figure {
+            file.commit(results.picture.as_bytes())?;
+        }
+        output::print(&results.summary)
+    }
+}
+
+/// What is written and printed.
+struct Results {
+    json: String,
+    picture: String,
+    summary: String,
+}
+
+fn of_voltage(curves: &Curves) -> Result<Results, CalibrateError> {
+    let [current, velocity, voltage] = &curves.of[..] else {
+        unreachable!("a voltage beside current and velocity");
+    };
+    let found = MotorVoltage::fit(current, velocity, voltage)?;
+    note_voltage(&found);
+    Ok(Results {
+        json: output::json(&voltage_report(&found)),
+        picture: figure::curves(&curves.time, &with_voltage(curves, &found)),
+        summary: voltage_summary(&found),
+    })
+}
+
+fn of_commands(motion: &Motion, time: &[f64], u: &[f64]) -> Result<Results, CalibrateError> {
+    let found = match motion {
+        Motion::Logged(velocity) => Commanded::find(time, u, velocity)?,
+        Motion::Windows(windows) => Commanded::find_in(windows, u)?,
+    };
+    note_commanded(&found);
+    let curves = motion.curves(time, u, None);
+    Ok(Results {
+        json: output::json(&commanded_report(&found)),
+        picture: figure::curves(&curves.time, &with_commanded(&curves, &found)),
+        summary: commanded_summary(&found),
+    })
+}
+
+/// Channels of one grid: current, velocity, and the voltage where it is logged.
+struct Curves {
+    time: Vec<f64>,
+    of: Vec<Vec<f64>>,
+}
+
+impl Motion {
+    fn curves(&self, time: &[f64], current: &[f64], voltage: Option<&[f64]>) -> Curves {
+        // All on the windows of the velocity: what is averaged beside what is not fakes an inductance.
+        let (time, velocity) = match self {
+            Self::Logged(velocity) => (time.to_vec(), velocity.clone()),
+            Self::Windows(windows) => (windows.time.clone(), windows.velocity.clone()),
+        };
+        let on_grid = |channel: &[f64]| match self {
+            Self::Logged(_) => channel.to_vec(),
+            Self::Windows(windows) => windows.means(channel),
+        };
+        let mut of = vec![on_grid(current), velocity];
+        of.extend(voltage.map(on_grid));
+        Curves { time, of }
+    }
+}
+
+fn note_voltage(found: &MotorVoltage) {
+    if found.alike.abs() > ALIKE {
+        output::say(&format!(
+            "note: current and velocity go together (r = {:.4}), so resistance and back-EMF are hardly told apart; let the motor speed \
+             up and slow down",
+            found.alike
+        ));
+    }
+    for (what, value) in [
+        ("resistance", found.resistance),
+        ("back-EMF", found.back_emf),
+    ] {
+        if value.interval[1] < 0.0 {
+            output::say(&format!(
+                "note: the {what} is below zero: current, velocity and voltage are to be positive in the same direction"
+            ));
+        }
+    }
+}
+
+fn note_commanded(found: &Commanded) {
+    if found.back_emf.interval[1] < 0.0 {
+        output::say(
+            "note: the back-EMF is below zero: current and velocity are to be positive in the same direction",
+        );
+    }
+    if found.attenuation > ATTENUATED {
+        output::say(&format!(
+            "note: noise of the velocity may have made the back-EMF too small, by {:.1} % at most; log finer or longer",
+            found.attenuation
+        ));
+    }
+}
+
+fn with_voltage(curves: &Curves, found: &MotorVoltage) -> Vec<figure::Curve> {
+    let curve = |name, values: &[f64], over: Option<&[f64]>| figure::Curve {
+        name,
+        values: values.to_vec(),
+        over: over.map(<[f64]>::to_vec),
+    };
+    vec![
+        curve("current, A", &curves.of[0], None),
+        curve("velocity, rad/s", &curves.of[1], None),
+        curve(
+            "voltage, V, and that of the equation",
+            &curves.of[2],
+            Some(&found.fitted),
+        ),
+    ]
+}
+
+fn with_commanded(curves: &Curves, found: &Commanded) -> Vec<figure::Curve> {
+    let curve = |name, values: &[f64], over| figure::Curve {
+        name,
+        values: values.to_vec(),
+        over,
+    };
+    // Between pieces a line goes from one level to the next.
+    let mut levels = Vec::with_capacity(curves.time.len());
+    let mut pieces = found.pieces.iter().peekable();
+    let mut last = found.pieces.first().map_or(0.0, |piece| piece.level);
+    for t in &curves.time {
+        while let Some(piece) = pieces.next_if(|piece| piece.start <= *t) {
+            last = piece.level;
+        }
+        levels.push(last);
+    }
+    vec![
+        curve("u, as given", &curves.of[0], None),
+        curve("velocity w, rad/s", &curves.of[1], None),
+        curve(
+            "v = u + k w, and its constants",
+            &found.voltage,
+            Some(levels),
+        ),
+    ]
+}
+
+fn voltage_report(found: &MotorVoltage) -> VoltageReport {
+    VoltageReport {
+        resistance: found.resistance.value,
+        resistance_std: found.resistance.std,
+        resistance_interval: found.resistance.interval,
+        back_emf: found.back_emf.value,
+        back_emf_std: found.back_emf.std,
+        back_emf_interval: found.back_emf.interval,
+        offset: found.offset.value,
+        offset_std: found.offset.std,
+        offset_interval: found.offset.interval,
+        residual_std: found.residual_std,
+        current_velocity_r: found.alike,
+        samples: found.samples,
+    }
+}
+
+fn commanded_report(found: &Commanded) -> CommandedReport {
+    let level = |piece: &robot_model::calibrate::Piece| Constant {
+        start: piece.start,
+        end: piece.end,
+        level: piece.level,
+    };
+    CommandedReport {
+        back_emf: found.back_emf.value,
+        back_emf_std: found.back_emf.std,
+        back_emf_interval: found.back_emf.interval,
+        attenuation_percent: found.attenuation,
+        residual_std: found.residual_std,
+        samples: found.samples,
+        held_percent: found.held,
+        explained_percent: found.explained,
+        by_jumps_percent: found.by_jumps,
+        levels: found.pieces.iter().map(level).collect(),
+        switches: found.switches(),
+    }
+}
+
+fn voltage_summary(found: &MotorVoltage) -> String {
+    let line =
+        |name: &str, value: &Measured, unit: &str| format!("{name:<12}{}\n", measured(value, unit));
+    format!(
+        "{}{}{}residual    {} V, {}; the inductance is left out\n",
+        line("resistance", &found.resistance, "ohm"),
+        line("back-EMF", &found.back_emf, "V s/rad"),
+        line("offset", &found.offset, "V"),
+        significant(found.residual_std, 3),
+        counted(found.samples, "sample"),
+    )
+}
+
+fn commanded_summary(found: &Commanded) -> String {
+    let shown = found.pieces.iter().take(SHOWN);
+    let mut levels: Vec<String> = shown
+        .map(|piece| format!("{} from {:.3} s", significant(piece.level, 4), piece.start))
+        .collect();
+    if found.pieces.len() > SHOWN {
+        levels.push(format!("and {} more", found.pieces.len() - SHOWN));
+    }
+    format!(
+        "back-EMF    {}\n\
+         voltage     {} over {:.1} % of the samples, which explain {:.2} % of it; {:.1} % of its change is in jumps\n\
+         residual    {} in units of u; noise of the velocity makes the back-EMF smaller by {:.2} % at most\n\
+         levels      {}\n",
+        measured(&found.back_emf, "units of u per rad/s"),
+        counted(found.pieces.len(), "constant"),
+        found.held,
+        found.explained,
+        found.by_jumps,
+        significant(found.residual_std, 3),
+        found.attenuation,
+        levels.join(", "),
+    )
+}

@@ -1,0 +1,36 @@
+//! `robot-model calibrate`: what stands between a current and a joint's torque.
+
+mod back_emf;
+mod figure;
+mod static_gain;
+mod table;
+mod words;
+
+use clap::{Args, Subcommand};
+
+use crate::Error;
+
+use back_emf::BackEmf;
+use static_gain::Static;
+
+/// Find what stands between a motor's current and a joint's torque, from tables of measurements.
+#[derive(Debug, Args)]
+pub(crate) struct Calibrate {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Debug, Subcommand)]
+enum What {
+    Static(Static),
+    BackEmf(BackEmf),
+}
+
+impl Calibrate {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        match &self.what {
+            What::Static(what) => what.run(),
+            What::BackEmf(what) => what.run(),
+        }
+    }
+}

@@ -1,0 +1,206 @@
+//! `calibrate static`: torques of a blocked arm at a sequence of currents.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model::calibrate::{StaticGain, Term};
+use serde::Serialize;
+
+use crate::Error;
+use crate::output::{self, Files, counted};
+
+use super::figure;
+use super::table::Table;
+use super::words::{measured, rounded, significant};
+
+/// The gain from current to torque, from a blocked arm at a sequence of currents.
+///
+/// The arm is held level, and the torque, or the force at a known distance from the joint, is read at each current. Rows stand in the
+/// order in which they were measured: where currents rise and fall, the difference of both ways is the friction of the gear, twice.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model calibrate static blocked.csv --current i --torque tau
+  robot-model calibrate static blocked.csv --current i --force f --arm 0.45 --json gain.json --figure gain.svg")]
+pub(crate) struct Static {
+    /// A CSV table with a header and a row for each current.
+    table: PathBuf,
+    /// The column of currents, A.
+    #[arg(long, value_name = "COLUMN")]
+    current: String,
+    /// The column of torques, N m.
+    #[arg(long, value_name = "COLUMN", required_unless_present = "force")]
+    torque: Option<String>,
+    /// The column of forces across the arm, N, in place of torques.
+    #[arg(
+        long,
+        value_name = "COLUMN",
+        requires = "arm",
+        conflicts_with = "torque"
+    )]
+    force: Option<String>,
+    /// How far from the joint's axis the forces were measured, m.
+    #[arg(
+        long,
+        value_name = "M",
+        requires = "force",
+        conflicts_with = "torque",
+        allow_negative_numbers = true
+    )]
+    arm: Option<f64>,
+    /// Write the result as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// The points, the line, and the band that holds the line with 95 %.
+    #[arg(long, value_name = "FILE.svg")]
+    figure: Option<PathBuf>,
+}
+
+#[derive(Serialize)]
+struct Report {
+    gain: f64,
+    gain_std: f64,
+    gain_interval: [f64; 2],
+    offset: f64,
+    offset_std: f64,
+    offset_interval: [f64; 2],
+    r: f64,
+    residual_std: f64,
+    samples: usize,
+    curvature: Option<f64>,
+    curvature_std: Option<f64>,
+    curvature_p: Option<f64>,
+    hysteresis: Option<f64>,
+    hysteresis_std: Option<f64>,
+    hysteresis_p: Option<f64>,
+    friction: Option<f64>,
+    gain_beside_hysteresis: Option<f64>,
+    gain_beside_hysteresis_std: Option<f64>,
+    spec: String,
+}
+
+impl Static {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let (option, column) = match (&self.torque, &self.force) {
+            (Some(torque), _) => ("--torque", torque),
+            (None, Some(force)) => ("--force", force),
+            (None, None) => unreachable!("one of both is required"),
+        };
+        let arm = self.arm.unwrap_or(1.0);
+        if !arm.is_finite() || arm <= 0.0 {
+            return Err(Error::Argument(format!(
+                "--arm {arm}: a distance in m that is above zero"
+            )));
+        }
+        let mut files = Files::reading([self.table.as_path()]);
+        let json = files.claim_if(self.json.as_deref())?;
+        let figure = files.claim_if(self.figure.as_deref())?;
+        let wanted = [("--current", self.current.as_str()), (option, column)];
+        let table = Table::read(&self.table, &wanted)?;
+        let current = &table.columns[0];
+        let torque: Vec<f64> = table.columns[1].iter().map(|x| arm * x).collect();
+        let line = StaticGain::fit(current, &torque).map_err(|error| table.refused(&error))?;
+        if let Some(file) = json {
+            file.commit(output::json(&report(&line)).as_bytes())?;
+        }
+        if let Some(file) = figure {
+            file.commit(figure::line(&line, current, &torque).as_bytes())?;
+        }
+        let [low, high] = line.gain.interval;
+        if low <= 0.0 && high >= 0.0 {
+            output::say(
+                "note: the gain is not told from zero: are these the columns of one experiment?",
+            );
+        }
+        output::print(&summary(&line))
+    }
+}
+
+fn spec(line: &StaticGain) -> String {
+    format!("actuator_gain = {} Nm/A;", rounded(&line.best()))
+}
+
+fn report(line: &StaticGain) -> Report {
+    let hysteresis = line.hysteresis.map(|found| found.difference);
+    let value = |term: Option<Term>| term.map(|term| term.value.value);
+    let std = |term: Option<Term>| term.map(|term| term.value.std);
+    let p = |term: Option<Term>| term.map(|term| term.p);
+    Report {
+        gain: line.gain.value,
+        gain_std: line.gain.std,
+        gain_interval: line.gain.interval,
+        offset: line.offset.value,
+        offset_std: line.offset.std,
+        offset_interval: line.offset.interval,
+        r: line.r,
+        residual_std: line.residual_std,
+        samples: line.samples,
+        curvature: value(line.curvature),
+        curvature_std: std(line.curvature),
+        curvature_p: p(line.curvature),
+        hysteresis: value(hysteresis),
+        hysteresis_std: std(hysteresis),
+        hysteresis_p: p(hysteresis),
+        friction: line.hysteresis.map(|found| found.friction),
+        gain_beside_hysteresis: line.hysteresis.map(|found| found.gain.value),
+        gain_beside_hysteresis_std: line.hysteresis.map(|found| found.gain.std),
+        spec: spec(line),
+    }
+}
+
+fn summary(line: &StaticGain) -> String {
+    format!(
+        "gain        {}\n\
+         offset      {}\n\
+         r           {:.5}, residual {} N m, {}\n\
+         bend        {}\n\
+         hysteresis  {}\n\
+         \n\
+         for the spec, in the joint:\n    {}\n",
+        measured(&line.gain, "N m/A"),
+        measured(&line.offset, "N m"),
+        line.r,
+        significant(line.residual_std, 3),
+        counted(line.samples, "point"),
+        bend(line),
+        hysteresis(line),
+        spec(line),
+    )
+}
+
+fn bend(line: &StaticGain) -> String {
+    match &line.curvature {
+        None => "not told: it takes three currents and more points than terms".to_owned(),
+        Some(term) if term.is_told() => format!(
+            "NO LINE: a term {}, by chance with p = {:.2e}; is something in it saturated?",
+            measured(&term.value, "N m/A^2"),
+            term.p
+        ),
+        Some(term) => format!("none is told, p = {:.2}", term.p),
+    }
+}
+
+fn hysteresis(line: &StaticGain) -> String {
+    let Some(found) = &line.hysteresis else {
+        return "not told: it takes currents that rise and fall, in the order of the rows"
+            .to_owned();
+    };
+    let term = &found.difference;
+    let of = format!("{} rising and {} falling", found.rising, found.falling);
+    if !term.is_told() {
+        return format!("none is told of {of}, p = {:.2}", term.p);
+    }
+    let what = if found.friction > 0.0 {
+        let friction = significant(found.friction, 3);
+        format!("half of it, {friction} N m, is friction")
+    } else {
+        "friction has the other sign: are the rows in the order in which they were measured?"
+            .to_owned()
+    };
+    format!(
+        "falling minus rising {}, of {of}, p = {:.2e}: {what}\n\
+         gain        {}, beside a constant for each way",
+        measured(&term.value, "N m"),
+        term.p,
+        measured(&found.gain, "N m/A"),
+    )
+}

@@ -1,0 +1,86 @@
+//! A motor that turns while its voltage is logged.
+
+use super::regression::Regression;
+use super::statistics::{correlation, stands};
+use super::{CalibrateError, Measured, check};
+
+/// Fewest samples.
+const LEAST: usize = 16;
+
+/// `voltage = resistance * current + back_emf * velocity + offset`, by least squares.
+///
+/// The voltage of the inductance, `L di/dt`, is left out: it matters where the current changes within the motor's electric time
+/// constant. Deviations are those of errors that are alike from sample to sample: `n` times the spectral density at frequency zero of
+/// what each sample moves the estimate by (Newey & West 1987; den Haan & Levin 1997).
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct MotorVoltage {
+    /// Of the winding and what lies before it, ohm.
+    pub resistance: Measured,
+    /// V s/rad, or V s/m: of the velocity that was given, a motor's or a joint's.
+    pub back_emf: Measured,
+    /// V.
+    pub offset: Measured,
+    /// Standard deviation of the voltage that is left, V.
+    pub residual_std: f64,
+    /// Correlation of current and velocity: near 1 or -1 they are hardly told apart.
+    pub alike: f64,
+    /// Samples.
+    pub samples: usize,
+    /// The voltage of the equation, V, one a sample.
+    pub fitted: Vec<f64>,
+}
+
+impl MotorVoltage {
+    /// From current (A), velocity (rad/s) and voltage (V), `[sample]`; where the velocity is that of
+    /// [`Windows`](super::Windows), the others are means over the same.
+    ///
+    /// # Errors
+    /// [`CalibrateError`] for channels of different lengths, values that are not finite, fewer than 16 samples, a current or a
+    /// velocity that does not vary, both in proportion.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::calibrate::MotorVoltage;
+    /// let current: Vec<f64> = (0..100).map(|k| (0.3 * f64::from(k)).sin()).collect();
+    /// let velocity: Vec<f64> = (0..100).map(|k| 5.0 * (0.11 * f64::from(k)).cos()).collect();
+    /// let pairs = current.iter().zip(&velocity);
+    /// let voltage: Vec<f64> = pairs.map(|(i, w)| 2.0 * i + 0.05 * w + 0.1).collect();
+    /// let motor = MotorVoltage::fit(&current, &velocity, &voltage)?;
+    /// assert!((motor.resistance.value - 2.0).abs() < 1e-12);
+    /// assert!((motor.back_emf.value - 0.05).abs() < 1e-12);
+    /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
+    /// ```
+    pub fn fit(current: &[f64], velocity: &[f64], voltage: &[f64]) -> Result<Self, CalibrateError> {
+        check(&[current, velocity, voltage], LEAST)?;
+        vary(current, velocity)?;
+        let ones = vec![1.0; current.len()];
+        let fit = Regression::new(&[current, velocity, &ones], voltage)
+            .ok_or(CalibrateError::NotApart)?;
+        let pairs = voltage.iter().zip(&fit.residuals);
+        Ok(Self {
+            resistance: fit.of_correlated_errors(0),
+            back_emf: fit.of_correlated_errors(1),
+            offset: fit.of_correlated_errors(2),
+            residual_std: fit.residual_std(),
+            alike: correlation(current, velocity),
+            samples: current.len(),
+            fitted: pairs.map(|(v, residual)| v - residual).collect(),
+        })
+    }
+}
+
+/// Refuses a current or a velocity that does not vary.
+pub(super) fn vary(current: &[f64], velocity: &[f64]) -> Result<(), CalibrateError> {
+    let refused = |what, mend| Err(CalibrateError::Stands { what, mend });
+    if stands(current) {
+        return refused("current", "let the motor speed up and slow down");
+    }
+    if stands(velocity) {
+        return refused("velocity", "let the motor turn, and speed up and slow down");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

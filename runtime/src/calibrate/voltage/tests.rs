@@ -1,0 +1,77 @@
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::*;
+
+const TRUTH: [f64; 3] = [1.7, 0.045, 0.2];
+
+/// A motor that swings slowly, with noise that stays alike over some ten samples.
+fn log(noise: f64, seed: u64) -> [Vec<f64>; 3] {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut error = 0.0;
+    let time = (0..1500).map(|k| 0.01 * f64::from(k));
+    let current: Vec<f64> = time
+        .clone()
+        .map(|t| (2.1 * t).sin() + 0.3 * (5.3 * t).cos())
+        .collect();
+    let velocity: Vec<f64> = time.map(|t| 30.0 * (1.2 * t).sin()).collect();
+    let pairs = current.iter().zip(&velocity);
+    let voltage = pairs.map(|(i, w)| {
+        let white: f64 = StandardNormal.sample(&mut random);
+        error = 0.9 * error + noise * white;
+        TRUTH[0] * i + TRUTH[1] * w + TRUTH[2] + error
+    });
+    let voltage = voltage.collect();
+    [current, velocity, voltage]
+}
+
+#[test]
+fn a_motor_without_noise_is_found() {
+    let [current, velocity, voltage] = log(0.0, 1);
+    let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+    let values = [found.resistance, found.back_emf, found.offset];
+    for (value, truth) in values.into_iter().zip(TRUTH) {
+        assert!((value.value - truth).abs() < 1e-12, "{value:?}");
+    }
+    for (fitted, logged) in found.fitted.iter().zip(&voltage) {
+        assert!((fitted - logged).abs() < 1e-12);
+    }
+}
+
+/// Intervals that took this noise for white would hold the offset in 35 % of the draws.
+#[test]
+fn intervals_know_noise_that_stays_alike() {
+    const DRAWS: u32 = 300;
+    let mut held = [0; 3];
+    for seed in 0..DRAWS {
+        let [current, velocity, voltage] = log(0.05, u64::from(seed));
+        let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+        let values = [found.resistance, found.back_emf, found.offset];
+        for ((value, truth), held) in values.into_iter().zip(TRUTH).zip(&mut held) {
+            let [low, high] = value.interval;
+            *held += u32::from(low <= truth && truth <= high);
+        }
+    }
+    for held in held {
+        let share = f64::from(held) / f64::from(DRAWS);
+        assert!((0.89..=0.99).contains(&share), "{share}");
+    }
+}
+
+#[test]
+fn what_does_not_vary_is_refused() {
+    let [current, velocity, voltage] = log(0.0, 1);
+    let stands = vec![2.0; current.len()];
+    let error = MotorVoltage::fit(&stands, &velocity, &voltage).unwrap_err();
+    assert!(error.to_string().starts_with("the current is the same"));
+    let error = MotorVoltage::fit(&current, &stands, &voltage).unwrap_err();
+    assert!(error.to_string().starts_with("the velocity is the same"));
+    let twice: Vec<f64> = current.iter().map(|i| 2.0 * i + 1.0).collect();
+    let error = MotorVoltage::fit(&current, &twice, &voltage).unwrap_err();
+    assert_eq!(error, CalibrateError::NotApart);
+    let short = [1.0, 2.0, 3.0];
+    let error = MotorVoltage::fit(&short, &short, &short).unwrap_err();
+    let (samples, least) = (3, 16);
+    assert_eq!(error, CalibrateError::TooFew { samples, least });
+}
