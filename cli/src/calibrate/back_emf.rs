@@ -256,16 +256,12 @@ fn with_commanded(curves: &Curves, found: &Commanded) -> Vec<figure::Curve> {
         values: values.to_vec(),
         over,
     };
-    // Between pieces a line goes from one level to the next.
-    let mut levels = Vec::with_capacity(curves.time.len());
-    let mut pieces = found.pieces.iter().peekable();
-    let mut last = found.pieces.first().map_or(0.0, |piece| piece.level);
-    for t in &curves.time {
-        while let Some(piece) = pieces.next_if(|piece| piece.start <= *t) {
-            last = piece.level;
-        }
-        levels.push(last);
-    }
+    let switches = found.switches();
+    let level = |t: &f64| {
+        let passed = switches.iter().filter(|switch| *switch <= t).count();
+        found.pieces[passed].level
+    };
+    let levels = curves.time.iter().map(level).collect();
     vec![
         curve("u, as given", &curves.of[0], None),
         curve("velocity w, rad/s", &curves.of[1], None),

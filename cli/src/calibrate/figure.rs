@@ -41,7 +41,10 @@ pub(super) fn line(found: &StaticGain, current: &[f64], torque: &[f64]) -> Strin
         let root = SVGBackend::with_string(&mut text, (WIDTH, HEIGHT)).into_drawing_area();
         root.fill(&WHITE).expect(DRAWN);
         let (head, body) = root.split_vertically(HEAD);
-        heading(&head, &format!("gain {}", measured(&found.gain, "N m/A")));
+        heading(
+            &head,
+            &format!("over current, A: gain {}", measured(&found.gain, "N m/A")),
+        );
         let across = shown(current.iter().copied());
         let at =
             |k: u32| across.start + (across.end - across.start) * f64::from(k) / f64::from(STEPS);
