@@ -141,7 +141,7 @@ impl Dissect {
 }
 
 /// Effects may read channels, which the log must have.
-fn check_channels(arm: &InterpretedArm, log: &Log) -> Result<(), Error> {
+pub(crate) fn check_channels(arm: &InterpretedArm, log: &Log) -> Result<(), Error> {
     let is_there = |name: &&String| !log.extra.iter().any(|channel| channel.name == **name);
     match arm.inputs().iter().find(is_there) {
         None => Ok(()),

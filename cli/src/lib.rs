@@ -15,6 +15,7 @@ mod emit;
 mod error;
 mod eval;
 mod excite;
+mod friction;
 mod identify;
 mod import;
 mod json;
@@ -56,6 +57,7 @@ enum Verb {
     Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
     Merge(merge::Merge),
+    Friction(friction::Friction),
     Trace(trace::TraceArguments),
     Dissect(dissect::Dissect),
     Audit(audit::Audit),
@@ -75,6 +77,7 @@ impl Verb {
             Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Merge(verb) => verb.run(),
+            Self::Friction(verb) => verb.run(),
             Self::Trace(verb) => verb.run(),
             Self::Dissect(verb) => verb.run(),
             Self::Audit(verb) => verb.run(),

@@ -9,6 +9,8 @@ pub mod control;
 #[cfg(feature = "std")]
 pub mod excite;
 #[cfg(feature = "std")]
+pub mod friction_curve;
+#[cfg(feature = "std")]
 pub mod identify;
 pub mod link;
 #[cfg(feature = "std")]

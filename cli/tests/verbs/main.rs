@@ -12,6 +12,7 @@ mod equations;
 mod eval;
 mod every;
 mod excite;
+mod friction;
 mod identify;
 mod import;
 mod merge;

@@ -1,0 +1,186 @@
+//! `robot-model friction`: a joint's friction curve, its static law, and its bristles.
+
+mod columns;
+mod figure;
+mod report;
+mod said;
+
+use std::path::PathBuf;
+
+use clap::Args;
+use robot_model::columns::Arm;
+use robot_model::friction_curve::{Bristles, Curve, Law, Measured};
+use robot_model::log::Log;
+use robot_model_codegen::Compiled;
+
+use crate::Error;
+use crate::dissect::check_channels;
+use crate::interpreted::InterpretedArm;
+use crate::output::{self, Files, counted, names};
+use crate::parameters;
+use crate::progress::Progress;
+use crate::spec::{compile_instantaneous, read_mended};
+use report::Found;
+
+/// A joint's friction over its speed, from runs at constant speeds: the curve, its static law, and what to write into the spec.
+///
+/// Stretches in which the joint moves at one speed for 0.3 s and more while all others stand are looked for in the logs. The rigid
+/// body's torque is fitted beside the curve, so no parameter has to be known.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model friction arm.robot speeds.csv --joint elbow --figure elbow.svg
+  robot-model friction arm.robot there.csv back.csv --joint elbow --pre-sliding ramp.csv --json elbow.json")]
+pub(crate) struct Friction {
+    /// The `.robot` file; the joint's friction need not be declared in it.
+    spec: PathBuf,
+    /// Logs: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    #[arg(required = true, value_name = "LOG")]
+    logs: Vec<PathBuf>,
+    /// The joint, by its name.
+    #[arg(long, value_name = "NAME")]
+    joint: String,
+    /// A log in which the torque rises slowly from rest until the joint breaks away: for the stiffness of its bristles.
+    #[arg(long, value_name = "LOG")]
+    pre_sliding: Option<PathBuf>,
+    /// The arm's parameters, by name or what `identify --json` writes: the rigid body's torque is then known, and not fitted.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+    /// Write the result as JSON, whose `parameters` are a start for `identify --method output-error`.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// The curve drawn.
+    #[arg(long, value_name = "FILE.svg")]
+    figure: Option<PathBuf>,
+}
+
+impl Friction {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.pre_sliding)
+            .chain(&self.parameters);
+        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let json = files.claim_if(self.json.as_deref())?;
+        let figure = files.claim_if(self.figure.as_deref())?;
+        let compiled = compile_instantaneous(&self.spec)?;
+        let joint = self.joint(&compiled)?;
+        let progress = Progress::new();
+        let read = |path: &PathBuf| -> Result<Log, Error> {
+            Ok(read_mended(path, compiled.dof(), &progress)?.log)
+        };
+        let logs: Vec<Log> = self.logs.iter().map(read).collect::<Result<_, _>>()?;
+        let pre_sliding = self.pre_sliding.as_ref().map(read).transpose()?;
+        let arm = InterpretedArm::new(compiled.clone());
+        for log in logs.iter().chain(&pre_sliding) {
+            check_channels(&arm, log)?;
+        }
+        let measured = self.measured(&compiled, &arm, joint, &progress)?;
+        progress.step("looking for constant speeds");
+        let curve = measured.curve(&logs).map_err(refused)?;
+        let law = Law::fit(&curve).map_err(refused)?;
+        let bristles = match &pre_sliding {
+            None => None,
+            Some(log) => Some(bristles(&measured, &curve, &law, log)?),
+        };
+        let found = Found {
+            joint: &compiled.model.joints[joint],
+            curve: &curve,
+            law: &law,
+            bristles: bristles.as_ref(),
+            is_fitted: self.parameters.is_none(),
+        };
+        for doubt in found.doubts() {
+            progress.note(&format!("note: {doubt}"));
+        }
+        drop(progress);
+        if let Some(file) = figure {
+            file.commit(figure::svg(&found).as_bytes())?;
+        }
+        if let Some(file) = json {
+            file.commit(output::json(&found.report()).as_bytes())?;
+        }
+        output::print(&found.text())
+    }
+
+    fn joint(&self, compiled: &Compiled) -> Result<usize, Error> {
+        let joints = &compiled.model.joints;
+        let found = joints.iter().position(|joint| joint.name == self.joint);
+        found.ok_or_else(|| {
+            let known: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
+            Error::Argument(format!(
+                "--joint {}: {} has no such joint; its joints are {}",
+                self.joint,
+                compiled.model.name,
+                names(&known)
+            ))
+        })
+    }
+
+    /// The joint with what its torque is made of beside friction.
+    fn measured<'a>(
+        &self,
+        compiled: &Compiled,
+        arm: &'a InterpretedArm,
+        joint: usize,
+        progress: &Progress,
+    ) -> Result<Measured<'a>, Error> {
+        let (columns, left_out) = columns::beside(compiled);
+        let mut shapes = columns::middle(arm);
+        if !left_out.is_empty() {
+            let left_out: Vec<&str> = left_out.iter().map(String::as_str).collect();
+            progress.note(&format!(
+                "note: without a value for each of its shapes {} left out; give them in the spec",
+                match left_out.len() {
+                    1 => format!("the effect {} is", names(&left_out)),
+                    _ => format!("the effects {} are", names(&left_out)),
+                }
+            ));
+        }
+        let known = match &self.parameters {
+            None => None,
+            Some(path) => {
+                let known = parameters::known(compiled, Some(path), &[])?;
+                let missing = columns::rigid(compiled, &known.missing);
+                if !missing.is_empty() {
+                    return Err(Error::Argument(format!(
+                        "{}: no value for {}; without `--parameters` the rigid body is fitted beside the curve",
+                        path.display(),
+                        names(&missing)
+                    )));
+                }
+                let free = compiled.free_shapes();
+                shapes = free.iter().map(|&k| known.shapes[k]).collect();
+                Some(known.beta)
+            }
+        };
+        Ok(Measured {
+            arm: arm as &dyn Arm,
+            joint,
+            shapes,
+            columns,
+            known,
+        })
+    }
+}
+
+/// Bristles slide at what the static law says.
+fn bristles(
+    measured: &Measured<'_>,
+    curve: &Curve,
+    law: &Law,
+    log: &Log,
+) -> Result<Bristles, Error> {
+    if law.coulomb.value <= 0.0 {
+        return Err(Error::Argument(format!(
+            "the static law has a Coulomb torque of {:.4}, with which no bristles slide; measure the curve at lower speeds, where {} \
+             not enough",
+            law.coulomb.value,
+            counted(curve.points.len(), "point")
+        )));
+    }
+    measured.bristles(curve, law, log).map_err(refused)
+}
+
+fn refused(error: impl std::fmt::Display) -> Error {
+    Error::Argument(error.to_string())
+}

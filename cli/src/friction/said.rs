@@ -1,0 +1,226 @@
+//! What is printed of a joint's friction, and what is to be known of it.
+
+use std::fmt::Write;
+
+use robot_model::friction_curve::{Bristles, Fall, Value};
+use robot_model_spec::model::JointKind;
+
+use super::report::{Found, Parameter};
+use crate::output::counted;
+
+/// Stribeck's fall is over at so many times its speed.
+const FALLEN: f64 = 3.0;
+
+/// Deviations that count as nothing.
+const NOTHING: f64 = 2.0;
+
+/// The units of a joint's torque, speed and position.
+struct Units {
+    torque: &'static str,
+    speed: &'static str,
+    position: &'static str,
+}
+
+impl Found<'_> {
+    fn units(&self) -> Units {
+        match self.joint.kind {
+            JointKind::Revolute => Units {
+                torque: "N m",
+                speed: "rad/s",
+                position: "rad",
+            },
+            JointKind::Prismatic => Units {
+                torque: "N",
+                speed: "m/s",
+                position: "m",
+            },
+        }
+    }
+
+    /// What is to be known of the numbers before they are used.
+    pub(super) fn doubts(&self) -> Vec<String> {
+        let (law, curve, units) = (self.law, self.curve, self.units());
+        let speeds = curve.points.iter().map(|point| point.speed.abs());
+        let (least, most) = speeds.fold((f64::INFINITY, 0.0_f64), |(least, most), v| {
+            (least.min(v), most.max(v))
+        });
+        let mut doubts = Vec::new();
+        if let Some(Fall { speed, .. }) = law.fall {
+            if least > speed.value {
+                doubts.push(format!(
+                    "no speed is below the Stribeck speed of {:.4} {unit}: the breakaway torque is extrapolated from {least:.4} {unit}",
+                    speed.value,
+                    unit = units.speed
+                ));
+            }
+            if most < FALLEN * speed.value {
+                doubts.push(format!(
+                    "no speed is above {:.4} {}, where the fall is over: Coulomb and viscous friction are extrapolated",
+                    FALLEN * speed.value,
+                    units.speed
+                ));
+            }
+        }
+        if law.coulomb.value < -NOTHING * law.coulomb.std {
+            doubts.push("the Coulomb torque is below zero".to_owned());
+        }
+        if law.viscous.value < -NOTHING * law.viscous.std {
+            doubts.push(
+                "viscous friction is below zero: there is a fall that the speeds do not reach to the end of, or a torque that is none of \
+                 friction"
+                    .to_owned(),
+            );
+        }
+        let is_one_way = law.offset.is_none();
+        if is_one_way {
+            doubts.push(
+                "one direction only: what is the same in both, as an offset of the torque, is in the Coulomb torque".to_owned(),
+            );
+        }
+        if curve.has_constant {
+            doubts.push(
+                "a constant torque of the rigid body is in the points and in the offset".to_owned(),
+            );
+        }
+        if let Some(bristles) = self.bristles {
+            doubts.extend(self.doubts_of(bristles, &units));
+        }
+        doubts
+    }
+
+    fn doubts_of(&self, bristles: &Bristles, units: &Units) -> Vec<String> {
+        let breakaway = self.law.breakaway;
+        let mut doubts = Vec::new();
+        if !bristles.is_resolved() {
+            doubts.push(format!(
+                "the encoder's step of {:.3e} {position} is above a fifth of the deflection of {:.3e} {position} at which the bristles slide: \
+                 it tells stiffnesses below {:.4} {}/{position}",
+                bristles.encoder_step,
+                bristles.deflection.value,
+                bristles.most_stiffness(),
+                units.torque,
+                position = units.position
+            ));
+        }
+        if bristles.damping.is_none() {
+            doubts.push(
+                "the damping of the bristles is not told by so slow a rise; `identify --method output-error` with `lugre_presliding` finds it"
+                    .to_owned(),
+            );
+        }
+        if (bristles.reached / breakaway.value - 1.0).abs() > 0.1 {
+            doubts.push(format!(
+                "the joint broke away at {:.4} {unit}, where the static law says {:.4} +- {:.4} {unit}",
+                bristles.reached,
+                breakaway.value,
+                breakaway.std,
+                unit = units.torque
+            ));
+        }
+        doubts
+    }
+
+    pub(super) fn text(&self) -> String {
+        let units = self.units();
+        let Units {
+            torque,
+            speed,
+            position,
+        } = units;
+        let (curve, law) = (self.curve, self.law);
+        let stretches = curve.points.iter().map(|point| point.stretches).sum();
+        let mut text = format!(
+            "friction of {}: {} in {}; {}\n\n",
+            self.joint.name,
+            counted(curve.points.len(), "speed"),
+            counted(stretches, "stretch").replace("stretchs", "stretches"),
+            if self.is_fitted {
+                format!(
+                    "the rigid body was fitted beside it ({})",
+                    counted(curve.rank, "column")
+                )
+            } else {
+                "the rigid body's torque was taken from the parameters".to_owned()
+            }
+        );
+        let (speed_head, torque_head) = (format!("speed {speed}"), format!("torque {torque}"));
+        let _ = writeln!(
+            text,
+            "{speed_head:>14} {torque_head:>14} {:>10} {:>10} {:>9}",
+            "+-", "law", "seconds"
+        );
+        for point in &curve.points {
+            let _ = writeln!(
+                text,
+                "{:>14.5} {:>14.5} {:>10.5} {:>10.5} {:>9.2}",
+                point.speed,
+                point.torque.value,
+                point.torque.std,
+                law.torque(point.speed),
+                point.seconds
+            );
+        }
+        text.push('\n');
+        let mut row = |name: &str, Value { value, std }: Value, unit: &str| {
+            let _ = writeln!(text, "{name:<34} {value:>12.5} +- {std:<10.5} {unit}");
+        };
+        row("Coulomb torque F_c", law.coulomb, torque);
+        row(
+            "viscous friction s2",
+            law.viscous,
+            &format!("{torque} s/{position}"),
+        );
+        if let Some(fall) = law.fall {
+            row("breakaway torque F_s", law.breakaway, torque);
+            row("Stribeck speed v_s", fall.speed, speed);
+        }
+        if let Some(offset) = law.offset {
+            row("offset t0", offset, torque);
+        }
+        if let Some(bristles) = self.bristles {
+            let per = format!("{torque}/{position}");
+            row("stiffness of bristles s0", bristles.stiffness, &per);
+            row(
+                "deflection at sliding F_c/s0",
+                bristles.deflection,
+                position,
+            );
+            if let Some(damping) = bristles.damping {
+                row(
+                    "damping of bristles s1",
+                    damping,
+                    &format!("{torque} s/{position}"),
+                );
+            }
+        }
+        let _ = writeln!(text, "{}", self.verdict());
+        let (parameters, spec) = self.declared();
+        let _ = writeln!(text, "\nfor the spec: {spec}");
+        for Parameter { name, value, std } in parameters {
+            let said = match std {
+                Some(_) => "",
+                None => "   (not told: a first value)",
+            };
+            let _ = writeln!(text, "  {name} = {value:.6}{said}");
+        }
+        text
+    }
+
+    /// Whether there is a fall, in words.
+    fn verdict(&self) -> String {
+        let torque = self.units().torque;
+        let (most, rms) = self.law.distance;
+        let distance =
+            format!("points are off the law by {rms:.5} {torque} rms, {most:.5} at most");
+        let fall = match (self.law.fall, self.law.probability) {
+            (Some(_), Some(p)) => format!("friction falls with speed (by chance: {p:.4})"),
+            (None, Some(p)) => {
+                format!("no fall with speed beyond chance ({p:.4}): F_s and v_s are not told")
+            }
+            (_, None) => {
+                "too few speeds for a fall, which takes five: F_s and v_s are not told".to_owned()
+            }
+        };
+        format!("{fall}; {distance}")
+    }
+}

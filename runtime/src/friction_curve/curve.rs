@@ -1,0 +1,305 @@
+//! Friction torque over speed, the rigid body's torque fitted beside it.
+
+use faer::Mat;
+use faer::linalg::solvers::{Solve, SolveLstsq};
+
+use super::rows::{Measured, Rows, Runs};
+use super::stretch::SAME;
+use super::{FrictionError, Value};
+use crate::identify::long_run_sum;
+use crate::log::Log;
+
+/// What is left of a column of unit length beside others, or while the speed stays: below this it counts as nothing. Errors of what is
+/// kept grow by a thousand at most.
+const APART: f64 = 1e-3;
+
+/// Columns below this are rounding, per unit of their parameter in SI.
+const ROUNDING: f64 = 1e-12;
+
+/// Friction at one speed.
+///
+/// # Examples
+/// ```
+/// use robot_model::friction_curve::{Point, Value};
+/// let point = Point { speed: -0.5, torque: Value { value: -0.9, std: 0.01 }, seconds: 2.0, stretches: 1 };
+/// // Friction brakes.
+/// assert!(point.speed * point.torque.value > 0.0);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// Mean speed, rad/s or m/s.
+    pub speed: f64,
+    /// Friction torque, N m or N, with constants of the arm that are none.
+    pub torque: Value,
+    /// How long the joint moved so, s.
+    pub seconds: f64,
+    /// In how many stretches.
+    pub stretches: usize,
+}
+
+/// A joint's friction curve: the solution of `gain tau = Y_j beta + sum_k f_k [speed k]` by least squares, on means over 0.05 s.
+///
+/// Speeds within 5 % of each other are one. Standard deviations are those of the series that sums up to an estimate's error, as for
+/// all estimates: slow noise counts for more. Example: [`Measured`].
+#[derive(Debug, Clone)]
+pub struct Curve {
+    /// Points by rising speed, negative ones first.
+    pub points: Vec<Point>,
+    /// Columns of the rigid body that were fitted, besides what accelerations add to them.
+    pub rank: usize,
+    /// Whether a constant of the rigid body's torque, as gravity on a rail or over a short way, is in the points.
+    pub has_constant: bool,
+    /// What was fitted beside the points: columns of the arm with their values. They make the joint's torque where other joints stand
+    /// as they did, and say nothing of single parameters.
+    pub beside: Vec<(usize, f64)>,
+    /// From where to where each joint went or stood, rad or m.
+    pub range: Vec<(f64, f64)>,
+    /// What each block moves each point by, `[block, point]`.
+    influence: Mat<f64>,
+}
+
+/// The rigid body's columns that count.
+struct Chosen {
+    /// Their places among [`Measured::columns`].
+    places: Vec<usize>,
+    /// Their lengths.
+    lengths: Vec<f64>,
+    has_constant: bool,
+}
+
+impl Measured<'_> {
+    /// The friction curve.
+    ///
+    /// # Errors
+    /// [`FrictionError`]: no stretch of constant speed; a rigid body's torque that the motion does not tell from friction; logs that cannot
+    /// be filtered.
+    pub fn curve(&self, logs: &[Log]) -> Result<Curve, FrictionError> {
+        let Runs {
+            rows,
+            stretches,
+            range,
+        } = self.runs(logs)?;
+        if stretches.is_empty() {
+            let joint = self.name();
+            return Err(FrictionError::NoStretch { joint });
+        }
+        let cells = cells(&stretches);
+        let cell: Vec<usize> = rows.stretch.iter().map(|&k| cells[k]).collect();
+        let count = cells.iter().max().map_or(0, |most| most + 1);
+        let travel = range[self.joint].1 - range[self.joint].0;
+        let chosen = self.chosen(&rows, &cell, count, travel)?;
+        let has_both = [-1.0, 1.0]
+            .iter()
+            .all(|way| stretches.iter().any(|(speed, _)| way * speed > 0.0));
+        if chosen.has_constant && !has_both {
+            let joint = self.name();
+            return Err(FrictionError::Constant { joint });
+        }
+        let (torques, beta, influence) = solve(&rows, &cell, count, &chosen);
+        let points = (0..count).map(|k| {
+            let here = stretches.iter().zip(&cells).filter(|(_, at)| **at == k);
+            let seconds: f64 = here.clone().map(|((_, seconds), _)| seconds).sum();
+            let way: f64 = here.clone().map(|((v, seconds), _)| v * seconds).sum();
+            Point {
+                speed: way / seconds,
+                torque: Value {
+                    value: torques[k],
+                    std: deviation(&influence, |point| if point == k { 1.0 } else { 0.0 }),
+                },
+                seconds,
+                stretches: here.count(),
+            }
+        });
+        let beside = chosen.places.iter().zip(beta);
+        let beside = beside.filter_map(|(&place, value)| Some((*self.columns.get(place)?, value)));
+        let beside: Vec<(usize, f64)> = beside.collect();
+        Ok(Curve {
+            points: points.collect(),
+            rank: beside.len(),
+            has_constant: chosen.has_constant,
+            beside,
+            range,
+            influence,
+        })
+    }
+
+    /// Columns whose changes are no sums of others' changes; they have to change while the speed stays, too.
+    fn chosen(
+        &self,
+        rows: &Rows,
+        cell: &[usize],
+        count: usize,
+        travel: f64,
+    ) -> Result<Chosen, FrictionError> {
+        let lengths: Vec<f64> = rows.columns.iter().map(|column| norm(column)).collect();
+        let there = (0..lengths.len())
+            .filter(|&k| lengths[k] > ROUNDING * (rows.torque.len() as f64).sqrt());
+        let mut changing = Vec::new();
+        let mut whole = Vec::new();
+        for place in there {
+            let column = rows.columns[place].iter().map(|x| x / lengths[place]);
+            let column: Vec<f64> = column.collect();
+            let change = within(&column, &vec![0; column.len()], 1);
+            changing.push((place, change, within(&column, cell, count)));
+            // What the columns make and their changes do not is a constant.
+            if place < self.columns.len() {
+                whole.push(column);
+            }
+        }
+        let order = independent(changing.iter().map(|(_, change, _)| change));
+        let mut kept: Vec<&(usize, Vec<f64>, Vec<f64>)> =
+            order.iter().map(|&k| &changing[k]).collect();
+        kept.sort_by_key(|(place, ..)| *place);
+        // Accelerations that go with a speed are few, and left out.
+        let even = kept
+            .iter()
+            .filter(|(place, ..)| *place < self.columns.len());
+        let even: Vec<&(usize, Vec<f64>, Vec<f64>)> = even.copied().collect();
+        let rank = |kept: &[&(usize, Vec<f64>, Vec<f64>)]| {
+            independent(kept.iter().map(|(_, _, within)| within)).len()
+        };
+        if rank(&even) < even.len() {
+            return Err(FrictionError::NotSeparated {
+                joint: self.name(),
+                columns: even.len(),
+                rank: rank(&even),
+                travel,
+            });
+        }
+        let has_constant = independent(whole.iter()).len() > even.len();
+        let kept = if rank(&kept) < kept.len() { even } else { kept };
+        let places: Vec<usize> = kept.iter().map(|(place, ..)| *place).collect();
+        Ok(Chosen {
+            lengths: places.iter().map(|&place| lengths[place]).collect(),
+            has_constant,
+            places,
+        })
+    }
+}
+
+impl Curve {
+    /// Standard deviation of `sum_k weight(k) f_k`.
+    pub(super) fn deviation(&self, weight: impl Fn(usize) -> f64) -> f64 {
+        deviation(&self.influence, weight)
+    }
+}
+
+/// A cell for each stretch, from 0 by rising speed: within it speeds are alike.
+fn cells(stretches: &[(f64, f64)]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..stretches.len()).collect();
+    order.sort_by(|&one, &other| stretches[one].0.total_cmp(&stretches[other].0));
+    let mut cells = vec![0; stretches.len()];
+    let (mut cell, mut first) = (0, f64::NAN);
+    for k in order {
+        let speed = stretches[k].0;
+        if first.is_nan() {
+            first = speed;
+        } else if speed - first > SAME * speed.abs().max(first.abs()) {
+            cell += 1;
+            first = speed;
+        }
+        cells[k] = cell;
+    }
+    cells
+}
+
+/// Values less their mean in each cell.
+fn within(values: &[f64], cell: &[usize], count: usize) -> Vec<f64> {
+    let means = means(values, cell, count);
+    let pairs = values.iter().zip(cell);
+    pairs.map(|(x, &cell)| x - means[cell]).collect()
+}
+
+fn means(values: &[f64], cell: &[usize], count: usize) -> Vec<f64> {
+    let mut sums = vec![(0.0, 0.0); count];
+    for (x, &cell) in values.iter().zip(cell) {
+        sums[cell].0 += x;
+        sums[cell].1 += 1.0;
+    }
+    sums.into_iter().map(|(sum, n)| sum / n).collect()
+}
+
+/// Columns of which more than [`APART`] is left beside those before, by pivoted QR.
+fn independent<'a>(columns: impl Iterator<Item = &'a Vec<f64>>) -> Vec<usize> {
+    let columns: Vec<&Vec<f64>> = columns.collect();
+    let Some(rows) = columns.first().map(|column| column.len()) else {
+        return Vec::new();
+    };
+    let matrix = Mat::from_fn(rows, columns.len(), |row, c| columns[c][row]);
+    let pivoted = matrix.col_piv_qr();
+    let diagonal = pivoted.thin_R();
+    let rank = (0..columns.len().min(rows))
+        .take_while(|&k| diagonal[(k, k)].abs() > APART)
+        .count();
+    pivoted.P().arrays().0[..rank].to_vec()
+}
+
+/// Torques of the cells, values of the chosen columns, and the influence of each block on the torques.
+fn solve(
+    rows: &Rows,
+    cell: &[usize],
+    count: usize,
+    chosen: &Chosen,
+) -> (Vec<f64>, Vec<f64>, Mat<f64>) {
+    let (n, r) = (rows.torque.len(), chosen.places.len());
+    let columns: Vec<Vec<f64>> = chosen
+        .places
+        .iter()
+        .zip(&chosen.lengths)
+        .map(|(&place, length)| rows.columns[place].iter().map(|x| x / length).collect())
+        .collect();
+    let inside: Vec<Vec<f64>> = columns.iter().map(|x| within(x, cell, count)).collect();
+    let mut rest = within(&rows.torque, cell, count);
+    let mut torques = means(&rows.torque, cell, count);
+    let column_means: Vec<Vec<f64>> = columns.iter().map(|x| means(x, cell, count)).collect();
+    let mut beta = vec![0.0; r];
+    // What a block's error does to the values of the columns.
+    let mut moves = Mat::<f64>::zeros(n, r);
+    if r > 0 {
+        let matrix = Mat::from_fn(n, r, |row, c| inside[c][row]);
+        let right = Mat::from_fn(n, 1, |row, _| rest[row]);
+        let solved = matrix.qr().solve_lstsq(&right);
+        beta = (0..r).map(|c| solved[(c, 0)]).collect();
+        let inverse = (matrix.transpose() * &matrix)
+            .partial_piv_lu()
+            .solve(Mat::<f64>::identity(r, r));
+        moves = &matrix * inverse;
+    }
+    for (c, value) in beta.iter().enumerate() {
+        let pairs = rest.iter_mut().zip(&inside[c]);
+        pairs.for_each(|(rest, x)| *rest -= value * x);
+        let pairs = torques.iter_mut().zip(&column_means[c]);
+        pairs.for_each(|(torque, mean)| *torque -= value * mean);
+    }
+    let mut blocks = vec![0.0; count];
+    for &cell in cell {
+        blocks[cell] += 1.0;
+    }
+    let freedom = (n as f64 - (r + count) as f64).max(1.0);
+    let correction = (n as f64 / freedom).sqrt();
+    let influence = Mat::from_fn(n, count, |row, k| {
+        let own = if cell[row] == k { 1.0 / blocks[k] } else { 0.0 };
+        let by_columns: f64 = (0..r).map(|c| moves[(row, c)] * column_means[c][k]).sum();
+        correction * rest[row] * (own - by_columns)
+    });
+    let beta = beta.iter().zip(&chosen.lengths);
+    (
+        torques,
+        beta.map(|(value, length)| value / length).collect(),
+        influence,
+    )
+}
+
+/// Standard deviation of a weighted sum of the points, by the long-run variance of the series that makes its error.
+fn deviation(influence: &Mat<f64>, weight: impl Fn(usize) -> f64) -> f64 {
+    let weights: Vec<f64> = (0..influence.ncols()).map(weight).collect();
+    let series = (0..influence.nrows()).map(|row| {
+        let pairs = weights.iter().enumerate();
+        pairs.map(|(k, weight)| weight * influence[(row, k)]).sum()
+    });
+    long_run_sum(&series.collect::<Vec<f64>>()).max(0.0).sqrt()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
