@@ -6,7 +6,7 @@ use faer::linalg::solvers::{Solve, SolveLstsq};
 use super::rows::{Measured, Rows, Runs};
 use super::stretch::SAME;
 use super::{FrictionError, Value};
-use crate::identify::long_run_sum;
+use crate::identify::correlation_time;
 use crate::log::Log;
 
 /// What is left of a column of unit length beside others, or while the speed stays: below this it counts as nothing. Errors of what is
@@ -15,6 +15,9 @@ const APART: f64 = 1e-3;
 
 /// Columns below this are rounding, per unit of their parameter in SI.
 const ROUNDING: f64 = 1e-12;
+
+/// A cell's own noise counts beside that of all cells as if the latter were so many blocks.
+const PRIOR: f64 = 10.0;
 
 /// Friction at one speed.
 ///
@@ -39,8 +42,8 @@ pub struct Point {
 
 /// A joint's friction curve: the solution of `gain tau = Y_j beta + sum_k f_k [speed k]` by least squares, on means over 0.05 s.
 ///
-/// Speeds within 5 % of each other are one. Standard deviations are those of the series that sums up to an estimate's error, as for
-/// all estimates: slow noise counts for more. Example: [`Measured`].
+/// Speeds within 5 % of each other are one. Standard deviations are of each speed's own errors, with their correlation from block to
+/// block: slow noise counts for more. Example: [`Measured`].
 #[derive(Debug, Clone)]
 pub struct Curve {
     /// Points by rising speed, negative ones first.
@@ -54,7 +57,7 @@ pub struct Curve {
     pub beside: Vec<(usize, f64)>,
     /// From where to where each joint went or stood, rad or m.
     pub range: Vec<(f64, f64)>,
-    /// What each block moves each point by, `[block, point]`.
+    /// How far each block's error moves each point, one deviation of it, `[block, point]`.
     influence: Mat<f64>,
 }
 
@@ -178,6 +181,41 @@ impl Measured<'_> {
 }
 
 impl Curve {
+    /// The curve of a joint without a rigid body, from torques of blocks at each speed.
+    #[cfg(test)]
+    pub(super) fn of_blocks(speeds: &[f64], blocks: &[Vec<f64>]) -> Self {
+        let count = speeds.len();
+        let cell = blocks.iter().enumerate();
+        let cell: Vec<usize> = cell.flat_map(|(k, blocks)| vec![k; blocks.len()]).collect();
+        let rows = Rows {
+            torque: blocks.concat(),
+            ..Rows::default()
+        };
+        let nothing = Chosen {
+            places: Vec::new(),
+            lengths: Vec::new(),
+            has_constant: false,
+        };
+        let (torques, _, influence) = solve(&rows, &cell, count, &nothing);
+        let point = |k: usize| Point {
+            speed: speeds[k],
+            torque: Value {
+                value: torques[k],
+                std: deviation(&influence, |point| if point == k { 1.0 } else { 0.0 }),
+            },
+            seconds: 1.0,
+            stretches: 1,
+        };
+        Self {
+            points: (0..count).map(point).collect(),
+            rank: 0,
+            has_constant: false,
+            beside: Vec::new(),
+            range: Vec::new(),
+            influence,
+        }
+    }
+
     /// Standard deviation of `sum_k weight(k) f_k`.
     pub(super) fn deviation(&self, weight: impl Fn(usize) -> f64) -> f64 {
         deviation(&self.influence, weight)
@@ -234,7 +272,7 @@ fn independent<'a>(columns: impl Iterator<Item = &'a Vec<f64>>) -> Vec<usize> {
     pivoted.P().arrays().0[..rank].to_vec()
 }
 
-/// Torques of the cells, values of the chosen columns, and the influence of each block on the torques.
+/// Torques of the cells, values of the chosen columns, and how far the blocks' errors move the torques.
 fn solve(
     rows: &Rows,
     cell: &[usize],
@@ -271,16 +309,11 @@ fn solve(
         let pairs = torques.iter_mut().zip(&column_means[c]);
         pairs.for_each(|(torque, mean)| *torque -= value * mean);
     }
-    let mut blocks = vec![0.0; count];
-    for &cell in cell {
-        blocks[cell] += 1.0;
-    }
-    let freedom = (n as f64 - (r + count) as f64).max(1.0);
-    let correction = (n as f64 / freedom).sqrt();
+    let (blocks, sigma) = noise(&rest, cell, count, r);
     let influence = Mat::from_fn(n, count, |row, k| {
         let own = if cell[row] == k { 1.0 / blocks[k] } else { 0.0 };
         let by_columns: f64 = (0..r).map(|c| moves[(row, c)] * column_means[c][k]).sum();
-        correction * rest[row] * (own - by_columns)
+        sigma[cell[row]] * (own - by_columns)
     });
     let beta = beta.iter().zip(&chosen.lengths);
     (
@@ -290,14 +323,34 @@ fn solve(
     )
 }
 
-/// Standard deviation of a weighted sum of the points, by the long-run variance of the series that makes its error.
+/// How many blocks each cell has, and the deviation of a block's error there, larger where neighbors are alike so that the sums of
+/// errors come out: cells have their own noise, and those of few blocks nearly that of all.
+fn noise(rest: &[f64], cell: &[usize], count: usize, unknowns: usize) -> (Vec<f64>, Vec<f64>) {
+    let mut sums = vec![(0.0, 0.0); count];
+    for (rest, &cell) in rest.iter().zip(cell) {
+        sums[cell].0 += 1.0;
+        sums[cell].1 += rest * rest;
+    }
+    let freedom = rest.len() as f64 - count as f64;
+    let squares: f64 = sums.iter().map(|(_, squares)| squares).sum();
+    let taken = freedom.max(1.0) / (freedom - unknowns as f64).max(1.0);
+    let all = squares / freedom.max(1.0);
+    let factor = taken * correlation_time(rest);
+    let sigma = |&(blocks, squares): &(f64, f64)| {
+        (factor * (squares + PRIOR * all) / (blocks - 1.0 + PRIOR)).sqrt()
+    };
+    let sigma = sums.iter().map(sigma).collect();
+    (sums.iter().map(|(blocks, _)| *blocks).collect(), sigma)
+}
+
+/// Standard deviation of a weighted sum of the points.
 fn deviation(influence: &Mat<f64>, weight: impl Fn(usize) -> f64) -> f64 {
     let weights: Vec<f64> = (0..influence.ncols()).map(weight).collect();
-    let series = (0..influence.nrows()).map(|row| {
+    let moved = (0..influence.nrows()).map(|row| -> f64 {
         let pairs = weights.iter().enumerate();
         pairs.map(|(k, weight)| weight * influence[(row, k)]).sum()
     });
-    long_run_sum(&series.collect::<Vec<f64>>()).max(0.0).sqrt()
+    norm(&moved.collect::<Vec<f64>>())
 }
 
 fn norm(values: &[f64]) -> f64 {

@@ -365,3 +365,6 @@ fn left_inverse(columns: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let r = q.transpose() * columns;
     r.solve_upper_triangular(&q.transpose())
 }
+
+#[cfg(test)]
+mod tests;
