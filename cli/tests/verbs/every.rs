@@ -15,6 +15,15 @@ fn every_verb_refuses_a_broken_spec() {
         vec!["eval", "broken.robot", "--states", "states.json"],
         vec!["identify", "broken.robot", "log.csv", "--json", "out.json"],
         vec!["merge", "broken.robot", "log.csv", "--json", "out.json"],
+        vec![
+            "friction",
+            "broken.robot",
+            "log.csv",
+            "--joint",
+            "rail",
+            "--json",
+            "out.json",
+        ],
         vec!["audit", "broken.robot", "--parameters", "log.csv"],
         vec!["dissect", "broken.robot", "log.csv", "--json", "out.json"],
         vec![
@@ -53,6 +62,7 @@ fn every_verb_refuses_a_missing_file() {
         vec!["import", "none.urdf", "-o", "out.robot"],
         vec!["identify", "none.robot", "log.csv"],
         vec!["merge", "none.robot", "factor.json"],
+        vec!["friction", "none.robot", "log.csv", "--joint", "rail"],
         vec!["audit", "none.robot", "--parameters", "p.json"],
         vec!["trace", "none.robot", "log.csv"],
         vec!["dissect", "none.robot", "log.csv"],
