@@ -14,6 +14,7 @@ use super::{Curve, FrictionError, Law, Value};
 use crate::identify::long_run_sum;
 use crate::log::Log;
 use crate::motion::Motion;
+use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, LowPass, MOTION_ORDER, derivative, prepare};
 
 /// Shares of the breakaway torque between which the bristles are looked at: nearer to it `1 - f / F_s` is mostly the error of `F_s`.
@@ -25,6 +26,10 @@ const REACHED: f64 = 0.5;
 
 /// A joint slides that is faster than this share of the least speed of the curve.
 const SLIDES: f64 = 0.5;
+
+/// Over which time, s, and beyond so many steps of the encoder.
+const WINDOW_S: f64 = 0.1;
+const STILL_STEPS: f64 = 2.0;
 
 /// Samples that a fit has at least.
 const LEAST_SAMPLES: usize = 20;
@@ -106,8 +111,16 @@ impl Measured<'_> {
 
         let slow = curve.points.iter().map(|point| point.speed.abs());
         let slides = SLIDES * slow.fold(f64::INFINITY, f64::min);
-        let speeds = &motion.smooth.dq[self.joint];
-        let slide = speeds.iter().position(|v| v.abs() > slides);
+        let q = &motion.smooth.q[self.joint];
+        let encoder_step = encoder_step(&log.q[self.joint]);
+        // A step of the encoder alone is no motion.
+        let window = whole_steps((WINDOW_S * prepared.rate_hz).ceil());
+        let far = slides * WINDOW_S + STILL_STEPS * encoder_step;
+        let later = q.iter().zip(q.iter().skip(window));
+        let slide = later
+            .enumerate()
+            .find(|(_, (q, later))| (*later - *q).abs() > far)
+            .map(|(k, _)| k);
         let rest = &torque[..slide.unwrap_or(torque.len())];
         if rest.len() < LEAST_SAMPLES {
             return Err(FrictionError::NoRest {
@@ -128,7 +141,6 @@ impl Measured<'_> {
                 breakaway: breakaway.value,
             });
         };
-        let q = &motion.smooth.q[self.joint];
         let loading = Loading {
             torque: torque[part.clone()].iter().map(|f| way * f).collect(),
             way: q[part.clone()]
@@ -137,7 +149,6 @@ impl Measured<'_> {
                 .collect(),
             step: 1.0 / prepared.rate_hz,
         };
-        let encoder_step = encoder_step(&log.q[self.joint]);
         let found = loading.bristles(breakaway);
         let (stiffness, damping) = found.ok_or_else(|| FrictionError::NoDeflection {
             source_name: source_name(),

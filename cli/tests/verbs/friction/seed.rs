@@ -124,7 +124,35 @@ fn the_law_and_the_bristles_of_seed_003_come_back() {
         0.02 * SEED[0],
     );
     assert!(folder.read("f.svg").contains("friction of elbow"));
+    coarse(&folder);
     damping(&folder, spec);
+}
+
+/// An encoder of two steps to the deflection at sliding does not tell the stiffness, which is said with what it would tell.
+fn coarse(folder: &Folder) {
+    let simulate = ["simulate", "rod.robot", "--parameters", "values.json"];
+    let out = [
+        "--trajectory",
+        "hang.csv",
+        "--torque",
+        "ramp.csv",
+        "--out",
+        "coarse.csv",
+    ];
+    let sensors = ["--encoder-bits", "12", "--duration", "7.5"];
+    folder.succeed(&[&simulate[..], &out, &sensors].concat());
+    let friction = ["friction", "plain.robot", "log.csv", "--joint", "elbow"];
+    let out = ["--pre-sliding", "coarse.csv", "--json", "coarse.json"];
+    folder.succeed(&[&friction[..], &out].concat());
+    let report = json(&folder.read("coarse.json"));
+    let step = std::f64::consts::TAU / 4096.0;
+    close(number(&report["bristles"]["encoder_step"]), step, 1e-9);
+    let told = SEED[0] / (5.0 * step);
+    let notes = report["notes"].to_string();
+    assert!(
+        told > 74.0 && told < 78.0 && notes.contains("it tells stiffnesses below 7"),
+        "{notes}"
+    );
 }
 
 /// From the declarations and the file that were written output error finds what a slow rise does not tell.
