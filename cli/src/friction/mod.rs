@@ -66,7 +66,7 @@ impl Friction {
         let joint = self.joint(&compiled)?;
         let progress = Progress::new();
         let read = |path: &PathBuf| -> Result<Log, Error> {
-            Ok(read_mended(path, compiled.dof(), &progress)?.log)
+            Ok(read_mended(path, &compiled.model, &progress)?.log)
         };
         let logs: Vec<Log> = self.logs.iter().map(read).collect::<Result<_, _>>()?;
         let pre_sliding = self.pre_sliding.as_ref().map(read).transpose()?;

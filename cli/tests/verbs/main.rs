@@ -3,8 +3,8 @@
 mod apart;
 mod audit;
 mod c;
-mod columns;
 mod calibrate;
+mod columns;
 mod common;
 mod dissect;
 mod energies;
