@@ -31,6 +31,10 @@ fn the_law_comes_back_with_its_deviations() {
     let mut squares = [0.0; 5];
     for seed in 0..200 {
         let curve = drawn(seed, &speeds, &seed_003, 40, 0.05);
+        for point in &curve.points {
+            let share = point.torque.std / (0.05 / 40_f64.sqrt());
+            assert!((0.7..1.5).contains(&share), "{point:?}");
+        }
         let law = Law::fit(&curve).expect("a law");
         let fall = law.fall.expect("a fall");
         let found = [
