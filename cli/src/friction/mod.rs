@@ -33,7 +33,7 @@ use report::Found;
 pub(crate) struct Friction {
     /// The `.robot` file; the joint's friction need not be declared in it.
     spec: PathBuf,
-    /// Logs: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    /// Logs: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// The joint, by its name.

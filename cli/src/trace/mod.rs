@@ -25,7 +25,7 @@ pub(crate) use summary::summary;
 pub(crate) struct TraceArguments {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Logs to fit: CSV or gzip CSV, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units.
+    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// A log that is not fitted: errors before and after are judged on it, and nothing else is.
