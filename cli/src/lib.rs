@@ -90,7 +90,20 @@ impl Verb {
 /// The program: arguments of the process in, exit code out.
 #[must_use]
 pub fn main() -> ExitCode {
+    keep_decoders_quiet();
     run(std::env::args_os())
+}
+
+/// The decoder of Parquet panics at some damaged files; the reader of logs makes errors of these panics, and nobody wants to
+/// see them besides.
+fn keep_decoders_quiet() {
+    let others = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        let is_decoder = |place: &std::panic::Location| place.file().contains("/parquet-");
+        if !info.location().is_some_and(is_decoder) {
+            others(info);
+        }
+    }));
 }
 
 /// Runs one command. The first argument is the program's name.

@@ -137,7 +137,7 @@ fn a_simulated_log_needs_no_second_spec() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stderr
-            .contains("none of the columns that the spec's `log` names"),
+            .contains("lacks the columns that the spec's `log` names"),
         "{}",
         run.stderr
     );

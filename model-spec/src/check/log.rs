@@ -74,10 +74,13 @@ pub(super) fn check_log(
             Channel::Position => columns.q = read(&|j| Some(coordinate_dimension(j.kind))),
             Channel::Velocity => columns.dq = read(&|j| Some(speed_dimension(j.kind))),
             Channel::Torque => {
-                columns.tau = read(&|_| None);
                 for (column, joint) in channel.columns.iter().zip(joints) {
-                    if let Err(error) = check_torque(column, joint, gain_of(robot, joint)) {
-                        errors.push(error);
+                    let sound = worth(column, None).and_then(|own| {
+                        check_torque(column, joint, gain_of(robot, joint)).map(|()| own)
+                    });
+                    match sound {
+                        Ok(own) => columns.tau.push(own),
+                        Err(error) => errors.push(error),
                     }
                 }
             }

@@ -48,7 +48,17 @@ impl Parse for LogColumn {
                 ),
             ));
         }
-        let name = input.parse()?;
+        let name: LitStr = input.parse()?;
+        if !name.suffix().is_empty() {
+            return Err(syn_error(
+                name.span(),
+                &format!(
+                    "expected `:` between a column and its unit `{}`",
+                    name.suffix()
+                ),
+                Some(&format!("write `{:?}: {}`", name.value(), name.suffix())),
+            ));
+        }
         let unit = if input.peek(Token![:]) {
             input.parse::<Token![:]>()?;
             Some(input.parse()?)

@@ -75,6 +75,14 @@ impl Columns {
         self.of_arm().chain(self.extra.iter().map(|(_, own)| own))
     }
 
+    /// Names by which a file shows that it is written for these columns: those that are not the standard ones, or that have a unit.
+    pub(super) fn marks(&self) -> Vec<&str> {
+        let standard = Self::standard(self.dof());
+        let is_standard = |own: &Column| standard.of_arm().any(|known| known == own);
+        let marks = self.all().filter(|own| !is_standard(own));
+        marks.map(|own| own.name.as_str()).collect()
+    }
+
     /// Names that are not the standard ones.
     pub(super) fn own_names(&self) -> Vec<&str> {
         let standard = Self::standard(self.dof());

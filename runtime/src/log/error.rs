@@ -74,6 +74,16 @@ pub enum LogError {
         /// The name.
         name: String,
     },
+    /// One column that is to be two channels.
+    #[error(
+        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` gives no other"
+    )]
+    TwoChannels {
+        /// The file.
+        source_name: String,
+        /// The column.
+        name: String,
+    },
     /// A column of a known family for a joint that the arm does not have.
     #[error("{source_name}:1: unknown column `{name}`: the arm has {dof} joint{}, {}", plural(*.dof), joints(*.dof))]
     NoSuchJoint {

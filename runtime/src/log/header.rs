@@ -25,6 +25,8 @@ pub(super) struct Header {
     pub tau: Vec<Place>,
     /// Neither of the above, with their names; those that the arm has names for come first.
     pub extra: Vec<(String, Place)>,
+    /// So many of them the arm has names for.
+    declared: usize,
     /// The file has the standard columns in place of the arm's own.
     pub is_standard_instead: bool,
 }
@@ -38,7 +40,8 @@ impl Header {
         columns: &Columns,
     ) -> Result<Self, LogError> {
         check_names(source, names)?;
-        let own = columns.own_names();
+        check_columns(source, columns)?;
+        let own = columns.marks();
         let is_foreign = own.iter().all(|own| !names.iter().any(|name| name == own));
         if !own.is_empty() && is_foreign {
             let standard = Columns::standard(columns.dof());
@@ -80,7 +83,15 @@ impl Header {
         let of_arm = columns.extra.iter();
         let of_arm = of_arm.filter_map(|(name, own)| Some((name.clone(), place(own)?)));
         let mut extra: Vec<(String, Place)> = of_arm.collect();
+        let declared = extra.len();
         extra.extend(others(source, names, columns)?);
+        // A column of the input's name would be read in place of the one that is meant.
+        for (name, own) in &columns.extra {
+            let is_elsewhere = extra[declared..].iter().any(|(other, _)| other == name);
+            if is_elsewhere {
+                missing.push(own.name.clone());
+            }
+        }
         if missing.is_empty() {
             Ok(Self {
                 time,
@@ -88,6 +99,7 @@ impl Header {
                 dq,
                 tau,
                 extra,
+                declared,
                 is_standard_instead: false,
             })
         } else {
@@ -102,7 +114,8 @@ impl Header {
     /// Columns that have to hold numbers.
     pub(super) fn needed(&self) -> impl Iterator<Item = usize> {
         let of_arm = self.q.iter().chain(&self.dq).chain(&self.tau);
-        let all = std::iter::once(&self.time).chain(of_arm);
+        let inputs = self.extra[..self.declared].iter().map(|(_, place)| place);
+        let all = std::iter::once(&self.time).chain(of_arm).chain(inputs);
         all.map(|place| place.column)
     }
 }
@@ -120,6 +133,27 @@ fn check_names(source: &str, names: &[String]) -> Result<(), LogError> {
             return Err(LogError::DuplicateColumn {
                 source_name: source.to_owned(),
                 name: name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Every joint has its columns, and every column is one channel.
+fn check_columns(source: &str, columns: &Columns) -> Result<(), LogError> {
+    let dof = columns.dof();
+    let is_whole = columns.tau.len() == dof && [0, dof].contains(&columns.dq.len());
+    if !is_whole {
+        return Err(LogError::Lengths {
+            source_name: source.to_owned(),
+        });
+    }
+    let all: Vec<&Column> = columns.all().collect();
+    for (k, column) in all.iter().enumerate() {
+        if all[..k].iter().any(|other| other.name == column.name) {
+            return Err(LogError::TwoChannels {
+                source_name: source.to_owned(),
+                name: column.name.clone(),
             });
         }
     }

@@ -111,7 +111,7 @@ impl fmt::Display for Note {
             ),
             Self::StandardColumns => write!(
                 f,
-                "it has none of the columns that the spec's `log` names, but `time`, `q1` and so on: these are read, in SI units"
+                "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
             ),
             Self::Resampled {
                 logged,

@@ -1,19 +1,16 @@
 //! Parquet files to columns of finite numbers, a row group at a time.
 //!
-//! Columns of whole and real numbers are read; time stamps come as seconds. Lists, texts and decimals hold no numbers here.
+//! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
 
-use std::cell::Cell;
 use std::fs::File;
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
 
 use bytes::Bytes;
-use parquet::basic::{LogicalType, TimeUnit};
+use parquet::basic::ConvertedType;
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
-use parquet::schema::types::ColumnDescriptor;
 
 use super::LogError;
 use super::rows::{Table, unreadable};
@@ -52,7 +49,9 @@ impl ParquetRows {
         let columns = schema.columns().iter();
         Ok(Self {
             source: source.to_owned(),
-            names: columns.map(|column| column.path().string()).collect(),
+            names: columns
+                .map(|column| column.path().string().trim().to_owned())
+                .collect(),
             reader: Box::new(reader),
             next_group: 0,
             group: Vec::new(),
@@ -123,7 +122,9 @@ impl ParquetRows {
             self.next_row = 0;
             let read = guarded(|| {
                 let group = self.reader.get_row_group(place)?;
-                let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+                let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| {
+                    ParquetError::General("a group of less than no rows".to_owned())
+                })?;
                 let columns = (0..self.names.len()).map(|k| column(&*group, k, rows));
                 Ok((rows, columns.collect::<Result<_, _>>()?))
             });
@@ -136,25 +137,9 @@ impl ParquetRows {
     }
 }
 
-thread_local! {
-    static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Reads from a file that may be damaged: the crate that decodes it panics at some damages, which are errors here, and are not
-/// printed as panics.
+/// Reads from a file that may be damaged: the crate that decodes it panics at some damages, which are errors here.
 fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
-    static HOOK: Once = Once::new();
-    HOOK.call_once(|| {
-        let others = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
-            if !IS_GUARDED.get() {
-                others(info);
-            }
-        }));
-    });
-    IS_GUARDED.set(true);
     let read = panic::catch_unwind(AssertUnwindSafe(read));
-    IS_GUARDED.set(false);
     read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".to_owned())))
 }
 
@@ -165,39 +150,43 @@ fn column(
     rows: usize,
 ) -> Result<Option<Vec<f64>>, ParquetError> {
     let about = group.metadata().column(place).column_descr_ptr();
-    let Some(unit) = unit(&about) else {
+    if about.max_rep_level() > 0 {
         return Ok(None);
+    }
+    // Time stamps are whole numbers in whatever unit the file has; decimals and dates are no numbers.
+    let is_unsigned = match about.converted_type() {
+        ConvertedType::UINT_8
+        | ConvertedType::UINT_16
+        | ConvertedType::UINT_32
+        | ConvertedType::UINT_64 => true,
+        ConvertedType::NONE
+        | ConvertedType::INT_8
+        | ConvertedType::INT_16
+        | ConvertedType::INT_32
+        | ConvertedType::INT_64
+        | ConvertedType::TIME_MILLIS
+        | ConvertedType::TIME_MICROS
+        | ConvertedType::TIMESTAMP_MILLIS
+        | ConvertedType::TIMESTAMP_MICROS => false,
+        _ => return Ok(None),
     };
     let present = about.max_def_level();
-    let mut values = match group.get_column_reader(place)? {
+    let values = match group.get_column_reader(place)? {
+        ColumnReader::Int32ColumnReader(reader) if is_unsigned => {
+            all(reader, rows, present, |value| {
+                f64::from(value.cast_unsigned())
+            })
+        }
         ColumnReader::Int32ColumnReader(reader) => all(reader, rows, present, f64::from),
+        ColumnReader::Int64ColumnReader(reader) if is_unsigned => {
+            all(reader, rows, present, |value| value.cast_unsigned() as f64)
+        }
         ColumnReader::Int64ColumnReader(reader) => all(reader, rows, present, |value| value as f64),
         ColumnReader::FloatColumnReader(reader) => all(reader, rows, present, f64::from),
         ColumnReader::DoubleColumnReader(reader) => all(reader, rows, present, |value| value),
         _ => return Ok(None),
     }?;
-    for value in &mut values {
-        *value *= unit;
-    }
     Ok(Some(values))
-}
-
-/// Seconds that a one of a time stamp is, 1 for plain numbers; nothing for what is no number.
-fn unit(about: &ColumnDescriptor) -> Option<f64> {
-    if about.max_rep_level() > 0 {
-        return None;
-    }
-    let of_time = |unit: &TimeUnit| match unit {
-        TimeUnit::MILLIS => 1e-3,
-        TimeUnit::MICROS => 1e-6,
-        TimeUnit::NANOS => 1e-9,
-    };
-    match about.logical_type_ref() {
-        None | Some(LogicalType::Integer { .. }) => Some(1.0),
-        Some(LogicalType::Timestamp(stamp)) => Some(of_time(&stamp.unit)),
-        Some(LogicalType::Time(time)) => Some(of_time(&time.unit)),
-        Some(_) => None,
-    }
 }
 
 /// All rows of a column; levels of definition below `present` are nulls.

@@ -483,7 +483,7 @@ fn parquet_columns() -> Columns {
     Columns {
         time: Column {
             name: "stamp".to_owned(),
-            unit: 1.0,
+            unit: 1e-6,
         },
         ..Columns::standard(1)
     }
@@ -502,7 +502,7 @@ fn written_parquet(null: Option<i32>) -> Vec<u8> {
     use std::sync::Arc;
 
     let schema = "message log { required int64 stamp (TIMESTAMP(MICROS,true)); required double q1; optional double tau1; \
-                  required int32 count; required binary mode (UTF8); optional float gaps; }";
+                  required int32 count (INTEGER(32,false)); required binary mode (UTF8); optional float gaps; }";
     let schema = Arc::new(parse_message_type(schema).expect("a schema"));
     let properties = WriterProperties::builder()
         .set_compression(::parquet::basic::Compression::SNAPPY)
