@@ -546,3 +546,30 @@ fn written_parquet(null: Option<i32>) -> Vec<u8> {
     writer.close().expect("a file");
     bytes
 }
+
+/// One column cannot be two channels, and a raw column does not take the place of an input's own.
+#[test]
+fn columns_are_not_mixed_up() {
+    let column = |name: &str| Column {
+        name: name.to_owned(),
+        unit: 0.1,
+    };
+    let mut columns = Columns::standard(1);
+    columns.extra = vec![("temperature".to_owned(), column("tau1"))];
+    let read = |columns: &Columns, header: &str| {
+        let rows: Vec<String> = rows(20).iter().map(|row| format!("{row},7")).collect();
+        let text = text(header, &rows);
+        Log::from_reader_as("monday.csv", text.as_bytes(), columns)
+            .expect_err("must be refused")
+            .to_string()
+    };
+    let refused = read(&columns, "time,q1,tau1,temperature");
+    assert!(
+        refused.contains("`tau1` would be two channels"),
+        "{refused}"
+    );
+    columns.extra = vec![("temperature".to_owned(), column("temp"))];
+    columns.q = vec![column("pos")];
+    let refused = read(&columns, "time,pos,tau1,temperature");
+    assert!(refused.contains("missing column `temp`"), "{refused}");
+}
