@@ -4,17 +4,17 @@
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
 mod columns;
+mod csv;
 mod error;
 mod faults;
 mod header;
+mod note;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod pieces;
 mod rows;
-mod table;
 mod uniform;
 
-use std::fmt;
 use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
@@ -22,6 +22,7 @@ use std::path::Path;
 pub use columns::{Column, Columns};
 pub use error::LogError;
 pub use faults::{Fault, Mended};
+pub use note::Note;
 pub use pieces::Pieces;
 
 use header::{Header, Place};
@@ -65,80 +66,6 @@ pub struct Channel {
     pub name: String,
     /// One value a sample.
     pub values: Vec<f64>,
-}
-
-/// Something about a log that its user should know, and that is no error.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Note {
-    /// Columns that are neither time, position, velocity nor torque.
-    ExtraChannels {
-        /// Their names.
-        names: Vec<String>,
-    },
-    /// Columns that hold something else than numbers, and are left out.
-    NoNumbers {
-        /// Their names.
-        names: Vec<String>,
-    },
-    /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
-    StandardColumns,
-    /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
-    Resampled {
-        /// Samples as logged.
-        logged: usize,
-        /// Samples on the grid.
-        resampled: usize,
-        /// The grid's step, s.
-        step: f64,
-        /// Root mean square of `step_k - step`, s.
-        jitter_rms: f64,
-        /// Largest `|step_k - step|`, s.
-        jitter_max: f64,
-        /// Line of the sample that ends the worst step, where the log came from a file.
-        worst_line: Option<u64>,
-    },
-}
-
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ExtraChannels { names } => write!(f, "extra channels: {}", error::list(names)),
-            Self::NoNumbers { names } => write!(
-                f,
-                "columns that hold no numbers are left out: {}",
-                error::list(names)
-            ),
-            Self::StandardColumns => write!(
-                f,
-                "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
-            ),
-            Self::Resampled {
-                logged,
-                resampled,
-                step,
-                jitter_rms,
-                jitter_max,
-                worst_line,
-            } => {
-                write!(
-                    f,
-                    "time stamps are not uniform: {logged} samples were resampled to {resampled} at the median step of {} ms; \
-                     steps differ from it by {} ms RMS, {} ms at most",
-                    milliseconds(*step),
-                    milliseconds(*jitter_rms),
-                    milliseconds(*jitter_max),
-                )?;
-                worst_line.map_or(Ok(()), |line| write!(f, " (line {line})"))
-            }
-        }
-    }
-}
-
-/// Seconds as milliseconds with the digits that a time stamp can have.
-fn milliseconds(seconds: f64) -> String {
-    let text = format!("{:.4}", seconds * 1e3);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 impl Log {

@@ -226,3 +226,6 @@ where
         numbers.len()
     )))
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{Cursor, Read, Seek};
 
 use super::LogError;
+use super::csv::CsvRows;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetRows;
-use super::table::CsvRows;
 
 /// First and last bytes of a Parquet file.
 const PARQUET: [u8; 4] = *b"PAR1";

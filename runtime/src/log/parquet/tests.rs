@@ -1,0 +1,137 @@
+//! Parquet files that the reader takes, and damaged ones.
+
+#![expect(
+    clippy::float_cmp,
+    reason = "what is read is the number that was written, to the last bit"
+)]
+
+use std::sync::Arc;
+
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::parser::parse_message_type;
+
+use super::super::{Column, Columns, Log};
+
+/// A Parquet file has the log that a CSV file has, from memory, from a file and in pieces; nulls are refused with their row.
+#[test]
+fn parquet_files_are_read_as_csv_is() {
+    let dir = std::env::temp_dir().join(format!("robot-model-parquet-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).expect("a folder");
+    let file = dir.join("monday.parquet");
+    let bytes = written_parquet(None);
+    std::fs::write(&file, &bytes).expect("a file");
+    let columns = parquet_columns();
+    let log = Log::from_reader_as("memory", bytes.as_slice(), &columns).expect("a sound log");
+    assert_eq!((log.time.len(), log.rate_hz().round()), (1000, 1000.0));
+    assert_eq!((log.q[0][700], log.tau[0][700]), (70.0, -350.0));
+    let extra: Vec<(&str, f64)> = log
+        .extra
+        .iter()
+        .map(|own| (own.name.as_str(), own.values[700]))
+        .collect();
+    assert_eq!(extra, [("count", 693.0)]);
+    // An unsigned one, whose first bit is not a sign.
+    assert_eq!(log.extra[0].values[3], 4_294_967_292.0);
+    let told: Vec<String> = log.report.iter().map(ToString::to_string).collect();
+    assert!(told[0].contains("`mode`, `gaps`"), "{told:?}");
+
+    let again = Log::read_as(&file, &columns).expect("a sound log");
+    assert_eq!((again.time, again.q), (log.time, log.q));
+    let pieces = Log::pieces(&file, &columns, 300, 0.1).expect("a header");
+    let pieces: Vec<Log> = pieces.map(|piece| piece.expect("a sound piece")).collect();
+    let last = pieces.last().expect("pieces");
+    assert_eq!((pieces.len(), last.q[0].last()), (4, Some(&99.9)));
+    std::fs::remove_dir_all(&dir).expect("the folder");
+
+    let null = written_parquet(Some(617));
+    let refused = Log::from_reader_as("tuesday", null.as_slice(), &columns).expect_err("a null");
+    assert_eq!(
+        refused.to_string(),
+        "tuesday:618: `a null or no finite number` in column `tau1` is not a number; repair or remove the row"
+    );
+}
+
+/// Damaged Parquet files are refused, or read where the damage is in a number.
+#[test]
+fn damaged_parquet_files_are_refused() {
+    let sound = written_parquet(None);
+    let columns = parquet_columns();
+    let mut refused = 0;
+    let mut count = |bytes: &[u8]| {
+        if Log::from_reader_as("damaged", bytes, &columns).is_err() {
+            refused += 1;
+        }
+    };
+    for cut in (4..sound.len()).step_by(97) {
+        count(&sound[..cut]);
+    }
+    for place in (4..sound.len()).step_by(13) {
+        for mask in [0x01, 0x80, 0xff] {
+            let mut bytes = sound.clone();
+            bytes[place] ^= mask;
+            count(&bytes);
+        }
+    }
+    assert!(refused > sound.len() / 97, "{refused}");
+}
+
+fn parquet_columns() -> Columns {
+    Columns {
+        time: Column {
+            name: "stamp".to_owned(),
+            unit: 1e-6,
+        },
+        ..Columns::standard(1)
+    }
+}
+
+/// A thousand samples in two groups: time in microseconds, positions, torques that may be null, a count, words, and a column
+/// that begins with a null.
+fn written_parquet(null: Option<i32>) -> Vec<u8> {
+    let schema = "message log { required int64 stamp (TIMESTAMP(MICROS,true)); required double q1; optional double tau1; \
+                  required int32 count (INTEGER(32,false)); required binary mode (UTF8); optional float gaps; }";
+    let schema = Arc::new(parse_message_type(schema).expect("a schema"));
+    let properties = WriterProperties::builder()
+        .set_compression(parquet::basic::Compression::SNAPPY)
+        .build();
+    let mut bytes = Vec::new();
+    let mut writer =
+        SerializedFileWriter::new(&mut bytes, schema, Arc::new(properties)).expect("a writer");
+    for rows in [0..400_i32, 400..1000] {
+        let mut group = writer.next_row_group().expect("a group");
+        let there: Vec<i16> = rows.clone().map(|k| i16::from(Some(k) != null)).collect();
+        let torque: Vec<f64> = rows
+            .clone()
+            .zip(&there)
+            .filter(|(_, level)| **level == 1)
+            .map(|(k, _)| -0.5 * f64::from(k))
+            .collect();
+        let stamps: Vec<i64> = rows.clone().map(|k| 1000 * i64::from(k)).collect();
+        let positions: Vec<f64> = rows.clone().map(|k| f64::from(k) / 10.0).collect();
+        let counts: Vec<i32> = rows.clone().map(|k| k - 7).collect();
+        let words = vec![ByteArray::from("idle"); rows.len()];
+        let gaps: Vec<i16> = rows.clone().map(|k| i16::from(k > 3)).collect();
+        let held = vec![1.0_f32; gaps.iter().filter(|level| **level == 1).count()];
+        macro_rules! column {
+            ($kind:ty, $values:expr, $levels:expr) => {{
+                let mut column = group.next_column().expect("a column").expect("a column");
+                column
+                    .typed::<$kind>()
+                    .write_batch($values, $levels, None)
+                    .expect("values");
+                column.close().expect("a column");
+            }};
+        }
+        column!(Int64Type, &stamps, None);
+        column!(DoubleType, &positions, None);
+        column!(DoubleType, &torque, Some(&there));
+        column!(Int32Type, &counts, None);
+        column!(ByteArrayType, &words, None);
+        column!(FloatType, &held, Some(&gaps));
+        group.close().expect("a group");
+    }
+    writer.close().expect("a file");
+    bytes
+}
