@@ -1,6 +1,7 @@
 //! `robot-model identify`: parameters from measured logs.
 
 mod doubts;
+mod drive_gains;
 pub(crate) mod fit;
 mod options;
 mod output_error;
@@ -23,7 +24,8 @@ use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
-use options::{FormArgument, MethodArgument, WeightsArgument, parse_bands, parse_corner};
+use options::{FormArgument, MethodArgument, WeightsArgument};
+use options::{parse_bands, parse_center, parse_corner, parse_mass};
 use reduced::Streams;
 use report::report;
 use table::table;
@@ -67,6 +69,12 @@ pub(crate) struct IdentifyArguments {
     /// The link that carries the payload; without it the last one.
     #[arg(long, value_name = "LINK", requires = "payload")]
     payload_link: Option<String>,
+    /// The payload's mass, kg, as a scale shows it: the gains of the drives are identified with it.
+    #[arg(long, value_name = "KG", requires = "payload", value_parser = parse_mass)]
+    payload_mass: Option<f64>,
+    /// Its center of mass in the link's frame, m, where that is known, too.
+    #[arg(long, value_name = "X,Y,Z", requires = "payload_mass", allow_hyphen_values = true, value_parser = parse_center)]
+    payload_center: Option<[f64; 3]>,
     /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
@@ -114,7 +122,7 @@ impl IdentifyArguments {
             FormArgument::Acceleration => {
                 let form = ByAcceleration(InterpretedArm::new(compiled));
                 match &self.factor {
-                    _ if !self.payload.is_empty() => self.carried(&form, method),
+                    _ if !self.payload.is_empty() => self.with_payload(&form, method),
                     Some(factor) => self.reduce(&form, method, factor),
                     None => self.fit(&form, method),
                 }

@@ -96,6 +96,22 @@ pub(super) fn parse_bands(text: &str) -> Result<Bands, String> {
     }
 }
 
+pub(super) fn parse_mass(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(mass) if mass > 0.0 && mass.is_finite() => Ok(mass),
+        _ => Err("write a positive number in kg, such as `2.5`".to_owned()),
+    }
+}
+
+pub(super) fn parse_center(text: &str) -> Result<[f64; 3], String> {
+    let numbers = text.split(',').map(|part| part.trim().parse::<f64>());
+    let numbers: Result<Vec<f64>, _> = numbers.collect();
+    match numbers.as_deref() {
+        Ok(&[x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok([x, y, z]),
+        _ => Err("write three numbers in m, such as `0,0,0.12`".to_owned()),
+    }
+}
+
 impl IdentifyArguments {
     /// Options that the method does not read are mistakes.
     pub(super) fn check_options(&self) -> Result<(), Error> {

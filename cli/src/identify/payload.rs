@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use robot_model::identify::{Carried, Errors, Estimate, Identify, Method};
-use robot_model::log::Log;
+use robot_model::identify::{Carried, Errors, Estimate, Identify, KnownPayload, Method};
+use robot_model::log::{Fault, Log};
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
@@ -16,31 +16,39 @@ use crate::progress::Progress;
 
 /// What `--json` writes: the keys of all methods for the arm alone, and these.
 #[derive(Serialize)]
-struct PayloadReport<'a> {
+pub(super) struct PayloadReport<'a> {
     #[serde(flatten)]
     arm: Report<'a>,
-    payload: Body<'a>,
+    pub payload: Body<'a>,
 }
 
 /// The payload as far as the logs tell.
 #[derive(Serialize)]
-struct Body<'a> {
+pub(super) struct Body<'a> {
     link: &'a str,
     /// About the origin of the link's frame.
     parameters: Vec<Parameter<'a>>,
     /// kg, and its standard deviation.
-    mass: Option<f64>,
-    mass_std: Option<f64>,
+    pub mass: Option<f64>,
+    pub mass_std: Option<f64>,
     /// In the link's frame, m.
-    center: [Option<f64>; 3],
+    pub center: [Option<f64>; 3],
     /// Of logs with it.
     rmse: &'a [f64],
     relative_percent: &'a [f64],
 }
 
+/// Logs of `identify --payload`, and what was found in them.
+pub(super) struct Logs {
+    pub unloaded: Vec<Log>,
+    pub loaded: Vec<Log>,
+    pub validate: Option<Log>,
+    pub faults: Vec<(String, Fault)>,
+}
+
 impl IdentifyArguments {
-    /// The arm from the logs, what it carries from those of `--payload`.
-    pub(super) fn carried(&self, form: &ByAcceleration, method: Method) -> Result<(), Error> {
+    /// The arm from the logs, what it carries from those of `--payload`, and the gains of its drives where the payload's mass is known.
+    pub(super) fn with_payload(&self, form: &ByAcceleration, method: Method) -> Result<(), Error> {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.payload)
@@ -49,13 +57,16 @@ impl IdentifyArguments {
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
-        let unloaded: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
-        let loaded: Vec<Log> = self
-            .payload
-            .iter()
-            .map(&mut read)
-            .collect::<Result<_, _>>()?;
+        let unloaded = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
+        let loaded = self.payload.iter().map(&mut read);
+        let loaded = loaded.collect::<Result<_, _>>()?;
         let validate = self.validate.as_ref().map(read).transpose()?;
+        let logs = Logs {
+            unloaded,
+            loaded,
+            validate,
+            faults,
+        };
         let identify = Identify {
             method,
             weights: self.weights.into(),
@@ -63,63 +74,128 @@ impl IdentifyArguments {
             ..Identify::default()
         };
         progress.step("identifying");
+        let found = match self.payload_mass {
+            None => self.carried(form, &identify, &logs, &progress)?,
+            Some(mass) => {
+                let center = self.payload_center;
+                let known = KnownPayload { mass, center };
+                self.drive_gains(form, &identify, logs, &known, &progress)?
+            }
+        };
+        drop(progress);
+        if let Some(file) = json {
+            file.commit(found.json.as_bytes())?;
+        }
+        output::print(&found.text)
+    }
+
+    fn carried(
+        &self,
+        form: &ByAcceleration,
+        identify: &Identify,
+        logs: &Logs,
+        progress: &Progress,
+    ) -> Result<Found, Error> {
         let link = self.payload_link.as_deref();
-        let found = identify.fit_payload(&form.0, &unloaded, &loaded, link)?;
+        let found = identify.fit_payload(&form.0, &logs.unloaded, &logs.loaded, link)?;
+        let judged = self.judged(form, &found, logs, progress)?;
+        if let Some(doubt) = negative(&found) {
+            progress.note(&format!("note: {doubt}"));
+        }
+        let arm = of_arm(&found, &judged.train);
+        Ok(Found {
+            json: output::json(&judged.report(&arm, &found, &logs.faults)),
+            text: format!(
+                "{}{}\n{}",
+                found.estimate,
+                told(&found),
+                judged.table(&found.estimate)
+            ),
+        })
+    }
+
+    /// Errors of an arm and its payload; that the arm's parameters are told.
+    pub(super) fn judged(
+        &self,
+        form: &ByAcceleration,
+        found: &Carried,
+        logs: &Logs,
+        progress: &Progress,
+    ) -> Result<Judged, Error> {
         let own: Vec<&str> = found.payload().iter().map(|p| p.name.as_str()).collect();
         // What no motion tells of a payload is no fault of the logs.
         let is_of_arm = |name: &String| !own.contains(&name.as_str());
         if !self.partial && found.estimate.unexcited.iter().any(is_of_arm) {
             told_apart(&found.estimate)?;
         }
-        let train = errors_of_all(&found.estimate, form, &unloaded)?;
-        let carrying = errors_of_all(&found.loaded, form, &loaded)?;
-        let validation = validate.as_ref();
-        let validation = validation.map(|log| form.errors(&found.loaded, log));
-        let validation = validation.transpose()?;
         let doubts = [
             doubts::negative(&found.estimate, form.unknowns()),
             doubts::unexplained(&found.estimate).map(str::to_owned),
-            negative(&found),
         ];
         for doubt in doubts.into_iter().flatten() {
             progress.note(&format!("note: {doubt}"));
         }
-        drop(progress);
+        let validation = logs.validate.as_ref();
+        let validation = validation.map(|log| form.errors(&found.loaded, log));
+        Ok(Judged {
+            train: errors_of_all(&found.estimate, form, &logs.unloaded)?,
+            carrying: errors_of_all(&found.loaded, form, &logs.loaded)?,
+            validation: validation.transpose()?,
+        })
+    }
+}
+
+/// What is written and printed.
+pub(super) struct Found {
+    pub json: String,
+    pub text: String,
+}
+
+/// Errors of an arm without and with its payload.
+pub(super) struct Judged {
+    pub train: Errors,
+    carrying: Errors,
+    validation: Option<Errors>,
+}
+
+impl Judged {
+    /// What `--json` writes; `arm` is [`of_arm`].
+    pub(super) fn report<'a>(
+        &'a self,
+        arm: &'a Estimate,
+        found: &'a Carried,
+        faults: &'a [(String, Fault)],
+    ) -> PayloadReport<'a> {
         let (mass, center) = found.mass_and_center();
-        if let Some(file) = json {
-            let arm = of_arm(&found, &train);
-            let report = PayloadReport {
-                arm: report(&arm, Some(&train), validation.as_ref(), &faults),
-                payload: Body {
-                    link: &found.link,
-                    parameters: parameters(&found),
-                    mass: mass.map(|[mass, _]| mass),
-                    mass_std: mass.map(|[_, std]| std),
-                    center,
-                    rmse: &carrying.rmse,
-                    relative_percent: &carrying.relative_percent,
-                },
-            };
-            file.commit(output::json(&report).as_bytes())?;
+        PayloadReport {
+            arm: report(arm, Some(&self.train), self.validation.as_ref(), faults),
+            payload: Body {
+                link: &found.link,
+                parameters: parameters(found),
+                mass: mass.map(|[mass, _]| mass),
+                mass_std: mass.map(|[_, std]| std),
+                center,
+                rmse: &self.carrying.rmse,
+                relative_percent: &self.carrying.relative_percent,
+            },
         }
-        let columns = [("without payload", &train), ("with payload", &carrying)].into_iter();
-        let columns = columns.chain(
-            validation
-                .as_ref()
-                .map(|errors| ("validation, with it", errors)),
-        );
-        let columns: Vec<_> = columns.collect();
-        output::print(&format!(
-            "{}{}\n{}",
-            found.estimate,
-            told(&found),
-            table(&found.estimate, &columns)
-        ))
+    }
+
+    /// Errors side by side.
+    pub(super) fn table(&self, estimate: &Estimate) -> String {
+        let both = [
+            ("without payload", &self.train),
+            ("with payload", &self.carrying),
+        ];
+        let validation = self.validation.as_ref();
+        let validation = validation.map(|errors| ("validation, with it", errors));
+        let columns: Vec<_> = both.into_iter().chain(validation).collect();
+        table(estimate, &columns)
     }
 }
 
 /// The estimate of the arm alone.
-fn of_arm(found: &Carried, errors: &Errors) -> Estimate {
+pub(super) fn of_arm(found: &Carried, errors: &Errors) -> Estimate {
     let mut arm = found.estimate.clone();
     arm.relative_percent.clone_from(&errors.relative_percent);
     arm.parameters.truncate(found.loaded.parameters.len());

@@ -7,6 +7,7 @@ mod calibrate;
 mod columns;
 mod common;
 mod dissect;
+mod drive_gains;
 mod energies;
 mod equations;
 mod eval;

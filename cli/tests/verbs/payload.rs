@@ -7,9 +7,10 @@ use serde_json::Value;
 use crate::common::{Folder, json, numbers};
 
 /// Mass, first moments and inertia of what is carried, about the origin of the link's frame.
-const PAYLOAD: [(&str, f64); 4] = [("m", 0.8), ("mx", 0.12), ("my", -0.05), ("izz", 0.03)];
+pub(crate) const PAYLOAD: [(&str, f64); 4] =
+    [("m", 0.8), ("mx", 0.12), ("my", -0.05), ("izz", 0.03)];
 
-fn spec(effects: &str) -> String {
+pub(crate) fn spec(effects: &str) -> String {
     format!(
         "robot A {{
             gravity = [0, -9.81, 0];
@@ -24,7 +25,7 @@ fn spec(effects: &str) -> String {
 }
 
 /// Logs of different motions without and with the payload, of an arm with more effects.
-fn folder(more: &str) -> Folder {
+pub(crate) fn folder(more: &str) -> Folder {
     let folder = Folder::new();
     folder.write("arm.robot", &spec(more));
     folder.write("loaded.robot", &spec(&format!("{more} payload on lo;")));
@@ -70,7 +71,7 @@ fn folder(more: &str) -> Folder {
     folder
 }
 
-fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
+pub(crate) fn parameter<'a>(fit: &'a Value, name: &str) -> &'a Value {
     let parameters = fit["parameters"].as_array().expect("a list");
     let found = parameters
         .iter()

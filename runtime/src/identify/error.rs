@@ -83,6 +83,20 @@ pub enum IdentifyError {
         /// Names of links that there are.
         links: Vec<String>,
     },
+    /// A payload without mass.
+    #[error(
+        "a payload of {mass} kg tells no drive's gain; give the mass that a scale shows, more than 0"
+    )]
+    PayloadMass {
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// No torque shows what is known of a payload.
+    #[error(
+        "no drive's gain is told: what is known of the payload shows in no torque that parameters which are looked for could not make, too; give its \
+         center of mass, too, put it on a link behind other joints, or move joints that lift or swing it"
+    )]
+    PayloadHidden,
     /// Not one value for each open shape.
     #[error(
         "{given} values for the {open} shapes that the spec leaves open; give one for each, in its order"

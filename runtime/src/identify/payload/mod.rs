@@ -7,14 +7,21 @@
 //! Source: Khalil, Gautier, Lemoine 2007, Identification of the payload inertial parameters of industrial manipulators, method of two
 //! trajectories.
 
+mod drive_gains;
+mod gain_rows;
+mod shares;
+
+pub use drive_gains::{DriveGain, Driven, KnownPayload};
+
 use super::stack::Stack;
 use super::{
     Estimate, Fitted, Form, Identified, Identify, IdentifyError, RIGID_TORQUE_PASSES, check_logs,
-    load_motion, prepare_all, slowest_bands, update_load,
+    prepare_all, slowest_bands, update_load,
 };
-use crate::columns::{Arm, Entry, Unknown};
+use crate::columns::Arm;
 use crate::log::Log;
-use crate::signal::Bands;
+use crate::signal::{Bands, Prepared};
+use shares::Shares;
 
 /// An arm and what it carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,105 +58,6 @@ impl Carried {
     }
 }
 
-/// What a payload's parameters add to the unknowns: per unknown its coefficients.
-struct Shares {
-    link: String,
-    unknowns: Vec<Unknown>,
-    coefficients: Vec<Vec<f64>>,
-}
-
-impl Shares {
-    fn of(arm: &dyn Arm, link: Option<&str>) -> Result<Self, IdentifyError> {
-        let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
-        // Bodies of effects have names with a dot.
-        let links = arms.links.iter().filter(|link| !link.name.contains('.'));
-        let links: Vec<_> = links.collect();
-        let mut last = arms
-            .names
-            .iter()
-            .filter_map(|name| name.strip_suffix(".izz"));
-        let last = last.rfind(|name| !name.contains('.'));
-        let wanted = link.or(last).unwrap_or_default();
-        let Some(found) = links.iter().find(|link| link.name == wanted) else {
-            if arms
-                .names
-                .iter()
-                .any(|name| *name == format!("{wanted}.izz"))
-            {
-                return Err(IdentifyError::FixedLink {
-                    link: wanted.to_owned(),
-                });
-            }
-            return Err(IdentifyError::NoLink {
-                links: links.iter().map(|link| link.name.clone()).collect(),
-            });
-        };
-        let factor = |terms: &[(usize, f64)], place: usize| -> f64 {
-            let own = terms.iter().filter(|(standard, _)| *standard == place);
-            own.map(|(_, factor)| factor).sum()
-        };
-        // Of those that any torque depends on.
-        let places = found.parameters.iter().copied();
-        let places = places.filter(|&place| {
-            let all = arms.combinations.iter();
-            all.into_iter().any(|terms| factor(terms, place) != 0.0)
-        });
-        let places: Vec<usize> = places.collect();
-        let unknown = |&place: &usize| {
-            let name = &arms.names[place];
-            let own = name.rsplit('.').next().unwrap_or(name);
-            Unknown {
-                name: format!("{}.payload.{own}", found.name),
-                nonnegative: own == "m",
-            }
-        };
-        let coefficients = arms.combinations.iter().map(|terms| {
-            let places = places.iter();
-            places.map(|&place| factor(terms, place)).collect()
-        });
-        Ok(Self {
-            link: found.name.clone(),
-            unknowns: places.iter().map(unknown).collect(),
-            coefficients: coefficients.collect(),
-        })
-    }
-
-    /// The unknowns with the payload in them.
-    fn loaded(&self, values: &[f64]) -> Vec<f64> {
-        let (arm, payload) = values.split_at(self.coefficients.len());
-        let pairs = arm.iter().zip(&self.coefficients);
-        pairs
-            .map(|(value, factors)| {
-                let terms = factors.iter().zip(payload);
-                value + terms.map(|(factor, own)| factor * own).sum::<f64>()
-            })
-            .collect()
-    }
-
-    /// Columns of the payload, which is there from row `start` on.
-    fn columns(&self, stack: &Stack, start: usize) -> Vec<Entry> {
-        let mut entries = Vec::new();
-        for (joint, rows) in stack.joints.iter().enumerate() {
-            for column in 0..self.unknowns.len() {
-                let mut values = vec![0.0; rows.target.len()];
-                for (unknown, own) in &rows.columns {
-                    let factor = self.coefficients[*unknown][column];
-                    if factor != 0.0 {
-                        let pairs = values[start..].iter_mut().zip(&own[start..]);
-                        pairs.for_each(|(sum, value)| *sum += factor * value);
-                    }
-                }
-                entries.push(Entry {
-                    joint,
-                    column,
-                    values,
-                });
-            }
-        }
-        entries
-    }
-}
-
 impl Identify {
     /// Identifies an arm from logs without its payload, and the payload from logs with it; `link` carries it, without a name the last one.
     /// Open shapes are those of the logs without it.
@@ -166,18 +74,7 @@ impl Identify {
         check_logs(arm, unloaded)?;
         check_logs(arm, loaded)?;
         let shares = Shares::of(arm, link)?;
-        let bands = self.bands.map_or_else(
-            || {
-                let without = self.choose_bands(arm, unloaded)?;
-                let with = slowest_bands(loaded);
-                Ok::<_, IdentifyError>(Bands {
-                    smooth_hz: without.smooth_hz.min(with.smooth_hz),
-                    wide_hz: without.wide_hz.min(with.wide_hz),
-                    shared_hz: without.shared_hz.min(with.shared_hz),
-                })
-            },
-            Ok,
-        )?;
+        let bands = self.bands_of_both(arm, unloaded, loaded)?;
         let both = Self {
             bands: Some(bands),
             ..self.clone()
@@ -187,8 +84,7 @@ impl Identify {
         let n = shares.coefficients.len();
         let mut values = alone.values();
         values.resize(n + shares.unknowns.len(), 0.0);
-        let mut without = prepare_all(unloaded, &bands)?;
-        let mut with = prepare_all(loaded, &bands)?;
+        let mut logs = Both::new(unloaded, loaded, &bands)?;
         let passes = if arm.uses_rigid_torque() {
             RIGID_TORQUE_PASSES
         } else {
@@ -197,15 +93,9 @@ impl Identify {
         let mut last = None;
         for _ in 0..passes {
             if arm.uses_rigid_torque() {
-                update_load(arm, &mut without, &shapes, &values[..n]);
-                let loaded = shares.loaded(&values);
-                for log in &mut with {
-                    load_motion(arm, &mut log.motion, &shapes, &loaded);
-                }
+                logs.update(arm, &shapes, &values[..n], &shares.loaded(&values));
             }
-            let all = [without.clone(), with.clone()].concat();
-            let mut stack = Stack::new(arm, &all, &shapes);
-            let start = stack.segments[without.len()].start;
+            let (mut stack, start) = logs.stack(arm, &shapes);
             let columns = shares.columns(&stack, start);
             stack.append(&shares.unknowns, &columns);
             let solution = self.solve_stack(&stack)?;
@@ -234,5 +124,53 @@ impl Identify {
             estimate,
             loaded,
         })
+    }
+
+    /// Bands that logs of both kinds can bear: those that are given, or that logs without the payload ask for.
+    fn bands_of_both(
+        &self,
+        arm: &dyn Arm,
+        unloaded: &[Log],
+        loaded: &[Log],
+    ) -> Result<Bands, IdentifyError> {
+        if let Some(bands) = self.bands {
+            return Ok(bands);
+        }
+        let without = self.choose_bands(arm, unloaded)?;
+        let with = slowest_bands(loaded);
+        Ok(Bands {
+            smooth_hz: without.smooth_hz.min(with.smooth_hz),
+            wide_hz: without.wide_hz.min(with.wide_hz),
+            shared_hz: without.shared_hz.min(with.shared_hz),
+        })
+    }
+}
+
+/// Logs without and with a payload, ready for rows.
+struct Both {
+    without: Vec<Prepared>,
+    with: Vec<Prepared>,
+}
+
+impl Both {
+    fn new(unloaded: &[Log], loaded: &[Log], bands: &Bands) -> Result<Self, IdentifyError> {
+        Ok(Self {
+            without: prepare_all(unloaded, bands)?,
+            with: prepare_all(loaded, bands)?,
+        })
+    }
+
+    /// The load that effects read, at the arm's parameters alone and with the payload.
+    fn update(&mut self, arm: &dyn Arm, shapes: &[f64], alone: &[f64], loaded: &[f64]) {
+        update_load(arm, &mut self.without, shapes, alone);
+        update_load(arm, &mut self.with, shapes, loaded);
+    }
+
+    /// Rows of all logs, and the first with the payload.
+    fn stack(&self, arm: &dyn Arm, shapes: &[f64]) -> (Stack, usize) {
+        let all = [self.without.clone(), self.with.clone()].concat();
+        let stack = Stack::new(arm, &all, shapes);
+        let start = stack.segments[self.without.len()].start;
+        (stack, start)
     }
 }

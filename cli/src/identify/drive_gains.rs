@@ -1,0 +1,155 @@
+//! `identify --payload --payload-mass`: gains of the drives.
+
+use std::fmt::Write as _;
+
+use robot_model::columns::Arm as _;
+use robot_model::identify::{Driven, Identify, KnownPayload};
+use robot_model::log::Log;
+use serde::Serialize;
+
+use super::IdentifyArguments;
+use super::fit::ByAcceleration;
+use super::payload::{Found, Logs, PayloadReport, of_arm};
+use crate::Error;
+use crate::output;
+use crate::progress::Progress;
+
+/// What `--json` writes: the keys of `--payload`, and these.
+#[derive(Serialize)]
+struct GainsReport<'a> {
+    #[serde(flatten)]
+    payload: PayloadReport<'a>,
+    drive_gains: Vec<Gain<'a>>,
+}
+
+/// Of a joint's drive; null where the logs do not tell it.
+#[derive(Serialize)]
+struct Gain<'a> {
+    joint: &'a str,
+    /// N m or N per unit of the log's channel.
+    actuator_gain: Option<f64>,
+    std: Option<f64>,
+    /// What the spec has.
+    declared: f64,
+}
+
+impl IdentifyArguments {
+    /// Gains of the drives from a payload of known mass, and the arm with torques by these gains.
+    pub(super) fn drive_gains(
+        &self,
+        form: &ByAcceleration,
+        identify: &Identify,
+        logs: Logs,
+        known: &KnownPayload,
+        progress: &Progress,
+    ) -> Result<Found, Error> {
+        let arm = &form.0;
+        let link = self.payload_link.as_deref();
+        let found = identify.fit_drive_gains(arm, &logs.unloaded, &logs.loaded, link, known)?;
+        let all = |logs: &[Log]| logs.iter().map(|log| found.rescaled(log)).collect();
+        let logs = Logs {
+            unloaded: all(&logs.unloaded),
+            loaded: all(&logs.loaded),
+            validate: logs.validate.map(|log| found.rescaled(&log)),
+            ..logs
+        };
+        let carried = &found.carried;
+        let judged = self.judged(form, carried, &logs, progress)?;
+        let gains: Vec<Gain> = gains(&found, arm.joints(), arm.actuator_gain()).collect();
+        for gain in &gains {
+            if let Some(doubt) = doubt(gain) {
+                progress.note(&format!("note: {doubt}"));
+            }
+        }
+        let own = of_arm(carried, &judged.train);
+        let mut payload = judged.report(&own, carried, &logs.faults);
+        payload.payload.mass = Some(known.mass);
+        payload.payload.center = center(&found, known);
+        let text = format!(
+            "{}{}\n{}",
+            carried.estimate,
+            told(&gains, known, &carried.link),
+            judged.table(&carried.estimate)
+        );
+        let report = GainsReport {
+            payload,
+            drive_gains: gains,
+        };
+        Ok(Found {
+            json: output::json(&report),
+            text,
+        })
+    }
+}
+
+fn gains<'a>(
+    found: &'a Driven,
+    joints: &'a [String],
+    declared: &'a [f64],
+) -> impl Iterator<Item = Gain<'a>> {
+    let all = found.gains.iter().zip(joints).zip(declared);
+    all.map(|((gain, joint), declared)| Gain {
+        joint,
+        actuator_gain: gain.map(|gain| gain.value),
+        std: gain.map(|gain| gain.std),
+        declared: *declared,
+    })
+}
+
+/// The payload's center of mass in the link's frame, m, as far as it was given or is told.
+fn center(found: &Driven, known: &KnownPayload) -> [Option<f64>; 3] {
+    if let Some(center) = known.center {
+        return center.map(Some);
+    }
+    let carried = &found.carried;
+    ["mx", "my", "mz"].map(|own| {
+        let name = format!("{}.payload.{own}", carried.link);
+        let moment = carried.payload().iter().find(|p| p.name == name)?;
+        let is_told = carried.estimate.is_separated(&name);
+        is_told.then_some(moment.value / known.mass)
+    })
+}
+
+/// Gains that are hard to believe.
+fn doubt(gain: &Gain) -> Option<String> {
+    let (value, std) = gain.actuator_gain.zip(gain.std)?;
+    if value.abs() < 3.0 * std {
+        return Some(format!(
+            "the gain of {} is not told from zero: the payload changes little of what its drive logs",
+            gain.joint
+        ));
+    }
+    (value < 0.0).then(|| {
+        format!(
+            "the gain of {} is negative: its drive's sign is not that of the spec's joint, or logs with and without the payload are in \
+             each other's place",
+            gain.joint
+        )
+    })
+}
+
+/// One line a joint.
+fn told(gains: &[Gain], known: &KnownPayload, link: &str) -> String {
+    let width = gains.iter().map(|gain| gain.joint.len()).max().unwrap_or(0);
+    let mut text = format!(
+        "gains of the drives, N m or N per unit of the log, by {} kg on {link}:\n",
+        known.mass
+    );
+    for gain in gains {
+        let Gain {
+            joint, declared, ..
+        } = gain;
+        let line = match gain.actuator_gain.zip(gain.std) {
+            Some((value, std)) => format!(
+                "actuator_gain = {value:.5} +- {std:.1e} ({:.2} %), {declared} in the spec",
+                100.0 * (std / value).abs()
+            ),
+            None => format!(
+                "not told: parameters that show in its torque alone are of the spec's {declared}"
+            ),
+        };
+        // A string takes all.
+        let _ = writeln!(text, "{joint:width$}  {line}");
+    }
+    text
+}
