@@ -86,6 +86,7 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
         rows.tau.clone_from(&rows.target);
     }
     Stack {
+        turns: Vec::new(),
         unknowns: arm.unknowns().to_vec(),
         joints,
         segments: vec![Segment {

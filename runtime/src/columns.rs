@@ -125,6 +125,12 @@ pub trait Arm: Columns {
         Vec::new()
     }
 
+    /// Joints with friction that jumps where they turn, from 0: what holds them there is not what a law says, and no method fits those
+    /// rows. None with effects that say what happens there, such as bristles.
+    fn dry_joints(&self) -> &[usize] {
+        &[]
+    }
+
     /// What is known of each unknown before any log, from CAD: one entry an unknown, or none at all.
     fn nominal(&self) -> Vec<Option<Nominal>> {
         Vec::new()

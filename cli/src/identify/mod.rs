@@ -242,9 +242,20 @@ impl IdentifyArguments {
 
 /// That all parameters have values, or the ways out.
 pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
+    let pairs = estimate.joints.iter().zip(&estimate.turns);
+    // Nearly all of its rows, so that what is left is its way from here to there.
+    let standing = pairs.filter(|(_, turns)| 10 * **turns > 9 * estimate.samples);
+    let standing: Vec<String> = standing.map(|(joint, _)| format!("`{joint}`")).collect();
+    let standing = match standing.len() {
+        0 => String::new(),
+        _ => format!(
+            "; {} stand or turn nearly all the time, where dry friction holds them with what no law says",
+            standing.join(", ")
+        ),
+    };
     estimate.separated().map_err(|error| {
         Error::Argument(format!(
-            "{error}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, take its nominal values \
+            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, take its nominal values \
              where logs are silent (`--method ridge`, `physical`), or take what the logs tell: `--partial`"
         ))
     })

@@ -29,6 +29,8 @@ pub(crate) struct Report<'a> {
     unexcited: &'a [String],
     /// What the logs tell of parameters that have no value of their own.
     combinations: Vec<CombinationReport<'a>>,
+    /// Samples per joint that were left out where a joint with dry friction turns; empty where none were looked for.
+    samples_at_turns: &'a [usize],
     /// Independent samples per joint; null where samples were not at hand.
     effective_samples: Option<&'a [f64]>,
     bands_hz: [f64; 3],
@@ -193,6 +195,7 @@ pub(crate) fn report<'a>(
         rank: estimate.rank,
         unexcited: &estimate.unexcited,
         combinations: estimate.combinations.iter().map(combination).collect(),
+        samples_at_turns: &estimate.turns,
         effective_samples: estimate.effective_samples.as_deref(),
         bands_hz: [
             estimate.bands.shared_hz,

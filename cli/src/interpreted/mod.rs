@@ -41,7 +41,7 @@ use band::EffectBlock;
 use measured::Measured;
 use nominal::nominal;
 use program::{run, run_block};
-use rough::is_rough;
+use rough::{dry_joints, is_rough};
 use shape::grids;
 use signals::{Own, Signals};
 
@@ -61,6 +61,7 @@ pub struct InterpretedArm {
     rigid_torque: Program,
     known_torque: Program,
     measured: Measured,
+    dry: Vec<usize>,
 }
 
 impl InterpretedArm {
@@ -106,6 +107,7 @@ impl InterpretedArm {
             rigid_torque: compiled.rigid_torque(),
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
+            dry: dry_joints(&compiled.model),
             compiled,
         }
     }
@@ -182,6 +184,10 @@ impl Arm for InterpretedArm {
             signals.bind(&links, symbol)
         });
         self.measured.series(motion, &shapes, torque)
+    }
+
+    fn dry_joints(&self) -> &[usize] {
+        &self.dry
     }
 
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {

@@ -165,6 +165,10 @@ impl Arm for InterpretedMomentum {
         self.arm.rigid_torque(motion, shapes, estimate)
     }
 
+    fn dry_joints(&self) -> &[usize] {
+        self.arm.dry_joints()
+    }
+
     fn nominal(&self) -> Vec<Option<Nominal>> {
         self.arm.nominal()
     }

@@ -1,6 +1,9 @@
 //! Which columns of an effect jump or have a kink.
 
-use robot_model_spec::model::{BinaryOp, EffectDefinition, EffectExpr, EffectLeaf, Expr, Function};
+use robot_model_spec::Model;
+use robot_model_spec::model::{
+    BinaryOp, EffectDefinition, EffectExpr, EffectLeaf, Expr, Function, Signal,
+};
 
 /// Whether the column of a linear parameter is not smooth in the signals. States count as rough: they turn with the
 /// reversals of what drives them.
@@ -19,6 +22,34 @@ pub(super) fn is_rough(definition: &EffectDefinition, parameter: usize) -> bool 
     }
     let mut torques = definition.torque_equations();
     torques.any(|value| known.has_rough_term(value))
+}
+
+/// Joints with friction that jumps with the sign of their velocity, and none that remembers.
+pub(super) fn dry_joints(model: &Model) -> Vec<usize> {
+    let with = |is_of: &dyn Fn(&EffectDefinition) -> bool| -> Vec<usize> {
+        let effects = model.effects.iter();
+        let effects = effects.filter(|effect| is_of(&effect.definition));
+        effects.flat_map(|effect| effect.joints.clone()).collect()
+    };
+    let dry = with(&|definition| definition.joints.len() == 1 && jumps_at_turns(definition));
+    let remembers = with(&|definition| !definition.states.is_empty());
+    let joints = 0..model.joints.len();
+    let is_dry = |joint: &usize| dry.contains(joint) && !remembers.contains(joint);
+    joints.filter(is_dry).collect()
+}
+
+/// Whether a torque has the sign of a velocity in it.
+fn jumps_at_turns(definition: &EffectDefinition) -> bool {
+    let bindings = definition.bindings.iter().map(|binding| &binding.value);
+    let mut all = bindings.chain(definition.torque_equations());
+    all.any(|value| {
+        value.contains(&|part| {
+            let Expr::Call(Function::Sign, of) = part else {
+                return false;
+            };
+            of.contains(&|part| matches!(part, Expr::Leaf(EffectLeaf::Signal(Signal::Velocity, _))))
+        })
+    })
 }
 
 /// What is known of a binding.

@@ -141,11 +141,13 @@ fn parameters_that_are_not_told_from_zero_are_not_essential() {
     assert!(table.contains("essential: "), "{table}");
 }
 
-/// Two of three joints are held, and move by what their controllers let go: friction comes out far beyond its deviation.
+/// Two of three joints are held, and move by what their controllers let go: friction would come out far beyond its deviation. Dry
+/// friction takes their rows, so that logs do not tell their parameters at all.
 #[test]
 fn joints_that_hardly_move_are_told() {
     let folder = Folder::new();
-    let arm = "robot A {
+    let arm = |dry: &str| {
+        let arm = "robot A {
         gravity = [0, 0, -9.81];
         convention = standard_dh;
         joint j1: revolute { a = 0; alpha = 90 deg; d = 0.4; }
@@ -154,16 +156,20 @@ fn joints_that_hardly_move_are_told() {
         link j1 { mass = 5; com = [0, -0.1, 0.02]; inertia = [0.05, 0, 0, 0.04, 0, 0.05]; }
         link j2 { mass = 3; com = [-0.25, 0, 0.05]; inertia = [0.01, 0, 0, 0.07, 0, 0.07]; }
         link j3 { mass = 2; com = [-0.1, 0.02, 0.05]; inertia = [0.01, 0, 0, 0.02, 0, 0.02]; }
-        effects { viscous_friction on all; coulomb_friction on all; }
+        effects { viscous_friction on all; DRY }
     }";
-    folder.write("arm.robot", arm);
-    let names = ["viscous_friction.fv", "coulomb_friction.fc"];
-    let joints = [1, 2, 3].map(|joint| names.map(|name| format!("\"j{joint}.{name}\": 0.5")));
-    folder.write(
-        "values.json",
-        &format!("{{{}}}", joints.concat().join(", ")),
-    );
-    let said = |others: &dyn Fn(f64) -> [f64; 2]| {
+        folder.write("arm.robot", &arm.replace("DRY", dry));
+        let names = ["viscous_friction.fv", "coulomb_friction.fc"];
+        let names = &names[..if dry.is_empty() { 1 } else { 2 }];
+        let of = |joint| {
+            names
+                .iter()
+                .map(move |name| format!("\"j{joint}.{name}\": 0.5"))
+        };
+        let values: Vec<String> = (1..=3).flat_map(of).collect();
+        folder.write("values.json", &format!("{{{}}}", values.join(", ")));
+    };
+    let run = |others: &dyn Fn(f64) -> [f64; 2]| {
         let mut wanted = String::from("time,q1,q2,q3\n");
         for k in 0..=2000 {
             let t = f64::from(k) / 200.0;
@@ -175,19 +181,37 @@ fn joints_that_hardly_move_are_told() {
         let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
         let more = ["--parameters", "values.json", "--encoder-bits", "18"];
         folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &more].concat());
-        let run = folder.run(&["identify", "arm.robot", "log.csv"]);
+        folder.run(&["identify", "arm.robot", "log.csv"])
+    };
+    let held = |_| [-0.5, 0.3];
+    arm("coulomb_friction on all;");
+    let refused = run(&held);
+    assert_eq!(refused.code, Some(1), "{}", refused.stdout);
+    assert!(
+        refused
+            .stderr
+            .contains("`j2`, `j3` stand or turn nearly all the time"),
+        "{}",
+        refused.stderr
+    );
+    let said = |others: &dyn Fn(f64) -> [f64; 2]| {
+        let run = run(others);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         run.stderr
     };
-    let held = said(&|_| [-0.5, 0.3]);
+    let moves = |t: f64| {
+        let second = 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos();
+        [second, 0.6 * (1.7 * t + 0.4).sin() + 0.2 * (4.7 * t).cos()]
+    };
+    let moving = said(&moves);
+    assert!(!moving.contains("hardly"), "{moving}");
+    arm("");
+    let held = said(&held);
     assert!(held.contains("hardly apart (condition "), "{held}");
     assert!(
         held.contains("`j2`, `j3` are hardly moving in these logs"),
         "{held}"
     );
-    let moving = said(&|t| {
-        let second = 0.7 * (2.1 * t + 1.0).sin() + 0.2 * (5.3 * t).cos();
-        [second, 0.6 * (1.7 * t + 0.4).sin() + 0.2 * (4.7 * t).cos()]
-    });
+    let moving = said(&moves);
     assert!(!moving.contains("hardly"), "{moving}");
 }

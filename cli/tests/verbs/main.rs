@@ -27,3 +27,4 @@ mod possible;
 mod simulate;
 mod starts;
 mod trace;
+mod turns;

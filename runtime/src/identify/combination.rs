@@ -163,6 +163,7 @@ mod tests {
             nonnegative: false,
         };
         Stack {
+            turns: Vec::new(),
             unknowns: (0..truth.len()).map(unknown).collect(),
             joints: vec![JointRows {
                 tau: target.clone(),

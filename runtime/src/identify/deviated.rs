@@ -32,7 +32,13 @@ impl Identify {
                 stack,
             };
         }
-        let whole = shapes::with_slopes(arm, logs, &shapes, stack, &solution.estimate);
+        let whole = shapes::with_slopes(
+            arm,
+            &|shapes| self.rows(arm, logs, shapes),
+            &shapes,
+            stack,
+            &solution.estimate,
+        );
         // Shapes stay where they were found; which of them, and of the others, the logs separate is seen with all columns.
         let joint = Factors::new(&whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
         let mut with_shapes = solution.clone();

@@ -91,6 +91,12 @@ pub enum IdentifyError {
         /// The mass, kg.
         mass: f64,
     },
+    /// A search for gains that does not settle.
+    #[error(
+        "the search for the drives' gains did not settle: logs with the payload hardly differ from those without; is it there in all of them, and \
+         heavy enough?"
+    )]
+    PayloadLost,
     /// No torque shows what is known of a payload.
     #[error(
         "no drive's gain is told: what is known of the payload shows in no torque that parameters which are looked for could not make, too; give its \

@@ -112,6 +112,8 @@ pub struct Estimate {
     pub outliers: Option<Vec<usize>>,
     /// The comparison with least squares where instruments were taken: [`Method::Instrumental`].
     pub hausman: Option<Hausman>,
+    /// Rows per joint that were left out because the joint turns there, see [`Arm::dry_joints`].
+    pub turns: Vec<usize>,
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
     /// at hand.
     pub effective_samples: Option<Vec<f64>>,
@@ -127,6 +129,8 @@ pub(super) struct Fitted {
     pub relative_percent: Vec<f64>,
     /// Samples per joint.
     pub samples: usize,
+    /// Of these, left out at turns.
+    pub turns: Vec<usize>,
     /// Of these, independent ones per joint.
     pub effective_samples: Option<Vec<f64>>,
     /// Names of the unknowns.
@@ -137,18 +141,19 @@ impl Fitted {
     /// By an estimate.
     pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
         let residuals = stack.residuals(estimate);
-        let samples = stack.samples() as f64;
-        let effective = residuals.iter().map(|r| {
+        let effective = residuals.iter().enumerate().map(|(joint, r)| {
             let is_dead = r.iter().all(|r| *r == 0.0);
+            let turns = stack.turns.get(joint).copied().unwrap_or(0);
             if is_dead {
                 0.0
             } else {
-                samples / correlation_time(r)
+                (r.len() - turns) as f64 / correlation_time(r)
             }
         });
         Self {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),
+            turns: stack.turns.clone(),
             effective_samples: Some(effective.collect()),
             names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
         }
@@ -209,6 +214,7 @@ impl Estimate {
             possible: None,
             outliers: None,
             hausman: None,
+            turns: fitted.turns,
             effective_samples: fitted.effective_samples,
             bootstrap: None,
             essential: None,

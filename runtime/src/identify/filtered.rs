@@ -248,6 +248,10 @@ impl Arm for FilteredArm<'_> {
             .collect()
     }
 
+    fn dry_joints(&self) -> &[usize] {
+        self.arm.dry_joints()
+    }
+
     fn nominal(&self) -> Vec<Option<Nominal>> {
         self.arm.nominal()
     }

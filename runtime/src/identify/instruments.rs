@@ -256,6 +256,7 @@ mod tests {
         let worn = clean.iter().zip(&noise).map(|(x, e)| x + share.abs() * e);
         let worn: Vec<f64> = worn.collect();
         [worn, clean].map(|column| Stack {
+            turns: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

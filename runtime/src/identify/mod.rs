@@ -38,6 +38,7 @@ mod shapes;
 mod stack;
 mod table;
 mod total;
+mod turns;
 
 pub use bootstrap::Bootstrap;
 pub use combination::{Combination, Shared};
@@ -87,6 +88,8 @@ pub struct Identify {
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
     pub essential: bool,
+    /// Whether to leave out rows around the turns of [`Arm::dry_joints`].
+    pub leave_out_turns: bool,
 }
 
 impl Default for Identify {
@@ -100,6 +103,7 @@ impl Default for Identify {
             shapes: None,
             bootstrap: 0,
             essential: false,
+            leave_out_turns: true,
         }
     }
 }
@@ -237,7 +241,7 @@ impl Identify {
         if loaded {
             // Effects of the load need a load: that of a first estimate, shapes in the middle of their ranges.
             let shapes = shapes.clone().unwrap_or_else(|| shapes::middle(arm));
-            let first = self.solve_stack(&Stack::new(arm, logs, &shapes))?;
+            let first = self.solve_stack(&self.rows(arm, logs, &shapes))?;
             update_load(arm, logs, &shapes, &first.estimate);
         }
         let free = shapes.is_none() && !arm.shapes().is_empty();
@@ -251,7 +255,7 @@ impl Identify {
             if pass > 0 && free {
                 shapes = shapes::refine(arm, logs, shapes, cost)?;
             }
-            let stack = Stack::new(arm, logs, &shapes);
+            let stack = self.rows(arm, logs, &shapes);
             let solution = self.solve_stack(&stack)?;
             if loaded {
                 update_load(arm, logs, &shapes, &solution.estimate);
@@ -261,10 +265,19 @@ impl Identify {
         last.ok_or(IdentifyError::NoLog)
     }
 
+    /// The rows of logs, with turns left out where they are to be.
+    fn rows(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Stack {
+        let mut stack = Stack::new(arm, logs, shapes);
+        if self.leave_out_turns {
+            turns::leave_out(&mut stack, arm, logs);
+        }
+        stack
+    }
+
     /// Sum over joints of the logarithm of the residual's deviation: what free shape parameters minimize. It does not depend
     /// on the unit of a joint's torque.
     fn cost(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Result<f64, IdentifyError> {
-        let stack = Stack::new(arm, logs, shapes);
+        let stack = self.rows(arm, logs, shapes);
         let solution = self.solve_stack(&stack)?;
         Ok(solution
             .sigma

@@ -97,6 +97,7 @@ mod tests {
             nonnegative: false,
         };
         Stack {
+            turns: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

@@ -78,7 +78,9 @@ pub(super) fn outliers(stack: &Stack, estimate: &[f64]) -> Vec<usize> {
 /// Of normal noise, from the median of its absolute value. A joint that rests for half of a log has next to no noise there: it
 /// is at least half of what nine samples of ten say.
 fn deviation(residual: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = residual.iter().map(|r| r.abs()).collect();
+    // Rows that were left out have none.
+    let sizes = residual.iter().map(|r| r.abs()).filter(|r| *r > 0.0);
+    let mut sizes: Vec<f64> = sizes.collect();
     if sizes.is_empty() {
         return 0.0;
     }
@@ -117,6 +119,7 @@ mod tests {
             .map(|k| 2.0 * x[k] + noise(k, &mut random))
             .collect();
         Stack {
+            turns: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

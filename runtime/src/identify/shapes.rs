@@ -71,10 +71,10 @@ pub(super) fn search(
 }
 
 /// A stack with a column for each free shape parameter, by which the torque of an estimate changes with it: how far it is known beside
-/// the linear unknowns.
+/// the linear unknowns. `rows` are those for given shapes.
 pub(super) fn with_slopes(
     arm: &dyn Arm,
-    logs: &[Prepared],
+    rows: &dyn Fn(&[f64]) -> Stack,
     shapes: &[f64],
     mut stack: Stack,
     estimate: &[f64],
@@ -87,7 +87,7 @@ pub(super) fn with_slopes(
         let [below, above] = ends.map(|end| {
             let mut near = shapes.to_vec();
             near[number] = end;
-            Stack::new(arm, logs, &near).residuals(estimate)
+            rows(&near).residuals(estimate)
         });
         let joints = below.into_iter().zip(above).enumerate();
         let entries = joints.map(move |(joint, (below, above))| Entry {

@@ -35,6 +35,8 @@ pub struct Stack {
     pub joints: Vec<JointRows>,
     /// Where each log's samples are in every block, and their times.
     pub segments: Vec<Segment>,
+    /// Rows per joint that are zero because the joint turns there; empty where none were looked for.
+    pub turns: Vec<usize>,
 }
 
 /// One log's share of the rows.
@@ -48,7 +50,7 @@ pub struct Segment {
 
 impl JointRows {
     /// Rows that say nothing.
-    fn clear(&mut self, rows: Range<usize>) {
+    pub(super) fn clear(&mut self, rows: Range<usize>) {
         let columns = self.columns.iter_mut().map(|(_, values)| values);
         for values in columns.chain([&mut self.tau, &mut self.target]) {
             values[rows.clone()].fill(0.0);
@@ -81,6 +83,7 @@ impl Stack {
             unknowns: arm.unknowns().to_vec(),
             joints: vec![JointRows::default(); arm.dof()],
             segments: Vec::new(),
+            turns: Vec::new(),
         };
         let mut filtered = Vec::new();
         let mut silent = Vec::new();
@@ -152,7 +155,7 @@ impl Stack {
         Self {
             unknowns: self.unknowns.clone(),
             joints: joints.collect(),
-            segments: Vec::new(),
+            ..Self::default()
         }
     }
 

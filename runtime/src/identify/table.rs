@@ -24,12 +24,18 @@ impl fmt::Display for Estimate {
             self.bands.shared_hz,
             self.method.name()
         )?;
+        let a_joint = |counts: &[String]| {
+            let joints = self.joints.iter().zip(counts);
+            let told: Vec<String> = joints.map(|(name, n)| format!("{name} {n}")).collect();
+            told.join(", ")
+        };
+        if self.turns.iter().any(|count| *count > 0) {
+            let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
+            writeln!(f, "left out where joints turn: {}", a_joint(&counts))?;
+        }
         if let Some(effective) = &self.effective_samples {
-            let joints = self.joints.iter().zip(effective);
-            let told: Vec<String> = joints
-                .map(|(name, count)| format!("{name} {count:.0}"))
-                .collect();
-            writeln!(f, "independent ones among them: {}", told.join(", "))?;
+            let counts: Vec<String> = effective.iter().map(|n| format!("{n:.0}")).collect();
+            writeln!(f, "independent ones among them: {}", a_joint(&counts))?;
         }
         if let Some(bootstrap) = &self.bootstrap {
             writeln!(

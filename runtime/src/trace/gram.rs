@@ -252,6 +252,7 @@ mod tests {
             nonnegative: false,
         };
         Stack {
+            turns: Vec::new(),
             unknowns: vec![unknown("a"), unknown("b"), unknown("c")],
             joints: vec![rows(0, 0.3), rows(1, 1.1)],
             segments: vec![Segment {

@@ -32,6 +32,7 @@ fn stack(seed: u64, slow: f64) -> Stack {
         nonnegative: false,
     };
     Stack {
+        turns: Vec::new(),
         unknowns: vec![unknown("x"), unknown("y")],
         joints: vec![JointRows {
             tau: target.clone(),

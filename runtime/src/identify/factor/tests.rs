@@ -48,6 +48,7 @@ fn stack(seed: u64, first: usize, count: usize) -> Stack {
         nonnegative: false,
     };
     Stack {
+        turns: Vec::new(),
         unknowns: ["a", "b", "c"].map(unknown).to_vec(),
         joints: joints.to_vec(),
         segments: vec![Segment {

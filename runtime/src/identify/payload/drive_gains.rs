@@ -100,7 +100,7 @@ impl Identify {
     ///
     /// # Errors
     /// Those of [`Self::fit_payload`]; [`IdentifyError::PayloadMass`], [`IdentifyError::PayloadHidden`] where no gain is told,
-    /// [`IdentifyError::NoEnd`].
+    /// [`IdentifyError::PayloadLost`].
     pub fn fit_drive_gains(
         &self,
         arm: &dyn Arm,
@@ -164,7 +164,7 @@ impl Search<'_> {
             }
             follow(&mut factors, &round.gains);
         }
-        Err(IdentifyError::NoEnd)
+        Err(IdentifyError::PayloadLost)
     }
 
     /// What the last round found; `alone` is the arm's estimate of its bands and shapes.
@@ -283,11 +283,11 @@ impl Search<'_> {
                 });
             }
         }
-        Err(IdentifyError::NoEnd)
+        Err(IdentifyError::PayloadLost)
     }
 
     fn rows(&self, logs: &Both, shapes: &[f64]) -> Rows {
-        let (stack, start) = logs.stack(self.arm, shapes);
+        let (stack, start) = logs.stack(self.identify, self.arm, shapes);
         Rows::new(stack, start, &self.shares, &self.base)
     }
 }

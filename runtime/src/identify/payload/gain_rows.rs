@@ -30,7 +30,7 @@ fn ordinary(
     let mut own = Stack {
         unknowns: stack.unknowns.clone(),
         joints: stack.joints[joints].to_vec(),
-        segments: Vec::new(),
+        ..Stack::default()
     };
     for (rows, target) in own.joints.iter_mut().zip(targets) {
         rows.target.clone_from(target);

@@ -95,7 +95,7 @@ impl Identify {
             if arm.uses_rigid_torque() {
                 logs.update(arm, &shapes, &values[..n], &shares.loaded(&values));
             }
-            let (mut stack, start) = logs.stack(arm, &shapes);
+            let (mut stack, start) = logs.stack(self, arm, &shapes);
             let columns = shares.columns(&stack, start);
             stack.append(&shares.unknowns, &columns);
             let solution = self.solve_stack(&stack)?;
@@ -167,9 +167,9 @@ impl Both {
     }
 
     /// Rows of all logs, and the first with the payload.
-    fn stack(&self, arm: &dyn Arm, shapes: &[f64]) -> (Stack, usize) {
+    fn stack(&self, identify: &Identify, arm: &dyn Arm, shapes: &[f64]) -> (Stack, usize) {
         let all = [self.without.clone(), self.with.clone()].concat();
-        let stack = Stack::new(arm, &all, shapes);
+        let stack = identify.rows(arm, &all, shapes);
         let start = stack.segments[self.without.len()].start;
         (stack, start)
     }
