@@ -255,8 +255,8 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
     };
     estimate.separated().map_err(|error| {
         Error::Argument(format!(
-            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, take its nominal values \
-             where logs are silent (`--method ridge`, `physical`), or take what the logs tell: `--partial`"
+            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
+             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`"
         ))
     })
 }

@@ -1,6 +1,8 @@
 //! What is written of an estimate.
 
-use robot_model::identify::{Combination, Errors, Essential, Estimate, Form, Identified};
+use robot_model::identify::{
+    Combination, Errors, Essential, Estimate, Form, Identified, Origin, Possible,
+};
 use robot_model::log::Fault;
 use serde::Serialize;
 
@@ -69,13 +71,23 @@ struct HausmanReport<'a> {
 /// The possible arm, with its standard parameters.
 #[derive(Serialize)]
 struct PossibleReport<'a> {
-    standard: Vec<Parameter<'a>>,
+    standard: Vec<StandardReport<'a>>,
     /// `relative_percent` without the constraint.
     relative_percent_unconstrained: &'a [f64],
     /// Links and parameters on the border of what is possible.
     border: &'a [String],
     steps: usize,
     gap: f64,
+}
+
+#[derive(Serialize)]
+struct StandardReport<'a> {
+    name: &'a str,
+    value: f64,
+    /// Where the logs tell it.
+    std: Option<f64>,
+    /// `logs`, `spec` where it is fixed, `nominal` where the logs tell it in a sum at most.
+    from: &'static str,
 }
 
 #[derive(Serialize)]
@@ -204,7 +216,7 @@ pub(crate) fn report<'a>(
         ],
         outliers: estimate.outliers.as_deref(),
         possible: estimate.possible.as_ref().map(|possible| PossibleReport {
-            standard: possible.standard.iter().map(known).collect(),
+            standard: standard(estimate, possible),
             relative_percent_unconstrained: &possible.unconstrained_percent,
             border: &possible.border,
             steps: possible.steps,
@@ -232,6 +244,21 @@ pub(crate) fn report<'a>(
         essential: estimate.essential.as_ref().map(essential),
         data_faults: fault_reports(faults),
     }
+}
+
+fn standard<'a>(estimate: &Estimate, possible: &'a Possible) -> Vec<StandardReport<'a>> {
+    let std = |name: &String| {
+        let found = estimate.parameters.iter().find(|p| p.name == *name)?;
+        Some(found.std)
+    };
+    let values = possible.standard.iter().zip(&possible.origins);
+    let told = values.map(|((name, value), origin)| StandardReport {
+        name,
+        value: *value,
+        std: (*origin == Origin::Logs).then(|| std(name)).flatten(),
+        from: origin.name(),
+    });
+    told.collect()
 }
 
 /// Faults with the logs that they are of.

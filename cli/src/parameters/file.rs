@@ -12,11 +12,14 @@ use crate::{Error, json};
 const FORMS: &str =
     "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
 
-/// Reads a file: every value is a finite number.
-pub(super) fn read(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
+/// Reads a file: every value is a finite number. `shapes` are names of parameters that are in no sum with others.
+pub(super) fn read(path: &Path, shapes: &[String]) -> Result<BTreeMap<String, f64>, Error> {
     let values = match json::read(path)? {
         Value::Object(entries) => match entries.get("parameters") {
-            Some(Value::Array(list)) => identified(list, entries.get("unexcited")),
+            Some(Value::Array(list)) => match possible(&entries, list) {
+                Some(standard) => of_possible(standard, list, shapes),
+                None => identified(list, entries.get("unexcited")),
+            },
             _ => plain(&entries),
         },
         other => Err(format!("it is {}: {FORMS}", json::kind(&other))),
@@ -38,6 +41,29 @@ fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> 
             )),
         })
         .collect()
+}
+
+/// The standard parameters of a possible arm, where the logs did not tell all base parameters apart.
+fn possible<'a>(entries: &'a Map<String, Value>, list: &[Value]) -> Option<&'a Vec<Value>> {
+    let is_untold = list.iter().any(|entry| entry["value"].is_null());
+    let standard = entries.get("possible")?.get("standard")?.as_array();
+    standard.filter(|_| is_untold)
+}
+
+/// All values of a possible arm, and those of the shapes beside them.
+fn of_possible(
+    standard: &[Value],
+    list: &[Value],
+    shapes: &[String],
+) -> Result<BTreeMap<String, f64>, String> {
+    let is_shape = |entry: &&Value| {
+        let name = entry["name"].as_str();
+        name.is_some_and(|name| shapes.iter().any(|shape| shape == name))
+    };
+    let shapes: Vec<Value> = list.iter().filter(is_shape).cloned().collect();
+    let mut values = identified(standard, None)?;
+    values.extend(identified(&shapes, None)?);
+    Ok(values)
 }
 
 /// All values, where every one of them was measured: a zero in place of one that was not is wrong on every other motion.

@@ -73,7 +73,10 @@ pub(crate) fn values(
     file: Option<&Path>,
 ) -> Result<(Values, Vec<String>, String), Error> {
     let (given, source) = match file {
-        Some(path) => (file::read(path)?, path.display().to_string()),
+        Some(path) => (
+            file::read(path, &compiled.shape_names())?,
+            path.display().to_string(),
+        ),
         None => (BTreeMap::new(), compiled.model.source.clone()),
     };
     let found = arm(compiled, &given);
@@ -89,7 +92,10 @@ pub(crate) fn known(
     more: &[(String, f64)],
 ) -> Result<Known, Error> {
     let (mut given, source) = match file {
-        Some(path) => (file::read(path)?, path.display().to_string()),
+        Some(path) => (
+            file::read(path, &compiled.shape_names())?,
+            path.display().to_string(),
+        ),
         None => (BTreeMap::new(), compiled.model.source.clone()),
     };
     given.extend(more.iter().cloned());

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::Inertial;
 use serde_json::Value;
 
-use crate::common::{Folder, PENDULUM, json, numbers};
+use crate::common::{Folder, PENDULUM, json, numbers, white};
 
 const VALUES: &str = r#"{"upper.viscous_friction.fv": 0.5, "lower.viscous_friction.fv": 0.02}"#;
 
@@ -152,4 +152,87 @@ fn a_robot_of_energies_has_no_bodies() {
     folder.write("log.csv", &log);
     let said = folder.refuse(&["identify", "swing.robot", "log.csv", "--method", "physical"]);
     assert!(said.contains("has no links"), "{said}");
+}
+
+/// The lower joint stands, and CAD has half as much again of its link: the logs tell the upper one only together with it.
+#[test]
+fn what_logs_do_not_tell_is_no_claim_of_the_possible_arm() {
+    const LOWER: f64 = 0.4;
+    let folder = Folder::new();
+    let arm = PENDULUM.replace("\n}\n", "\n    effects { viscous_friction on all; }\n}\n");
+    folder.write("true.robot", &arm);
+    let heavier = arm.replace("mass = 1; com = [-0.2", "mass = 1.5; com = [-0.2");
+    folder.write("arm.robot", &heavier);
+    folder.write("values.json", VALUES);
+    let mut motion = Vec::new();
+    for k in 0..3000 {
+        let t = f64::from(k) / 200.0;
+        let (slow, fast) = ((1.3 * t).sin_cos(), (2.9 * t).sin_cos());
+        let q = 0.6 * slow.0 + 0.2 * fast.0;
+        let dq = 0.6 * 1.3 * slow.1 + 0.2 * 2.9 * fast.1;
+        let ddq = -0.6 * 1.69 * slow.0 - 0.2 * 8.41 * fast.0;
+        motion.push((t, [q, dq, ddq]));
+    }
+    let states = motion.iter().map(|(_, [q, dq, ddq])| {
+        serde_json::json!({"q": [q, LOWER], "dq": [dq, 0.0], "ddq": [ddq, 0.0]})
+    });
+    let states = serde_json::json!({"states": states.collect::<Vec<Value>>()});
+    folder.write("states.json", &states.to_string());
+    let torques = |spec: &str, values: &str| -> Vec<Vec<f64>> {
+        let eval = ["--states", "states.json", "--parameters", values];
+        let out = json(&folder.succeed(&[&["eval", spec][..], &eval].concat()));
+        let states = out["states"].as_array().expect("a list").iter();
+        states.map(|state| numbers(&state["torque"])).collect()
+    };
+    let so = torques("true.robot", "values.json");
+    let mut noise = 7;
+    let mut log = String::from("time,q1,q2,tau1,tau2\n");
+    for ((t, [q, ..]), tau) in motion.iter().zip(&so) {
+        let upper = tau[0] + 0.1 * white(&mut noise);
+        writeln!(log, "{t},{q},{LOWER},{upper},{}", tau[1]).expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    let said = folder.refuse(&["identify", "arm.robot", "log.csv"]);
+    assert!(said.contains("physical"), "{said}");
+
+    let (table, out) = identify(&folder, "physical");
+    let parameters = out["parameters"].as_array().expect("a list");
+    let own = |name: &str| parameters.iter().find(|p| p["name"] == name).expect(name);
+    for name in ["upper.mxr", "upper.my", "upper.izzr", "lower.mxr"] {
+        assert!(own(name)["value"].is_null() && own(name)["std"].is_null());
+        let line = table.lines().find(|line| line.starts_with(name));
+        assert!(line.expect(name).contains("not separable"), "{table}");
+    }
+    let friction = &own("upper.viscous_friction.fv")["value"];
+    assert!((friction.as_f64().expect("told") - 0.5).abs() < 0.01);
+    // up.mxr + cos(0.4) lo.mxr - sin(0.4) lo.my = 1 + 0.2 cos(0.4)
+    let combinations = out["combinations"].as_array().expect("a list");
+    let first = combinations.iter();
+    let mut first = first.filter(|found| found["terms"][0]["name"] == "upper.mxr");
+    let first = first.next().expect("a sum");
+    let number = |what: &str| first[what].as_f64().expect("a number");
+    let truth = 1.0 + 0.2 * LOWER.cos();
+    assert!(
+        (number("value") - truth).abs() < 4.0 * number("std") && number("std") < 0.01,
+        "{first}"
+    );
+    assert!(table.contains("upper.mxr + 0.9211 lower.mxr - 0.3894 lower.my = "));
+
+    // The possible arm makes that sum, and says where its values are from.
+    let standard = &out["possible"]["standard"];
+    let from = |name: &str| {
+        let mut list = standard.as_array().expect("a list").iter();
+        list.find(|entry| entry["name"] == name).expect(name)["from"].clone()
+    };
+    assert_eq!(from("upper.viscous_friction.fv"), "logs");
+    for name in ["upper.mx", "upper.my", "lower.m", "lower.mx"] {
+        assert_eq!(from(name), "nominal");
+    }
+    assert!(table.contains("for that without the constraint: upper "));
+
+    // What reads parameters takes the possible arm: its torque is that of the log.
+    let again = torques("arm.robot", "out.json");
+    for (again, so) in again.iter().zip(&so) {
+        assert!((again[0] - so[0]).abs() < 0.05, "{again:?} {so:?}");
+    }
 }

@@ -96,12 +96,13 @@ impl Estimate {
             && !self.combinations.iter().any(in_combination)
     }
 
-    /// That all parameters have values of their own. [`Method::Physical`] has values for all, nominal ones where logs are silent.
+    /// That all parameters have values of their own. [`Method::Physical`] and [`Method::Ridge`] are asked where they have not: the former
+    /// has the nearest arm beside what logs tell, the latter takes nominal values for measurements. Both name what stays untold.
     ///
     /// # Errors
     /// [`IdentifyError::NotSeparated`] with what the logs tell instead.
     pub fn separated(&self) -> Result<(), IdentifyError> {
-        if self.unexcited.is_empty() || self.method == Method::Physical {
+        if self.unexcited.is_empty() || matches!(self.method, Method::Physical | Method::Ridge) {
             return Ok(());
         }
         let in_any = |name: &&String| {

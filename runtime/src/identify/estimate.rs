@@ -92,9 +92,10 @@ pub struct Estimate {
     pub shapes: Vec<(String, f64)>,
     /// Their standard deviations, of least squares linearized about the estimate; none where a method or the logs do not tell.
     pub shape_std: Vec<Option<f64>>,
-    /// Names of the parameters that the logs do not excite; their value is given as 0.
+    /// Names of the parameters that the logs do not excite; their value is given as 0, by [`Method::Physical`] as that of the arm it found.
     pub unexcited: Vec<String>,
-    /// What the logs tell of parameters that they do not tell apart. The first term of each has the value of the whole for its own.
+    /// What the logs tell of parameters that they do not tell apart. The first term of each has no value of its own; in
+    /// `parameters` it has that which makes the sum.
     pub combinations: Vec<Combination>,
     /// Condition number of the weighted regressor with columns of unit norm.
     pub condition: f64,
@@ -174,11 +175,14 @@ impl Estimate {
         let combination = |shared: &Shared| {
             let others = shared.others.iter();
             let others = others.map(|(c, factor)| (name(c), *factor));
+            // Parts that the logs do not tell are 0, or what a method has found for them elsewhere.
+            let parts = shared.others.iter();
+            let parts = parts.map(|(c, factor)| factor * solution.estimate[*c]);
             Combination {
                 terms: std::iter::once((name(&shared.lead), 1.0))
                     .chain(others)
                     .collect(),
-                value: solution.estimate[shared.lead],
+                value: solution.estimate[shared.lead] + parts.sum::<f64>(),
                 std: solution.std[shared.lead],
             }
         };

@@ -53,7 +53,7 @@ pub use instruments::Hausman;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 pub use method::{Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
-pub use possible::{Possible, PossibleArms, PossibleLink};
+pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 

@@ -9,6 +9,7 @@
 //! identification; Lee, Wensing, Park 2019, Geometric robot dynamic identification.
 
 mod barrier;
+mod origin;
 
 use std::fmt;
 
@@ -21,6 +22,7 @@ use crate::columns::Arm;
 use crate::link::Inertial;
 
 use barrier::{Barrier, Cone, Found};
+pub use origin::Origin;
 
 /// Bodies of links whose spec says none, all alike: powers of ten of a mass, kg, of which that is taken with which the logs agree
 /// best, and a spread along each axis about the frame's origin, m.
@@ -70,6 +72,8 @@ pub struct PossibleLink {
 pub struct Possible {
     /// All standard parameters, name and value; of those that the logs do not tell, values near the nominal ones.
     pub standard: Vec<(String, f64)>,
+    /// Where each of these values is from.
+    pub origins: Vec<Origin>,
     /// `100 || residual || / || tau ||` per joint without the constraint, to be compared with the estimate's.
     pub unconstrained_percent: Vec<f64>,
     /// Where the logs would have it beyond what is possible: links whose mass has shrunk to a plane, a line or a point, and
@@ -96,7 +100,8 @@ struct Nearest {
     gap: f64,
 }
 
-/// The possible arm nearest to a solution takes its place; deviations stay those of the logs alone.
+/// The possible arm nearest to a solution takes its place; deviations stay those of the logs alone, and what the logs tell only in sums
+/// stays in them.
 pub(super) fn make(
     arm: &dyn Arm,
     solution: &mut Solution,
@@ -113,10 +118,11 @@ pub(super) fn make(
     let nearest = nearest.ok_or(IdentifyError::NoEnd)?;
     let border = arms.border(&solution.estimate, &nearest.standard);
     solution.estimate = nearest.estimate;
-    solution.shared.clear();
+    let origins = arms.origins(solution);
     let standard = arms.names.into_iter().zip(nearest.standard);
     Ok(Possible {
         standard: standard.collect(),
+        origins,
         unconstrained_percent,
         border,
         steps: nearest.steps,

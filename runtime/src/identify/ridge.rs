@@ -8,6 +8,7 @@
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
+use super::combination::shared;
 use super::least_squares::{Excited, Factors, Solution, correlation_time};
 use super::stack::Stack;
 use super::{IdentifyError, Nominal};
@@ -46,12 +47,15 @@ pub(super) fn make(
             all[(row, n)] = value / deviation;
         }
     }
+    let excited = Excited::new(&all, n);
+    let is_in = |c: &usize| excited.columns.binary_search(c).is_err();
+    solution.unexcited = (0..n).filter(is_in).collect();
+    let shared = shared(&all, &excited, &solution.unexcited);
     let Excited {
         columns,
         norms,
         kept,
-        ..
-    } = Excited::new(&all, n);
+    } = excited;
     let right = Mat::from_fn(all.nrows(), 1, |row, _| all[(row, n)]);
     let qr = kept.qr();
     let solved = qr.solve_lstsq(&right);
@@ -64,10 +68,8 @@ pub(super) fn make(
         solution.estimate[c] = solved[(k, 0)] / norms[c];
         solution.std[c] = inverse[(k, k)].max(0.0).sqrt() / norms[c];
     }
-    solution.unexcited = (0..n)
-        .filter(|c| columns.binary_search(c).is_err())
-        .collect();
-    solution.shared.clear();
+    // Nominal values part what the logs do not; where there are none either, sums are all that is told.
+    solution.shared = shared;
     solution.sigma = factors.sigma(&solution.estimate, columns.len());
     Ok(())
 }
@@ -75,8 +77,8 @@ pub(super) fn make(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::columns::Unknown;
-    use crate::identify::{Identify, JointRows, Segment};
+    use crate::columns::{Entry, Unknown};
+    use crate::identify::{Identify, JointRows, Segment, Shared};
 
     /// `tau = 2 x + 3 y + noise` with alternating noise of 0.5, where `y` follows `x` as close as wanted.
     fn stack(apart: f64) -> Stack {
@@ -169,6 +171,38 @@ mod tests {
         // With logs that part them CAD has no say.
         let found = ridge(&stack(1.0), [Some(2.5), Some(2.6)], 1.0).expect("nominal");
         assert!((found.estimate[0] - 2.0).abs() < 0.1, "{found:?}");
+    }
+
+    /// `y` does what `x` does, and CAD knows of neither.
+    #[test]
+    fn what_cad_does_not_know_either_is_told_in_sums() {
+        let mut stack = stack(0.0);
+        let wave = (0..stack.samples()).map(|k| (0.411 * k as f64).cos());
+        let entry = Entry {
+            joint: 0,
+            column: 0,
+            values: wave.collect(),
+        };
+        let unknown = Unknown {
+            name: "z".to_owned(),
+            nonnegative: false,
+        };
+        stack.append(&[unknown], &[entry]);
+        let mut solution = Identify::default().solve_stack(&stack).expect("samples");
+        let size = Nominal {
+            value: 0.1,
+            size: 2.0,
+        };
+        let nominal = [None, None, Some(size)];
+        make(&nominal, 0.3, &mut solution, &stack).expect("nominal");
+        let [Shared { lead, others }] = &solution.shared[..] else {
+            panic!("{solution:?}");
+        };
+        assert_eq!(solution.unexcited, [others[0].0], "{solution:?}");
+        assert!(others.len() == 1 && lead + others[0].0 == 1);
+        assert!((others[0].1 - 1.0).abs() < 1e-6, "{solution:?}");
+        assert!((solution.estimate[*lead] - 5.0).abs() < 0.1);
+        assert!(solution.estimate[2].abs() < 0.1, "{solution:?}");
     }
 
     #[test]

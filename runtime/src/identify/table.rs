@@ -44,9 +44,7 @@ impl fmt::Display for Estimate {
                 bootstrap.draws, bootstrap.blocks
             )?;
         }
-        if let Some(possible) = &self.possible {
-            write!(f, "{possible}")?;
-        }
+        self.tell_possible(f)?;
         self.tell_outliers(f)?;
         if let Some(hausman) = &self.hausman {
             hausman.tell(f, &self.parameters)?;
@@ -114,6 +112,24 @@ impl Estimate {
         Ok(())
     }
 
+    fn tell_possible(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Some(possible) = &self.possible else {
+            return Ok(());
+        };
+        write!(f, "{possible}")?;
+        let percents = self.relative_percent.iter();
+        let percents = percents.zip(&possible.unconstrained_percent);
+        let joints = self.joints.iter().zip(percents);
+        let told: Vec<String> = joints
+            .map(|(name, (with, without))| format!("{name} {with:.2} for {without:.2} %"))
+            .collect();
+        writeln!(
+            f,
+            "relative error of the possible arm, for that without the constraint: {}",
+            told.join(", ")
+        )
+    }
+
     fn tell_outliers(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Some(outliers) = &self.outliers else {
             return Ok(());
@@ -137,18 +153,25 @@ impl Estimate {
             return Ok(());
         }
         if self.combinations.is_empty() {
-            return writeln!(
+            writeln!(
                 f,
                 "not separable: the logs do not excite these; all others are as they would be without them"
-            );
+            )?;
+        } else {
+            writeln!(
+                f,
+                "not separable: the logs tell these only in sums with others"
+            )?;
         }
-        writeln!(
-            f,
-            "not separable: the logs tell these only in sums with others"
-        )?;
         for combination in &self.combinations {
             let (value, std) = (combination.value, combination.std);
             writeln!(f, "  {combination} = {value:.5} +- {std:.2e}")?;
+        }
+        if self.possible.is_some() {
+            writeln!(
+                f,
+                "for these the possible arm has what is nearest to the nominal values: `possible.standard` of `--json`"
+            )?;
         }
         Ok(())
     }

@@ -1,0 +1,54 @@
+//! Where the values of a possible arm are from.
+
+use super::{PossibleArms, Solution};
+
+/// Where the value of a standard parameter is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// The logs tell it.
+    Logs,
+    /// The spec fixes it.
+    Spec,
+    /// The logs tell it in a sum at most; of all values that make this sum it is the nearest to the nominal one, or to that which stands
+    /// for one where the spec has none.
+    Nominal,
+}
+
+impl Origin {
+    /// Name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Logs => "logs",
+            Self::Spec => "spec",
+            Self::Nominal => "nominal",
+        }
+    }
+}
+
+impl PossibleArms {
+    /// Those of all standard parameters, for what logs tell of the unknowns. Each unknown that they tell has a standard parameter of its
+    /// own, so a standard parameter is told where an unknown is nothing but that.
+    pub(super) fn origins(&self, solution: &Solution) -> Vec<Origin> {
+        let is_told = |k: usize| {
+            let unknown = self.kept.iter().position(|kept| *kept == k);
+            unknown.is_some_and(|c| {
+                let terms = self.combinations[c].iter();
+                terms
+                    .filter(|(term, _)| self.fixed[*term].is_none())
+                    .count()
+                    == 1
+                    && !solution.unexcited.contains(&c)
+                    && solution.shared.iter().all(|shared| shared.lead != c)
+            })
+        };
+        let fixed = self.fixed.iter().enumerate();
+        fixed
+            .map(|(k, fixed)| match fixed {
+                Some(_) => Origin::Spec,
+                None if is_told(k) => Origin::Logs,
+                None => Origin::Nominal,
+            })
+            .collect()
+    }
+}
