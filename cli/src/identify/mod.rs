@@ -187,6 +187,7 @@ impl IdentifyArguments {
         if let Some(doubt) = doubts::hardly_apart(&estimate, form.model(), &logs) {
             progress.note(&format!("note: {doubt}"));
         }
+        faults.extend(self.late_torques(&estimate, &progress));
         drop(progress);
 
         if let Some(file) = json {
@@ -300,6 +301,26 @@ impl IdentifyArguments {
         let found = mended.faults.into_iter();
         faults.extend(found.map(|fault| (source.clone(), fault)));
         Ok(mended.log)
+    }
+
+    /// Torques that are not of the time of the positions; told of all logs at once.
+    fn late_torques(&self, estimate: &Estimate, progress: &Progress) -> Vec<(String, Fault)> {
+        let logs = self.logs.iter().map(|path| path.display().to_string());
+        let logs = logs.collect::<Vec<_>>().join(", ");
+        let late = estimate.torque_delays.iter();
+        let faults = late.map(|found| Fault::TorqueLate {
+            channel: format!("tau{}", found.joint + 1),
+            joint: estimate.joints[found.joint].clone(),
+            delay: found.seconds,
+            std: found.std,
+            gain: found.gain,
+        });
+        let faults: Vec<Fault> = faults.collect();
+        for fault in &faults {
+            progress.note(&format!("note: {logs}: {fault}"));
+        }
+        let named = faults.into_iter().map(|fault| (logs.clone(), fault));
+        named.collect()
     }
 
     /// A corner that was asked for is named as it was.

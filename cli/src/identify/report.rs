@@ -56,6 +56,15 @@ pub(super) struct FaultReport<'a> {
     kind: &'static str,
     channel: &'a str,
     says: String,
+    /// Of late torques only, s; below zero where they are early.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    delay: Option<Measured>,
+}
+
+#[derive(Serialize)]
+struct Measured {
+    value: f64,
+    std: f64,
 }
 
 /// Instrumental variables against least squares.
@@ -268,6 +277,13 @@ pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> 
         kind: fault.kind(),
         channel: fault.channel(),
         says: fault.to_string(),
+        delay: match fault {
+            Fault::TorqueLate { delay, std, .. } => Some(Measured {
+                value: *delay,
+                std: *std,
+            }),
+            _ => None,
+        },
     });
     told.collect()
 }

@@ -6,6 +6,7 @@ mod c;
 mod calibrate;
 mod columns;
 mod common;
+mod delays;
 mod dissect;
 mod drive_gains;
 mod energies;

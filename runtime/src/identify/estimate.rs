@@ -6,6 +6,7 @@ use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, prepare};
 
 use super::instruments::Hausman;
+use super::late::TorqueDelay;
 use super::least_squares::{Solution, correlation_time};
 use super::possible::Possible;
 use super::stack::{Stack, norm, percent, torque_of};
@@ -122,6 +123,8 @@ pub struct Estimate {
     pub bootstrap: Option<Bootstrap>,
     /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
     pub essential: Option<Essential>,
+    /// Joints whose torque is late or early against their position; [`Form::Acceleration`] only.
+    pub torque_delays: Vec<TorqueDelay>,
 }
 
 /// How rows were fitted.
@@ -222,6 +225,7 @@ impl Estimate {
             effective_samples: fitted.effective_samples,
             bootstrap: None,
             essential: None,
+            torque_delays: Vec::new(),
         }
     }
 

@@ -27,6 +27,7 @@ mod factor;
 mod filtered;
 mod hac;
 mod instruments;
+mod late;
 mod least_squares;
 mod method;
 pub mod output_error;
@@ -50,6 +51,7 @@ pub use estimate::{Errors, Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock};
 pub(crate) use hac::long_run_sum;
 pub use instruments::Hausman;
+pub use late::TorqueDelay;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 pub use method::{Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
@@ -135,6 +137,8 @@ impl Identify {
         let shapes = solved.1.clone();
         let solved = self.deviated(arm, &prepared, solved);
         let found = solved.solution.estimate.clone();
+        let torque_delays =
+            self.torque_delays(arm, &prepared, solved.stack.clone(), (&shapes, &found));
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
             let wanted = self.wanted(logs)?;
             let mut wanted = prepare_all(&wanted, &bands)?;
@@ -142,8 +146,12 @@ impl Identify {
             update_load(arm, &mut wanted, shapes, &found);
             Ok(Stack::new(arm, &wanted, shapes))
         };
-        self.estimate(arm, Form::Acceleration, bands, solved, &|| {
+        let estimate = self.estimate(arm, Form::Acceleration, bands, solved, &|| {
             instruments(&shapes)
+        })?;
+        Ok(Estimate {
+            torque_delays,
+            ..estimate
         })
     }
 

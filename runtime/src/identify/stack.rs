@@ -60,7 +60,7 @@ impl JointRows {
 
 /// Joints of which a log says nothing: a brake or dry friction holds one that stands still, with a torque that nobody knows, and a
 /// torque that never changes was not measured.
-fn says_nothing(log: &Prepared) -> Vec<usize> {
+pub(super) fn says_nothing(log: &Prepared) -> Vec<usize> {
     let stands = |values: &[f64]| {
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
