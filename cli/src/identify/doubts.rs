@@ -46,9 +46,13 @@ pub(super) fn far_positions(model: &Model, log: &Log) -> Vec<String> {
     far.collect()
 }
 
-/// A model that explains next to nothing.
+/// A model that explains next to nothing. What instruments leave of the torque has the noise of the columns in it, so least squares is
+/// asked beside them.
 pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
-    let all = &estimate.relative_percent;
+    let hausman = estimate.hausman.as_ref();
+    let all = hausman.map_or(&estimate.relative_percent, |both| {
+        &both.least_squares_percent
+    });
     let is_nothing = all.iter().all(|percent| *percent > LITTLE);
     is_nothing.then_some(
         "the model explains next to nothing of the torque of any joint; see whether the log has positions in rad and m, torques in N m \

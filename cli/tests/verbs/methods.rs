@@ -118,6 +118,30 @@ fn instruments_see_what_noisy_accelerations_hide() {
     assert!((values(&fit, "value")[2] - TRUTH[2]).abs() < 0.01);
 }
 
+/// What a simulation without noise wrote is a motion for instruments; that noise of the columns is left of the torque is no fault of the model.
+#[test]
+fn instruments_may_be_of_a_simulation() {
+    let folder = folder();
+    let clean = ["--trajectory", "wanted.csv", "--out", "clean.csv"];
+    let more = ["--parameters", "values.json"];
+    folder.succeed(&[&["simulate", "arm.robot"][..], &clean, &more].concat());
+    let wide = ["identify", "arm.robot", "log.csv", "--bands", "100,150,150"];
+    let instruments = ["--method", "iv", "--instruments", "clean.csv"];
+    let out = ["--json", "fit.json"];
+    let run = folder.run(&[&wide[..], &instruments, &out].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(!run.stderr.contains("next to nothing"), "{}", run.stderr);
+    let fit = json(&folder.read("fit.json"));
+    // As far as that is so here.
+    let left = numbers(&fit["relative_percent"]);
+    assert!(left.iter().all(|percent| *percent > 85.0), "{left:?}");
+    let (found, std) = (values(&fit, "value"), values(&fit, "std"));
+    for (c, truth) in TRUTH.iter().enumerate() {
+        let off = (found[c] - truth).abs();
+        assert!(off < 3.5 * std[c] && off < 0.05, "{c}: {found:?} {std:?}");
+    }
+}
+
 #[test]
 fn the_other_methods_agree_where_noise_is_small() {
     let folder = folder();

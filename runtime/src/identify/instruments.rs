@@ -34,6 +34,9 @@ const ROUNDING: f64 = 1e-7;
 pub struct Hausman {
     /// What least squares says, one an unknown, in the arm's order; 0 where it has no value.
     pub least_squares: Vec<f64>,
+    /// What least squares leaves of each joint's torque, `100 || residual || / || tau ||`. The instrumental estimate leaves the noise of
+    /// the columns besides.
+    pub least_squares_percent: Vec<f64>,
     /// Difference of both estimates over its standard deviation, one an unknown.
     pub differences: Vec<f64>,
     /// Probability of a difference like the largest one, anywhere, if least squares has no bias (Bonferroni).
@@ -224,6 +227,7 @@ fn compare(
     let largest = differences.iter().map(|x| x.abs()).fold(0.0, f64::max);
     let count = rows.excited.len() as f64;
     Hausman {
+        least_squares_percent: stack.relative_percent(&ordinary.estimate),
         least_squares: ordinary.estimate.clone(),
         differences,
         probability: (count * erfc(largest / std::f64::consts::SQRT_2)).min(1.0),
