@@ -123,6 +123,39 @@ fn errors_are_those_of_the_noise() {
     );
 }
 
+/// Torque that is off by 0.7 and -0.1 in turns: in the mean by 0.3, and by 0.4 about that.
+#[test]
+fn errors_with_an_offset_are_those_of_their_definitions() {
+    let arm = Pendulums::new();
+    let mut log = Plant::default().log();
+    let estimate = Identify::default()
+        .fit(&arm, std::slice::from_ref(&log))
+        .expect("the log is sound");
+    log.tau = estimate.predict(&arm, &log).expect("the log is sound");
+    for tau in &mut log.tau {
+        for (k, tau) in tau.iter_mut().enumerate() {
+            *tau += if k % 2 == 0 { 0.7 } else { -0.1 };
+        }
+    }
+    let errors = estimate.errors(&arm, &log).expect("the log is sound");
+    let fits = errors.nrmse_fit();
+    for (joint, tau) in log.tau.iter().enumerate() {
+        assert!((errors.mae[joint] - 0.4).abs() < 1e-3, "{errors:?}");
+        assert!((errors.rmse[joint] - 0.5).abs() < 1e-3, "{errors:?}");
+        // First and last second cut.
+        let inner = log.time.iter().zip(tau);
+        let (start, end) = (log.time[0], log.time[log.time.len() - 1]);
+        let inner = inner.filter(|(t, _)| **t >= start + 1.0 && **t < end - 1.0);
+        let inner: Vec<f64> = inner.map(|(_, tau)| *tau).collect();
+        let count = f64::from(u32::try_from(inner.len()).expect("samples"));
+        let mean = inner.iter().sum::<f64>() / count;
+        let spread = inner.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / count;
+        let wanted = 100.0 * (1.0 - 0.5 / spread.sqrt());
+        let fit = fits[joint].expect("the torque changes");
+        assert!((fit - wanted).abs() < 0.02, "{fit}, not {wanted}");
+    }
+}
+
 #[test]
 fn refusals_say_what_is_wrong() {
     let arm = Pendulums::new();

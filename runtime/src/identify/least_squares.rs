@@ -310,3 +310,6 @@ pub fn correlation_time(residual: &[f64]) -> f64 {
     }
     time
 }
+
+#[cfg(test)]
+mod tests;
