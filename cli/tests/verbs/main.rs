@@ -17,6 +17,7 @@ mod excite;
 mod friction;
 mod identify;
 mod import;
+mod logs;
 mod merge;
 mod methods;
 mod motions;
