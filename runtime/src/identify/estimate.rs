@@ -147,7 +147,7 @@ impl Fitted {
         let residuals = stack.residuals(estimate);
         let effective = residuals.iter().enumerate().map(|(joint, r)| {
             let is_dead = r.iter().all(|r| *r == 0.0);
-            let turns = stack.turns.get(joint).copied().unwrap_or(0);
+            let turns = stack.turns.get(joint).map_or(0, Vec::len);
             if is_dead {
                 0.0
             } else {
@@ -157,7 +157,7 @@ impl Fitted {
         Self {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),
-            turns: stack.turns.clone(),
+            turns: stack.turns.iter().map(Vec::len).collect(),
             effective_samples: Some(effective.collect()),
             names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
         }

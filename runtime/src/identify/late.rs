@@ -68,7 +68,17 @@ impl Identify {
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Vec<TorqueDelay> {
-        let rows = Rows::new(arm, logs, with_slopes(arm, logs, shapes, stack, estimate));
+        let rows = Rows::new(
+            arm,
+            logs,
+            with_slopes(
+                arm,
+                &|shapes| self.rows(arm, logs, shapes),
+                shapes,
+                stack,
+                estimate,
+            ),
+        );
         self.delays_of(&rows).unwrap_or_default()
     }
 
@@ -179,7 +189,7 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    /// A joint's series of all logs, as the rows have it.
+    /// A joint's series of all logs, as the rows have it: zero where the joint says nothing or turns.
     fn filtered(&self, joint: usize, series: impl Fn(&Prepared) -> Vec<f64>) -> Vec<f64> {
         let mut all = Vec::new();
         let mut filtered = Vec::new();
@@ -189,6 +199,9 @@ impl<'a> Rows<'a> {
                 filtered.fill(0.0);
             }
             all.extend_from_slice(&filtered);
+        }
+        for &row in self.stack.turns.get(joint).into_iter().flatten() {
+            all[row] = 0.0;
         }
         all
     }

@@ -35,8 +35,8 @@ pub struct Stack {
     pub joints: Vec<JointRows>,
     /// Where each log's samples are in every block, and their times.
     pub segments: Vec<Segment>,
-    /// Rows per joint that are zero because the joint turns there; empty where none were looked for.
-    pub turns: Vec<usize>,
+    /// Rows of each joint that are zero because it turns there; no joints where none were looked for.
+    pub turns: Vec<Vec<usize>>,
 }
 
 /// One log's share of the rows.

@@ -24,9 +24,9 @@ const SHARES: [f64; 2] = [0.005, 0.1];
 /// What the shared filter spreads a turn over, on either side, in periods of its cutoff.
 const SPREAD: f64 = 0.75;
 
-/// Makes rows zero that the turns of dry joints reach, and counts them. The stack is that of the logs.
+/// Makes rows zero that the turns of dry joints reach, and keeps which. The stack is that of the logs.
 pub(super) fn leave_out(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
-    stack.turns = vec![0; stack.dof()];
+    stack.turns = vec![Vec::new(); stack.dof()];
     for (number, log) in logs.iter().enumerate() {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
@@ -34,7 +34,7 @@ pub(super) fn leave_out(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
             let kept = log.shared.kept(is_near.len()).enumerate();
             for (row, _) in kept.filter(|&(_, k)| is_near[k]) {
                 stack.joints[joint].clear(start + row..start + row + 1);
-                stack.turns[joint] += 1;
+                stack.turns[joint].push(start + row);
             }
         }
     }

@@ -16,6 +16,7 @@ fn stack(joints: &[&[f64]]) -> Stack {
         columns: vec![(0, vec![1.0; tau.len()])],
     };
     Stack {
+        turns: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,
