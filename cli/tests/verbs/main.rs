@@ -15,6 +15,7 @@ mod eval;
 mod every;
 mod excite;
 mod friction;
+mod identifiable;
 mod identify;
 mod import;
 mod logs;

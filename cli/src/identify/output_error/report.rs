@@ -2,13 +2,20 @@
 
 use std::fmt::Write;
 
-use robot_model::identify::output_error::{Comparison, Distance, Ending, OutputEstimate};
+use robot_model::identify::output_error::{
+    Comparison, Direction, Distance, Ending, OutputEstimate,
+};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
+use robot_model_spec::model::Body;
+use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
 use super::super::report::{FaultReport, Parameter, fault_reports};
 use super::{Judged, listed};
+
+/// Longest part of a line for values of parameters.
+const VALUES_WIDTH: usize = 160;
 
 /// All that there is to say.
 pub(super) struct OutputReport<'a> {
@@ -50,6 +57,8 @@ pub(super) struct JsonReport<'a> {
     singular_values: &'a [f64],
     /// Directions of the parameters that the logs say little or nothing of.
     directions: Vec<DirectionReport<'a>>,
+    /// What hangs on all that the model lacks: shares of values; null where nothing does by much.
+    frail: Option<DirectionReport<'a>>,
     iterates: Vec<IterateReport<'a>>,
     data_faults: Vec<FaultReport<'a>>,
 }
@@ -88,6 +97,34 @@ impl Distances {
             nrmse_fit_percent: of.iter().map(|x| x.nrmse_fit_percent).collect(),
         }
     }
+}
+
+fn direction(direction: &Direction) -> DirectionReport<'_> {
+    let moves = direction.moves.iter();
+    DirectionReport {
+        relative_singular_value: direction.singular,
+        is_silent: direction.is_silent(),
+        is_common_factor: direction.is_scale(),
+        moves: moves.map(|(name, share)| (name.as_str(), *share)).collect(),
+    }
+}
+
+/// Parameters that hang on what the model lacks, in a sentence.
+fn hanging(frail: &Direction) -> String {
+    let moves = frail.moves.iter();
+    let moves: Vec<String> = moves
+        .map(|(name, share)| match frail.moves.len() {
+            1 => name.clone(),
+            _ => format!("{name} {share:+.2}"),
+        })
+        .collect();
+    format!(
+        "hardly identified beside the others: {}: a share of {} value moves positions {:.0} times less than the same share of what moves them \
+         most, so whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
+        moves.join(", "),
+        if moves.len() == 1 { "its" } else { "their" },
+        1.0 / frail.singular
+    )
 }
 
 impl OutputReport<'_> {
@@ -158,16 +195,7 @@ impl OutputReport<'_> {
                 .identifiability
                 .directions
                 .iter()
-                .map(|direction| DirectionReport {
-                    relative_singular_value: direction.singular,
-                    is_silent: direction.is_silent(),
-                    is_common_factor: direction.is_scale(),
-                    moves: direction
-                        .moves
-                        .iter()
-                        .map(|(name, share)| (name.as_str(), *share))
-                        .collect(),
-                })
+                .map(direction)
                 .collect(),
             iterates: found
                 .iterates
@@ -179,6 +207,7 @@ impl OutputReport<'_> {
                     values: &iterate.values,
                 })
                 .collect(),
+            frail: found.frail.as_ref().map(direction),
             data_faults: fault_reports(self.faults),
         }
     }
@@ -223,6 +252,7 @@ impl OutputReport<'_> {
             self.names.len() - found.bound.len(),
             found.samples
         )?;
+        self.tell_constants(text)?;
         if found.ending == Ending::OutOfIterations {
             writeln!(
                 text,
@@ -236,6 +266,9 @@ impl OutputReport<'_> {
         for direction in &found.identifiability.directions {
             writeln!(text, "{direction}")?;
         }
+        if let Some(frail) = &found.frail {
+            writeln!(text, "{}", hanging(frail))?;
+        }
         let silent: Vec<String> = self.unidentified().cloned().collect();
         if !silent.is_empty() {
             writeln!(
@@ -244,17 +277,63 @@ impl OutputReport<'_> {
                 listed(&silent)
             )?;
         }
-        writeln!(text, "\niteration  part  simulations          cost")?;
-        for (k, iterate) in found.iterates.iter().enumerate() {
-            writeln!(
+        self.tell_iterates(text)?;
+        self.distances(text)
+    }
+
+    /// Of a robot that says its energies, constants that show only in fewer sums of products.
+    fn tell_constants(&self, text: &mut String) -> std::fmt::Result {
+        let compiled = self.compiled;
+        let Body::Energies(energies) = &compiled.model.body else {
+            return Ok(());
+        };
+        let kept = compiled.base.kept.iter();
+        let of_effects =
+            kept.filter(|&&k| matches!(compiled.standard[k].owner, Owner::Effect { .. }));
+        let sums = compiled.base.kept.len() - of_effects.count();
+        let constants = energies.parameters.len();
+        if constants <= sums {
+            return Ok(());
+        }
+        let names: Vec<String> = energies
+            .parameters
+            .iter()
+            .map(|own| own.name.clone())
+            .collect();
+        writeln!(
+            text,
+            "rank {} of {} with the spec's own constants: {} show in {sums} sums of products alone, so none of them has a value by itself",
+            self.found.identifiability.rank,
+            self.names.len() - self.found.bound.len() + constants - sums,
+            listed(&names)
+        )
+    }
+
+    /// The way of the search: costs, and values where a line holds them.
+    fn tell_iterates(&self, text: &mut String) -> std::fmt::Result {
+        let iterates = &self.found.iterates;
+        let widths = self.names.iter().map(|name| name.len().max(12));
+        let widths: Vec<usize> = widths.collect();
+        let has_values = widths.iter().map(|width| width + 2).sum::<usize>() <= VALUES_WIDTH;
+        write!(text, "\niteration  part  simulations          cost")?;
+        let columns = self.names.iter().zip(&widths).filter(|_| has_values);
+        for (name, width) in columns {
+            write!(text, "  {name:>width$}")?;
+        }
+        for (k, iterate) in iterates.iter().enumerate() {
+            write!(
                 text,
-                "{k:>9}  {:>4}  {:>11}  {:>12.6e}",
+                "\n{k:>9}  {:>4}  {:>11}  {:>12.6e}",
                 iterate.stage + 1,
                 iterate.simulations,
                 iterate.cost
             )?;
+            let values = iterate.values.iter().zip(&widths).filter(|_| has_values);
+            for (value, width) in values {
+                write!(text, "  {value:>width$.5}")?;
+            }
         }
-        self.distances(text)
+        writeln!(text)
     }
 
     fn distances(&self, text: &mut String) -> std::fmt::Result {

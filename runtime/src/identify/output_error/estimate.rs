@@ -3,9 +3,10 @@
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, Reduced};
+use super::identifiable::frail;
 use super::search::{Ending, Found};
 use super::window::{Rows, Run, Window};
-use super::{Identifiability, Iterate, Place, Problem};
+use super::{Direction, Identifiability, Iterate, Place, Problem};
 use crate::identify::hac::long_run_sum;
 use crate::simulate::Adjustable;
 
@@ -47,6 +48,9 @@ pub struct OutputEstimate {
     pub bound: Vec<usize>,
     /// What the logs say of which of the other parameters.
     pub identifiability: Identifiability,
+    /// Parameters whose deviations are small, and that hang on what the model lacks: shares of values along which positions change
+    /// least, with the ratio of that to the most.
+    pub frail: Option<Direction>,
     /// On the logs that were fitted.
     pub fit: Comparison,
     /// Samples a joint.
@@ -80,7 +84,9 @@ pub(super) fn result<P: Adjustable + Clone>(
             std[k] = identifiability.is_identified(place).then_some(deviation);
         }
     }
+    let of_free: Vec<Option<f64>> = free.iter().map(|&k| std[k]).collect();
     OutputEstimate {
+        frail: frail(&r, &values, &of_free, &free_names),
         std,
         iterates,
         ending: *ending,

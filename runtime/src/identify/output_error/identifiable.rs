@@ -9,6 +9,12 @@ use nalgebra::{DMatrix, DVector};
 const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
+/// The same of shares of values: below, what a model lacks moves parameters by more than it moves others, however small deviations are.
+const FRAIL: f64 = 1.0 / 30.0;
+
+/// Deviations above this share of a value say by themselves that it is hardly known.
+const KNOWN: f64 = 0.1;
+
 /// Parts of a direction that are smaller are noise of the decomposition.
 const LOUD: f64 = 1e-3;
 
@@ -104,6 +110,41 @@ impl std::fmt::Display for Direction {
             self.singular
         )
     }
+}
+
+/// The direction, in shares of the values of parameters that seem to be known, along which outputs change least: where an equal share of
+/// the best known direction changes them thirty times as much. An arm that moves slowly beside its friction has its inertia there.
+pub(super) fn frail(
+    r: &DMatrix<f64>,
+    values: &[f64],
+    std: &[Option<f64>],
+    names: &[String],
+) -> Option<Direction> {
+    let pairs = values.iter().zip(std).enumerate();
+    let known = pairs.filter(|(_, (value, std))| std.is_some_and(|std| std < KNOWN * value.abs()));
+    let known: Vec<usize> = known.map(|(k, _)| k).collect();
+    let mut shares = r.select_columns(&known);
+    for (mut column, &k) in shares.column_iter_mut().zip(&known) {
+        column *= values[k];
+    }
+    if known.len() < 2 || !shares.iter().all(|x| x.is_finite()) {
+        return None;
+    }
+    let svd = shares.svd(false, true);
+    let (singular, v) = (svd.singular_values, svd.v_t?);
+    let last = singular.len() - 1;
+    let ratio = singular[last] / singular[0];
+    let moves = v.row(last);
+    let largest = moves
+        .iter()
+        .copied()
+        .max_by(|x, y| x.abs().total_cmp(&y.abs()))?;
+    let moves = known.iter().zip(moves.iter());
+    let moves = moves.map(|(&k, x)| (names[k].clone(), x / largest));
+    (ratio < FRAIL).then(|| Direction {
+        singular: ratio,
+        moves: moves.filter(|(_, share)| share.abs() > 0.1).collect(),
+    })
 }
 
 impl Identifiability {
