@@ -84,6 +84,9 @@ pub(crate) struct IdentifyArguments {
     /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
     #[arg(long)]
     essential: bool,
+    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations.
+    #[arg(long)]
+    leave_out_turns: bool,
     /// Take logs as they are: spikes and holds are left where they stand.
     #[arg(long)]
     as_logged: bool,
@@ -158,6 +161,7 @@ impl IdentifyArguments {
             instruments: instruments.collect::<Result<_, _>>()?,
             bootstrap: self.bootstrap.map_or(0, |draws| draws as usize),
             essential: self.essential,
+            leave_out_turns: self.leave_out_turns,
             ..Identify::default()
         };
         if let Some(prior) = self.prior {

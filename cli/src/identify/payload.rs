@@ -71,6 +71,7 @@ impl IdentifyArguments {
             method,
             weights: self.weights.into(),
             bands: self.bands,
+            leave_out_turns: self.leave_out_turns,
             ..Identify::default()
         };
         progress.step("identifying");

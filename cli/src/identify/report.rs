@@ -31,7 +31,7 @@ pub(crate) struct Report<'a> {
     unexcited: &'a [String],
     /// What the logs tell of parameters that have no value of their own.
     combinations: Vec<CombinationReport<'a>>,
-    /// Samples per joint that were left out where a joint with dry friction turns; empty where none were looked for.
+    /// Samples per joint where one with dry friction turns; empty where none were looked for.
     samples_at_turns: &'a [usize],
     /// Independent samples per joint; null where samples were not at hand.
     effective_samples: Option<&'a [f64]>,

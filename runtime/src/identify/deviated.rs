@@ -2,7 +2,7 @@
 
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
-use super::{Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes};
+use super::{Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes, turns};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -71,9 +71,17 @@ impl Identify {
         }
     }
 
-    /// Standard deviations of a solution of least squares; see [`hac`].
+    /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.
     pub(super) fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
-        hac::deviations(stack, solution, &self.row_weights(stack, solution))
+        let weights = self.row_weights(stack, solution);
+        let mut std = hac::deviations(stack, solution, &weights);
+        if !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty()) {
+            let moves = turns::moves(stack, solution, &weights);
+            for (std, by) in std.iter_mut().zip(moves) {
+                *std = std.hypot(by);
+            }
+        }
+        std
     }
 
     /// Intervals from blocks that are drawn, where they are wanted.

@@ -114,7 +114,7 @@ pub struct Estimate {
     pub outliers: Option<Vec<usize>>,
     /// The comparison with least squares where instruments were taken: [`Method::Instrumental`].
     pub hausman: Option<Hausman>,
-    /// Rows per joint that were left out because the joint turns there, see [`Arm::dry_joints`].
+    /// Rows per joint where it turns, see [`Arm::dry_joints`]; they are left out with [`Identify::leave_out_turns`](super::Identify::leave_out_turns).
     pub turns: Vec<usize>,
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
     /// at hand.
@@ -133,7 +133,7 @@ pub(super) struct Fitted {
     pub relative_percent: Vec<f64>,
     /// Samples per joint.
     pub samples: usize,
-    /// Of these, left out at turns.
+    /// Of these, at turns.
     pub turns: Vec<usize>,
     /// Of these, independent ones per joint.
     pub effective_samples: Option<Vec<f64>>,
@@ -145,13 +145,12 @@ impl Fitted {
     /// By an estimate.
     pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
         let residuals = stack.residuals(estimate);
-        let effective = residuals.iter().enumerate().map(|(joint, r)| {
+        let effective = residuals.iter().map(|r| {
             let is_dead = r.iter().all(|r| *r == 0.0);
-            let turns = stack.turns.get(joint).map_or(0, Vec::len);
             if is_dead {
                 0.0
             } else {
-                (r.len() - turns) as f64 / correlation_time(r)
+                r.len() as f64 / correlation_time(r)
             }
         });
         Self {

@@ -8,9 +8,9 @@
 //! later than the sign of its velocity says. So each joint has three more columns, viscous friction, dry friction and the slope of that, and
 //! free shapes have theirs: what is told is told apart from all of them, and of other torques than dry friction.
 
-use super::Identify;
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
+use super::{Identify, turns};
 use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::{Prepared, derivative};
 
@@ -50,6 +50,7 @@ struct Rows<'a> {
     /// Per log the joints that say nothing.
     silent: Vec<Vec<usize>>,
     stack: Stack,
+    leave_out_turns: bool,
 }
 
 /// Delays with their deviations, and the lengths of the residuals.
@@ -68,7 +69,7 @@ impl Identify {
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Vec<TorqueDelay> {
-        let rows = Rows::new(
+        let mut rows = Rows::new(
             arm,
             logs,
             with_slopes(
@@ -79,6 +80,7 @@ impl Identify {
                 estimate,
             ),
         );
+        rows.leave_out_turns = self.leave_out_turns;
         self.delays_of(&rows).unwrap_or_default()
     }
 
@@ -165,6 +167,7 @@ impl<'a> Rows<'a> {
             logs,
             silent: logs.iter().map(says_nothing).collect(),
             stack,
+            leave_out_turns: false,
         };
         let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
             let speeds = log.motion.wide.dq[joint].iter();
@@ -189,7 +192,7 @@ impl<'a> Rows<'a> {
         rows
     }
 
-    /// A joint's series of all logs, as the rows have it: zero where the joint says nothing or turns.
+    /// A joint's series of all logs, as the rows have it: zero where the joint says nothing.
     fn filtered(&self, joint: usize, series: impl Fn(&Prepared) -> Vec<f64>) -> Vec<f64> {
         let mut all = Vec::new();
         let mut filtered = Vec::new();
@@ -199,9 +202,6 @@ impl<'a> Rows<'a> {
                 filtered.fill(0.0);
             }
             all.extend_from_slice(&filtered);
-        }
-        for &row in self.stack.turns.get(joint).into_iter().flatten() {
-            all[row] = 0.0;
         }
         all
     }
@@ -228,6 +228,9 @@ impl<'a> Rows<'a> {
             }));
         }
         append(&mut stack, slopes);
+        if self.leave_out_turns {
+            turns::leave_out(&mut stack);
+        }
         stack
     }
 }

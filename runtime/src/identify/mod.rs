@@ -90,7 +90,7 @@ pub struct Identify {
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
     pub essential: bool,
-    /// Whether to leave out rows around the turns of [`Arm::dry_joints`].
+    /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in its deviations otherwise.
     pub leave_out_turns: bool,
 }
 
@@ -105,7 +105,7 @@ impl Default for Identify {
             shapes: None,
             bootstrap: 0,
             essential: false,
-            leave_out_turns: true,
+            leave_out_turns: false,
         }
     }
 }
@@ -273,11 +273,12 @@ impl Identify {
         last.ok_or(IdentifyError::NoLog)
     }
 
-    /// The rows of logs, with turns left out where they are to be.
+    /// The rows of logs, and which of them are at turns.
     fn rows(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Stack {
         let mut stack = Stack::new(arm, logs, shapes);
+        turns::find(&mut stack, arm, logs);
         if self.leave_out_turns {
-            turns::leave_out(&mut stack, arm, logs);
+            turns::leave_out(&mut stack);
         }
         stack
     }

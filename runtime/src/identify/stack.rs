@@ -35,7 +35,7 @@ pub struct Stack {
     pub joints: Vec<JointRows>,
     /// Where each log's samples are in every block, and their times.
     pub segments: Vec<Segment>,
-    /// Rows of each joint that are zero because it turns there; no joints where none were looked for.
+    /// Rows of each joint with dry friction where it turns; no joints where none were looked for.
     pub turns: Vec<Vec<usize>>,
 }
 

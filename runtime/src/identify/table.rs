@@ -31,7 +31,7 @@ impl fmt::Display for Estimate {
         };
         if self.turns.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
-            writeln!(f, "left out where joints turn: {}", a_joint(&counts))?;
+            writeln!(f, "of these where joints turn: {}", a_joint(&counts))?;
         }
         if let Some(effective) = &self.effective_samples {
             let counts: Vec<String> = effective.iter().map(|n| format!("{n:.0}")).collect();

@@ -66,8 +66,6 @@ impl<'a> Trace<'a> {
         let identify = Identify {
             method: Method::Wls,
             bands: Some(bands),
-            // What effects with a memory do shows where joints turn.
-            leave_out_turns: false,
             ..Identify::default()
         };
         let mut prepared = prepare_all(logs, &bands)?;
