@@ -27,7 +27,8 @@ struct GainsReport<'a> {
 struct Gain<'a> {
     joint: &'a str,
     /// N m or N per unit of the log's channel.
-    actuator_gain: Option<f64>,
+    #[serde(rename = "actuator_gain")]
+    value: Option<f64>,
     std: Option<f64>,
     /// What the spec has.
     declared: f64,
@@ -90,7 +91,7 @@ fn gains<'a>(
     let all = found.gains.iter().zip(joints).zip(declared);
     all.map(|((gain, joint), declared)| Gain {
         joint,
-        actuator_gain: gain.map(|gain| gain.value),
+        value: gain.map(|gain| gain.value),
         std: gain.map(|gain| gain.std),
         declared: *declared,
     })
@@ -112,7 +113,7 @@ fn center(found: &Driven, known: &KnownPayload) -> [Option<f64>; 3] {
 
 /// Gains that are hard to believe.
 fn doubt(gain: &Gain) -> Option<String> {
-    let (value, std) = gain.actuator_gain.zip(gain.std)?;
+    let (value, std) = gain.value.zip(gain.std)?;
     if value.abs() < 3.0 * std {
         return Some(format!(
             "the gain of {} is not told from zero: the payload changes little of what its drive logs",
@@ -139,7 +140,7 @@ fn told(gains: &[Gain], known: &KnownPayload, link: &str) -> String {
         let Gain {
             joint, declared, ..
         } = gain;
-        let line = match gain.actuator_gain.zip(gain.std) {
+        let line = match gain.value.zip(gain.std) {
             Some((value, std)) => format!(
                 "actuator_gain = {value:.5} +- {std:.1e} ({:.2} %), {declared} in the spec",
                 100.0 * (std / value).abs()

@@ -70,7 +70,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(long, value_name = "LINK", requires = "payload")]
     payload_link: Option<String>,
     /// The payload's mass, kg, as a scale shows it: the gains of the drives are identified with it.
-    #[arg(long, value_name = "KG", requires = "payload", value_parser = parse_mass)]
+    #[arg(long, value_name = "KG", requires = "payload", allow_hyphen_values = true, value_parser = parse_mass)]
     payload_mass: Option<f64>,
     /// Its center of mass in the link's frame, m, where that is known, too.
     #[arg(long, value_name = "X,Y,Z", requires = "payload_mass", allow_hyphen_values = true, value_parser = parse_center)]
@@ -84,12 +84,8 @@ pub(crate) struct IdentifyArguments {
     /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
     #[arg(long)]
     essential: bool,
-    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations.
-    #[arg(long)]
-    leave_out_turns: bool,
-    /// Take logs as they are: spikes and holds are left where they stand.
-    #[arg(long)]
-    as_logged: bool,
+    #[command(flatten)]
+    rows: RowOptions,
     /// Write what the logs tell, for `merge`; they are read piece by piece then, in memory that does not grow with them.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
@@ -98,6 +94,17 @@ pub(crate) struct IdentifyArguments {
     json: Option<PathBuf>,
     #[command(flatten)]
     output_error: output_error::Options,
+}
+
+/// Which rows of logs are fitted.
+#[derive(Debug, Args)]
+struct RowOptions {
+    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations.
+    #[arg(long)]
+    leave_out_turns: bool,
+    /// Take logs as they are: spikes and holds are left where they stand.
+    #[arg(long)]
+    as_logged: bool,
 }
 
 impl IdentifyArguments {
@@ -161,7 +168,7 @@ impl IdentifyArguments {
             instruments: instruments.collect::<Result<_, _>>()?,
             bootstrap: self.bootstrap.map_or(0, |draws| draws as usize),
             essential: self.essential,
-            leave_out_turns: self.leave_out_turns,
+            leave_out_turns: self.rows.leave_out_turns,
             ..Identify::default()
         };
         if let Some(prior) = self.prior {
@@ -213,7 +220,7 @@ impl IdentifyArguments {
         let streams = Streams {
             form,
             logs: &self.logs,
-            as_logged: self.as_logged,
+            as_logged: self.rows.as_logged,
         };
         let identify = Identify {
             bands: self.bands,
@@ -294,7 +301,7 @@ impl IdentifyArguments {
         faults: &mut Vec<(String, Fault)>,
         progress: &Progress,
     ) -> Result<Log, Error> {
-        if self.as_logged {
+        if self.rows.as_logged {
             return read_log(path, form.model(), progress);
         }
         let mended = read_mended(path, form.model(), progress)?;

@@ -151,7 +151,7 @@ impl IdentifyArguments {
             }
         }
         if self.factor.is_some() {
-            if self.leave_out_turns {
+            if self.rows.leave_out_turns {
                 return refuse("`--leave-out-turns` wants the logs themselves, not a factor");
             }
             if self.form == FormArgument::Filtered {
@@ -194,7 +194,7 @@ impl IdentifyArguments {
             ("--essential", self.essential),
             ("--payload", !self.payload.is_empty()),
             ("--partial", self.partial),
-            ("--leave-out-turns", self.leave_out_turns),
+            ("--leave-out-turns", self.rows.leave_out_turns),
         ];
         match others.into_iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),

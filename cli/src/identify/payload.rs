@@ -71,7 +71,7 @@ impl IdentifyArguments {
             method,
             weights: self.weights.into(),
             bands: self.bands,
-            leave_out_turns: self.leave_out_turns,
+            leave_out_turns: self.rows.leave_out_turns,
             ..Identify::default()
         };
         progress.step("identifying");
@@ -129,9 +129,11 @@ impl IdentifyArguments {
         if !self.partial && found.estimate.unexcited.iter().any(is_of_arm) {
             told_apart(&found.estimate)?;
         }
+        let all = [logs.unloaded.as_slice(), &logs.loaded].concat();
         let doubts = [
             doubts::negative(&found.estimate, form.unknowns()),
             doubts::unexplained(&found.estimate).map(str::to_owned),
+            doubts::hardly_apart(&found.estimate, form.model(), &all),
         ];
         for doubt in doubts.into_iter().flatten() {
             progress.note(&format!("note: {doubt}"));

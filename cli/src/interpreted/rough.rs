@@ -40,15 +40,27 @@ pub(super) fn dry_joints(model: &Model) -> Vec<usize> {
 
 /// Whether a torque has the sign of a velocity in it.
 fn jumps_at_turns(definition: &EffectDefinition) -> bool {
+    // Bindings use earlier ones alone.
+    let mut moving: Vec<bool> = Vec::new();
+    for binding in &definition.bindings {
+        let is_moving = has_velocity(&binding.value, &moving);
+        moving.push(is_moving);
+    }
     let bindings = definition.bindings.iter().map(|binding| &binding.value);
     let mut all = bindings.chain(definition.torque_equations());
     all.any(|value| {
-        value.contains(&|part| {
-            let Expr::Call(Function::Sign, of) = part else {
-                return false;
-            };
-            of.contains(&|part| matches!(part, Expr::Leaf(EffectLeaf::Signal(Signal::Velocity, _))))
-        })
+        value.contains(
+            &|part| matches!(part, Expr::Call(Function::Sign, of) if has_velocity(of, &moving)),
+        )
+    })
+}
+
+/// Whether an expression reads a velocity; `moving` tells it of the bindings so far.
+fn has_velocity(expr: &EffectExpr, moving: &[bool]) -> bool {
+    expr.contains(&|part| match part {
+        Expr::Leaf(EffectLeaf::Signal(Signal::Velocity, _)) => true,
+        Expr::Leaf(EffectLeaf::Binding(k)) => moving[*k],
+        _ => false,
     })
 }
 
@@ -96,5 +108,34 @@ impl Known {
             Expr::Leaf(EffectLeaf::Binding(k)) => self.bindings[*k].has_rough_term,
             term => self.has_parameter(term) && self.is_rough(term),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dry_friction_is_seen_through_names_and_not_where_something_remembers() {
+        let dry = |effects: &str| {
+            let text = format!(
+                "robot A {{
+                    convention = standard_dh;
+                    joint a: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+                    joint b: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+                    effects {{ {effects} }}
+                }}"
+            );
+            let model = robot_model_spec::load("a.robot", &text);
+            dry_joints(&model.unwrap_or_else(|errors| panic!("{errors}")))
+        };
+        assert_eq!(dry("viscous_friction on all;"), [0; 0]);
+        assert_eq!(dry("coulomb_friction on b;"), [1]);
+        assert_eq!(dry("rokae on all;"), [0, 1]);
+        assert_eq!(
+            dry("asymmetric_viscous on all; cubic_viscous on all;"),
+            [0; 0]
+        );
+        assert_eq!(dry("coulomb_friction on all; dahl on a;"), [1]);
     }
 }

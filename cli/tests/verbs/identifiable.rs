@@ -72,7 +72,7 @@ fn shoulder() -> String {
         [speed, a * angle.sin() - damping * speed + b * v]
     };
     let step = 1.0 / (RATE * f64::from(STEPS));
-    let (mut state, mut v, mut noise) = ([0.0, 0.0], 2.6, 0x2545_f491_u32);
+    let (mut state, mut v, mut noise) = ([0.0_f64, 0.0], 2.6, 0x2545_f491_u32);
     let mut log = String::from("time,q1,tau1\n");
     for k in 0..512_u32 {
         if state[0].abs() > 1.5 {

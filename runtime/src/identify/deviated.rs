@@ -76,10 +76,7 @@ impl Identify {
         let weights = self.row_weights(stack, solution);
         let mut std = hac::deviations(stack, solution, &weights);
         if !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty()) {
-            let moves = turns::moves(stack, solution, &weights);
-            for (std, by) in std.iter_mut().zip(moves) {
-                *std = std.hypot(by);
-            }
+            turns::widen(stack, solution, &weights, &mut std);
         }
         std
     }

@@ -69,7 +69,7 @@ impl Identify {
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Vec<TorqueDelay> {
-        let mut rows = Rows::new(
+        let rows = Rows::new(
             arm,
             logs,
             with_slopes(
@@ -79,8 +79,8 @@ impl Identify {
                 stack,
                 estimate,
             ),
+            self.leave_out_turns,
         );
-        rows.leave_out_turns = self.leave_out_turns;
         self.delays_of(&rows).unwrap_or_default()
     }
 
@@ -136,15 +136,10 @@ impl Identify {
         let mut solution = self.solve_stack(stack).ok()?;
         solution.std = self.deviations(stack, &solution);
         let first = stack.unknowns.len() - stack.dof();
-        let is_told = |joint: usize| {
-            let own = first + joint;
-            let is_alone = solution.shared.iter().all(|shared| shared.lead != own);
-            is_alone && !solution.unexcited.contains(&own)
-        };
         let residuals = stack.residuals(&solution.estimate);
         let of = |joint: usize| {
-            if is_told(joint) {
-                let own = first + joint;
+            let own = first + joint;
+            if solution.is_told(own) {
                 (solution.estimate[own], solution.std[own])
             } else {
                 (0.0, f64::INFINITY)
@@ -161,13 +156,13 @@ impl Identify {
 
 impl<'a> Rows<'a> {
     /// Of a stack, with friction that the arm may not have.
-    fn new(arm: &'a dyn Arm, logs: &'a [Prepared], stack: Stack) -> Self {
+    fn new(arm: &'a dyn Arm, logs: &'a [Prepared], stack: Stack, leave_out_turns: bool) -> Self {
         let mut rows = Self {
             arm,
             logs,
             silent: logs.iter().map(says_nothing).collect(),
             stack,
-            leave_out_turns: false,
+            leave_out_turns,
         };
         let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
             let speeds = log.motion.wide.dq[joint].iter();
@@ -188,6 +183,9 @@ impl<'a> Rows<'a> {
         });
         for columns in [viscous, dry, turns] {
             append(&mut rows.stack, columns);
+        }
+        if leave_out_turns {
+            turns::leave_out(&mut rows.stack);
         }
         rows
     }

@@ -46,6 +46,17 @@ pub struct Solution {
     pub scale: Vec<f64>,
 }
 
+impl Solution {
+    /// Whether an unknown has a value of its own: the logs tell it, and not in a sum alone.
+    #[must_use]
+    pub fn is_told(&self, unknown: usize) -> bool {
+        let is_in = |shared: &Shared| {
+            shared.lead == unknown || shared.others.iter().any(|(other, _)| *other == unknown)
+        };
+        !self.unexcited.contains(&unknown) && !self.shared.iter().any(is_in)
+    }
+}
+
 impl Factors {
     /// Reduces every block.
     #[must_use]

@@ -6,7 +6,6 @@
 //! as far as the shared filter spreads them, is in its deviations; or they are left out. Source of that practice: Swevers, Verdonck,
 //! De Schutter 2007, Dynamic model identification for industrial robots, who leave out samples of low velocity.
 
-use super::combination::Shared;
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use crate::columns::Arm;
@@ -51,30 +50,32 @@ pub(super) fn leave_out(stack: &mut Stack) {
     }
 }
 
-/// By how much a solution of least squares moves, unknown by unknown, where rows at turns are left out and others have the same
-/// weights; 0 for unknowns that the other rows do not tell.
-pub(super) fn moves(stack: &Stack, solution: &Solution, weights: &[Vec<f64>]) -> Vec<f64> {
-    let mut roots: Vec<Vec<f64>> = weights.to_vec();
-    for (joint, turns) in roots.iter_mut().zip(&stack.turns) {
-        joint.iter_mut().for_each(|weight| *weight = weight.sqrt());
-        turns.iter().for_each(|&row| joint[row] = 0.0);
-    }
-    let factors = Factors::of_rows(stack, &|joint, row| roots[joint][row]);
-    let without = factors.solve(&solution.scale, &vec![1.0; stack.dof()]);
-    let is_told = |solution: &Solution, k: usize| {
-        let is_in =
-            |shared: &Shared| shared.lead == k || shared.others.iter().any(|(o, _)| *o == k);
-        !solution.unexcited.contains(&k) && !solution.shared.iter().any(is_in)
-    };
-    let both = solution.estimate.iter().zip(&without.estimate).enumerate();
-    both.map(|(k, (with, without_turns))| {
-        if is_told(solution, k) && is_told(&without, k) {
-            with - without_turns
-        } else {
-            0.0
+/// Deviations with what rows at turns move a solution of least squares by, unknown by unknown, where they are left out and others have
+/// the same weights. Of the difference `d`, whose variance is that of the solution without them less that with them, `d^2` less that
+/// variance counts. Unknowns that other rows do not tell keep their deviations.
+pub(super) fn widen(stack: &Stack, solution: &Solution, weights: &[Vec<f64>], std: &mut [f64]) {
+    let solved = |is_left_out: bool| {
+        let mut roots: Vec<Vec<f64>> = weights.to_vec();
+        for (joint, turns) in roots.iter_mut().zip(&stack.turns) {
+            for weight in joint.iter_mut() {
+                *weight = weight.sqrt();
+            }
+            for &row in turns.iter().filter(|_| is_left_out) {
+                joint[row] = 0.0;
+            }
         }
-    })
-    .collect()
+        let factors = Factors::of_rows(stack, &|joint, row| roots[joint][row]);
+        factors.solve(&solution.scale, &vec![1.0; stack.dof()])
+    };
+    let (with, without) = (solved(false), solved(true));
+    for (k, std) in std.iter_mut().enumerate() {
+        if with.is_told(k) && without.is_told(k) && with.std[k] > 0.0 {
+            let difference = with.estimate[k] - without.estimate[k];
+            let less_told = (without.std[k] / with.std[k]).powi(2) - 1.0;
+            let beyond = difference.powi(2) - std.powi(2) * less_told.max(0.0);
+            *std = std.hypot(beyond.max(0.0).sqrt());
+        }
+    }
 }
 
 /// Which samples of a motion the turns of a joint reach.

@@ -13,7 +13,7 @@
 //! Source: Gautier, Briot 2014, Global identification of joint drive gains and dynamic parameters of robots, who solve `g_j v_j = f_j` for
 //! all joints at once by total least squares.
 
-use super::gain_rows::{Rows, is_told};
+use super::gain_rows::Rows;
 use super::{Both, Carried, Shares};
 use crate::columns::Arm;
 use crate::identify::{
@@ -160,7 +160,7 @@ impl Search<'_> {
                 .flatten()
                 .all(|gain| (gain.value - 1.0).abs() <= (SETTLED_STD * gain.std).max(SETTLED));
             if settled {
-                return Ok(self.driven(alone, bands, shapes, round, factors));
+                return Ok(self.driven(alone, bands, shapes, &round, factors));
             }
             follow(&mut factors, &round.gains);
         }
@@ -173,7 +173,7 @@ impl Search<'_> {
         alone: Estimate,
         bands: Bands,
         shapes: Vec<f64>,
-        round: Round,
+        round: &Round,
         mut factors: Vec<f64>,
     ) -> Driven {
         let own = self.arm.actuator_gain();
@@ -250,9 +250,12 @@ impl Search<'_> {
             let mut solution = self.identify.solve_stack(&linear)?;
             let (arm, found) = solution.estimate.split_at(self.unknowns());
             values = arm.to_vec();
+            if !found.iter().all(|gain| gain.is_finite()) {
+                break;
+            }
             let mut change = 0.0_f64;
             for (k, &joint) in told.iter().enumerate() {
-                let is_told = is_told(&solution, self.unknowns() + k);
+                let is_told = solution.is_told(self.unknowns() + k);
                 let last = gains[joint].replace(found[k]);
                 change = change.max(last.map_or(0.0, |last| (found[k] / last - 1.0).abs()));
                 if !is_told {
@@ -264,9 +267,7 @@ impl Search<'_> {
                 return Err(IdentifyError::PayloadHidden);
             }
             if change <= SETTLED {
-                eprintln!("NAIVE {:?}", &solution.std[self.unknowns()..]);
                 solution.std = self.identify.deviations(&linear, &solution);
-                eprintln!("HAC {:?}", &solution.std[self.unknowns()..]);
                 let of = |(k, &joint): (usize, &usize)| {
                     let std = solution.std[self.unknowns() + k];
                     let value = found[k];
@@ -295,6 +296,7 @@ impl Search<'_> {
 /// Gains of logs that were multiplied by those of a round.
 fn follow(factors: &mut [f64], gains: &[Option<DriveGain>]) {
     for (factor, gain) in factors.iter_mut().zip(gains) {
-        *factor *= gain.map_or(1.0, |gain| gain.value);
+        // What is not told any more is the spec's.
+        *factor = gain.map_or(1.0, |gain| *factor * gain.value);
     }
 }

@@ -13,14 +13,6 @@ pub(super) struct Rows {
     known: Vec<Vec<f64>>,
 }
 
-/// Whether an unknown has a value of its own.
-pub(super) fn is_told(solution: &Solution, unknown: usize) -> bool {
-    let is_in = |shared: &crate::identify::Shared| {
-        shared.lead == unknown || shared.others.iter().any(|(other, _)| *other == unknown)
-    };
-    !solution.unexcited.contains(&unknown) && !solution.shared.iter().any(is_in)
-}
-
 /// Least squares of some joints' rows for targets of their own, every row as it is.
 fn ordinary(
     stack: &Stack,
@@ -117,7 +109,7 @@ impl Rows {
         let (_, solution) = ordinary(&stack, all.clone(), &negative);
         let gain = |joint: usize| {
             let value = solution.estimate[n + joint];
-            (is_told(&solution, n + joint) && value != 0.0).then_some(value)
+            (solution.is_told(n + joint) && value != 0.0).then_some(value)
         };
         let gains: Vec<Option<f64>> = all.map(gain).collect();
         if gains.iter().all(Option::is_none) {
