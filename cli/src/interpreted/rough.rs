@@ -120,6 +120,7 @@ mod tests {
         let dry = |effects: &str| {
             let text = format!(
                 "robot A {{
+                    gravity = [0, 0, -9.81];
                     convention = standard_dh;
                     joint a: revolute {{ a = 0.5; alpha = 0; d = 0; }}
                     joint b: revolute {{ a = 0.4; alpha = 0; d = 0; }}

@@ -21,10 +21,11 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
     };
     folder.write("values.json", &friction([[0.335, 0.279], [0.203, 0.076]]));
     folder.write("start.json", &friction([[0.3, 0.3], [0.2, 0.1]]));
-    folder.write(
-        "wanted.csv",
-        "time,q1,q2\n0,0.7,0.3\n2,0.7,0.3\n4,0.7,0.3\n",
-    );
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..400 {
+        writeln!(wanted, "{},0.7,0.3", 0.01 * f64::from(k)).expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
     let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
     let free = [
         "--controller",
