@@ -125,8 +125,8 @@ pub trait Arm: Columns {
         Vec::new()
     }
 
-    /// Joints with friction that jumps where they turn, from 0: what holds them there is not what a law says, and no method fits those
-    /// rows. None with effects that say what happens there, such as bristles.
+    /// Joints with friction that jumps where they turn, from 0: what holds them there is not what a law says, which deviations
+    /// know of, or which is left out. None with effects that say what happens there, such as bristles.
     fn dry_joints(&self) -> &[usize] {
         &[]
     }

@@ -29,6 +29,7 @@ mod hac;
 mod instruments;
 mod late;
 mod least_squares;
+mod logs;
 mod method;
 pub mod output_error;
 mod payload;
@@ -53,6 +54,8 @@ pub(crate) use hac::long_run_sum;
 pub use instruments::Hausman;
 pub use late::TorqueDelay;
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+use logs::update_load;
+pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};
 pub use method::{Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
@@ -61,8 +64,7 @@ pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
 use crate::columns::{Arm, Nominal};
 use crate::log::Log;
-use crate::motion::Motion;
-use crate::signal::{Bands, Prepared, prepare};
+use crate::signal::{Bands, Prepared};
 use crate::simulate::Trajectory;
 
 /// How often the torque of the rigid body, which some effects depend on, is computed from the last estimate.
@@ -352,59 +354,4 @@ impl Identify {
             .collect();
         Ok(solve(&correlation))
     }
-}
-
-/// Bands that every one of the logs can bear.
-pub(crate) fn slowest_bands(logs: &[Log]) -> Bands {
-    Bands::for_rate(logs.iter().map(Log::rate_hz).fold(f64::INFINITY, f64::min))
-}
-
-/// The torque of the rigid body at an estimate, for the effects that depend on it.
-fn update_load(arm: &dyn Arm, logs: &mut [Prepared], shapes: &[f64], estimate: &[f64]) {
-    for log in logs {
-        load_motion(arm, &mut log.motion, shapes, estimate);
-    }
-}
-
-/// What effects read of the load along a motion.
-pub(crate) fn load_motion(arm: &dyn Arm, motion: &mut Motion, shapes: &[f64], estimate: &[f64]) {
-    motion.rigid_torque = arm.rigid_torque(motion, shapes, estimate);
-    motion.transmitted_torque = arm.transmitted_torque(motion, shapes, estimate);
-}
-
-pub(crate) fn prepare_all(logs: &[Log], bands: &Bands) -> Result<Vec<Prepared>, IdentifyError> {
-    logs.iter()
-        .map(|log| prepare(log, bands).map_err(IdentifyError::from))
-        .collect()
-}
-
-pub(crate) fn check_logs(arm: &dyn Arm, logs: &[Log]) -> Result<(), IdentifyError> {
-    if logs.is_empty() {
-        return Err(IdentifyError::NoLog);
-    }
-    for log in logs {
-        if log.dof() != arm.dof() {
-            return Err(IdentifyError::Joints {
-                source_name: log.source.clone(),
-                log: log.dof(),
-                arm: arm.dof(),
-            });
-        }
-        if let Some(channel) = missing_input(arm.inputs(), log) {
-            return Err(IdentifyError::NoChannel {
-                source_name: log.source.clone(),
-                channel: channel.to_owned(),
-            });
-        }
-    }
-    Ok(())
-}
-
-/// The first channel that columns read and a log does not have.
-pub(crate) fn missing_input<'a>(inputs: &'a [String], log: &Log) -> Option<&'a str> {
-    let is_there = |name: &String| log.extra.iter().any(|channel| channel.name == *name);
-    inputs
-        .iter()
-        .find(|name| !is_there(name))
-        .map(String::as_str)
 }
