@@ -40,6 +40,10 @@ pub struct Motion {
     pub transmitted_torque: Vec<Vec<f64>>,
     /// Cutoff of the filter for displacements of links, Hz; 0 where they pass none.
     pub displacement_hz: f64,
+    /// Speeds of the wide band below which steps of an encoder hide the direction of a joint, rad/s or m/s; empty or 0 where the
+    /// direction is known. With `w` for one of them, columns that jump are means over a velocity that is logistic about the measured
+    /// one with scale `w / 2`, which makes `tanh(dq / w)` of `sign(dq)`.
+    pub turn_speeds: Vec<f64>,
 }
 
 impl Motion {
@@ -109,40 +113,10 @@ impl Motion {
         cubic(&self.time, values, &before)
     }
 
-    /// The motion's wide band, time and rigid-body torque a part of a sample later (`-0.5 ..= 0.5`), linearly between
-    /// samples; the smooth band stays empty.
-    ///
-    /// A column that jumps between two samples has power above half the sample rate; read at the sample instants alone, that
-    /// power would fold into the band below. Its mean over a few such motions is the low-pass that keeps it out.
+    /// The speed below which the direction of a joint is not known, rad/s or m/s.
     #[must_use]
-    pub fn within_sample(&self, part: f64) -> Self {
-        let shifted = |channels: &[Vec<f64>]| {
-            channels
-                .iter()
-                .map(|values| between(values, part))
-                .collect()
-        };
-        Self {
-            time: between(&self.time, part),
-            smooth: Kinematics::default(),
-            wide: Kinematics {
-                q: shifted(&self.wide.q),
-                dq: shifted(&self.wide.dq),
-                ddq: shifted(&self.wide.ddq),
-            },
-            rigid_torque: shifted(&self.rigid_torque),
-            tau: shifted(&self.tau),
-            transmitted_torque: shifted(&self.transmitted_torque),
-            displacement_hz: self.displacement_hz,
-            extra: self
-                .extra
-                .iter()
-                .map(|channel| Channel {
-                    name: channel.name.clone(),
-                    values: between(&channel.values, part),
-                })
-                .collect(),
-        }
+    pub fn turn_speed(&self, joint: usize) -> f64 {
+        self.turn_speeds.get(joint).copied().unwrap_or(0.0)
     }
 
     /// A further channel of the log, where it has one of that name.
@@ -158,20 +132,19 @@ fn add(sum: &mut [f64], values: &[f64]) {
     sum.iter_mut().zip(values).for_each(|(s, v)| *s += v);
 }
 
-/// `values` a part of a sample later (`-1 ..= 1`), linearly between samples; the last (or first) sample is held.
+/// `values` at some samples, a part of a sample later (`-1 ..= 1`), linearly between samples; the last (or first) sample is held.
 #[must_use]
-pub fn between(values: &[f64], part: f64) -> Vec<f64> {
+pub fn between(values: &[f64], part: f64, samples: &[usize]) -> Vec<f64> {
     let last = values.len().saturating_sub(1);
-    (0..values.len())
-        .map(|k| {
-            let neighbor = if part < 0.0 {
-                k.saturating_sub(1)
-            } else {
-                (k + 1).min(last)
-            };
-            values[k] + part.abs() * (values[neighbor] - values[k])
-        })
-        .collect()
+    let at = |&k: &usize| {
+        let neighbor = if part < 0.0 {
+            k.saturating_sub(1)
+        } else {
+            (k + 1).min(last)
+        };
+        values[k] + part.abs() * (values[neighbor] - values[k])
+    };
+    samples.iter().map(at).collect()
 }
 
 #[cfg(test)]
@@ -181,22 +154,11 @@ mod tests {
     #[test]
     fn a_jump_within_a_sample_averages_to_its_share() {
         // The velocity crosses zero a quarter of a sample after sample 1.
-        let motion = Motion {
-            time: vec![0.0, 1.0, 2.0],
-            wide: Kinematics {
-                q: vec![vec![0.0; 3]],
-                dq: vec![vec![-5.0, -1.0, 3.0]],
-                ddq: vec![vec![4.0; 3]],
-            },
-            ..Motion::default()
-        };
+        let velocity = [-5.0, -1.0, 3.0];
         let parts = [-0.375, -0.125, 0.125, 0.375];
-        let mean: f64 = parts
-            .iter()
-            .map(|part| motion.within_sample(*part).wide.dq[0][1].signum())
-            .sum::<f64>()
-            / 4.0;
+        let signs = parts.map(|part| between(&velocity, part, &[1])[0].signum());
+        let mean = signs.iter().sum::<f64>() / 4.0;
         assert!((mean - (-0.5)).abs() < 1e-12, "{mean}");
-        assert_eq!(motion.within_sample(0.25).time, [0.25, 1.25, 2.0]);
+        assert_eq!(between(&velocity, 0.25, &[0, 2]), [-4.0, 3.0]);
     }
 }

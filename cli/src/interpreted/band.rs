@@ -9,12 +9,16 @@ use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Operand;
 use robot_model_codegen::states::StateProgram;
 
-use super::program::{run, run_block};
+use super::program::run_block;
 use super::signals::{Own, Signals};
 use super::states::states;
 
 /// Instants of a sample interval over which columns that jump are averaged.
-const INSTANTS: i32 = 4;
+const INSTANTS: u32 = 4;
+
+/// Velocities over which they are averaged where a joint's direction is not known, and up to how many times that speed it is not.
+const VELOCITIES: u32 = 16;
+const FAR: f64 = 4.0;
 
 /// Columns of effects, each with the band that it reads.
 #[derive(Debug, Clone)]
@@ -125,48 +129,124 @@ impl EffectBlock {
         own
     }
 
-    /// Mean of the columns at a few instants of every sample interval. Only what the columns read is moved to the instants:
-    /// a candidate reads one joint of an arm.
+    /// Mean of the columns at a few instants of every sample interval, and about turns over velocities that the log does not tell
+    /// apart.
     fn averaged(&self, signals: &Signals<'_>) -> Vec<Entry> {
-        let (program, motion) = (&self.block.program, signals.motion);
-        let mut sum = vec![vec![0.0; motion.time.len()]; program.outputs()];
-        for instant in 0..INSTANTS {
-            let part = (f64::from(instant) + 0.5) / f64::from(INSTANTS) - 0.5;
-            let moved = program.symbols().iter().map(|&symbol| {
-                let value = match signals.bind(&motion.wide, symbol) {
-                    Operand::Column(values) => Moved::Column(between(values, part)),
-                    Operand::Constant(value) => Moved::Constant(value),
-                };
-                (symbol, value)
+        let samples = signals.motion.time.len();
+        let everywhere = (0..INSTANTS).map(|k| Moved {
+            part: part(k, INSTANTS),
+            quantile: 0.5,
+        });
+        let all: Vec<usize> = (0..samples).collect();
+        let mut mean = self.mean(signals, &all, everywhere);
+        let turning = self.turning(signals.motion);
+        if !turning.is_empty() {
+            let about = (0..VELOCITIES).map(|k| Moved {
+                part: part(k % INSTANTS, INSTANTS),
+                // 7 and 16 have no common factor: every quantile comes once, early and late in the interval alike.
+                quantile: 0.5 + part((7 * k) % VELOCITIES, VELOCITIES),
             });
-            let moved: BTreeMap<Symbol, Moved> = moved.collect();
-            let values = run(program, motion, &|symbol| match &moved[&symbol] {
-                Moved::Column(values) => Operand::Column(values),
-                Moved::Constant(value) => Operand::Constant(*value),
-            });
-            for (sum, values) in sum.iter_mut().zip(values) {
-                sum.iter_mut().zip(values).for_each(|(s, v)| *s += v);
+            let exact = self.mean(signals, &turning, about);
+            for (mean, exact) in mean.iter_mut().zip(exact) {
+                for (&sample, value) in turning.iter().zip(exact) {
+                    mean[sample] = value;
+                }
             }
         }
-        let mean = |mut values: Vec<f64>| {
-            for value in &mut values {
-                *value /= f64::from(INSTANTS);
-            }
-            values
-        };
-        let entries = self.block.entries.iter().zip(sum);
+        let entries = self.block.entries.iter().zip(mean);
         entries
             .map(|(&(joint, column), values)| Entry {
                 joint,
                 column,
-                values: mean(values),
+                values,
             })
             .collect()
     }
+
+    /// Samples at which the direction of a joint whose velocity is read is not known.
+    fn turning(&self, motion: &Motion) -> Vec<usize> {
+        let read = self.block.program.symbols().iter();
+        let joints: Vec<usize> = read
+            .filter_map(|symbol| match symbol {
+                Symbol::Dq(joint) => Some(*joint),
+                _ => None,
+            })
+            .filter(|joint| motion.turn_speed(*joint) > 0.0)
+            .collect();
+        let turns = |sample: &usize| {
+            joints
+                .iter()
+                .any(|&joint| motion.wide.dq[joint][*sample].abs() < FAR * motion.turn_speed(joint))
+        };
+        (0..motion.time.len()).filter(turns).collect()
+    }
+
+    /// Mean of the columns over signals that are moved, at some samples. Only what the columns read is moved: a candidate reads
+    /// one joint of an arm.
+    fn mean(
+        &self,
+        signals: &Signals<'_>,
+        samples: &[usize],
+        moves: impl ExactSizeIterator<Item = Moved>,
+    ) -> Vec<Vec<f64>> {
+        let (program, motion) = (&self.block.program, signals.motion);
+        let mut sum = vec![vec![0.0; samples.len()]; program.outputs()];
+        let count = moves.len() as f64;
+        for to in moves {
+            let moved = program.symbols().iter().map(|&symbol| {
+                let value = match signals.bind(&motion.wide, symbol) {
+                    Operand::Column(values) => {
+                        Value::Column(to.apply(motion, symbol, values, samples))
+                    }
+                    Operand::Constant(value) => Value::Constant(value),
+                };
+                (symbol, value)
+            });
+            let moved: BTreeMap<Symbol, Value> = moved.collect();
+            let bind = |symbol| match &moved[&symbol] {
+                Value::Column(values) => Operand::Column(values),
+                Value::Constant(value) => Operand::Constant(*value),
+            };
+            let mut values = vec![Vec::new(); program.outputs()];
+            program.eval_batch(samples.len(), &bind, &mut values);
+            for (sum, values) in sum.iter_mut().zip(values) {
+                sum.iter_mut().zip(values).for_each(|(s, v)| *s += v);
+            }
+        }
+        for value in sum.iter_mut().flatten() {
+            *value /= count;
+        }
+        sum
+    }
 }
 
-/// A signal a part of a sample later.
-enum Moved {
+/// The middle of part `k` of `count` equal ones, `-0.5 .. 0.5`.
+fn part(k: u32, count: u32) -> f64 {
+    (f64::from(k) + 0.5) / f64::from(count) - 0.5
+}
+
+/// Where signals are read instead of at the measured samples.
+struct Moved {
+    /// A part of a sample interval later.
+    part: f64,
+    /// At this quantile of the velocities that the log does not tell apart.
+    quantile: f64,
+}
+
+impl Moved {
+    fn apply(&self, motion: &Motion, symbol: Symbol, values: &[f64], at: &[usize]) -> Vec<f64> {
+        let mut values = between(values, self.part, at);
+        if let Symbol::Dq(joint) = symbol {
+            let scale = 0.5 * motion.turn_speed(joint);
+            let faster = scale * (self.quantile / (1.0 - self.quantile)).ln();
+            values.iter_mut().for_each(|value| *value += faster);
+        }
+        values
+    }
+}
+
+/// A signal's values.
+enum Value {
     Column(Vec<f64>),
     Constant(f64),
 }

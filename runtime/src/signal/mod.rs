@@ -4,6 +4,7 @@
 //! filter, applied once to the torque and to every column after it is formed. What differs between them fakes effects.
 
 mod derivative;
+mod encoder;
 mod error;
 mod filter;
 mod first_order;
@@ -13,6 +14,7 @@ mod shared;
 mod spectrum;
 
 pub use derivative::derivative;
+use encoder::encoder_step;
 pub use error::SignalError;
 pub use filter::LowPass;
 pub use first_order::FirstOrder;

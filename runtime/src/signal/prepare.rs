@@ -1,6 +1,6 @@
 //! A log to the motion that models read.
 
-use super::{LowPass, SharedFilter, SignalError, derivative, resample};
+use super::{LowPass, SharedFilter, SignalError, derivative, encoder_step, resample};
 use crate::log::{Channel, Log};
 use crate::motion::{Kinematics, Motion};
 
@@ -72,6 +72,8 @@ pub struct Prepared {
     /// What the model is fitted to, `[joint][sample]`: the torque as logged on the grid of `motion`, not smoothed except
     /// before decimation.
     pub tau: Vec<Vec<f64>>,
+    /// Mean square of what decimation took off the logged torque, per joint: no model sees it, and raw errors have it.
+    pub tau_beyond: Vec<f64>,
     /// Sample rate of `motion`, Hz.
     pub rate_hz: f64,
     /// Sample `k` of the motion is sample `k * stride` of the log.
@@ -182,6 +184,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     let on_grid = |channel: &Vec<f64>| resample::every(&limit(channel), stride);
     let q: Vec<Vec<f64>> = log.q.iter().map(limit).collect();
     let tau: Vec<Vec<f64>> = log.tau.iter().map(on_grid).collect();
+    let beyond = |channel: &Vec<f64>| mean_square(channel, &limit(channel));
     let step = 1.0 / logged_hz;
     let rates = |filter: &LowPass| kinematics(&q, filter, step, stride, accelerations);
     Ok(Prepared {
@@ -192,6 +195,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
             rigid_torque: Vec::new(),
             transmitted_torque: Vec::new(),
             displacement_hz: (DISPLACEMENT_BAND * shared_hz).min(smooth_hz),
+            turn_speeds: log.q.iter().map(|q| turn_speed(q, wide_hz)).collect(),
             tau: tau.clone(),
             extra: log
                 .extra
@@ -203,10 +207,22 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
                 .collect(),
         },
         tau,
+        tau_beyond: log.tau.iter().map(beyond).collect(),
         rate_hz,
         stride,
         shared,
     })
+}
+
+/// Mean square of a difference.
+fn mean_square(left: &[f64], right: &[f64]) -> f64 {
+    let squares = left.iter().zip(right).map(|(l, r)| (l - r).powi(2));
+    squares.sum::<f64>() / left.len().max(1) as f64
+}
+
+/// One encoder step in half a period of the wide band: slower motion has no direction that the log could tell.
+fn turn_speed(positions: &[f64], wide_hz: f64) -> f64 {
+    encoder_step(positions).map_or(0.0, |step| 2.0 * wide_hz * step)
 }
 
 /// Filtered positions and their derivatives at the full rate, of which every `stride`-th sample is kept.
@@ -331,6 +347,13 @@ mod tests {
         assert!((rms(10.0) - 1.0).abs() < 1e-3);
         // 490 Hz would appear as 10 Hz.
         assert!(rms(490.0) < 1e-3, "{}", rms(490.0));
+        let beyond = |hz: f64| {
+            let log = log(5000.0, 4.0, f64::sin, tone(hz));
+            prepare(&log, &Bands::DEFAULT)
+                .expect("bands of the log")
+                .tau_beyond[0]
+        };
+        assert!(beyond(10.0) < 1e-6 && (beyond(490.0) - 0.5).abs() < 1e-3);
     }
 
     #[test]

@@ -45,15 +45,23 @@ impl Search<'_> {
             .collect()
     }
 
-    /// Mean square of the raw residual per joint over all logs; the logs are those of [`Self::raw_residuals`].
+    /// Mean square of the raw residual per joint over all logs, what decimation took off the torque with it; the logs are those of
+    /// [`Self::raw_residuals`].
     fn raw_power(&self, logs: &[Vec<Vec<f64>>]) -> Vec<f64> {
-        (0..self.arm.dof())
-            .map(|j| {
-                let count: usize = logs.iter().map(|log| log[j].len()).sum();
-                let square: f64 = logs.iter().flat_map(|log| &log[j]).map(|r| r * r).sum();
-                square / count.max(1) as f64
-            })
-            .collect()
+        let of_joint = |j: usize| {
+            let count: usize = logs.iter().map(|log| log[j].len()).sum();
+            let square = logs.iter().zip(&self.prepared).map(|(log, prepared)| {
+                let beyond = log[j].len() as f64 * self.beyond(prepared, j);
+                log[j].iter().map(|r| r * r).sum::<f64>() + beyond
+            });
+            square.sum::<f64>() / count.max(1) as f64
+        };
+        (0..self.arm.dof()).map(of_joint).collect()
+    }
+
+    /// Mean square of a joint's torque that decimation took off.
+    fn beyond(&self, log: &Prepared, joint: usize) -> f64 {
+        self.arm.actuator_gain()[joint].powi(2) * log.tau_beyond[joint]
     }
 
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
@@ -89,6 +97,7 @@ impl Search<'_> {
                 .zip(&state.stack.segments)
                 .map(|(((residuals, log), period), segment)| RawResidual {
                     values: &residuals[j],
+                    beyond: self.beyond(log, j),
                     filtered: &state.residuals[j]
                         [segment.start..segment.start + segment.time.len()],
                     filtered_hz: log.rate_hz / log.shared.stride() as f64,

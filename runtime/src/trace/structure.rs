@@ -44,6 +44,8 @@ impl Structure {
 /// One log's raw residual: unfiltered torque minus the model's.
 pub(super) struct RawResidual<'a> {
     pub(super) values: &'a [f64],
+    /// Mean square of what decimation took off it.
+    pub(super) beyond: f64,
     /// The same residual, filtered and decimated.
     pub(super) filtered: &'a [f64],
     /// Rate of the decimated samples.
@@ -61,8 +63,8 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
     for log in logs {
         let weight = log.values.len() as f64 / samples.max(1) as f64;
         let mean = log.values.iter().sum::<f64>() / log.values.len().max(1) as f64;
-        total += weight * log.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>()
-            / log.values.len().max(1) as f64;
+        let squares = log.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
+        total += weight * (squares / log.values.len().max(1) as f64 + log.beyond);
         let hz = log.shared_hz;
         let low = band_density(
             log.values,
