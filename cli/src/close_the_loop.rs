@@ -1,14 +1,15 @@
-//! The loop itself: identify, trace, amend the text, compile that text, identify again, compare.
+//! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 use robot_model::columns::{Arm, Candidate};
 use robot_model::identify::{Errors, Estimate, Identify};
 use robot_model::log::Log;
-use robot_model::trace::{Finding, Trace, Verdict};
+use robot_model::trace::{Finding, Outcome, Trace, Verdict};
 use robot_model_codegen::compile_model;
 use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::load;
 
 use crate::Error;
+use crate::data_gate::{self, DataFault};
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
 use crate::spec::clear;
@@ -26,6 +27,8 @@ pub(crate) struct Stage {
 #[derive(Debug)]
 pub(crate) struct Loop {
     pub before: Stage,
+    /// What is wrong with the logs; the verdict is of logs without it.
+    pub faults: Vec<DataFault>,
     pub verdict: Verdict,
     /// The spec with the findings declared, in their order; the text as it was where there are none. Leads stay out: what
     /// does not explain the residual is no part of the arm.
@@ -39,9 +42,17 @@ impl Loop {
     pub(crate) fn after(&self) -> &Stage {
         self.changed.as_ref().unwrap_or(&self.before)
     }
+
+    /// How it ended: a fault of the logs that accounts for all that was missing explains it.
+    pub(crate) fn outcome(&self) -> Outcome {
+        match self.verdict.outcome {
+            Outcome::NothingMissing if !self.faults.is_empty() => Outcome::Explained,
+            other => other,
+        }
+    }
 }
 
-/// Runs the loop. `logs` are fitted and traced; `validate` is used for numbers only, once per model.
+/// Runs the loop. `logs` are mended, fitted and traced; `validate` is used for numbers only, once per model.
 pub(crate) fn close(
     source_name: &str,
     text: &str,
@@ -50,19 +61,29 @@ pub(crate) fn close(
     progress: &Progress,
 ) -> Result<Loop, Error> {
     progress.step("identifying the declared model");
-    let before = Stage::identify(source_name, text, logs, validate, &Identify::default())?;
-    let candidates = before.arm.candidates();
+    let mended = data_gate::mend(logs, progress);
+    let mut on_time: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
+    let sound = on_time.clone();
+    let before = Stage::identify(source_name, text, &sound, validate, &Identify::default())?;
+    let (arm, estimate) = (&before.arm, &before.estimate);
+    let mut faults: Vec<DataFault> = Vec::new();
+    faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
+    if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound)? {
+        faults.push(late);
+        on_time = logs;
+    }
+    let candidates = arm.candidates();
     let candidates = candidates
         .iter()
         .map(|candidate| candidate as &dyn Candidate)
         .collect();
-    let verdict =
-        Trace::new(candidates).run(&before.arm, logs, &mut |stage| progress.step(stage))?;
+    let verdict = Trace::new(candidates).run(arm, &on_time, &mut |stage| progress.step(stage))?;
 
-    let amendments: Vec<Amendment> = verdict
-        .findings
+    let found = verdict.findings.iter();
+    let amendments: Vec<Amendment> = faults
         .iter()
-        .map(|finding| amendment(finding, &before.arm))
+        .filter_map(DataFault::amendment)
+        .chain(found.map(|finding| amendment(finding, arm)))
         .collect();
     let amended = amend(source_name, text, &amendments)?;
     let changed = if amendments.is_empty() {
@@ -71,19 +92,20 @@ pub(crate) fn close(
         progress.step("identifying the amended model");
         // The same band as before, so that the errors are those of the same samples.
         let same_band = Identify {
-            bands: Some(before.estimate.bands),
+            bands: Some(estimate.bands),
             ..Identify::default()
         };
         Some(Stage::identify(
             source_name,
             &amended,
-            logs,
+            &sound,
             validate,
             &same_band,
         )?)
     };
     Ok(Loop {
         before,
+        faults,
         verdict,
         amended,
         changed,
@@ -129,6 +151,6 @@ fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
 }
 
 /// Four digits: more of a shape parameter is not known, and a person will read it.
-fn readable(value: f64) -> f64 {
+pub(crate) fn readable(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -15,7 +15,7 @@ use crate::Error;
 use crate::close_the_loop::{self, Loop};
 use crate::output::{self, Files};
 use crate::progress::Progress;
-use crate::spec::{load, read_log, read_text};
+use crate::spec::{load, read_log, read_mended, read_text};
 
 pub(crate) use report::Report;
 pub(crate) use summary::summary;
@@ -56,13 +56,14 @@ impl TraceArguments {
         let json = files.claim_if(self.json.as_deref())?;
 
         let progress = Progress::new();
-        let read = |path: &Path| read_log(path, &model, &progress);
         let logs = self
             .logs
             .iter()
-            .map(|path| read(path))
+            .map(|path| read_log(path, &model, &progress))
             .collect::<Result<Vec<_>, _>>()?;
+        let read = |path: &Path| read_mended(path, &model, &progress);
         let validate = self.validate.as_deref().map(read).transpose()?;
+        let validate = validate.map(|mended| mended.log);
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
         drop(progress);

@@ -4,6 +4,7 @@ use robot_model::trace::{Alternative, Evidence, Finding};
 use serde::Serialize;
 
 use crate::close_the_loop::Loop;
+use crate::data_gate::DataFault;
 
 /// What `--json` writes; a contract. Joints count from 1.
 #[derive(Serialize)]
@@ -35,7 +36,8 @@ pub(super) struct EffectReport<'a> {
     #[serde(flatten)]
     joints: Joints,
     pub(super) parameters: Vec<ParameterReport<'a>>,
-    pub(super) evidence: EvidenceReport<'a>,
+    /// None for a fault of the logs.
+    evidence: Option<EvidenceReport<'a>>,
 }
 
 #[derive(Serialize)]
@@ -51,7 +53,7 @@ struct AlternativeReport<'a> {
 #[derive(Serialize)]
 #[serde(untagged)]
 enum Joints {
-    One { joint: usize },
+    One { joint: Option<usize> },
     Several { joints: Vec<usize> },
 }
 
@@ -65,12 +67,12 @@ pub(super) struct ParameterReport<'a> {
 
 #[derive(Serialize)]
 pub(super) struct EvidenceReport<'a> {
-    pub(super) score: f64,
+    score: f64,
     p_value: f64,
     held_out_percent: &'a [f64],
     raw_percent: &'a [f64],
-    pub(super) folds_improved: usize,
-    pub(super) folds: usize,
+    folds_improved: usize,
+    folds: usize,
 }
 
 impl<'a> Report<'a> {
@@ -87,9 +89,12 @@ impl<'a> Report<'a> {
         let effects = verdict.findings.iter().enumerate();
         let leads = verdict.leads.iter().enumerate();
         Self {
-            outcome: verdict.outcome.name(),
-            effects: effects
-                .map(|(k, finding)| effect(finding, closed, k))
+            outcome: closed.outcome().name(),
+            effects: closed
+                .faults
+                .iter()
+                .map(fault)
+                .chain(effects.map(|(k, finding)| effect(finding, closed, k)))
                 .collect(),
             rmse_before: rmse(&closed.before.validation),
             rmse_after: rmse(&closed.after().validation),
@@ -98,7 +103,11 @@ impl<'a> Report<'a> {
             relative_percent_after: relative(&closed.after().validation),
             relative_percent_train_before: &closed.before.estimate.relative_percent,
             relative_percent_train_after: &closed.after().estimate.relative_percent,
-            alternatives: verdict.alternatives.iter().map(alternative).collect(),
+            alternatives: verdict
+                .alternatives
+                .iter()
+                .map(|one| alternative(one, closed.faults.len()))
+                .collect(),
             noise_floor: &verdict.noise_floor,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
@@ -112,7 +121,10 @@ impl<'a> Report<'a> {
 impl Joints {
     fn new(joints: &[usize]) -> Self {
         match joints {
-            [joint] => Self::One { joint: joint + 1 },
+            [] => Self::One { joint: None },
+            [joint] => Self::One {
+                joint: Some(joint + 1),
+            },
             several => Self::Several {
                 joints: several.iter().map(|joint| joint + 1).collect(),
             },
@@ -141,14 +153,29 @@ pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -
         kind: &finding.kind,
         joints: Joints::new(&finding.joints),
         parameters: parameters.collect(),
-        evidence: EvidenceReport {
+        evidence: Some(EvidenceReport {
             score: *score,
             p_value: *p_value,
             held_out_percent,
             raw_percent,
             folds_improved: *folds_improved,
             folds: *folds,
-        },
+        }),
+    }
+}
+
+/// A fault of the logs among the effects.
+fn fault(fault: &DataFault) -> EffectReport<'_> {
+    let delay = fault.delay.iter().map(|&(value, std)| ParameterReport {
+        name: "delay",
+        value,
+        std: Some(std),
+    });
+    EffectReport {
+        kind: fault.kind,
+        joints: Joints::new(&[]),
+        parameters: delay.collect(),
+        evidence: None,
     }
 }
 
@@ -173,11 +200,12 @@ fn identified(closed: &Loop, place: usize, name: &str) -> Option<(f64, f64)> {
     Some((parameter.value, parameter.std))
 }
 
-fn alternative(alternative: &Alternative) -> AlternativeReport<'_> {
+/// Faults of the logs come before the findings.
+fn alternative(alternative: &Alternative, faults: usize) -> AlternativeReport<'_> {
     AlternativeReport {
         kind: &alternative.kind,
         joints: Joints::new(&alternative.joints),
-        instead_of: alternative.instead_of + 1,
+        instead_of: faults + alternative.instead_of + 1,
         worse_percent: alternative.worse_percent,
     }
 }

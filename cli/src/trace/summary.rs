@@ -14,7 +14,7 @@ use crate::output;
 /// The result for people, of the spec at a path: outcome, effects, the spec's change, errors before and after.
 pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let verdict = &closed.verdict;
-    let mut out = match verdict.outcome {
+    let mut out = match closed.outcome() {
         Outcome::NothingMissing => {
             "nothing missing: the declared model leaves no structure that matters\n".to_owned()
         }
@@ -29,6 +29,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
                 .to_owned()
         }
     };
+    for fault in &closed.faults {
+        writeln!(out, "  {}: {}", fault.kind, fault.told).expect("a string takes all");
+    }
     let mut show = |finding: &Finding, place: usize| {
         let effect = effect(finding, closed, place);
         let parameters: Vec<String> = effect
@@ -47,9 +50,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             finding.kind,
             joints.join(", "),
             parameters.join(", "),
-            effect.evidence.score,
-            effect.evidence.folds_improved,
-            effect.evidence.folds,
+            finding.evidence.score,
+            finding.evidence.folds.0,
+            finding.evidence.folds.1,
         )
         .expect("a string takes all");
     };

@@ -1,0 +1,152 @@
+//! The data gate: what is wrong with logs, before anything may be wrong with the model.
+//!
+//! Spikes and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
+//! is traced, and both are told.
+
+use robot_model::identify::{Estimate, Identify, IdentifyError};
+use robot_model::log::{Fault, Log, Mended};
+use robot_model_spec::amend::Amendment;
+
+use crate::interpreted::InterpretedArm;
+use crate::progress::Progress;
+
+/// Bad samples count from this share of a joint's raw error, as effects do.
+const LEAST_SHARE: f64 = 0.05;
+
+/// Joints have one delay where they differ by no more deviations, or by no more of it.
+const DEVIATIONS: f64 = 4.0;
+const APART: f64 = 0.1;
+
+/// A fault of the logs that matters.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct DataFault {
+    /// Kebab-case name, as effects have.
+    pub kind: &'static str,
+    /// What was found, for people.
+    pub told: String,
+    /// Seconds by which torque is late and their standard deviation, of a `time-delay`.
+    pub delay: Option<(f64, f64)>,
+}
+
+impl DataFault {
+    /// What the spec has to say of it; bad samples are none of its business.
+    pub(crate) fn amendment(&self) -> Option<Amendment> {
+        let (seconds, _) = self.delay?;
+        Some(Amendment {
+            effect: "time_delay".to_owned(),
+            joints: Vec::new(),
+            shapes: vec![("delay".to_owned(), super::close_the_loop::readable(seconds))],
+        })
+    }
+}
+
+/// Logs without spikes and held values; what was found is said.
+pub(crate) fn mend(logs: &[Log], progress: &Progress) -> Vec<Mended> {
+    let mended = logs.iter().map(|log| log.clone().mended());
+    let mended: Vec<Mended> = mended.collect();
+    for one in &mended {
+        for fault in &one.faults {
+            progress.note(&format!("note: {}: {fault}", one.log.source));
+        }
+    }
+    mended
+}
+
+/// Bad samples that change the error of the declared model by as much as an effect that matters.
+///
+/// # Errors
+/// Those of [`Estimate::errors`].
+pub(crate) fn corrupt(
+    arm: &InterpretedArm,
+    estimate: &Estimate,
+    logged: &[Log],
+    mended: &[Mended],
+) -> Result<Option<DataFault>, IdentifyError> {
+    let mut told = Vec::new();
+    for (log, mended) in logged.iter().zip(mended) {
+        let is_sample = |fault: &&Fault| matches!(fault, Fault::Spikes { .. } | Fault::Held { .. });
+        let faults: Vec<&Fault> = mended.faults.iter().filter(is_sample).collect();
+        if faults.is_empty() {
+            continue;
+        }
+        let with = estimate.errors(arm, log)?.rmse;
+        let without = estimate.errors(arm, &mended.log)?.rmse;
+        let mut joints = with.iter().zip(&without);
+        if joints.any(|(with, without)| *without < (1.0 - LEAST_SHARE) * with) {
+            told.extend(
+                faults
+                    .iter()
+                    .map(|fault| format!("{}: {fault}", log.source)),
+            );
+        }
+    }
+    Ok((!told.is_empty()).then(|| DataFault {
+        kind: "corrupt-samples",
+        told: told.join("; "),
+        delay: None,
+    }))
+}
+
+/// One delay of all torques, where the joints that tell theirs agree and no joint is worse off without it. With it the logs as they
+/// would be without.
+///
+/// # Errors
+/// Those of [`Identify::fit`].
+pub(crate) fn delay(
+    arm: &InterpretedArm,
+    estimate: &Estimate,
+    logs: &[Log],
+) -> Result<Option<(DataFault, Vec<Log>)>, IdentifyError> {
+    let told = &estimate.torque_delays;
+    let weights: f64 = told.iter().map(|joint| joint.std.powi(-2)).sum();
+    if told.is_empty() || !weights.is_finite() {
+        return Ok(None);
+    }
+    let sum: f64 = told.iter().map(|j| j.seconds * j.std.powi(-2)).sum();
+    let (seconds, std) = (sum / weights, weights.powf(-0.5));
+    let agrees =
+        |own: f64, std: f64| (own - seconds).abs() <= (DEVIATIONS * std).max(APART * seconds.abs());
+    if !told.iter().all(|joint| agrees(joint.seconds, joint.std)) {
+        return Ok(None);
+    }
+    let on_time: Vec<Log> = logs.iter().map(|log| earlier(log, seconds)).collect();
+    let same_band = Identify {
+        bands: Some(estimate.bands),
+        ..Identify::default()
+    };
+    let after = same_band.fit(arm, &on_time)?;
+    let mut errors = after
+        .relative_percent
+        .iter()
+        .zip(&estimate.relative_percent);
+    if errors.any(|(after, before)| *after > (1.0 + LEAST_SHARE) * before) {
+        return Ok(None);
+    }
+    let joints = told.iter().map(|joint| {
+        let (ms, std) = (1e3 * joint.seconds, 1e3 * joint.std);
+        format!("{ms:.2} +- {std:.2} ms on {}", estimate.joints[joint.joint])
+    });
+    let joints: Vec<String> = joints.collect();
+    let fault = DataFault {
+        kind: "time-delay",
+        told: format!("torque is late against position: {}", joints.join(", ")),
+        delay: Some((seconds, std)),
+    };
+    Ok(Some((fault, on_time)))
+}
+
+/// A log whose torques are `seconds` earlier; after the last sample they are held.
+fn earlier(log: &Log, seconds: f64) -> Log {
+    let mut log = log.clone();
+    let start = log.time[0];
+    let last = log.time[log.time.len() - 1];
+    let at: Vec<f64> = log
+        .time
+        .iter()
+        .map(|time| (time + seconds).clamp(start, last))
+        .collect();
+    for tau in &mut log.tau {
+        *tau = robot_model::signal::resample::cubic(&log.time, tau, &at);
+    }
+    log
+}
