@@ -31,6 +31,9 @@ struct File {
 #[derive(Serialize, Deserialize)]
 struct Block {
     samples: usize,
+    /// Rows of each joint that say something; in files without it all of them do.
+    #[serde(default)]
+    counts: Option<Vec<usize>>,
     torque_squares: Vec<f64>,
     /// `[joint][row][column]`: columns are the unknowns, then the torque.
     rows: Vec<Vec<Vec<f64>>>,
@@ -42,6 +45,7 @@ const FORM: u32 = 1;
 pub(crate) fn text(factor: &Factor) -> String {
     let blocks = factor.blocks.iter().map(|block| Block {
         samples: block.samples,
+        counts: Some(block.counts.clone()),
         torque_squares: block.torque_squares.clone(),
         rows: block.rows.clone(),
     });
@@ -73,8 +77,12 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     let fits = |block: &Block| {
         let rows = block.rows.iter().flatten();
+        let counts = block.counts.iter().flatten();
+        let some = block.counts.iter();
         block.rows.len() == joints
             && block.torque_squares.len() == joints
+            && some.into_iter().all(|counts| counts.len() == joints)
+            && counts.into_iter().all(|count| *count <= block.samples)
             && block.samples > 0
             && rows.into_iter().all(|row| row.len() == width)
     };
@@ -98,6 +106,7 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
         .into_iter()
         .map(|block| FactorBlock {
             samples: block.samples,
+            counts: block.counts.unwrap_or(vec![block.samples; joints]),
             rows: block.rows,
             torque_squares: block.torque_squares,
         })

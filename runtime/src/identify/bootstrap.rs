@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::IdentifyError;
 use super::hac::{Rows, weighed};
-use super::least_squares::{Solution, correlation_time};
+use super::least_squares::Solution;
 use super::stack::Stack;
 use crate::signal::resample::whole_steps;
 
@@ -58,8 +58,8 @@ pub(super) fn intervals(
     draws: usize,
 ) -> Result<Bootstrap, IdentifyError> {
     let residuals = stack.residuals(&solution.estimate);
-    let alike = residuals.iter().map(|r| correlation_time(r));
-    let alike = alike.fold(1.0, f64::max);
+    let alike = stack.correlation_times(&residuals);
+    let alike = alike.into_iter().fold(1.0, f64::max);
     let samples = stack.samples();
     let count = samples as f64 / (LONG * alike);
     if count < LEAST_BLOCKS as f64 {

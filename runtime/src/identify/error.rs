@@ -28,13 +28,13 @@ pub enum IdentifyError {
         /// Name of the column.
         channel: String,
     },
-    /// Fewer samples than unknowns.
+    /// No more rows than unknowns.
     #[error(
-        "{samples} samples of {dof} joints are left after filtering, for {unknowns} unknowns; give a longer log"
+        "{rows} rows of {dof} joints are left after filtering, for {unknowns} unknowns; give a longer log"
     )]
     TooFewSamples {
-        /// Samples per joint.
-        samples: usize,
+        /// Rows of all joints that say something.
+        rows: usize,
         /// Joints.
         dof: usize,
         /// Unknowns.

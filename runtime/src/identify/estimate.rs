@@ -7,7 +7,7 @@ use crate::signal::{Bands, Prepared, prepare};
 
 use super::instruments::Hausman;
 use super::late::TorqueDelay;
-use super::least_squares::{Solution, correlation_time};
+use super::least_squares::Solution;
 use super::possible::Possible;
 use super::stack::{Stack, norm, percent, torque_of};
 use super::{Bootstrap, Combination, Essential, IdentifyError, Method, Shared, load_motion};
@@ -145,14 +145,9 @@ impl Fitted {
     /// By an estimate.
     pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
         let residuals = stack.residuals(estimate);
-        let effective = residuals.iter().map(|r| {
-            let is_dead = r.iter().all(|r| *r == 0.0);
-            if is_dead {
-                0.0
-            } else {
-                r.len() as f64 / correlation_time(r)
-            }
-        });
+        let times = stack.correlation_times(&residuals);
+        let effective = stack.counts().into_iter().zip(times);
+        let effective = effective.map(|(count, time)| count as f64 / time);
         Self {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),

@@ -45,6 +45,8 @@ pub struct Factor {
 pub struct FactorBlock {
     /// Samples per joint.
     pub samples: usize,
+    /// Of these, rows of each joint that say something: a joint that stands says nothing.
+    pub counts: Vec<usize>,
     /// `[joint][row][column]`: columns are the unknowns, then the torque less that of known parameters.
     pub rows: Vec<Vec<Vec<f64>>>,
     /// Sum of the squared torque, one a joint.
@@ -98,6 +100,7 @@ impl Factor {
         let joints = stack.joints.iter();
         self.blocks.push(FactorBlock {
             samples: stack.samples(),
+            counts: stack.counts(),
             rows: Factors::new(stack).joints().iter().map(rows_of).collect(),
             torque_squares: joints
                 .map(|rows| rows.tau.iter().map(|tau| tau * tau).sum())
@@ -134,6 +137,13 @@ impl Factor {
         self.blocks.iter().map(|block| block.samples).sum()
     }
 
+    /// Rows of each joint that say something.
+    #[must_use]
+    pub fn counts(&self) -> Vec<usize> {
+        let joint = |joint: usize| self.blocks.iter().map(|block| block.counts[joint]).sum();
+        (0..self.joints.len()).map(joint).collect()
+    }
+
     /// Merges neighbors while there are too many blocks: the shortest pair first, so that blocks stay about alike.
     fn shorten(&mut self) {
         while self.blocks.len() > MOST_BLOCKS {
@@ -143,6 +153,9 @@ impl Factor {
             let other = self.blocks.remove(k + 1);
             let block = &mut self.blocks[k];
             block.samples += other.samples;
+            for (count, more) in block.counts.iter_mut().zip(other.counts) {
+                *count += more;
+            }
             for (sum, more) in block.torque_squares.iter_mut().zip(other.torque_squares) {
                 *sum += more;
             }
@@ -161,7 +174,7 @@ impl Factor {
             let rows: Vec<Vec<f64>> = blocks.flat_map(|block| block.rows[joint].clone()).collect();
             reduced(&rows, width)
         });
-        Factors::from_joints(self.unknowns.len(), self.samples(), joints.collect())
+        Factors::from_joints(self.unknowns.len(), self.counts(), joints.collect())
     }
 
     /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`].
@@ -176,7 +189,7 @@ impl Factor {
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
-        Identify::check_counts(self.samples(), self.joints.len(), self.unknowns.len())?;
+        Identify::check_counts(&self.counts(), self.unknowns.len())?;
         let mut solution = match method {
             Method::Ls => factors.ordinary(&ones),
             Method::Wls => factors.weighted(&ones),
@@ -214,11 +227,11 @@ impl Factor {
     /// Root of the mean squared residual per joint, of filtered torque.
     #[must_use]
     pub fn rmse(&self, estimate: &[f64]) -> Vec<f64> {
-        let samples = self.samples().max(1) as f64;
-        let joints = 0..self.joints.len();
-        joints
-            .map(|joint| (self.squares(joint, estimate) / samples).sqrt())
-            .collect()
+        let counts = self.counts().into_iter().enumerate();
+        let of = |(joint, count): (usize, usize)| {
+            (self.squares(joint, estimate) / count.max(1) as f64).sqrt()
+        };
+        counts.map(of).collect()
     }
 
     fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {

@@ -26,6 +26,8 @@ pub(super) struct Rows {
     pub excited: Vec<usize>,
     /// Lengths of the columns.
     pub length: Vec<f64>,
+    /// Rows of all joints that say something.
+    count: usize,
     /// `[joint]`, samples by excited columns.
     pub joints: Vec<Mat<f64>>,
 }
@@ -63,6 +65,7 @@ impl Rows {
             unknowns,
             excited,
             length,
+            count: stack.counts().iter().sum(),
             joints,
         }
     }
@@ -100,7 +103,7 @@ impl Rows {
     /// Standard deviations of what such series add up to, one an unknown, 0 where it has no value.
     pub fn deviations(&self, series: &Mat<f64>) -> Vec<f64> {
         // The unknowns have taken their share of the residuals.
-        let freedom = (series.nrows() * self.joints.len()) as f64;
+        let freedom = self.count as f64;
         let correction = freedom / (freedom - series.ncols() as f64).max(1.0);
         let mut std = vec![0.0; self.unknowns];
         for (k, &c) in self.excited.iter().enumerate() {
@@ -129,13 +132,13 @@ pub(super) fn weighed(
 /// where all count in full.
 pub(super) fn deviations(stack: &Stack, solution: &Solution, weights: &[Vec<f64>]) -> Vec<f64> {
     let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
-    let samples = stack.samples().max(1);
     let count = rows.excited.len();
     let mut information = Mat::<f64>::zeros(count, count);
-    for (rows, weights) in rows.joints.iter().zip(weights) {
+    for ((rows, weights), joint) in rows.joints.iter().zip(weights).zip(&stack.joints) {
         // Where a residual is cut off, it does not answer to the estimate.
-        let full = weights.iter().filter(|weight| **weight >= 1.0).count();
-        let share = full as f64 / samples as f64;
+        let full = |(row, weight): &(usize, &f64)| **weight >= 1.0 && joint.is_there(*row);
+        let full = weights.iter().enumerate().filter(full).count();
+        let share = full as f64 / joint.count().max(1) as f64;
         information += faer::Scale(share) * (rows.transpose() * rows);
     }
     let residuals = stack.residuals(&solution.estimate);

@@ -7,7 +7,7 @@ use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::combination::{Shared, shared};
-use super::stack::Stack;
+use super::stack::{JointRows, Stack};
 
 /// A column is called not excited when its pivot, after every column was scaled to unit norm, is below this: its estimate
 /// would amplify errors a million times.
@@ -23,7 +23,8 @@ const REWEIGHTINGS: usize = 5;
 #[derive(Debug, Clone)]
 pub struct Factors {
     unknowns: usize,
-    samples: usize,
+    /// Rows of each joint that say something.
+    counts: Vec<usize>,
     joints: Vec<Mat<f64>>,
 }
 
@@ -67,6 +68,12 @@ impl Factors {
     /// Reduces every block, each row times a factor of its joint and its number.
     pub(super) fn of_rows(stack: &Stack, factor: &dyn Fn(usize, usize) -> f64) -> Self {
         let unknowns = stack.unknowns.len();
+        let count = |(joint, rows): (usize, &JointRows)| {
+            let all = 0..rows.target.len();
+            all.filter(|&row| factor(joint, row) != 0.0 && rows.is_there(row))
+                .count()
+        };
+        let counts = stack.joints.iter().enumerate().map(count).collect();
         let joints = stack
             .joints
             .iter()
@@ -99,16 +106,16 @@ impl Factors {
             .collect();
         Self {
             unknowns,
-            samples: stack.samples(),
+            counts,
             joints,
         }
     }
 
-    /// From factors of each joint's rows, all columns in place.
-    pub(super) fn from_joints(unknowns: usize, samples: usize, joints: Vec<Mat<f64>>) -> Self {
+    /// From factors of each joint's rows, all columns in place; `counts` are the rows that say something.
+    pub(super) fn from_joints(unknowns: usize, counts: Vec<usize>, joints: Vec<Mat<f64>>) -> Self {
         Self {
             unknowns,
-            samples,
+            counts,
             joints,
         }
     }
@@ -193,11 +200,12 @@ impl Factors {
         all
     }
 
-    /// Standard deviation of each joint's residual; the unknowns count as shared evenly among the joints.
+    /// Standard deviation of each joint's residual; the unknowns count as shared evenly among the rows that say something.
     pub(super) fn sigma(&self, estimate: &[f64], rank: usize) -> Vec<f64> {
-        let share = rank as f64 / self.joints.len() as f64;
-        let freedom = (self.samples as f64 - share).max(1.0);
-        let of = |block: &Mat<f64>| {
+        let all = self.counts.iter().sum::<usize>().max(1);
+        let of = |(block, count): (&Mat<f64>, &usize)| {
+            let count = *count as f64;
+            let freedom = (count - rank as f64 * count / all as f64).max(1.0);
             let sum: f64 = (0..block.nrows())
                 .map(|row| {
                     let fitted: f64 = (0..self.unknowns)
@@ -208,7 +216,7 @@ impl Factors {
                 .sum();
             (sum / freedom).sqrt()
         };
-        let sigma: Vec<f64> = self.joints.iter().map(of).collect();
+        let sigma: Vec<f64> = self.joints.iter().zip(&self.counts).map(of).collect();
         not_tiny(&sigma)
     }
 

@@ -298,13 +298,15 @@ impl Identify {
             .sum())
     }
 
-    fn check_counts(samples: usize, dof: usize, unknowns: usize) -> Result<(), IdentifyError> {
-        if samples * dof > unknowns {
+    /// `counts` are rows of each joint that say something.
+    fn check_counts(counts: &[usize], unknowns: usize) -> Result<(), IdentifyError> {
+        let rows: usize = counts.iter().sum();
+        if rows > unknowns {
             return Ok(());
         }
         Err(IdentifyError::TooFewSamples {
-            samples,
-            dof,
+            rows,
+            dof: counts.len(),
             unknowns,
         })
     }
@@ -332,8 +334,7 @@ impl Identify {
     /// # Errors
     /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
-        let (samples, dof, unknowns) = (stack.samples(), stack.dof(), stack.unknowns.len());
-        Self::check_counts(samples, dof, unknowns)?;
+        Self::check_counts(&stack.counts(), stack.unknowns.len())?;
         let factors = match self.method {
             Method::Robust => robust::factors(stack),
             _ => Factors::new(stack),
@@ -345,13 +346,9 @@ impl Identify {
             }
             _ => factors.weighted(correlation),
         };
-        let first = solve(&vec![1.0; dof]);
+        let first = solve(&vec![1.0; stack.dof()]);
         Self::check_excited(&first)?;
-        let correlation: Vec<f64> = stack
-            .residuals(&first.estimate)
-            .iter()
-            .map(|r| correlation_time(r))
-            .collect();
-        Ok(solve(&correlation))
+        let residuals = stack.residuals(&first.estimate);
+        Ok(solve(&stack.correlation_times(&residuals)))
     }
 }

@@ -9,7 +9,7 @@ use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::combination::shared;
-use super::least_squares::{Excited, Factors, Solution, correlation_time};
+use super::least_squares::{Excited, Factors, Solution};
 use super::stack::Stack;
 use super::{IdentifyError, Nominal};
 
@@ -28,11 +28,9 @@ pub(super) fn make(
     if nominal.iter().all(Option::is_none) {
         return Err(IdentifyError::NoNominal);
     }
-    let residuals = stack.residuals(&solution.estimate);
-    let scale = residuals.iter().zip(&solution.sigma);
-    let scale: Vec<f64> = scale
-        .map(|(residual, sigma)| sigma * correlation_time(residual).sqrt())
-        .collect();
+    let times = stack.correlation_times(&stack.residuals(&solution.estimate));
+    let scale = times.iter().zip(&solution.sigma);
+    let scale: Vec<f64> = scale.map(|(time, sigma)| sigma * time.sqrt()).collect();
     let factors = Factors::new(stack);
     let told = factors.stacked(&scale);
     let n = nominal.len();

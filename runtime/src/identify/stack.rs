@@ -5,6 +5,7 @@
 
 use std::ops::Range;
 
+use super::least_squares::correlation_time;
 use crate::columns::{Arm, Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
@@ -49,6 +50,18 @@ pub struct Segment {
 }
 
 impl JointRows {
+    /// Whether a row says something: of one that was left out the target and all columns are zero.
+    pub(super) fn is_there(&self, row: usize) -> bool {
+        let mut columns = self.columns.iter();
+        self.target[row] != 0.0 || columns.any(|(_, values)| values[row] != 0.0)
+    }
+
+    /// How many rows say something.
+    pub(super) fn count(&self) -> usize {
+        let rows = 0..self.target.len();
+        rows.filter(|&row| self.is_there(row)).count()
+    }
+
     /// Rows that say nothing.
     pub(super) fn clear(&mut self, rows: Range<usize>) {
         let columns = self.columns.iter_mut().map(|(_, values)| values);
@@ -139,6 +152,23 @@ impl Stack {
     #[must_use]
     pub fn samples(&self) -> usize {
         self.joints.first().map_or(0, |rows| rows.target.len())
+    }
+
+    /// Rows of each joint that say something: those that were left out do not.
+    #[must_use]
+    pub fn counts(&self) -> Vec<usize> {
+        self.joints.iter().map(JointRows::count).collect()
+    }
+
+    /// [`correlation_time`] of each joint's residuals, of rows that say something.
+    pub(super) fn correlation_times(&self, residuals: &[Vec<f64>]) -> Vec<f64> {
+        let pairs = self.joints.iter().zip(residuals);
+        let time = |(rows, residuals): (&JointRows, &Vec<f64>)| {
+            let all = residuals.iter().enumerate();
+            let there = all.filter(|(row, _)| rows.is_there(*row));
+            correlation_time(&there.map(|(_, residual)| *residual).collect::<Vec<f64>>())
+        };
+        pairs.map(time).collect()
     }
 
     /// Some of the rows, without their times.

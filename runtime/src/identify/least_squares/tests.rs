@@ -6,7 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::correlation_time;
 use crate::columns::Unknown;
-use crate::identify::{Identify, JointRows, Method, Stack, Weights};
+use crate::identify::{Fitted, Identify, IdentifyError, JointRows, Method, Stack, Weights};
 
 /// One unknown that each joint measures as it is: the estimate is the mean of the joints' means by their weights.
 fn stack(joints: &[&[f64]]) -> Stack {
@@ -92,4 +92,50 @@ fn correlation_time_of_an_autoregression() {
             "{share}: {found}, not {wanted}"
         );
     }
+}
+
+/// Two joints with noise, the first of so many rows.
+fn noisy(rows: [usize; 2]) -> Stack {
+    let mut random = ChaCha8Rng::seed_from_u64(9);
+    let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
+    let both = [400, 400].map(|count| -> Vec<f64> { (0..count).map(|_| 2.0 + normal()).collect() });
+    let [first, second] = both;
+    stack(&[&first[..rows[0]], &second[..rows[1]]])
+}
+
+/// What is said of rows that were left out is what is said where they never were.
+#[test]
+fn rows_that_were_left_out_do_not_count() {
+    let mut cleared = noisy([400, 400]);
+    cleared.joints[1].clear(100..400);
+    let short = noisy([400, 100]);
+    assert_eq!(cleared.counts(), [400, 100]);
+    let identify = Identify::default();
+    let of = |stack: &Stack| {
+        let solution = identify.solve_stack(stack).expect("samples enough");
+        let std = identify.deviations(stack, &solution)[0];
+        let fitted = Fitted::new(stack, &solution.estimate);
+        let effective = fitted.effective_samples.expect("samples are at hand");
+        [
+            solution.sigma[0],
+            solution.sigma[1],
+            solution.std[0],
+            std,
+            effective[0],
+            effective[1],
+        ]
+    };
+    for (found, wanted) in of(&cleared).into_iter().zip(of(&short)) {
+        assert!((found / wanted - 1.0).abs() < 1e-9, "{found}, not {wanted}");
+    }
+    assert!((of(&cleared)[1] - 1.0).abs() < 0.2, "{:?}", of(&cleared));
+    cleared.joints[0].clear(0..400);
+    cleared.joints[1].clear(1..100);
+    let refused = identify.solve_stack(&cleared);
+    let few = IdentifyError::TooFewSamples {
+        rows: 1,
+        dof: 2,
+        unknowns: 1,
+    };
+    assert_eq!(refused, Err(few));
 }
