@@ -87,6 +87,7 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
     }
     Stack {
         turns: Vec::new(),
+        clipped: Vec::new(),
         unknowns: arm.unknowns().to_vec(),
         joints,
         segments: vec![Segment {

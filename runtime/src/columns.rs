@@ -131,6 +131,12 @@ pub trait Arm: Columns {
         &[]
     }
 
+    /// Joints whose columns say what a drive at its limit does not deliver, from 0: samples of [clipped](crate::log::Log::clipped) torque
+    /// are left out of the fit of all others.
+    fn saturated_joints(&self) -> &[usize] {
+        &[]
+    }
+
     /// What is known of each unknown before any log, from CAD: one entry an unknown, or none at all.
     fn nominal(&self) -> Vec<Option<Nominal>> {
         Vec::new()

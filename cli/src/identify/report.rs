@@ -33,6 +33,8 @@ pub(crate) struct Report<'a> {
     combinations: Vec<CombinationReport<'a>>,
     /// Samples per joint where one with dry friction turns; empty where none were looked for.
     samples_at_turns: &'a [usize],
+    /// Samples per joint that are left out because its torque stands at its limit; empty where none were looked for.
+    samples_clipped: &'a [usize],
     /// Independent samples per joint; null where samples were not at hand.
     effective_samples: Option<&'a [f64]>,
     bands_hz: [f64; 3],
@@ -217,6 +219,7 @@ pub(crate) fn report<'a>(
         unexcited: &estimate.unexcited,
         combinations: estimate.combinations.iter().map(combination).collect(),
         samples_at_turns: &estimate.turns,
+        samples_clipped: &estimate.clipped,
         effective_samples: estimate.effective_samples.as_deref(),
         bands_hz: [
             estimate.bands.shared_hz,

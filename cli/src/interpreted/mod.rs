@@ -17,6 +17,7 @@ mod possible;
 mod program;
 mod rough;
 mod runner;
+mod saturated;
 mod shape;
 mod signals;
 mod springs;
@@ -42,6 +43,7 @@ use measured::Measured;
 use nominal::nominal;
 use program::{run, run_block};
 use rough::{dry_joints, is_rough};
+use saturated::saturated_joints;
 use shape::grids;
 use signals::{Own, Signals};
 
@@ -62,6 +64,7 @@ pub struct InterpretedArm {
     known_torque: Program,
     measured: Measured,
     dry: Vec<usize>,
+    saturated: Vec<usize>,
 }
 
 impl InterpretedArm {
@@ -108,6 +111,7 @@ impl InterpretedArm {
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
             dry: dry_joints(&compiled.model),
+            saturated: saturated_joints(&compiled.model),
             compiled,
         }
     }
@@ -188,6 +192,10 @@ impl Arm for InterpretedArm {
 
     fn dry_joints(&self) -> &[usize] {
         &self.dry
+    }
+
+    fn saturated_joints(&self) -> &[usize] {
+        &self.saturated
     }
 
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {

@@ -169,6 +169,10 @@ impl Arm for InterpretedMomentum {
         self.arm.dry_joints()
     }
 
+    fn saturated_joints(&self) -> &[usize] {
+        self.arm.saturated_joints()
+    }
+
     fn nominal(&self) -> Vec<Option<Nominal>> {
         self.arm.nominal()
     }

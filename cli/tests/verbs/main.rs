@@ -4,6 +4,7 @@ mod apart;
 mod audit;
 mod c;
 mod calibrate;
+mod clipped;
 mod columns;
 mod common;
 mod delays;

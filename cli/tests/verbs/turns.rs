@@ -5,7 +5,7 @@ use crate::common::{Folder, json};
 use crate::payload::folder;
 
 /// The truth of the arm of `payload`.
-const TRUTH: [(&str, f64); 10] = [
+pub(crate) const TRUTH: [(&str, f64); 10] = [
     ("up.mxr", 1.0),
     ("up.my", 0.0),
     ("up.izzr", -0.575),

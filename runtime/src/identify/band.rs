@@ -48,11 +48,18 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
                 .enumerate()
                 .map(|(k, t)| t + known[joint][k])
                 .collect();
-            let rest: Vec<f64> = log.tau[joint]
+            let mut rest: Vec<f64> = log.tau[joint]
                 .iter()
                 .zip(&total)
                 .map(|(tau, t)| arm.actuator_gain()[joint] * tau - t)
                 .collect();
+            if !arm.saturated_joints().contains(&joint) {
+                // What a limit took is no noise.
+                let clipped = log.is_clipped(joint, 0).into_iter();
+                for (rest, _) in rest.iter_mut().zip(clipped).filter(|(_, is)| *is) {
+                    *rest = 0.0;
+                }
+            }
             for (sum, power) in
                 modeled[joint]
                     .iter_mut()

@@ -9,7 +9,7 @@ use super::instruments::Hausman;
 use super::late::TorqueDelay;
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::stack::{Stack, norm, percent, torque_of};
+use super::stack::{Stack, norm, percent, rows_at, torque_of};
 use super::{Bootstrap, Combination, Essential, IdentifyError, Method, Shared, load_motion};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
@@ -116,6 +116,8 @@ pub struct Estimate {
     pub hausman: Option<Hausman>,
     /// Rows per joint where it turns, see [`Arm::dry_joints`]; they are left out with [`Identify::leave_out_turns`](super::Identify::leave_out_turns).
     pub turns: Vec<usize>,
+    /// Rows per joint that are left out because its torque stands at a [limit](Log::clipped).
+    pub clipped: Vec<usize>,
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
     /// at hand.
     pub effective_samples: Option<Vec<f64>>,
@@ -135,6 +137,8 @@ pub(super) struct Fitted {
     pub samples: usize,
     /// Of these, at turns.
     pub turns: Vec<usize>,
+    /// Of these, left out because torque stands at a limit.
+    pub clipped: Vec<usize>,
     /// Of these, independent ones per joint.
     pub effective_samples: Option<Vec<f64>>,
     /// Names of the unknowns.
@@ -152,6 +156,7 @@ impl Fitted {
             relative_percent: stack.relative_percent(estimate),
             samples: stack.samples(),
             turns: stack.turns.iter().map(Vec::len).collect(),
+            clipped: stack.clipped.iter().map(Vec::len).collect(),
             effective_samples: Some(effective.collect()),
             names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
         }
@@ -216,6 +221,7 @@ impl Estimate {
             outliers: None,
             hausman: None,
             turns: fitted.turns,
+            clipped: fitted.clipped,
             effective_samples: fitted.effective_samples,
             bootstrap: None,
             essential: None,
@@ -295,7 +301,7 @@ impl Estimate {
         let count = measured.first().map_or(0, Vec::len);
         let border = whole_steps(ERROR_BORDER_S * prepared.rate_hz) * stride;
         let inner = border.min(count / 4)..count - border.min(count / 4);
-        let inner: Vec<usize> = inner
+        let sound: Vec<usize> = inner
             .filter(|k| !prepared.is_in_hole(*k as f64 / stride as f64))
             .collect();
         let mut errors = Errors {
@@ -309,6 +315,20 @@ impl Estimate {
         for (joint, values) in torque.iter().enumerate() {
             let gain = arm.actuator_gain()[joint];
             let predicted = spread(values, stride, count);
+            // A torque at its limit is not that of the model, unless the model says so.
+            let reach = |reach: usize| {
+                if arm.saturated_joints().contains(&joint) {
+                    vec![false; values.len()]
+                } else {
+                    prepared.is_clipped(joint, reach)
+                }
+            };
+            let (near, far) = (reach(0), reach(prepared.shared.border()));
+            let inner: Vec<usize> = sound
+                .iter()
+                .copied()
+                .filter(|k| !near[k / stride])
+                .collect();
             let mean = |value: &dyn Fn(usize) -> f64| {
                 inner.iter().copied().map(value).sum::<f64>() / inner.len() as f64
             };
@@ -327,6 +347,9 @@ impl Estimate {
             let scaled: Vec<f64> = prepared.tau[joint].iter().map(|tau| gain * tau).collect();
             prepared.shared.apply(&rest, &mut filtered);
             prepared.shared.apply(&scaled, &mut tau);
+            for row in rows_at(0, prepared, &far) {
+                (filtered[row], tau[row]) = (0.0, 0.0);
+            }
             errors
                 .relative_percent
                 .push(percent(norm(&filtered), norm(&tau)));

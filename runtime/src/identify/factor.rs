@@ -14,7 +14,7 @@ use faer::linalg::solvers::Solve;
 use super::estimate::{Estimate, Fitted, Form};
 use super::least_squares::{Factors, Solution};
 use super::stack::{Stack, percent};
-use super::{Identify, IdentifyError, Method, check_logs, prepare_all};
+use super::{Identify, IdentifyError, Method, check_logs, clipped, prepare_all};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
@@ -85,7 +85,8 @@ impl Factor {
     pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
         check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare_all(std::slice::from_ref(log), &self.bands)?;
-        let stack = Stack::new(arm, &prepared, &[]);
+        let mut stack = Stack::new(arm, &prepared, &[]);
+        clipped::leave_out(&mut stack, arm, &prepared);
         let samples = stack.samples();
         let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
         let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
@@ -204,6 +205,7 @@ impl Factor {
             relative_percent: self.relative_percent(&solution.estimate),
             samples: self.samples(),
             turns: Vec::new(),
+            clipped: Vec::new(),
             effective_samples: None,
             names: self.unknowns.clone(),
         };

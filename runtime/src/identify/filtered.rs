@@ -11,6 +11,7 @@
 use crate::columns::{Arm, Columns, Entry, MomentumArm, Nominal, Shape, Unknown};
 use crate::log::Log;
 use crate::motion::Motion;
+use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_velocities};
 
 use super::estimate::{Errors, Estimate, Form};
@@ -24,6 +25,9 @@ struct FilteredArm<'a> {
     bands: Bands,
     corner: f64,
 }
+
+/// A sample of clipped torque is in `L{tau}` for so many time constants: a thousandth is left of it then.
+const TIME_CONSTANTS: f64 = 7.0;
 
 /// The corner where none is given, rad/s: the end of the band that torque and columns share.
 fn default_corner(bands: &Bands) -> f64 {
@@ -128,6 +132,10 @@ impl<'a> FilteredArm<'a> {
         let start = border(&self.bands, prepared.rate_hz);
         for tau in &mut prepared.tau {
             after(start, tau, |tau, out| filter.apply(0.0, tau, out));
+        }
+        let reach = whole_steps(TIME_CONSTANTS * prepared.rate_hz / self.corner);
+        for clipped in prepared.clipped.iter_mut().flatten() {
+            clipped.end += reach;
         }
         Ok(prepared)
     }
@@ -250,6 +258,10 @@ impl Arm for FilteredArm<'_> {
 
     fn dry_joints(&self) -> &[usize] {
         self.arm.dry_joints()
+    }
+
+    fn saturated_joints(&self) -> &[usize] {
+        self.arm.saturated_joints()
     }
 
     fn nominal(&self) -> Vec<Option<Nominal>> {

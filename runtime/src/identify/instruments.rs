@@ -261,6 +261,7 @@ mod tests {
         let worn: Vec<f64> = worn.collect();
         [worn, clean].map(|column| Stack {
             turns: Vec::new(),
+            clipped: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

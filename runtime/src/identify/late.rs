@@ -10,7 +10,7 @@
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
-use super::{Identify, turns};
+use super::{Identify, clipped, turns};
 use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::{Prepared, derivative};
 
@@ -184,6 +184,7 @@ impl<'a> Rows<'a> {
         for columns in [viscous, dry, turns] {
             append(&mut rows.stack, columns);
         }
+        clipped::clear_again(&mut rows.stack);
         if leave_out_turns {
             turns::leave_out(&mut rows.stack);
         }
@@ -226,6 +227,7 @@ impl<'a> Rows<'a> {
             }));
         }
         append(&mut stack, slopes);
+        clipped::clear_again(&mut stack);
         if self.leave_out_turns {
             turns::leave_out(&mut stack);
         }

@@ -18,6 +18,7 @@
 
 mod band;
 mod bootstrap;
+mod clipped;
 mod combination;
 mod deviated;
 mod error;
@@ -276,9 +277,10 @@ impl Identify {
         last.ok_or(IdentifyError::NoLog)
     }
 
-    /// The rows of logs, and which of them are at turns.
+    /// The rows of logs without those of clipped torque, and which of them are at turns.
     fn rows(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Stack {
         let mut stack = Stack::new(arm, logs, shapes);
+        clipped::leave_out(&mut stack, arm, logs);
         turns::find(&mut stack, arm, logs);
         if self.leave_out_turns {
             turns::leave_out(&mut stack);

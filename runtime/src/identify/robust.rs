@@ -120,6 +120,7 @@ mod tests {
             .collect();
         Stack {
             turns: Vec::new(),
+            clipped: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

@@ -38,6 +38,8 @@ pub struct Stack {
     pub segments: Vec<Segment>,
     /// Rows of each joint with dry friction where it turns; no joints where none were looked for.
     pub turns: Vec<Vec<usize>>,
+    /// Rows of each joint that are left out because its torque stands at a limit; no joints where none were looked for.
+    pub clipped: Vec<Vec<usize>>,
 }
 
 /// One log's share of the rows.
@@ -71,6 +73,23 @@ impl JointRows {
     }
 }
 
+/// Makes rows of joints zero.
+pub(super) fn clear_rows(joints: &mut [JointRows], rows: &[Vec<usize>]) {
+    for (joint, rows) in joints.iter_mut().zip(rows) {
+        for &row in rows {
+            joint.clear(row..row + 1);
+        }
+    }
+}
+
+/// Rows of a log, which begin with `start`, at samples of its motion for which that is so.
+pub(super) fn rows_at(start: usize, log: &Prepared, is_so: &[bool]) -> Vec<usize> {
+    let kept = log.shared.kept(is_so.len()).enumerate();
+    kept.filter(|&(_, k)| is_so[k])
+        .map(|(row, _)| start + row)
+        .collect()
+}
+
 /// Joints of which a log says nothing: a brake or dry friction holds one that stands still, with a torque that nobody knows, and a
 /// torque that never changes was not measured.
 pub(super) fn says_nothing(log: &Prepared) -> Vec<usize> {
@@ -95,8 +114,7 @@ impl Stack {
         let mut stack = Self {
             unknowns: arm.unknowns().to_vec(),
             joints: vec![JointRows::default(); arm.dof()],
-            segments: Vec::new(),
-            turns: Vec::new(),
+            ..Self::default()
         };
         let mut filtered = Vec::new();
         let mut silent = Vec::new();

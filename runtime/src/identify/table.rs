@@ -33,6 +33,11 @@ impl fmt::Display for Estimate {
             let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
             writeln!(f, "of these where joints turn: {}", a_joint(&counts))?;
         }
+        if self.clipped.iter().any(|count| *count > 0) {
+            let counts: Vec<String> = self.clipped.iter().map(usize::to_string).collect();
+            let counts = a_joint(&counts);
+            writeln!(f, "left out, where torque stands at its limit: {counts}")?;
+        }
         if let Some(effective) = &self.effective_samples {
             let counts: Vec<String> = effective.iter().map(|n| format!("{n:.0}")).collect();
             writeln!(f, "independent ones among them: {}", a_joint(&counts))?;

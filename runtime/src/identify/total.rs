@@ -157,6 +157,7 @@ mod tests {
         };
         Stack {
             turns: Vec::new(),
+            clipped: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

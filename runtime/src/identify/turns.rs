@@ -7,7 +7,7 @@
 //! De Schutter 2007, Dynamic model identification for industrial robots, who leave out samples of low velocity.
 
 use super::least_squares::{Factors, Solution};
-use super::stack::Stack;
+use super::stack::{Stack, clear_rows, rows_at};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
@@ -32,22 +32,14 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
             let is_near = near_turns(log, joint);
-            let kept = log.shared.kept(is_near.len()).enumerate();
-            let rows = kept
-                .filter(|&(_, k)| is_near[k])
-                .map(|(row, _)| start + row);
-            stack.turns[joint].extend(rows);
+            stack.turns[joint].extend(rows_at(start, log, &is_near));
         }
     }
 }
 
 /// Makes the rows zero that turns reach.
 pub(super) fn leave_out(stack: &mut Stack) {
-    for (rows, turns) in stack.joints.iter_mut().zip(&stack.turns) {
-        for &row in turns {
-            rows.clear(row..row + 1);
-        }
-    }
+    clear_rows(&mut stack.joints, &stack.turns);
 }
 
 /// Deviations with what rows at turns move a solution of least squares by, unknown by unknown, where they are left out and others have

@@ -57,6 +57,9 @@ pub struct Log {
     pub report: Vec<Note>,
     /// Where samples are made up, s since the start of the log: no row around them is fitted, and no error counts there.
     pub holes: Vec<Range<f64>>,
+    /// Where a joint's torque stands at its largest or smallest value, s since the start of the log, `[joint]`: no row of that joint around
+    /// them is fitted unless the model says what a limit takes. No joints where none were looked for, see [`Log::mended`].
+    pub clipped: Vec<Vec<Range<f64>>>,
 }
 
 /// A named channel beside position, velocity and torque: a temperature, a current, a reference.
@@ -182,6 +185,7 @@ impl Log {
             source,
             report,
             holes: Vec::new(),
+            clipped: Vec::new(),
         };
         log.finish(Some(&table.lines))
     }
@@ -233,6 +237,7 @@ impl Log {
             extra: Vec::new(),
             report: Vec::new(),
             holes: Vec::new(),
+            clipped: Vec::new(),
         }
         .finish(None)
     }

@@ -1,5 +1,7 @@
 //! A log to the motion that models read.
 
+use std::ops::Range;
+
 use super::{LowPass, SharedFilter, SignalError, derivative, encoder_step, resample};
 use crate::log::{Channel, Log};
 use crate::motion::{Kinematics, Motion};
@@ -76,6 +78,8 @@ pub struct Prepared {
     pub tau_beyond: Vec<f64>,
     /// Sample rate of `motion`, Hz.
     pub rate_hz: f64,
+    /// Samples of the motion where a joint's torque stands at a limit, `[joint]`; no joints where none were looked for.
+    pub clipped: Vec<Vec<Range<usize>>>,
     /// Sample `k` of the motion is sample `k * stride` of the log.
     pub stride: usize,
     /// The filter for torque and every column.
@@ -86,6 +90,17 @@ impl Prepared {
     /// Whether a sample of the motion, or one between two, is made up or next to what is.
     pub(crate) fn is_in_hole(&self, sample: f64) -> bool {
         self.shared.is_in_hole(sample)
+    }
+
+    /// Whether a joint's torque stands at a limit at a sample of the motion, or within so many samples of it.
+    pub(crate) fn is_clipped(&self, joint: usize, reach: usize) -> Vec<bool> {
+        let count = self.motion.time.len();
+        let mut is_clipped = vec![false; count];
+        for range in self.clipped.get(joint).into_iter().flatten() {
+            let start = range.start.saturating_sub(reach).min(count);
+            is_clipped[start..(range.end + reach).min(count)].fill(true);
+        }
+        is_clipped
     }
 }
 
@@ -161,8 +176,11 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     let smooth = LowPass::butterworth(MOTION_ORDER, smooth_hz, logged_hz)?;
     let wide = LowPass::butterworth(MOTION_ORDER, wide_hz, logged_hz)?;
     let on_motion = |time: f64| resample::whole_steps((time * rate_hz).max(0.0));
-    let holes = log.holes.iter();
-    let holes = holes.map(|hole| on_motion(hole.start)..on_motion(hole.end) + 2);
+    let samples_of = |span: &Range<f64>| on_motion(span.start)..on_motion(span.end) + 2;
+    let holes = log.holes.iter().map(samples_of);
+    let clipped = log.clipped.iter();
+    let clipped = clipped.map(|spans| spans.iter().map(samples_of).collect());
+    let clipped = clipped.collect();
     let shared = SharedFilter::new(bands, rate_hz)?.around(holes);
 
     let samples = log.time.len().div_ceil(stride);
@@ -209,6 +227,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
         tau,
         tau_beyond: log.tau.iter().map(beyond).collect(),
         rate_hz,
+        clipped,
         stride,
         shared,
     })

@@ -17,6 +17,7 @@ fn stack(joints: &[&[f64]]) -> Stack {
     };
     Stack {
         turns: Vec::new(),
+        clipped: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,

@@ -93,6 +93,7 @@ fn log(seconds: f64) -> Log {
         extra: Vec::new(),
         report: Vec::new(),
         holes: Vec::new(),
+        clipped: Vec::new(),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Torques that stand at a limit.
 
+use std::ops::Range;
+
 use super::Fault;
 use crate::log::Log;
 
@@ -16,27 +18,54 @@ const ALIKE: f64 = 1e-9;
 /// So many times more samples stand at a limit than at the next value: a coarse torque stands at the top of its waves, too.
 const PILE: usize = 6;
 
-pub(super) fn find(log: &Log) -> impl Iterator<Item = Fault> {
-    let channels = log.tau.iter().enumerate();
-    channels.filter_map(|(joint, tau)| {
+/// What was found.
+#[derive(Default)]
+pub(super) struct Found {
+    pub faults: Vec<Fault>,
+    /// Samples at a limit, `[joint]`.
+    pub spans: Vec<Vec<Range<usize>>>,
+}
+
+pub(super) fn find(log: &Log) -> Found {
+    let mut found = Found::default();
+    for (joint, tau) in log.tau.iter().enumerate() {
         let high = tau.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = tau.iter().copied().fold(f64::INFINITY, f64::min);
-        if high <= low {
-            return None;
-        }
-        let ends = [high, low].into_iter();
-        let standing: Vec<(f64, usize)> = ends
-            .filter_map(|end| standing(tau, end, ALIKE * (high - low)))
-            .collect();
-        let samples: usize = standing.iter().map(|(_, samples)| samples).sum();
-        let (value, _) = standing.into_iter().max_by_key(|(_, samples)| *samples)?;
+        let alike = ALIKE * (high - low);
+        let ends = [high, low].into_iter().filter(|_| high > low);
+        let limits = ends.filter_map(|end| standing(tau, end, alike));
+        let limits: Vec<(f64, usize)> = limits.collect();
+        let samples: usize = limits.iter().map(|(_, samples)| samples).sum();
         let share = samples as f64 / tau.len() as f64;
-        (share > SHARE).then(|| Fault::Clipped {
+        let most = limits.iter().max_by_key(|(_, samples)| *samples);
+        let Some(&(value, _)) = most.filter(|_| share > SHARE) else {
+            found.spans.push(Vec::new());
+            continue;
+        };
+        let is_at_limit = |value: &f64| {
+            let mut limits = limits.iter();
+            limits.any(|(limit, _)| (value - limit).abs() <= alike)
+        };
+        found.spans.push(runs(tau, is_at_limit));
+        found.faults.push(Fault::Clipped {
             channel: format!("tau{}", joint + 1),
             value,
             share,
-        })
-    })
+        });
+    }
+    found
+}
+
+/// Ranges of samples for which that is so.
+fn runs(values: &[f64], is_so: impl Fn(&f64) -> bool) -> Vec<Range<usize>> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for (k, _) in values.iter().enumerate().filter(|(_, value)| is_so(value)) {
+        match runs.last_mut() {
+            Some(last) if last.end == k => last.end = k + 1,
+            _ => runs.push(k..k + 1),
+        }
+    }
+    runs
 }
 
 /// Where a torque stands towards one of its ends, and for how many samples; rest without torque is no limit.

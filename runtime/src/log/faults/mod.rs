@@ -2,7 +2,7 @@
 //!
 //! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes and holds are replaced by straight lines;
 //! around longer holds the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
-//! of positions and used for nothing; a torque that stands at its limit is told. The thresholds are wide, so that sound logs have
+//! of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
 //! hardly any.
 
 mod clipped;
@@ -205,7 +205,13 @@ impl Log {
             }
         }
         faults.extend(self.standing());
-        faults.extend(clipped::find(&self));
+        let clipped = clipped::find(&self);
+        faults.extend(clipped.faults);
+        let in_seconds = |samples: &Range<usize>| after(samples.start)..after(samples.end - 1);
+        let spans = clipped.spans.iter();
+        self.clipped = spans
+            .map(|spans| spans.iter().map(in_seconds).collect())
+            .collect();
         faults.extend(velocity::find(&self));
         Mended { log: self, faults }
     }
@@ -303,8 +309,8 @@ impl fmt::Display for Fault {
                 share,
             } => write!(
                 f,
-                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; declare `torque_saturation`, \
-                 or log a motion that asks for less",
+                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
+                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
                 100.0 * share
             ),
             Self::VelocityLate { channel, delay } => {

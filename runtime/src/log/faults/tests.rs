@@ -136,11 +136,20 @@ fn a_drive_at_its_limit_is_told() {
     log.tau[0]
         .iter_mut()
         .for_each(|tau| *tau = tau.clamp(-7.0, 7.0));
-    let faults = log.mended().faults;
+    let tau = log.tau[0].clone();
+    let Mended { log, faults } = log.mended();
     assert!(
         matches!(faults[..], [Fault::Clipped { share, .. }] if share > 0.05),
         "{faults:?}"
     );
+    let spans = &log.clipped[0];
+    for (k, tau) in tau.iter().enumerate() {
+        let time = k as f64 / RATE;
+        let mut near = spans.iter();
+        let is_within = near.any(|span| (span.start - 1e-9..=span.end + 1e-9).contains(&time));
+        assert_eq!(is_within, tau.abs() > 7.0 - 1e-9, "{time} s");
+    }
+    assert!(clean(4).mended().log.clipped.iter().all(Vec::is_empty));
 }
 
 #[test]

@@ -1,0 +1,28 @@
+//! Rows where a torque stands at its limit.
+//!
+//! A drive that gives no more than its limit, or a recorder that shows no more, logs another torque than that which moved the arm. Such
+//! samples say nothing of a model's torque, so rows of that joint which the shared filter spreads them over are left out; rows of other
+//! joints stay. Joints of [`Arm::saturated_joints`] keep them all: their columns say what the limit took.
+
+use super::stack::{Stack, clear_rows, rows_at};
+use crate::columns::Arm;
+use crate::signal::Prepared;
+
+/// Notes which rows of a stack of the logs are of clipped torque, and makes them zero.
+pub(super) fn leave_out(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
+    stack.clipped = vec![Vec::new(); stack.dof()];
+    let joints = (0..arm.dof()).filter(|joint| !arm.saturated_joints().contains(joint));
+    for joint in joints {
+        for (number, log) in logs.iter().enumerate() {
+            let start = stack.segments[number].start;
+            let is_clipped = log.is_clipped(joint, log.shared.border());
+            stack.clipped[joint].extend(rows_at(start, log, &is_clipped));
+        }
+    }
+    clear_again(stack);
+}
+
+/// The same rows once more, of a stack that has got columns since.
+pub(super) fn clear_again(stack: &mut Stack) {
+    clear_rows(&mut stack.joints, &stack.clipped);
+}
