@@ -11,7 +11,7 @@ use super::stack::Stack;
 const CORNER: f64 = 1.345;
 
 /// Median of the absolute value of normal noise, in deviations.
-const MEDIAN_OF_NORMAL: f64 = 0.6745;
+pub(super) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// What nine of ten of them are below.
 const NINE_OF_TEN_OF_NORMAL: f64 = 1.6449;

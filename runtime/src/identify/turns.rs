@@ -7,6 +7,7 @@
 //! De Schutter 2007, Dynamic model identification for industrial robots, who leave out samples of low velocity.
 
 use super::least_squares::{Factors, Solution};
+use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
 use crate::columns::Arm;
 use crate::signal::Prepared;
@@ -14,9 +15,6 @@ use crate::signal::resample::whole_steps;
 
 /// A joint stands below so many deviations of its velocity's noise, which is what the wide band has beyond the smooth one.
 const NOISE: f64 = 5.0;
-
-/// Median of the absolute value of normal noise, in deviations.
-const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// Least and largest velocity at which a joint may be taken for standing, as shares of its largest: filters ring a little around a
 /// stop, and noise that is larger says nothing of turns.

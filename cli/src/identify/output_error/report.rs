@@ -118,12 +118,16 @@ fn hanging(frail: &Direction) -> String {
             _ => format!("{name} {share:+.2}"),
         })
         .collect();
+    let less = if frail.is_silent() {
+        "not at all beside".to_owned()
+    } else {
+        format!("{:.0} times less than", 1.0 / frail.singular)
+    };
     format!(
-        "hardly identified beside the others: {}: a share of {} value moves positions {:.0} times less than the same share of what moves them \
-         most, so whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
+        "hardly identified beside the others: {}: a share of {} value moves positions {less} the same share of what moves them most, so \
+         whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
         moves.join(", "),
         if moves.len() == 1 { "its" } else { "their" },
-        1.0 / frail.singular
     )
 }
 
@@ -372,5 +376,22 @@ impl OutputReport<'_> {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn how_much_less_is_a_number_or_all() {
+        let said = |singular: f64| {
+            let moves = vec![("arm.izz".to_owned(), 1.0)];
+            hanging(&Direction { singular, moves })
+        };
+        assert!(said(0.02).contains("its value moves positions 50 times less than"));
+        for nothing in [0.0, 1e-17] {
+            assert!(said(nothing).contains("moves positions not at all beside the same share"));
+        }
     }
 }

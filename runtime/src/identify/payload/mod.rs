@@ -148,29 +148,31 @@ impl Identify {
 
 /// Logs without and with a payload, ready for rows.
 struct Both {
-    without: Vec<Prepared>,
-    with: Vec<Prepared>,
+    /// Those with it behind those without.
+    all: Vec<Prepared>,
+    /// How many are without it.
+    without: usize,
 }
 
 impl Both {
     fn new(unloaded: &[Log], loaded: &[Log], bands: &Bands) -> Result<Self, IdentifyError> {
-        Ok(Self {
-            without: prepare_all(unloaded, bands)?,
-            with: prepare_all(loaded, bands)?,
-        })
+        let mut all = prepare_all(unloaded, bands)?;
+        all.extend(prepare_all(loaded, bands)?);
+        let without = unloaded.len();
+        Ok(Self { all, without })
     }
 
     /// The load that effects read, at the arm's parameters alone and with the payload.
     fn update(&mut self, arm: &dyn Arm, shapes: &[f64], alone: &[f64], loaded: &[f64]) {
-        update_load(arm, &mut self.without, shapes, alone);
-        update_load(arm, &mut self.with, shapes, loaded);
+        let (without, with) = self.all.split_at_mut(self.without);
+        update_load(arm, without, shapes, alone);
+        update_load(arm, with, shapes, loaded);
     }
 
     /// Rows of all logs, and the first with the payload.
     fn stack(&self, identify: &Identify, arm: &dyn Arm, shapes: &[f64]) -> (Stack, usize) {
-        let all = [self.without.clone(), self.with.clone()].concat();
-        let stack = identify.rows(arm, &all, shapes);
-        let start = stack.segments[self.without.len()].start;
+        let stack = identify.rows(arm, &self.all, shapes);
+        let start = stack.segments[self.without].start;
         (stack, start)
     }
 }
