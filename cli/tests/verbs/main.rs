@@ -2,6 +2,7 @@
 
 mod apart;
 mod audit;
+mod audit_seeds;
 mod c;
 mod calibrate;
 mod clipped;
