@@ -19,6 +19,7 @@ mod excite;
 mod friction;
 mod identify;
 mod import;
+mod in_order;
 mod json;
 mod merge;
 

@@ -18,6 +18,7 @@ use robot_model::log::{Fault, Log};
 use robot_model::signal::{Bands, SignalError};
 
 use crate::Error;
+use crate::in_order::workers;
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 use crate::output::{self, Files};
 use crate::progress::Progress;
@@ -221,6 +222,7 @@ impl IdentifyArguments {
             form,
             logs: &self.logs,
             as_logged: self.rows.as_logged,
+            workers: workers(),
         };
         let identify = Identify {
             bands: self.bands,

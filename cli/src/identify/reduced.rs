@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
-use robot_model::log::{Fault, Log};
+use robot_model::log::{Fault, Log, Mended};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::fit::{ByAcceleration, Fit, mean_errors};
+use crate::in_order::in_order;
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
 use crate::spec::log_columns;
@@ -118,11 +119,13 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     Ok(factor)
 }
 
-/// Logs whose pieces are looked at one after the other.
+/// Logs that are looked at piece by piece.
 pub(super) struct Streams<'a> {
     pub form: &'a ByAcceleration,
     pub logs: &'a [PathBuf],
     pub as_logged: bool,
+    /// Pieces that are worked on at a time.
+    pub workers: usize,
 }
 
 impl Streams<'_> {
@@ -154,10 +157,11 @@ impl Streams<'_> {
                 Some(factor) => factor,
                 none => none.insert(Factor::new(arm, bands)?),
             };
-            self.each(path, &bands, progress, |log, found| {
+            let blocks = |log: &Log| Ok(FactorBlock::of_log(arm, log, &bands)?);
+            self.each(path, &bands, progress, blocks, |blocks, found| {
                 let source = path.display().to_string();
                 faults.extend(found.into_iter().map(|fault| (source.clone(), fault)));
-                factor.push(arm, log).map_err(Error::from)
+                factor.extend(blocks);
             })?;
         }
         factor.ok_or_else(|| Error::from(robot_model::identify::IdentifyError::NoLog))
@@ -170,18 +174,20 @@ impl Streams<'_> {
         Ok(identify.bands_of(&self.form.0, &first)?)
     }
 
-    /// Every piece of a log, mended, with its faults.
-    fn each(
+    /// Works on every piece of a log, mended, in threads; takes what comes of it and the piece's faults in the order of the pieces.
+    fn each<R: Send>(
         &self,
         path: &Path,
         bands: &Bands,
         progress: &Progress,
-        mut visit: impl FnMut(&Log, Vec<Fault>) -> Result<(), Error>,
+        work: impl Fn(&Log) -> Result<R, Error> + Sync,
+        mut take: impl FnMut(R, Vec<Fault>),
     ) -> Result<(), Error> {
         let columns = log_columns(self.form.model());
         // Filters cut one period of the band from either end.
         let overlap = 2.0 / bands.shared_hz;
-        for (k, piece) in Log::pieces(path, &columns, PIECE, overlap)?.enumerate() {
+        let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
+        let pieces = pieces.map(|(k, piece)| {
             let piece = piece?;
             if k == 0 {
                 for note in &piece.report {
@@ -189,25 +195,88 @@ impl Streams<'_> {
                 }
             }
             progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
+            Ok(piece)
+        });
+        let mend = |piece: Log| {
             if self.as_logged {
-                visit(&piece, Vec::new())?;
-                continue;
+                return Ok((work(&piece)?, Vec::new()));
             }
-            let mended = piece.mended();
-            visit(&mended.log, mended.faults)?;
-        }
-        Ok(())
+            let Mended { log, faults, .. } = piece.mended();
+            Ok((work(&log)?, faults))
+        };
+        in_order(self.workers, pieces, mend, |(made, faults)| {
+            take(made, faults);
+            Ok(())
+        })
     }
 
     /// Errors over all pieces.
     pub fn errors(&self, estimate: &Estimate, progress: &Progress) -> Result<Errors, Error> {
         let mut all = Vec::new();
         for path in self.logs {
-            self.each(path, &estimate.bands, progress, |log, _| {
-                all.push((log.time.len(), self.form.errors(estimate, log)?));
-                Ok(())
+            let errors = |log: &Log| Ok((log.time.len(), self.form.errors(estimate, log)?));
+            self.each(path, &estimate.bands, progress, errors, |errors, _| {
+                all.push(errors);
             })?;
         }
         Ok(mean_errors(&all))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write;
+
+    use robot_model::identify::Method;
+
+    use super::*;
+
+    /// A mass on a rail for six pieces and a half.
+    fn log() -> String {
+        let mut text = String::from("time,q1,tau1\n");
+        for k in 0..PIECE * 13 / 2 {
+            let t = 0.005 * k as f64;
+            let (q, dq) = (1.3 * t).sin_cos();
+            let wave = (7.1 * t).sin();
+            let tau = -3.0 * (1.69 * q + 50.41 * 0.1 * wave) + 5.0 * dq + 0.1 * (k as f64).sin();
+            writeln!(text, "{t:.3},{:.6},{tau:.6}", q + 0.1 * wave).expect("a string takes all");
+        }
+        text
+    }
+
+    #[test]
+    fn factors_are_the_same_for_any_number_of_threads() {
+        let spec = "robot Cart { gravity = [0, 0, -9.81]; convention = origin; \
+            joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; } effects { viscous_friction on rail; } }";
+        let model = robot_model_spec::load("cart.robot", spec);
+        let model = model.unwrap_or_else(|errors| panic!("{errors}"));
+        let compiled = robot_model_codegen::compile_model(&model);
+        let form = ByAcceleration(InterpretedArm::new(compiled));
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let logs = [folder.path().join("log.csv")];
+        std::fs::write(&logs[0], log()).expect("a file in the folder");
+        let of = |workers: usize| {
+            let streams = Streams {
+                form: &form,
+                logs: &logs,
+                as_logged: false,
+                workers,
+            };
+            let (identify, progress) = (Identify::default(), Progress::new());
+            let mut faults = Vec::new();
+            let factor = streams.reduce(&identify, &mut faults, &progress);
+            let factor = factor.expect("a sound log");
+            let estimate = factor.estimate(&form.0, Method::Wls).expect("excited");
+            let errors = streams.errors(&estimate, &progress).expect("a sound log");
+            (text(&factor), errors)
+        };
+        let alone = of(1);
+        assert!(
+            alone.0.matches("\"samples\"").count() > 16,
+            "pieces in blocks"
+        );
+        for workers in [2, 3, 16] {
+            assert!(of(workers) == alone, "{workers} threads");
+        }
     }
 }

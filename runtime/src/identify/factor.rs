@@ -53,6 +53,39 @@ pub struct FactorBlock {
     pub torque_squares: Vec<f64>,
 }
 
+impl FactorBlock {
+    /// A log, or a piece of one, as blocks of a second or more. Pieces can be reduced in threads, and [added](Factor::extend) in their order.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit`] for a log that does not fit the arm or the filters.
+    pub fn of_log(arm: &dyn Arm, log: &Log, bands: &Bands) -> Result<Vec<Self>, IdentifyError> {
+        check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare_all(std::slice::from_ref(log), bands)?;
+        let mut stack = Stack::new(arm, &prepared, &[]);
+        clipped::leave_out(&mut stack, arm, &prepared);
+        let samples = stack.samples();
+        let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
+        let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
+        let part = |part: usize| part * samples / count..(part + 1) * samples / count;
+        let parts = (0..count).map(|k| Self::of_rows(&stack.part(part(k))));
+        Ok(parts.collect())
+    }
+
+    /// Rows as one block.
+    #[must_use]
+    pub fn of_rows(stack: &Stack) -> Self {
+        let joints = stack.joints.iter();
+        Self {
+            samples: stack.samples(),
+            counts: stack.counts(),
+            rows: Factors::new(stack).joints().iter().map(rows_of).collect(),
+            torque_squares: joints
+                .map(|rows| rows.tau.iter().map(|tau| tau * tau).sum())
+                .collect(),
+        }
+    }
+}
+
 impl Factor {
     /// One of no log, with these filters.
     ///
@@ -81,33 +114,23 @@ impl Factor {
     /// Adds a log, or a piece of one, as blocks of a second or more.
     ///
     /// # Errors
-    /// Those of [`Identify::fit`] for a log that does not fit the arm or the filters.
+    /// Those of [`FactorBlock::of_log`].
     pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
-        check_logs(arm, std::slice::from_ref(log))?;
-        let prepared = prepare_all(std::slice::from_ref(log), &self.bands)?;
-        let mut stack = Stack::new(arm, &prepared, &[]);
-        clipped::leave_out(&mut stack, arm, &prepared);
-        let samples = stack.samples();
-        let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
-        let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
-        for part in 0..count {
-            self.push_rows(&stack.part(part * samples / count..(part + 1) * samples / count));
-        }
+        self.extend(FactorBlock::of_log(arm, log, &self.bands)?);
         Ok(())
+    }
+
+    /// Adds blocks of [`FactorBlock::of_log`] with the same arm and filters.
+    pub fn extend(&mut self, blocks: impl IntoIterator<Item = FactorBlock>) {
+        for block in blocks {
+            self.blocks.push(block);
+            self.shorten();
+        }
     }
 
     /// Adds rows as a block of their own.
     pub fn push_rows(&mut self, stack: &Stack) {
-        let joints = stack.joints.iter();
-        self.blocks.push(FactorBlock {
-            samples: stack.samples(),
-            counts: stack.counts(),
-            rows: Factors::new(stack).joints().iter().map(rows_of).collect(),
-            torque_squares: joints
-                .map(|rows| rows.tau.iter().map(|tau| tau * tau).sum())
-                .collect(),
-        });
-        self.shorten();
+        self.extend([FactorBlock::of_rows(stack)]);
     }
 
     /// Adds what other logs tell of the same arm.
