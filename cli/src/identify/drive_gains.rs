@@ -63,7 +63,7 @@ impl IdentifyArguments {
             }
         }
         let own = of_arm(carried, &judged.train);
-        let mut payload = judged.report(&own, carried, &logs.faults);
+        let mut payload = judged.report(&own, carried);
         payload.payload.mass = Some(known.mass);
         payload.payload.center = center(&found, known);
         let text = format!(

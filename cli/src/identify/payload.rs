@@ -105,7 +105,7 @@ impl IdentifyArguments {
         }
         let arm = of_arm(&found, &judged.train);
         Ok(Found {
-            json: output::json(&judged.report(&arm, &found, &logs.faults)),
+            json: output::json(&judged.report(&arm, &found)),
             text: format!(
                 "{}{}\n{}",
                 found.estimate,
@@ -140,7 +140,10 @@ impl IdentifyArguments {
         }
         let validation = logs.validate.as_ref();
         let validation = validation.map(|log| form.errors(&found.loaded, log));
+        let mut faults = logs.faults.clone();
+        faults.extend(self.late_torques(&found.estimate, progress));
         Ok(Judged {
+            faults,
             train: errors_of_all(&found.estimate, form, &logs.unloaded)?,
             carrying: errors_of_all(&found.loaded, form, &logs.loaded)?,
             validation: validation.transpose()?,
@@ -159,19 +162,21 @@ pub(super) struct Judged {
     pub train: Errors,
     carrying: Errors,
     validation: Option<Errors>,
+    /// Of the logs, late torques among them.
+    faults: Vec<(String, Fault)>,
 }
 
 impl Judged {
     /// What `--json` writes; `arm` is [`of_arm`].
-    pub(super) fn report<'a>(
-        &'a self,
-        arm: &'a Estimate,
-        found: &'a Carried,
-        faults: &'a [(String, Fault)],
-    ) -> PayloadReport<'a> {
+    pub(super) fn report<'a>(&'a self, arm: &'a Estimate, found: &'a Carried) -> PayloadReport<'a> {
         let (mass, center) = found.mass_and_center();
         PayloadReport {
-            arm: report(arm, Some(&self.train), self.validation.as_ref(), faults),
+            arm: report(
+                arm,
+                Some(&self.train),
+                self.validation.as_ref(),
+                &self.faults,
+            ),
             payload: Body {
                 link: &found.link,
                 parameters: parameters(found),

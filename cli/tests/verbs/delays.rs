@@ -4,18 +4,25 @@ use std::fmt::Write;
 
 use crate::common::{CART, Folder, cart_log, json};
 
-/// A log whose torque is so many samples late, or early where that is negative.
+/// A log whose torques are so many samples late, or early where that is negative.
 fn late(log: &str, samples: isize) -> String {
-    let rows: Vec<Vec<&str>> = log
-        .lines()
-        .skip(1)
-        .map(|row| row.split(',').collect())
-        .collect();
-    let mut text = String::from("time,q1,tau1\n");
+    let mut rows = log.lines().map(|row| row.split(',').collect::<Vec<&str>>());
+    let header = rows.next().expect("a header");
+    let rows: Vec<Vec<&str>> = rows.collect();
+    let mut text = header.join(",") + "\n";
     for (k, row) in rows.iter().enumerate() {
         let before = k.checked_add_signed(-samples).and_then(|k| rows.get(k));
         if let Some(before) = before {
-            writeln!(text, "{},{},{}", row[0], row[1], before[2]).expect("a string takes all");
+            let fields = header.iter().zip(row.iter().zip(before));
+            let of = |(name, (now, before)): (&&str, (&&str, &&str))| {
+                if name.starts_with("tau") {
+                    (*before).to_owned()
+                } else {
+                    (*now).to_owned()
+                }
+            };
+            let fields: Vec<String> = fields.map(of).collect();
+            writeln!(text, "{}", fields.join(",")).expect("a string takes all");
         }
     }
     text
@@ -29,26 +36,61 @@ fn torque_that_is_late_is_told_with_its_delay() {
     for samples in [4, -4, 20] {
         let delay = 0.005 * f64::from(i32::try_from(samples).expect("small"));
         folder.write("log.csv", &late(&log, samples));
-        let run = folder.run(&["identify", "cart.robot", "log.csv", "--json", "out.json"]);
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let identify = ["identify", "cart.robot", "log.csv", "--json", "out.json"];
         let word = if samples > 0 {
             " late against"
         } else {
             " early against"
         };
-        assert!(run.stderr.contains(word), "{}", run.stderr);
-        assert!(run.stderr.contains("`time_delay;`"), "{}", run.stderr);
-        let faults = json(&folder.read("out.json"))["data_faults"].clone();
-        let [fault] = &faults.as_array().expect("a list")[..] else {
-            panic!("{faults}");
-        };
-        assert_eq!(
-            (&fault["kind"], &fault["channel"]),
-            (&"late-torque".into(), &"tau1".into())
-        );
-        let number = |key: &str| fault["delay"][key].as_f64().expect("a number");
-        let (value, std) = (number("value"), number("std"));
-        assert!((value - delay).abs() < 4.0 * std && std < 1e-4, "{fault}");
+        // Without accelerations the same is told.
+        for form in ["acceleration", "filtered"] {
+            let run = folder.run(&[&identify[..], &["--form", form]].concat());
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            assert!(run.stderr.contains(word), "{form}: {}", run.stderr);
+            assert!(run.stderr.contains("`time_delay;`"), "{}", run.stderr);
+            let faults = json(&folder.read("out.json"))["data_faults"].clone();
+            let [fault] = &faults.as_array().expect("a list")[..] else {
+                panic!("{faults}");
+            };
+            assert_eq!(
+                (&fault["kind"], &fault["channel"]),
+                (&"late-torque".into(), &"tau1".into())
+            );
+            let number = |key: &str| fault["delay"][key].as_f64().expect("a number");
+            let (value, std) = (number("value"), number("std"));
+            assert!((value - delay).abs() < 4.0 * std && std < 1e-4, "{fault}");
+        }
+    }
+}
+
+/// Of the logs without what is carried.
+#[test]
+fn torque_that_is_late_is_told_beside_a_payload() {
+    let folder = crate::payload::folder("");
+    let gains = [
+        "--payload-mass",
+        "0.8",
+        "--payload-center",
+        "0.15,-0.0625,0",
+    ];
+    for samples in [0, 5] {
+        folder.write("late.csv", &late(&folder.read("empty.csv"), samples));
+        for more in [&[][..], &gains] {
+            let identify = ["identify", "arm.robot", "late.csv", "--json", "out.json"];
+            let payload = ["--payload", "loaded.csv"];
+            let run = folder.run(&[&identify[..], &payload, more].concat());
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            let faults = json(&folder.read("out.json"))["data_faults"].clone();
+            let kinds = faults.as_array().expect("a list").iter();
+            let late = kinds.filter(|fault| fault["kind"] == "late-torque").count();
+            assert_eq!(late > 0, samples > 0, "{more:?}: {faults}");
+            assert_eq!(
+                run.stderr.contains(" late against"),
+                late > 0,
+                "{}",
+                run.stderr
+            );
+        }
     }
 }
 

@@ -125,7 +125,7 @@ pub struct Estimate {
     pub bootstrap: Option<Bootstrap>,
     /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
     pub essential: Option<Essential>,
-    /// Joints whose torque is late or early against their position; [`Form::Acceleration`] only.
+    /// Joints whose torque is late or early against their position, in logs without a payload; none of a [`Factor`](super::Factor).
     pub torque_delays: Vec<TorqueDelay>,
 }
 

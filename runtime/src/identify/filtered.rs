@@ -62,9 +62,13 @@ impl Identify {
         };
         let shapes = solved.1.clone();
         let solved = self.deviated(&filtered, &prepared, solved);
-        self.estimate(&filtered, form, bands, solved, &|| {
+        let estimate = self.estimate(&filtered, form, bands, solved, &|| {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
             Ok(Stack::new(&filtered, &wanted, &shapes))
+        })?;
+        Ok(Estimate {
+            torque_delays: self.torque_delays_of_logs(arm, logs, &bands, &shapes),
+            ..estimate
         })
     }
 

@@ -10,9 +10,10 @@
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
-use super::{Identify, clipped, turns};
+use super::{Identify, clipped, prepare_all, turns};
 use crate::columns::{Arm, Entry, Unknown};
-use crate::signal::{Prepared, derivative};
+use crate::log::Log;
+use crate::signal::{Bands, Prepared, derivative};
 
 /// What is told: so many deviations, and so large a part of a log's sample. Torque that is set at a sample and holds until the next is early by
 /// half of that, and one more sample may go where the next one is computed, which is how a drive works and no fault.
@@ -82,6 +83,24 @@ impl Identify {
             self.leave_out_turns,
         );
         self.delays_of(&rows).unwrap_or_default()
+    }
+
+    /// The same of logs by the equations with accelerations, for an estimate that has done without; none where these cannot be solved.
+    pub(super) fn torque_delays_of_logs(
+        &self,
+        arm: &dyn Arm,
+        logs: &[Log],
+        bands: &Bands,
+        shapes: &[f64],
+    ) -> Vec<TorqueDelay> {
+        let Ok(mut prepared) = prepare_all(logs, bands) else {
+            return Vec::new();
+        };
+        let Ok((solution, shapes, stack)) = self.solve(arm, &mut prepared, Some(shapes.to_vec()))
+        else {
+            return Vec::new();
+        };
+        self.torque_delays(arm, &prepared, stack, (&shapes, &solution.estimate))
     }
 
     /// `None` where the rows are too few for more unknowns.
