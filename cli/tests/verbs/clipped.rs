@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::common::{Folder, json};
+use crate::common::{Folder, json, numbers};
 use crate::payload::{folder, parameter};
 use crate::turns::TRUTH;
 
@@ -59,7 +59,8 @@ fn parameters_are_right_where_a_torque_was_clipped() {
         (json(&folder.read("fit.json")), said)
     };
     let (as_logged, said) = fit(&["--as-logged"]);
-    assert!(largest(&errors(&as_logged)) > 10.0, "{said}");
+    let bias = errors(&as_logged);
+    assert!(largest(&bias) > 4.0, "{bias:?}\n{said}");
     assert!(!said.contains("at its limit"), "{said}");
     let factor = ["--factor", "factor.json", "--bands", "10,30,90"];
     for more in [
@@ -70,11 +71,13 @@ fn parameters_are_right_where_a_torque_was_clipped() {
     ] {
         let (fit, said) = fit(more);
         let errors = errors(&fit);
-        assert!(largest(&errors) < 4.0, "{more:?}: {errors:?}\n{said}");
+        assert!(largest(&errors) < 3.0, "{more:?}: {errors:?}\n{said}");
         // Errors are of samples that are left.
-        let largest = fit["rmse"].as_array().expect("a list").iter();
-        let largest = largest.map(|rmse| rmse.as_f64().expect("a number"));
-        assert!(largest.fold(0.0, f64::max) < 0.1, "{more:?}: {said}");
+        let rmse = numbers(&fit["rmse"])[0];
+        assert!(
+            rmse < 0.5 * numbers(&as_logged["rmse"])[0],
+            "{more:?}: {said}"
+        );
         if more == factor {
             continue;
         }

@@ -8,6 +8,7 @@ mod calibrate;
 mod clipped;
 mod columns;
 mod common;
+mod coverage;
 mod delays;
 mod dissect;
 mod drive_gains;
