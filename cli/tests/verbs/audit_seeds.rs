@@ -147,7 +147,7 @@ fn least_inertia(values: &BTreeMap<String, f64>) -> [f64; 2] {
     let first = first.map(|(th2, th3)| {
         p(0) + p(1) * (2.0 * th2).cos() + p(2) * (2.0 * th3).cos() + p(3) * th2.cos() * th3.sin()
     });
-    let (mean, half) = ((p(4) + p(5)) / 2.0, (p(4) - p(5)) / 2.0);
+    let (mean, half) = (f64::midpoint(p(4), p(5)), (p(4) - p(5)) / 2.0);
     [
         first.fold(f64::INFINITY, f64::min),
         mean - half.hypot(p(3) / 2.0),
