@@ -72,12 +72,11 @@ pub(crate) fn close(
         faults.push(late);
         on_time = logs;
     }
-    let candidates = arm.candidates();
-    let candidates = candidates
-        .iter()
-        .map(|candidate| candidate as &dyn Candidate)
-        .collect();
-    let verdict = Trace::new(candidates).run(arm, &on_time, &mut |stage| progress.step(stage))?;
+    let (torques, bodies) = (arm.candidates(), arm.bodies());
+    let torques = torques.iter().map(|torque| torque as &dyn Candidate);
+    let bodies = bodies.iter().map(|body| body as &dyn Candidate);
+    let verdict = Trace::new(torques.chain(bodies).collect())
+        .run(arm, &on_time, &mut |stage| progress.step(stage))?;
 
     let found = verdict.findings.iter();
     let amendments: Vec<Amendment> = faults

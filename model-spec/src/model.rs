@@ -2,7 +2,7 @@
 //!
 //! In: an [`Ast`](crate::ast) without errors. Out: [`Model`]. Invariants gained: names are unique and resolved, units are
 //! SI, every joint has one frame convention (folded into [`Placement`]), effects refer to joints by index. Nothing
-//! downstream validates again. A `Model` cannot be built by hand: only `check` makes one.
+//! downstream validates again. A `Model` cannot be built by hand: only `check` makes one, and [`Model::with`] another of it.
 
 mod effect;
 mod expr;
@@ -49,6 +49,23 @@ pub enum Body {
 }
 
 impl Model {
+    /// The same robot with an effect of its library declared last, its shapes left to identification.
+    #[must_use]
+    pub fn with(&self, definition: &Arc<EffectDefinition>, joints: &[usize]) -> Self {
+        let mut model = self.clone();
+        let alike = self.effects.iter().filter(|effect| {
+            effect.definition.name == definition.name && effect.joints.first() == joints.first()
+        });
+        model.effects.push(Effect {
+            definition: Arc::clone(definition),
+            joints: joints.to_vec(),
+            shapes: vec![None; definition.shapes.len()],
+            instance: 1 + alike.count(),
+            line: 0,
+        });
+        model
+    }
+
     /// The chain, where the robot is one.
     #[must_use]
     pub const fn chain(&self) -> Option<&Chain> {

@@ -5,6 +5,7 @@
 //! noise.
 
 mod band;
+mod body;
 mod candidate;
 mod function;
 mod links;
@@ -23,6 +24,7 @@ mod signals;
 mod springs;
 mod states;
 
+pub use body::InterpretedBody;
 pub use candidate::InterpretedCandidate;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};

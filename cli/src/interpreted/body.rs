@@ -1,0 +1,135 @@
+//! Bodies that a spec does not know of, as candidates of the tracer.
+
+use std::sync::Arc;
+
+use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::motion::Motion;
+use robot_model_codegen::compile_model;
+use robot_model_spec::model::{Act, EffectDefinition};
+use robot_model_spec::parameter::Owner;
+
+use super::InterpretedArm;
+use super::program::run_block;
+use super::signals::{Own, Signals};
+
+/// A body more on a link whose own inertial is known.
+#[derive(Debug, Clone)]
+pub struct InterpretedBody {
+    kind: String,
+    joints: Vec<usize>,
+    /// The arm with the body.
+    arm: InterpretedArm,
+    /// Unknowns of that arm that it does not have without.
+    new: Vec<usize>,
+    unknowns: Vec<Unknown>,
+}
+
+impl InterpretedArm {
+    /// Bodies that the arm may carry and its spec does not declare: one effect a link, of several in the library the first that is
+    /// not declared, and on the last link the one that may only be heavy. None where a link's own inertial is identified, as its
+    /// parameters take in what the body adds.
+    #[must_use]
+    pub fn bodies(&self) -> Vec<InterpretedBody> {
+        let model = &self.compiled.model;
+        let is_fixed = model.chain().is_some() && !self.compiled.base.fixed.is_empty();
+        // Where links stand must not hang on shapes that are looked for.
+        if !is_fixed || (self.compiled.displacements().is_some() && !self.shapes.is_empty()) {
+            return Vec::new();
+        }
+        let definitions = model.definitions.iter().filter(|definition| {
+            matches!(definition.acts.as_slice(), [Act::Body { .. }])
+                && definition.torques.is_empty()
+        });
+        let definitions: Vec<&Arc<EffectDefinition>> = definitions.collect();
+        let last = model.joints.len() - 1;
+        let of_link = |joint: usize| {
+            let is_heavy = |definition: &&Arc<EffectDefinition>| {
+                definition
+                    .linear
+                    .first()
+                    .is_some_and(|mass| mass.nonnegative)
+            };
+            let declared = |definition: &&Arc<EffectDefinition>| {
+                model.effects.iter().any(|effect| {
+                    effect.definition.name == definition.name && effect.joints == [joint]
+                })
+            };
+            let mut wanted = definitions
+                .iter()
+                .copied()
+                .filter(|d| is_heavy(d) == (joint == last));
+            let definition = wanted.find(|definition| !declared(definition))?;
+            InterpretedBody::new(self, definition, joint)
+        };
+        (0..=last).filter_map(of_link).collect()
+    }
+}
+
+impl InterpretedBody {
+    fn new(arm: &InterpretedArm, definition: &Arc<EffectDefinition>, joint: usize) -> Option<Self> {
+        let model = arm.compiled.model.with(definition, &[joint]);
+        let own = model.effects.len() - 1;
+        let with = InterpretedArm::new(compile_model(&model));
+        let base = &with.compiled.base;
+        let is_new = |column: usize| {
+            matches!(
+                with.compiled.standard[base.kept[column]].owner,
+                Owner::Effect { effect, .. } if effect == own
+            )
+        };
+        let (new, old): (Vec<usize>, Vec<usize>) =
+            (0..base.kept.len()).partition(|&column| is_new(column));
+        let same = old.iter().map(|&k| &with.unknowns[k].name);
+        let is_apart = same.eq(arm.unknowns.iter().map(|unknown| &unknown.name));
+        if new.is_empty() || !is_apart || !base.rank.is_clear() {
+            return None;
+        }
+        Some(Self {
+            kind: definition.name.replace('_', "-"),
+            joints: vec![joint],
+            unknowns: new.iter().map(|&k| with.unknowns[k].clone()).collect(),
+            new,
+            arm: with,
+        })
+    }
+}
+
+impl Columns for InterpretedBody {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        self.arm.measured.uses_rigid_torque()
+    }
+
+    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        let shapes = &self.arm.given;
+        let signals = Signals {
+            motion,
+            shapes,
+            own: &Own::default(),
+        };
+        let links = self.arm.measured.links(motion, shapes);
+        let entries = run_block(&self.arm.rigid, &signals, &links).into_iter();
+        let own = entries.filter_map(|entry| {
+            let column = self.new.iter().position(|&new| new == entry.column)?;
+            Some(Entry { column, ..entry })
+        });
+        self.arm.measured.entries(motion, shapes, own.collect())
+    }
+}
+
+impl Candidate for InterpretedBody {
+    fn kind(&self) -> &str {
+        &self.kind
+    }
+
+    fn joints(&self) -> &[usize] {
+        &self.joints
+    }
+}
