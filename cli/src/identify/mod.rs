@@ -9,6 +9,7 @@ mod payload;
 pub(crate) mod reduced;
 pub(crate) mod report;
 pub(crate) mod table;
+mod units;
 
 use std::path::{Path, PathBuf};
 
@@ -196,7 +197,11 @@ impl IdentifyArguments {
         if let Some(doubt) = doubts::unexplained(&estimate) {
             progress.note(&format!("note: {doubt}"));
         }
-        if let Some(doubt) = doubts::hardly_apart(&estimate, form.model(), &logs) {
+        let doubts = [
+            doubts::hardly_apart(&estimate, form.model(), &logs),
+            units::degrees(form, &identify, &logs, &estimate),
+        ];
+        for doubt in doubts.into_iter().flatten() {
             progress.note(&format!("note: {doubt}"));
         }
         faults.extend(self.late_torques(&estimate, &progress));

@@ -34,3 +34,4 @@ mod simulate;
 mod starts;
 mod trace;
 mod turns;
+mod units;
