@@ -47,7 +47,7 @@ pub(super) fn degrees(
     (mean > FACTOR.ln()).then(|| {
         format!(
             "with positions in degrees the model leaves {:.1} % of the torque of its worst joint, as they are {:.0} %: are they in degrees? \
-             Logs are in rad, or as the spec says: `log { q = \"q1\": deg, ..; }`",
+             Logs are in rad, or as the spec says: `log {{ q = \"q1\": deg, ..; }}`",
             percent(&other.relative_percent),
             percent(&found.relative_percent)
         )
