@@ -68,7 +68,7 @@ pub(crate) fn close(
     let (arm, estimate) = (&before.arm, &before.estimate);
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
-    if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound)? {
+    if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
         faults.push(late);
         on_time = logs;
     }

@@ -69,7 +69,10 @@ pub(crate) fn corrupt(
         if faults.is_empty() {
             continue;
         }
-        let with = estimate.errors(arm, log)?.rmse;
+        // Torques at a limit are out of both.
+        let mut logged = log.clone();
+        logged.clipped.clone_from(&mended.log.clipped);
+        let with = estimate.errors(arm, &logged)?.rmse;
         let without = estimate.errors(arm, &mended.log)?.rmse;
         let mut joints = with.iter().zip(&without);
         if joints.any(|(with, without)| *without < (1.0 - LEAST_SHARE) * with) {
@@ -88,39 +91,39 @@ pub(crate) fn corrupt(
 }
 
 /// One delay of all torques, where the joints that tell theirs agree and no joint is worse off without it. With it the logs as they
-/// would be without.
-///
-/// # Errors
-/// Those of [`Identify::fit`].
+/// would be without. What is left beside a delay that the spec declares is no second one.
 pub(crate) fn delay(
     arm: &InterpretedArm,
     estimate: &Estimate,
     logs: &[Log],
-) -> Result<Option<(DataFault, Vec<Log>)>, IdentifyError> {
+) -> Option<(DataFault, Vec<Log>)> {
+    if arm.compiled().delay().is_some() {
+        return None;
+    }
     let told = &estimate.torque_delays;
     let weights: f64 = told.iter().map(|joint| joint.std.powi(-2)).sum();
     if told.is_empty() || !weights.is_finite() {
-        return Ok(None);
+        return None;
     }
     let sum: f64 = told.iter().map(|j| j.seconds * j.std.powi(-2)).sum();
     let (seconds, std) = (sum / weights, weights.powf(-0.5));
     let agrees =
         |own: f64, std: f64| (own - seconds).abs() <= (DEVIATIONS * std).max(APART * seconds.abs());
     if !told.iter().all(|joint| agrees(joint.seconds, joint.std)) {
-        return Ok(None);
+        return None;
     }
     let on_time: Vec<Log> = logs.iter().map(|log| earlier(log, seconds)).collect();
     let same_band = Identify {
         bands: Some(estimate.bands),
         ..Identify::default()
     };
-    let after = same_band.fit(arm, &on_time)?;
+    let after = same_band.fit(arm, &on_time).ok()?;
     let mut errors = after
         .relative_percent
         .iter()
         .zip(&estimate.relative_percent);
     if errors.any(|(after, before)| *after > (1.0 + LEAST_SHARE) * before) {
-        return Ok(None);
+        return None;
     }
     let joints = told.iter().map(|joint| {
         let (ms, std) = (1e3 * joint.seconds, 1e3 * joint.std);
@@ -132,7 +135,7 @@ pub(crate) fn delay(
         told: format!("torque is late against position: {}", joints.join(", ")),
         delay: Some((seconds, std)),
     };
-    Ok(Some((fault, on_time)))
+    Some((fault, on_time))
 }
 
 /// A log whose torques are `seconds` earlier; after the last sample they are held.
@@ -147,6 +150,9 @@ fn earlier(log: &Log, seconds: f64) -> Log {
         .collect();
     for tau in &mut log.tau {
         *tau = robot_model::signal::resample::cubic(&log.time, tau, &at);
+    }
+    for span in log.clipped.iter_mut().flatten() {
+        *span = span.start - seconds..span.end - seconds;
     }
     log
 }

@@ -67,45 +67,7 @@ pub(crate) fn errors_of_all(
     form: &dyn Fit,
     logs: &[Log],
 ) -> Result<Errors, IdentifyError> {
-    let errors = logs
-        .iter()
-        .map(|log| Ok((log.time.len(), form.errors(estimate, log)?)));
-    let errors: Vec<(usize, Errors)> = errors.collect::<Result<_, IdentifyError>>()?;
-    Ok(mean_errors(&errors))
-}
-
-/// Means of errors over so many samples each.
-pub(crate) fn mean_errors(errors: &[(usize, Errors)]) -> Errors {
-    let samples: f64 = errors.iter().map(|(count, _)| *count as f64).sum();
-    let mean = |value: &dyn Fn(&Errors) -> f64| -> f64 {
-        let terms = errors
-            .iter()
-            .map(|(count, errors)| *count as f64 * value(errors));
-        terms.sum::<f64>() / samples
-    };
-    let joints = 0..errors.first().map_or(0, |(_, errors)| errors.rmse.len());
-    Errors {
-        rmse: joints
-            .clone()
-            .map(|j| mean(&|errors| errors.rmse[j].powi(2)).sqrt())
-            .collect(),
-        relative_percent: joints
-            .clone()
-            .map(|j| mean(&|errors| errors.relative_percent[j].powi(2)).sqrt())
-            .collect(),
-        mae: joints
-            .clone()
-            .map(|j| mean(&|errors| errors.mae[j]))
-            .collect(),
-        level: joints
-            .clone()
-            .map(|j| mean(&|errors| errors.level[j]))
-            .collect(),
-        spread: joints
-            .map(|j| {
-                let level = mean(&|errors| errors.level[j]);
-                mean(&|errors| errors.spread[j].powi(2) + (errors.level[j] - level).powi(2)).sqrt()
-            })
-            .collect(),
-    }
+    let errors = logs.iter().map(|log| form.errors(estimate, log));
+    let errors: Vec<Errors> = errors.collect::<Result<_, IdentifyError>>()?;
+    Ok(Errors::of_all(&errors))
 }

@@ -8,7 +8,7 @@ use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::fit::{ByAcceleration, Fit, mean_errors};
+use super::fit::{ByAcceleration, Fit};
 use crate::in_order::in_order;
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
@@ -214,12 +214,12 @@ impl Streams<'_> {
     pub fn errors(&self, estimate: &Estimate, progress: &Progress) -> Result<Errors, Error> {
         let mut all = Vec::new();
         for path in self.logs {
-            let errors = |log: &Log| Ok((log.time.len(), self.form.errors(estimate, log)?));
+            let errors = |log: &Log| Ok(self.form.errors(estimate, log)?);
             self.each(path, &estimate.bands, progress, errors, |errors, _| {
                 all.push(errors);
             })?;
         }
-        Ok(mean_errors(&all))
+        Ok(Errors::of_all(&all))
     }
 }
 

@@ -239,7 +239,9 @@ impl Moved {
         if let Symbol::Dq(joint) = symbol {
             let scale = 0.5 * motion.turn_speed(joint);
             let faster = scale * (self.quantile / (1.0 - self.quantile)).ln();
-            values.iter_mut().for_each(|value| *value += faster);
+            for value in &mut values {
+                *value += faster;
+            }
         }
         values
     }

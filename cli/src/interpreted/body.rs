@@ -32,13 +32,19 @@ impl InterpretedArm {
     pub fn bodies(&self) -> Vec<InterpretedBody> {
         let model = &self.compiled.model;
         let is_fixed = model.chain().is_some() && !self.compiled.base.fixed.is_empty();
-        // Where links stand must not hang on shapes that are looked for.
-        if !is_fixed || (self.compiled.displacements().is_some() && !self.shapes.is_empty()) {
+        // What bodies weigh must not hang on shapes that are looked for.
+        let is_open = model
+            .effects
+            .iter()
+            .any(|effect| !effect.definition.acts.is_empty() && effect.shapes.contains(&None));
+        if !is_fixed || is_open {
             return Vec::new();
         }
         let definitions = model.definitions.iter().filter(|definition| {
             matches!(definition.acts.as_slice(), [Act::Body { .. }])
                 && definition.torques.is_empty()
+                && definition.shapes.is_empty()
+                && definition.joints.len() == 1
         });
         let definitions: Vec<&Arc<EffectDefinition>> = definitions.collect();
         let last = model.joints.len() - 1;
@@ -79,8 +85,11 @@ impl InterpretedBody {
         };
         let (new, old): (Vec<usize>, Vec<usize>) =
             (0..base.kept.len()).partition(|&column| is_new(column));
-        let same = old.iter().map(|&k| &with.unknowns[k].name);
-        let is_apart = same.eq(arm.unknowns.iter().map(|unknown| &unknown.name));
+        // Ten unknowns are many for an effect, but they are those of one body, and all others stay what they were.
+        let is_apart = old
+            .iter()
+            .map(|&k| base.kept[k])
+            .eq(arm.compiled.base.kept.iter().copied());
         if new.is_empty() || !is_apart || !base.rank.is_clear() {
             return None;
         }

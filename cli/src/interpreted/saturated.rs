@@ -1,28 +1,15 @@
 //! Which joints have an effect that says what a drive at its limit does not deliver.
 
 use robot_model_spec::Model;
-use robot_model_spec::model::{EffectDefinition, EffectExpr, EffectLeaf, Expr, Signal};
 
 /// Joints of effects that read the torque as it was logged: what they say of it holds at its limit, too.
 pub(super) fn saturated_joints(model: &Model) -> Vec<usize> {
     let effects = model.effects.iter();
-    let readers = effects.filter(|effect| reads_logged_torque(&effect.definition));
+    let readers = effects.filter(|effect| effect.definition.reads_measured_torque());
     let mut joints: Vec<usize> = readers.flat_map(|effect| effect.joints.clone()).collect();
     joints.sort_unstable();
     joints.dedup();
     joints
-}
-
-fn reads_logged_torque(definition: &EffectDefinition) -> bool {
-    let is_read = |part: &EffectExpr| {
-        matches!(
-            part,
-            Expr::Leaf(EffectLeaf::Signal(Signal::MeasuredTorque, _))
-        )
-    };
-    let bindings = definition.bindings.iter().map(|binding| &binding.value);
-    let mut all = bindings.chain(definition.equations());
-    all.any(|value| value.contains(&is_read))
 }
 
 #[cfg(test)]

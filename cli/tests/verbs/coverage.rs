@@ -129,7 +129,7 @@ fn intervals_of_a_payload_in_space_hold_it() {
         held += errors.iter().filter(|z| z.abs() < 1.96).count();
     }
     let share = held as f64 / (DRAWS * BODY.len()) as f64;
-    assert!((0.8..=1.0).contains(&share), "{share}");
+    assert!((0.8..=0.99).contains(&share), "{share}");
 }
 
 /// Steps of 1.5 mrad, as a small encoder has them.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::common::{CART, Folder, cart_log, json};
 
 /// A log whose torques are so many samples late, or early where that is negative.
-fn late(log: &str, samples: isize) -> String {
+pub(crate) fn late(log: &str, samples: isize) -> String {
     let mut rows = log.lines().map(|row| row.split(',').collect::<Vec<&str>>());
     let header = rows.next().expect("a header");
     let rows: Vec<Vec<&str>> = rows.collect();

@@ -3,12 +3,14 @@
 mod apart;
 mod audit;
 mod audit_seeds;
+mod bodies;
 mod c;
 mod calibrate;
 mod clipped;
 mod columns;
 mod common;
 mod coverage;
+mod data_gate;
 mod delays;
 mod dissect;
 mod drive_gains;

@@ -63,9 +63,37 @@ pub struct Errors {
     pub level: Vec<f64>,
     /// Root mean square of the measured torque about its mean, of the same samples.
     pub spread: Vec<f64>,
+    /// How many samples these are; of none all errors are 0.
+    pub samples: Vec<usize>,
 }
 
 impl Errors {
+    /// Errors over several logs of one arm, or pieces of one: those of all their samples together.
+    #[must_use]
+    pub fn of_all(parts: &[Self]) -> Self {
+        let joints = 0..parts.first().map_or(0, |part| part.samples.len());
+        let samples = |j: usize| parts.iter().map(|part| part.samples[j]).sum::<usize>();
+        let mean = |j: usize, value: &dyn Fn(&Self) -> f64| {
+            let terms = parts
+                .iter()
+                .map(|part| part.samples[j] as f64 * value(part));
+            terms.sum::<f64>() / samples(j).max(1) as f64
+        };
+        let each = |of: &dyn Fn(usize) -> f64| joints.clone().map(of).collect();
+        Self {
+            rmse: each(&|j| mean(j, &|part| part.rmse[j].powi(2)).sqrt()),
+            relative_percent: each(&|j| mean(j, &|part| part.relative_percent[j].powi(2)).sqrt()),
+            mae: each(&|j| mean(j, &|part| part.mae[j])),
+            level: each(&|j| mean(j, &|part| part.level[j])),
+            spread: each(&|j| {
+                let level = mean(j, &|part| part.level[j]);
+                let square = |part: &Self| part.spread[j].powi(2) + (part.level[j] - level).powi(2);
+                mean(j, &square).sqrt()
+            }),
+            samples: joints.clone().map(samples).collect(),
+        }
+    }
+
     /// `100 (1 - || tau - prediction || / || tau - mean(tau) ||)` per joint, the NRMSE fit: 100 where nothing is left, 0 where the
     /// prediction is no better than a constant; none where the torque is constant.
     #[must_use]
@@ -310,6 +338,7 @@ impl Estimate {
             mae: Vec::new(),
             level: Vec::new(),
             spread: Vec::new(),
+            samples: Vec::new(),
         };
         let (mut filtered, mut tau) = (Vec::new(), Vec::new());
         for (joint, values) in torque.iter().enumerate() {
@@ -330,13 +359,14 @@ impl Estimate {
                 .filter(|k| !near[k / stride])
                 .collect();
             let mean = |value: &dyn Fn(usize) -> f64| {
-                inner.iter().copied().map(value).sum::<f64>() / inner.len() as f64
+                inner.iter().copied().map(value).sum::<f64>() / inner.len().max(1) as f64
             };
             let rest = |k: usize| gain * measured[joint][k] - predicted[k];
             let level = mean(&|k| gain * measured[joint][k]);
             errors.rmse.push(mean(&|k| rest(k).powi(2)).sqrt());
             errors.mae.push(mean(&|k| rest(k).abs()));
             errors.level.push(level);
+            errors.samples.push(inner.len());
             let spread = mean(&|k| (gain * measured[joint][k] - level).powi(2));
             errors.spread.push(spread.sqrt());
             let rest: Vec<f64> = prepared.tau[joint]

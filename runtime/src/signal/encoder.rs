@@ -4,27 +4,47 @@
 const MOST_STEPS: f64 = 20.0;
 
 /// Changes are whole numbers of steps if they are this close to them, in steps, in at least this share of the samples.
-const CLOSE: f64 = 0.1;
+const CLOSE: f64 = 0.2;
 const SHARE: f64 = 0.95;
+
+/// Single steps are at least this share of all small changes: a smaller change comes of a straight line through a gap.
+const SINGLE: f64 = 0.01;
 
 /// With fewer changes of so few steps nothing is said.
 const LEAST_CHANGES: usize = 10;
 
-/// The step of an encoder: the smallest change of a position from sample to sample, where all small changes are whole numbers of it.
+/// The step of an encoder: a smallest change of a position from sample to sample of which nearly all small changes are whole numbers.
 /// `None` for positions in between, that were filtered or computed.
 pub(super) fn encoder_step(positions: &[f64]) -> Option<f64> {
     let size = positions.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
     let rounding = 1e-12 * size;
     let changes = positions.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    let changes: Vec<f64> = changes.filter(|change| *change > rounding).collect();
-    let step = changes.iter().copied().reduce(f64::min)?;
-    let counts = changes.iter().map(|change| change / step);
-    let few: Vec<f64> = counts.filter(|count| *count < MOST_STEPS).collect();
-    let whole = few
-        .iter()
-        .filter(|count| (*count - count.round()).abs() < CLOSE);
-    let is_encoder = few.len() >= LEAST_CHANGES && whole.count() as f64 >= SHARE * few.len() as f64;
-    is_encoder.then_some(step)
+    let mut changes: Vec<f64> = changes.filter(|change| *change > rounding).collect();
+    changes.sort_unstable_by(f64::total_cmp);
+    // The next change that is not about the same.
+    let mut from = 0;
+    while let Some(&least) = changes.get(from) {
+        let single = &changes[from..changes.partition_point(|change| *change < 1.5 * least)];
+        let few = &changes[from..changes.partition_point(|change| *change < MOST_STEPS * least)];
+        if from > changes.len() / 20 {
+            return None;
+        }
+        // Digits of a log cut a step now up, now down.
+        let step = single.iter().sum::<f64>() / single.len() as f64;
+        let whole = few.iter().map(|change| change / step);
+        let whole = whole
+            .filter(|count| (count - count.round()).abs() < CLOSE)
+            .count();
+        let of = few.len() as f64;
+        if few.len() >= LEAST_CHANGES
+            && single.len() as f64 >= SINGLE * of
+            && whole as f64 >= SHARE * of
+        {
+            return Some(step);
+        }
+        from += single.len();
+    }
+    None
 }
 
 #[cfg(test)]
@@ -47,6 +67,20 @@ mod tests {
             (found.expect("an encoder") / step - 1.0).abs() < 1e-3,
             "{found:?}"
         );
+    }
+
+    #[test]
+    fn a_bridge_and_few_digits_hide_no_step() {
+        let mut bridged = turning(|q| (q / 2e-5).round() * 2e-5);
+        bridged[2000] = 0.5 * (bridged[1999] + bridged[2001]) + 7e-6;
+        let coarse = turning(|q| ((q / 95.87e-6).round() * 95.87).round() * 1e-6);
+        for (positions, step) in [(bridged, 2e-5), (coarse, 95.87e-6)] {
+            let found = encoder_step(&positions);
+            assert!(
+                (found.expect("an encoder") / step - 1.0).abs() < 5e-3,
+                "{found:?}"
+            );
+        }
     }
 
     #[test]

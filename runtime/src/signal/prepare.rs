@@ -13,6 +13,9 @@ pub(crate) const MOTION_ORDER: usize = 4;
 /// that is this much wider than the one that counts.
 const DISPLACEMENT_BAND: f64 = 1.5;
 
+/// Largest speed without direction, as a share of a joint's root-mean-square speed.
+const MOST_TURN_SHARE: f64 = 0.01;
+
 /// Logs come down to about this rate: the widest default band fits five times into it.
 const RATE_HZ: f64 = 500.0;
 
@@ -205,15 +208,18 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     let beyond = |channel: &Vec<f64>| mean_square(channel, &limit(channel));
     let step = 1.0 / logged_hz;
     let rates = |filter: &LowPass| kinematics(&q, filter, step, stride, accelerations);
+    let wide = rates(&wide);
+    let turns = log.q.iter().zip(&wide.dq);
+    let turn_speeds = turns.map(|(q, dq)| turn_speed(q, dq, wide_hz)).collect();
     Ok(Prepared {
         motion: Motion {
             time: resample::grid(0.0, 1.0 / rate_hz, samples),
             smooth: rates(&smooth),
-            wide: rates(&wide),
+            wide,
             rigid_torque: Vec::new(),
             transmitted_torque: Vec::new(),
             displacement_hz: (DISPLACEMENT_BAND * shared_hz).min(smooth_hz),
-            turn_speeds: log.q.iter().map(|q| turn_speed(q, wide_hz)).collect(),
+            turn_speeds,
             tau: tau.clone(),
             extra: log
                 .extra
@@ -239,9 +245,15 @@ fn mean_square(left: &[f64], right: &[f64]) -> f64 {
     squares.sum::<f64>() / left.len().max(1) as f64
 }
 
-/// One encoder step in half a period of the wide band: slower motion has no direction that the log could tell.
-fn turn_speed(positions: &[f64], wide_hz: f64) -> f64 {
-    encoder_step(positions).map_or(0.0, |step| 2.0 * wide_hz * step)
+/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not more
+/// than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from slow motion.
+fn turn_speed(positions: &[f64], velocity: &[f64], wide_hz: f64) -> f64 {
+    let Some(step) = encoder_step(positions) else {
+        return 0.0;
+    };
+    let squares = velocity.iter().map(|dq| dq * dq).sum::<f64>();
+    let speed = (squares / velocity.len().max(1) as f64).sqrt();
+    (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed)
 }
 
 /// Filtered positions and their derivatives at the full rate, of which every `stride`-th sample is kept.

@@ -69,10 +69,6 @@ impl<'a> Trace<'a> {
             ..Identify::default()
         };
         let mut prepared = prepare_all(logs, &bands)?;
-        for log in &mut prepared {
-            // Saturation is what a candidate says of them.
-            log.clipped.clear();
-        }
         progress("fitting the declared model");
         let (solution, shapes, mut stack) = identify.solve(arm, &mut prepared, None)?;
         stack.silence(&solution.unexcited);

@@ -1,0 +1,100 @@
+//! `trace`: faults of the logs come before effects of the arm.
+
+use serde_json::Value;
+
+use crate::common::{CART, Folder, cart_log, json};
+use crate::delays::late;
+
+const TRACE: [&str; 9] = [
+    "trace",
+    "cart.robot",
+    "log.csv",
+    "--validate",
+    "other.csv",
+    "--json",
+    "out.json",
+    "--amend",
+    "found.robot",
+];
+
+#[test]
+fn torque_that_is_late_is_a_delay_and_no_effect_of_the_arm() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &late(&cart_log(20, 0.0, 0.0), 4));
+    folder.write("other.csv", &late(&cart_log(20, 0.0, 0.7), 4));
+    let told = folder.succeed(&TRACE);
+    assert!(
+        told.starts_with("explained:\n  time-delay: torque is late"),
+        "{told}"
+    );
+    let out = json(&folder.read("out.json"));
+    let [effect] = &out["effects"].as_array().expect("a list")[..] else {
+        panic!("{out}");
+    };
+    assert_eq!(
+        (
+            &out["outcome"],
+            &effect["kind"],
+            &effect["joint"],
+            &effect["evidence"]
+        ),
+        (
+            &"explained".into(),
+            &"time-delay".into(),
+            &Value::Null,
+            &Value::Null
+        )
+    );
+    let delay = effect["parameters"][0]["value"].as_f64().expect("a value");
+    assert!((delay - 0.02).abs() < 1e-4, "{delay}");
+    let error = |key: &str| out[key][0].as_f64().expect("a number");
+    assert!(error("rmse_after") < 0.3 * error("rmse_before"), "{out}");
+    // The amended spec has the delay and is done with it.
+    assert!(
+        folder
+            .read("found.robot")
+            .contains("time_delay(delay = 0.02"),
+        "{told}"
+    );
+    let again = folder.succeed(&["trace", "found.robot", "log.csv"]);
+    assert!(again.starts_with("nothing missing"), "{again}");
+}
+
+#[test]
+fn dry_friction_is_found_behind_a_delay() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &late(&cart_log(40, 2.0, 0.0), 4));
+    folder.write("other.csv", &late(&cart_log(20, 2.0, 0.7), 4));
+    folder.succeed(&TRACE);
+    let out = json(&folder.read("out.json"));
+    let kinds: Vec<&Value> = (0..2).map(|k| &out["effects"][k]["kind"]).collect();
+    assert_eq!(kinds, ["time-delay", "coulomb-friction"], "{out}");
+}
+
+#[test]
+fn spikes_that_matter_are_corrupt_samples() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("other.csv", &cart_log(20, 0.0, 0.7));
+    let log = cart_log(20, 0.0, 0.0);
+    let rows = log.lines().enumerate().map(|(k, row)| {
+        let (rest, _) = row.rsplit_once(',').expect("columns");
+        let is_bad = k > 0 && k % 397 == 0;
+        if is_bad {
+            format!("{rest},400\n")
+        } else {
+            format!("{row}\n")
+        }
+    });
+    folder.write("log.csv", &rows.collect::<String>());
+    let told = folder.succeed(&TRACE);
+    assert!(
+        told.starts_with("explained:\n  corrupt-samples: log.csv: tau1"),
+        "{told}"
+    );
+    assert_eq!(folder.read("found.robot"), CART);
+    folder.write("log.csv", &log);
+    assert!(folder.succeed(&TRACE).starts_with("nothing missing"));
+}
