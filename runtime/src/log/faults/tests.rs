@@ -38,7 +38,12 @@ fn a_clean_log_has_no_faults_and_stays_as_it_is() {
         let log = clean(seed);
         let mended = log.clone().mended();
         assert_eq!(mended.faults, []);
-        assert_eq!(mended.log, log);
+        // Limits were looked for, and there are none.
+        let looked_at = Log {
+            clipped: vec![Vec::new(); log.dof()],
+            ..log
+        };
+        assert!(mended.log == looked_at, "seed {seed}");
     }
 }
 
