@@ -59,8 +59,11 @@ fn parameters_are_right_where_a_torque_was_clipped() {
         (json(&folder.read("fit.json")), said)
     };
     let (as_logged, said) = fit(&["--as-logged"]);
-    let bias = errors(&as_logged);
-    assert!(largest(&bias) > 4.0, "{bias:?}\n{said}");
+    let bias = |fit: &Value| {
+        let value = parameter(fit, "up.mxr")["value"].as_f64();
+        (value.expect("a number") - 1.0).abs()
+    };
+    assert!(bias(&as_logged) > 0.03, "{said}");
     assert!(!said.contains("at its limit"), "{said}");
     let factor = ["--factor", "factor.json", "--bands", "10,30,90"];
     for more in [
@@ -70,17 +73,19 @@ fn parameters_are_right_where_a_torque_was_clipped() {
         &factor,
     ] {
         let (fit, said) = fit(more);
-        let errors = errors(&fit);
-        assert!(largest(&errors) < 3.0, "{more:?}: {errors:?}\n{said}");
+        assert!(bias(&fit) < 0.005, "{more:?}: {said}");
         // Errors are of samples that are left.
         let rmse = numbers(&fit["rmse"])[0];
         assert!(
-            rmse < 0.5 * numbers(&as_logged["rmse"])[0],
+            rmse < 0.8 * numbers(&as_logged["rmse"])[0],
             "{more:?}: {said}"
         );
         if more == factor {
+            // Its deviations know nothing of turns.
             continue;
         }
+        let errors = errors(&fit);
+        assert!(largest(&errors) < 3.0, "{more:?}: {errors:?}\n{said}");
         let counts = fit["samples_clipped"].as_array().expect("a list");
         let count = counts[0].as_u64().expect("a count");
         assert!(count > 50 && counts[1] == 0, "{counts:?}");

@@ -73,7 +73,7 @@ fn torque_that_is_late_is_told_beside_a_payload() {
         "--payload-center",
         "0.15,-0.0625,0",
     ];
-    for samples in [0, 5] {
+    for samples in [0, 20] {
         folder.write("late.csv", &late(&folder.read("empty.csv"), samples));
         for more in [&[][..], &gains] {
             let identify = ["identify", "arm.robot", "late.csv", "--json", "out.json"];

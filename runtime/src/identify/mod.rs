@@ -306,6 +306,10 @@ impl Identify {
         if rows > unknowns {
             return Ok(());
         }
+        if rows == 0 {
+            // The logs are long enough, and no joint says anything in them.
+            return Err(IdentifyError::NothingExcited { unknowns });
+        }
         Err(IdentifyError::TooFewSamples {
             rows,
             dof: counts.len(),
