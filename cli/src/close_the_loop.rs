@@ -3,7 +3,8 @@
 use robot_model::columns::{Arm, Candidate};
 use robot_model::identify::{Errors, Estimate, Identify};
 use robot_model::log::Log;
-use robot_model::trace::{Finding, Outcome, Trace, Verdict};
+use robot_model::signal::Bands;
+use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
 use robot_model_codegen::compile_model;
 use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::load;
@@ -64,7 +65,8 @@ pub(crate) fn close(
     let mended = data_gate::mend(logs, progress);
     let mut on_time: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let sound = on_time.clone();
-    let before = Stage::identify(source_name, text, &sound, validate, &Identify::default())?;
+    let declared = compiled(source_name, text)?;
+    let before = Stage::identify(declared, &sound, validate, &Identify::default())?;
     let (arm, estimate) = (&before.arm, &before.estimate);
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
@@ -72,16 +74,11 @@ pub(crate) fn close(
         faults.push(late);
         on_time = logs;
     }
-    let (torques, bodies) = (arm.candidates(), arm.bodies());
-    let torques = torques.iter().map(|torque| torque as &dyn Candidate);
-    let bodies = bodies.iter().map(|body| body as &dyn Candidate);
-    let verdict = Trace::new(torques.chain(bodies).collect())
-        .run(arm, &on_time, &mut |stage| progress.step(stage))?;
-
+    let declared: Vec<Amendment> = faults.iter().filter_map(DataFault::amendment).collect();
+    let verdict = trace(source_name, text, &on_time, progress)?;
     let found = verdict.findings.iter();
-    let amendments: Vec<Amendment> = faults
-        .iter()
-        .filter_map(DataFault::amendment)
+    let amendments: Vec<Amendment> = declared
+        .into_iter()
         .chain(found.map(|finding| amendment(finding, arm)))
         .collect();
     let amended = amend(source_name, text, &amendments)?;
@@ -89,18 +86,20 @@ pub(crate) fn close(
         None
     } else {
         progress.step("identifying the amended model");
-        // The same band as before, so that the errors are those of the same samples.
-        let same_band = Identify {
-            bands: Some(estimate.bands),
+        let arm = compiled(source_name, &amended)?;
+        // The same band as before, so that the errors are those of the same samples. Where links follow logged torques, whose noise
+        // is differentiated twice, the band in which that was traced.
+        let rates = sound.iter().map(Log::rate_hz);
+        let bands = if arm.follows_load() {
+            Bands::for_rate(rates.fold(f64::INFINITY, f64::min))
+        } else {
+            estimate.bands
+        };
+        let identify = Identify {
+            bands: Some(bands),
             ..Identify::default()
         };
-        Some(Stage::identify(
-            source_name,
-            &amended,
-            &sound,
-            validate,
-            &same_band,
-        )?)
+        Some(Stage::identify(arm, &sound, validate, &identify)?)
     };
     Ok(Loop {
         before,
@@ -111,15 +110,53 @@ pub(crate) fn close(
     })
 }
 
+/// Traces until nothing changes the arm any more: what changes it is declared, and what else is missing is asked of the arm with it.
+fn trace(
+    source_name: &str,
+    text: &str,
+    logs: &[Log],
+    progress: &Progress,
+) -> Result<Verdict, Error> {
+    let mut text = text.to_owned();
+    let mut found: Option<Verdict> = None;
+    loop {
+        let arm = compiled(source_name, &text)?;
+        let (torques, bodies, changes) = (arm.candidates(), arm.bodies(), arm.changes());
+        let torques = torques.iter().map(|torque| torque as &dyn Candidate);
+        let bodies = bodies.iter().map(|body| body as &dyn Candidate);
+        let changes = changes.iter().map(|change| change as &dyn Candidate);
+        let mut trace = Trace::new(torques.chain(bodies).chain(changes).collect());
+        if let Some(found) = &found {
+            trace = trace.since(found.before.clone());
+        }
+        let verdict = trace.run(&arm, logs, &mut |stage| progress.step(stage))?;
+        let (goes_on, fresh) = (verdict.goes_on, verdict.findings.len());
+        let verdict = match found {
+            Some(before) => before.followed_by(verdict),
+            None => verdict,
+        };
+        if !goes_on || verdict.findings.len() >= MOST_EFFECTS {
+            return Ok(verdict);
+        }
+        let fresh = &verdict.findings[verdict.findings.len() - fresh..];
+        let fresh: Vec<Amendment> = fresh.iter().map(|one| amendment(one, &arm)).collect();
+        text = amend(source_name, &text, &fresh)?;
+        found = Some(verdict);
+    }
+}
+
+fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, Error> {
+    let model = load(source_name, text)?;
+    Ok(InterpretedArm::new(clear(compile_model(&model))?))
+}
+
 impl Stage {
     fn identify(
-        source_name: &str,
-        text: &str,
+        arm: InterpretedArm,
         logs: &[Log],
         validate: Option<&Log>,
         identify: &Identify,
     ) -> Result<Self, Error> {
-        let arm = InterpretedArm::new(clear(compile_model(&load(source_name, text)?))?);
         let estimate = identify.fit(&arm, logs)?;
         let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {

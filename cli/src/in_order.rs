@@ -1,6 +1,7 @@
 //! Work on pieces in threads, its results in the order of the pieces.
 
 use std::collections::VecDeque;
+use std::convert::Infallible;
 use std::panic::resume_unwind;
 use std::thread::{self, ScopedJoinHandle};
 
@@ -41,6 +42,20 @@ pub(crate) fn in_order<P: Send, R: Send, E: Send>(
         }
         Ok(())
     })
+}
+
+/// What `work` makes of each piece, in their order, on all cores.
+pub(crate) fn each<P: Send, R: Send>(
+    pieces: impl Iterator<Item = P>,
+    work: impl Fn(P) -> R + Sync,
+) -> Vec<R> {
+    let mut found = Vec::new();
+    let work = |piece| Ok::<R, Infallible>(work(piece));
+    let Ok(()) = in_order(workers(), pieces.map(Ok), work, |one| {
+        found.push(one);
+        Ok(())
+    });
+    found
 }
 
 #[cfg(test)]

@@ -172,6 +172,24 @@ pub trait Candidate: Columns {
     /// Kebab-case name of the effect.
     fn kind(&self) -> &str;
 
-    /// The joints it is tried on, from 0.
+    /// The joints it is tried on, from 0; none where it is of the arm as a whole.
     fn joints(&self) -> &[usize];
+
+    /// What it is where it is no torque that is added; its [`Columns::unknowns`] are then its shapes, one a [`Change::probe`], and it
+    /// has no [`Columns::entries`].
+    fn change(&self) -> Option<&dyn Change> {
+        None
+    }
+}
+
+/// An effect that changes the arm: where links stand against their joints, where gravity comes from.
+pub trait Change: Sync {
+    /// The arm with it, whose last shapes are its own.
+    fn arm(&self) -> &dyn Arm;
+
+    /// Own shapes at which nothing is changed, or next to nothing.
+    fn neutral(&self) -> &[f64];
+
+    /// Own shapes each of which, the others neutral, changes a little.
+    fn probe(&self) -> &[f64];
 }

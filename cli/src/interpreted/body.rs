@@ -11,6 +11,7 @@ use robot_model_spec::parameter::Owner;
 use super::InterpretedArm;
 use super::program::run_block;
 use super::signals::{Own, Signals};
+use crate::in_order::each;
 
 /// A body more on a link whose own inertial is known.
 #[derive(Debug, Clone)]
@@ -67,7 +68,7 @@ impl InterpretedArm {
             let definition = wanted.find(|definition| !declared(definition))?;
             InterpretedBody::new(self, definition, joint)
         };
-        (0..=last).filter_map(of_link).collect()
+        each(0..=last, of_link).into_iter().flatten().collect()
     }
 }
 

@@ -7,6 +7,7 @@
 mod band;
 mod body;
 mod candidate;
+mod change;
 mod function;
 mod links;
 mod measured;
@@ -26,6 +27,7 @@ mod states;
 
 pub use body::InterpretedBody;
 pub use candidate::InterpretedCandidate;
+pub use change::InterpretedChange;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
@@ -122,6 +124,11 @@ impl InterpretedArm {
     #[must_use]
     pub fn compiled(&self) -> &Compiled {
         &self.compiled
+    }
+
+    /// Whether links stand elsewhere by what their transmissions carry, which is known by torques as noisy as they are logged.
+    pub(crate) fn follows_load(&self) -> bool {
+        self.measured.uses_rigid_torque()
     }
 
     /// Values of all shape parameters: the spec's, and those given for the free ones.

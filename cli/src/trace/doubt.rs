@@ -19,9 +19,8 @@ pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
     for alternative in alternatives {
         writeln!(
             out,
-            "  or {} on {} in place of {}: {:+.1} % error where it was not fitted",
-            alternative.kind,
-            joints(closed, &alternative.joints),
+            "  or {} in place of {}: {:+.1} % error where it was not fitted",
+            on_joints(closed, &alternative.kind, &alternative.joints),
             closed.verdict.findings[alternative.instead_of].kind,
             alternative.worse_percent,
         )
@@ -108,6 +107,16 @@ fn name(kind: &str) -> Option<OfMotion> {
         linear: effect.linear.iter().map(|p| p.name.clone()).collect(),
         shapes: effect.shapes.iter().map(|p| p.name.clone()).collect(),
     })
+}
+
+/// An effect and its joints, where it has some.
+pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
+    if on.is_empty() {
+        return kind.to_owned();
+    }
+    let names = closed.before.arm.joints();
+    let names: Vec<&str> = on.iter().map(|&joint| names[joint].as_str()).collect();
+    format!("{kind} on {}", names.join(", "))
 }
 
 fn joints(closed: &Loop, joints: &[usize]) -> String {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome};
 
-use super::doubt::doubt;
+use super::doubt::{doubt, on_joints};
 use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
@@ -39,16 +39,10 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             .iter()
             .map(|parameter| format!("{} = {:.4}", parameter.name, parameter.value))
             .collect();
-        let joints: Vec<&str> = finding
-            .joints
-            .iter()
-            .map(|&joint| closed.before.arm.joints()[joint].as_str())
-            .collect();
         writeln!(
             out,
-            "  {} on {}: {} (score {:.0}, better in {} of {} folds)",
-            finding.kind,
-            joints.join(", "),
+            "  {}: {} (score {:.0}, better in {} of {} folds)",
+            on_joints(closed, &finding.kind, &finding.joints),
             parameters.join(", "),
             finding.evidence.score,
             finding.evidence.folds.0,

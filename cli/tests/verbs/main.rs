@@ -6,6 +6,7 @@ mod audit_seeds;
 mod bodies;
 mod c;
 mod calibrate;
+mod changes;
 mod clipped;
 mod columns;
 mod common;

@@ -36,6 +36,7 @@ impl Identify {
             arm,
             &|shapes| self.rows(arm, logs, shapes),
             &shapes,
+            0..shapes.len(),
             stack,
             &solution.estimate,
         );

@@ -77,6 +77,7 @@ impl Identify {
                 arm,
                 &|shapes| self.rows(arm, logs, shapes),
                 shapes,
+                0..shapes.len(),
                 stack,
                 estimate,
             ),

@@ -60,7 +60,7 @@ pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowe
 pub use method::{Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
-pub(crate) use shapes::{golden, neighbors};
+pub(crate) use shapes::{golden, neighbors, with_slopes};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 
 use crate::columns::{Arm, Nominal};

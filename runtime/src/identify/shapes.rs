@@ -70,16 +70,17 @@ pub(super) fn search(
     Ok(shapes)
 }
 
-/// A stack with a column for each free shape parameter, by which the torque of an estimate changes with it: how far it is known beside
-/// the linear unknowns. `rows` are those for given shapes.
-pub(super) fn with_slopes(
+/// A stack with a column for each of some free shape parameters, by which the torque of an estimate changes with it: how far it is known
+/// beside the linear unknowns. `rows` are those for given shapes.
+pub(crate) fn with_slopes(
     arm: &dyn Arm,
     rows: &dyn Fn(&[f64]) -> Stack,
     shapes: &[f64],
+    numbers: Range<usize>,
     mut stack: Stack,
     estimate: &[f64],
 ) -> Stack {
-    let free = arm.shapes().iter().enumerate();
+    let free = numbers.clone().zip(&arm.shapes()[numbers.clone()]);
     let slopes = free.flat_map(|(number, shape)| {
         let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
         let step = 1e-4 * shapes[number].abs().max(1e-3 * (high - low));
@@ -90,9 +91,10 @@ pub(super) fn with_slopes(
             rows(&near).residuals(estimate)
         });
         let joints = below.into_iter().zip(above).enumerate();
+        let column = number - numbers.start;
         let entries = joints.map(move |(joint, (below, above))| Entry {
             joint,
-            column: number,
+            column,
             values: below
                 .iter()
                 .zip(&above)
@@ -101,7 +103,7 @@ pub(super) fn with_slopes(
         });
         entries.collect::<Vec<_>>()
     });
-    let unknowns = arm.shapes().iter().map(|shape| Unknown {
+    let unknowns = arm.shapes()[numbers.clone()].iter().map(|shape| Unknown {
         name: shape.name.clone(),
         nonnegative: false,
     });

@@ -14,43 +14,7 @@ pub(super) fn verdict(
     after: Vec<Structure>,
     noise_power: &[f64],
 ) -> Verdict {
-    let mut first = state.stack.unknowns.len()
-        - state
-            .accepted
-            .iter()
-            .map(|effect| effect.trial.count())
-            .sum::<usize>();
-    let mut found = Vec::new();
-    for effect in &state.accepted {
-        let candidate = effect.trial.candidate;
-        let values = &state.solution.estimate[first..first + effect.trial.count()];
-        first += effect.trial.count();
-        let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
-        let linear = candidate
-            .unknowns()
-            .iter()
-            .zip(values)
-            .map(|(unknown, value)| FoundParameter {
-                name: last_part(&unknown.name),
-                value: *value,
-                shape: false,
-            });
-        let shapes = candidate
-            .shapes()
-            .iter()
-            .zip(&effect.trial.shapes)
-            .map(|(shape, value)| FoundParameter {
-                name: last_part(&shape.name),
-                value: *value,
-                shape: true,
-            });
-        found.push(Finding {
-            kind: candidate.kind().to_owned(),
-            joints: candidate.joints().to_vec(),
-            parameters: linear.chain(shapes).collect(),
-            evidence: effect.evidence.clone(),
-        });
-    }
+    let found = findings(state);
     let left = unsettled(&before, &after, state);
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
@@ -70,7 +34,74 @@ pub(super) fn verdict(
         before,
         after,
         noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
+        goes_on: false,
     }
+}
+
+/// The verdict on a search that found a change of the arm, which is its last effect: what it leaves is not known yet.
+pub(super) fn changed(state: &State, before: Vec<Structure>) -> Verdict {
+    Verdict {
+        outcome: Outcome::Explained,
+        findings: findings(state),
+        leads: Vec::new(),
+        alternatives: alternatives(state),
+        after: before.clone(),
+        before,
+        noise_floor: state.solution.sigma.clone(),
+        goes_on: true,
+    }
+}
+
+/// Accepted effects with their values.
+fn findings(state: &State) -> Vec<Finding> {
+    let torques = state
+        .accepted
+        .iter()
+        .filter(|effect| effect.changed.is_none());
+    let mut first =
+        state.stack.unknowns.len() - torques.map(|effect| effect.trial.count()).sum::<usize>();
+    let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
+    let found = state.accepted.iter().map(|effect| {
+        let candidate = effect.trial.candidate;
+        let mut parameters = Vec::new();
+        if effect.changed.is_none() {
+            let values = &state.solution.estimate[first..first + effect.trial.count()];
+            first += effect.trial.count();
+            let linear = candidate.unknowns().iter().zip(values);
+            parameters.extend(linear.map(|(unknown, value)| FoundParameter {
+                name: last_part(&unknown.name),
+                value: *value,
+                shape: false,
+            }));
+        }
+        // The unknowns of a change are its shapes.
+        let names: Vec<&str> = match &effect.changed {
+            Some(_) => candidate
+                .unknowns()
+                .iter()
+                .map(|u| u.name.as_str())
+                .collect(),
+            None => candidate.shapes().iter().map(|s| s.name.as_str()).collect(),
+        };
+        let shapes = effect.changed.as_ref().unwrap_or(&effect.trial.shapes);
+        parameters.extend(
+            names
+                .iter()
+                .zip(shapes)
+                .map(|(name, value)| FoundParameter {
+                    name: last_part(name),
+                    value: *value,
+                    shape: true,
+                }),
+        );
+        Finding {
+            kind: candidate.kind().to_owned(),
+            joints: candidate.joints().to_vec(),
+            parameters,
+            evidence: effect.evidence.clone(),
+        }
+    });
+    found.collect()
 }
 
 /// The rivals of every accepted effect, with its place after pruning.

@@ -1,7 +1,10 @@
 //! Does a candidate hold on data that it was not fitted on?
 
+use crate::columns::{Candidate, Change};
 use crate::identify::Stack;
 
+use super::change::Changed;
+use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
 use super::score::{Present, Projected};
 use super::trial::Trial;
@@ -40,6 +43,8 @@ pub(super) struct Judged<'a> {
     pub(super) raw_power: Vec<f64>,
     /// Whether it may be named.
     pub(super) passes: bool,
+    /// Of an effect that changes the arm: whether it was tried as what it is, and with which rows.
+    pub(super) changed: Option<Changed>,
 }
 
 impl<'a> Baseline<'a> {
@@ -65,47 +70,16 @@ impl<'a> Baseline<'a> {
         let count = trial.count();
         let gram = self.gram.extended(stack, &trial.entries, count);
         let held_out = gram.held_out(self.present.sigma);
-        let dof = stack.dof();
-
-        let raw = |held_out: &HeldOut| -> Vec<f64> {
-            (0..dof)
-                .map(|j| self.noise_power[j] + held_out.mean(j).max(f64::MIN_POSITIVE))
-                .collect()
-        };
-        let (raw_before, raw_power) = (raw(&self.held_out), raw(&held_out));
-        let percent = |after: f64, before: f64| {
-            100.0 * (1.0 - (after / before.max(f64::MIN_POSITIVE)).sqrt())
-        };
-        let touched = trial.candidate.joints().to_vec();
-        let folds = held_out.errors.len();
-        let better = |fold: usize| {
-            let weighted = |errors: &[f64]| {
-                touched
-                    .iter()
-                    .map(|j| errors[*j] / self.held_out.mean(*j))
-                    .sum::<f64>()
-            };
-            weighted(&held_out.errors[fold]) < weighted(&self.held_out.errors[fold])
-        };
-        let improved = (0..folds).filter(|fold| better(*fold)).count();
-
+        let touched = self.touched(trial.candidate);
+        let compared = self.compared(&held_out, &touched);
         let gain = gram.normal(self.present.sigma).solve()[self.gram.unknowns()..].to_vec();
         let score = self.present.score(&trial.entries, projected);
         let p_value = (self.tried as f64 * score.p_value).min(1.0);
         let evidence = Evidence {
             score: score.f,
             p_value,
-            held_out_percent: (0..dof)
-                .map(|j| percent(held_out.mean(j), self.held_out.mean(j)))
-                .collect(),
-            raw_percent: (0..dof)
-                .map(|j| percent(raw_power[j], raw_before[j]))
-                .collect(),
-            folds: (improved, folds),
+            ..compared.evidence
         };
-        let merit = (0..dof)
-            .map(|j| 0.5 * (self.held_out.mean(j) / held_out.mean(j).max(f64::MIN_POSITIVE)).ln())
-            .sum::<f64>();
         let steady = held_out
             .estimates
             .iter()
@@ -120,23 +94,131 @@ impl<'a> Baseline<'a> {
                     || gain[c] >= 0.0
                     || projected.power_share(&gain, c) < NEGATIVE_SHARE
             });
-        let passes = trial.is_inside()
-            && merit > 0.0
-            && p_value < SIGNIFICANCE
-            && improved + 1 >= folds
-            && steady
-            && physical
-            && touched
-                .iter()
-                .any(|j| evidence.raw_percent[*j] >= MATERIAL_PERCENT);
+        let passes =
+            trial.is_inside() && steady && physical && p_value < SIGNIFICANCE && compared.is_better;
         Judged {
             trial,
             evidence,
-            merit,
-            raw_power,
+            merit: compared.merit,
+            raw_power: compared.raw_power,
             passes,
+            changed: None,
         }
     }
+
+    /// A change as what it is; `first` is what was judged of its first order.
+    pub(super) fn judge_changed<'t>(
+        &self,
+        first: Judged<'t>,
+        changed: Changed,
+        folds: &[Fold],
+    ) -> Judged<'t> {
+        let held_out = Gram::new(&changed.stack, folds).held_out(self.present.sigma);
+        let joints: Vec<usize> = (0..self.present.stack.dof()).collect();
+        let compared = self.compared(&held_out, &joints);
+        let neutral = first
+            .trial
+            .candidate
+            .change()
+            .map_or(&[][..], Change::neutral);
+        let steady = held_out.estimates.iter().all(|fold| {
+            // A shape that may be zero is as large as it is away from that; of others the value itself counts.
+            let sizes = changed.shapes.iter().zip(neutral);
+            let sizes = sizes.map(|(value, neutral)| {
+                if *neutral == 0.0 {
+                    value - neutral
+                } else {
+                    *value
+                }
+            });
+            norm(&fold[fold.len() - changed.shapes.len()..])
+                < STEADINESS * norm(&sizes.collect::<Vec<_>>())
+        });
+        Judged {
+            evidence: Evidence {
+                score: first.evidence.score,
+                p_value: first.evidence.p_value,
+                ..compared.evidence
+            },
+            merit: compared.merit,
+            raw_power: compared.raw_power,
+            passes: steady && first.evidence.p_value < SIGNIFICANCE && compared.is_better,
+            changed: Some(changed),
+            trial: first.trial,
+        }
+    }
+
+    /// Joints on which an effect has to hold: all where it changes the arm, as that of one link is felt by others.
+    fn touched(&self, candidate: &dyn Candidate) -> Vec<usize> {
+        if candidate.change().is_some() {
+            return (0..self.present.stack.dof()).collect();
+        }
+        candidate.joints().to_vec()
+    }
+
+    /// Errors that were not fitted against those of the model without the candidate; score and its chance are left open.
+    fn compared(&self, held_out: &HeldOut, touched: &[usize]) -> Compared {
+        let dof = self.present.stack.dof();
+        let raw = |held_out: &HeldOut| -> Vec<f64> {
+            (0..dof)
+                .map(|j| self.noise_power[j] + held_out.mean(j).max(f64::MIN_POSITIVE))
+                .collect()
+        };
+        let (raw_before, raw_power) = (raw(&self.held_out), raw(held_out));
+        let percent = |after: f64, before: f64| {
+            100.0 * (1.0 - (after / before.max(f64::MIN_POSITIVE)).sqrt())
+        };
+        let folds = held_out.errors.len();
+        let better = |fold: usize| {
+            let weighted = |errors: &[f64]| {
+                touched
+                    .iter()
+                    .map(|j| errors[*j] / self.held_out.mean(*j))
+                    .sum::<f64>()
+            };
+            weighted(&held_out.errors[fold]) < weighted(&self.held_out.errors[fold])
+        };
+        let improved = (0..folds).filter(|fold| better(*fold)).count();
+        let raw_percent: Vec<f64> = (0..dof)
+            .map(|j| percent(raw_power[j], raw_before[j]))
+            .collect();
+        let merit = (0..dof)
+            .map(|j| 0.5 * (self.held_out.mean(j) / held_out.mean(j).max(f64::MIN_POSITIVE)).ln())
+            .sum::<f64>();
+        let is_material = touched.iter().any(|j| raw_percent[*j] >= MATERIAL_PERCENT);
+        Compared {
+            is_better: merit > 0.0 && improved + 1 >= folds && is_material,
+            evidence: Evidence {
+                score: 0.0,
+                p_value: 1.0,
+                held_out_percent: (0..dof)
+                    .map(|j| percent(held_out.mean(j), self.held_out.mean(j)))
+                    .collect(),
+                raw_percent,
+                folds: (improved, folds),
+            },
+            merit,
+            raw_power,
+        }
+    }
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+/// What cross-validation says of a candidate.
+struct Compared {
+    evidence: Evidence,
+    merit: f64,
+    raw_power: Vec<f64>,
+    /// Better in nearly all folds, by an amount that matters.
+    is_better: bool,
+}
+
+/// Whether the first order of a change says that it may be worth a trial as what it is.
+pub(super) fn is_promising(judged: &Judged) -> bool {
+    judged.evidence.p_value < SIGNIFICANCE
 }
 
 /// Held-out raw error of `one` relative to `other` on the joint where it is worst, percent.

@@ -27,6 +27,7 @@
 //! # Ok::<(), robot_model::identify::IdentifyError>(())
 //! ```
 
+mod change;
 mod conclude;
 mod folds;
 mod gate;

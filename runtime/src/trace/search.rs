@@ -10,10 +10,11 @@ use crate::identify::{
 use crate::log::Log;
 use crate::signal::Prepared;
 
-use super::conclude::verdict;
+use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::gram::Gram;
+use super::structure::Structure;
 use super::trial::Trial;
 use super::verdict::{Alternative, Evidence, Verdict};
 
@@ -23,9 +24,13 @@ pub const MOST_EFFECTS: usize = 6;
 /// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
 const FINALISTS: usize = 16;
 
+/// Changes of the arm that are tried as what they are in a round.
+const CHANGES: usize = 3;
+
 /// A trace: candidates against the residual of an arm's declared model.
 pub struct Trace<'a> {
     candidates: Vec<&'a dyn Candidate>,
+    since: Option<Vec<Structure>>,
 }
 
 /// An effect that was accepted.
@@ -33,6 +38,8 @@ pub(super) struct Accepted<'a> {
     pub(super) trial: Trial<'a>,
     pub(super) evidence: Evidence,
     pub(super) rivals: Vec<Alternative>,
+    /// Own shapes of an effect that changes the arm; it ends the trace.
+    pub(super) changed: Option<Vec<f64>>,
 }
 
 /// Everything that changes when an effect is accepted.
@@ -48,7 +55,17 @@ impl<'a> Trace<'a> {
     /// that some log does not have by [`Self::run`].
     #[must_use]
     pub fn new(candidates: Vec<&'a dyn Candidate>) -> Self {
-        Self { candidates }
+        Self {
+            candidates,
+            since: None,
+        }
+    }
+
+    /// Goes on from a trace of the same logs that ended with a change of the arm: that had this structure before its first effect.
+    #[must_use]
+    pub fn since(mut self, before: Vec<Structure>) -> Self {
+        self.since = Some(before);
+        self
     }
 
     /// Runs the trace on the identification logs. `progress` gets a line whenever a stage begins.
@@ -109,7 +126,7 @@ impl<'a> Trace<'a> {
                     .all(|log| missing_input(candidate.inputs(), log).is_none())
             })
             .collect();
-        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&candidates, |_| true);
+        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&state, &candidates, |_| true);
         while state.accepted.len() < MOST_EFFECTS {
             progress(&format!(
                 "round {}: {} candidates",
@@ -124,9 +141,16 @@ impl<'a> Trace<'a> {
                 state.accepted.len() + 1,
                 found.trial.candidate.kind()
             ));
+            let is_change = found.changed.is_some();
             state.accepted.push(found);
+            if is_change {
+                // What else is missing is asked of the arm with it.
+                return Ok(changed(&state, before));
+            }
             state = search.refit(state)?;
-            let fresh = search.grids(&candidates, |candidate| candidate.uses_rigid_torque());
+            let fresh = search.grids(&state, &candidates, |candidate| {
+                candidate.uses_rigid_torque()
+            });
             for (grid, fresh) in grids.iter_mut().zip(fresh) {
                 if !fresh.is_empty() {
                     *grid = fresh;
@@ -135,6 +159,7 @@ impl<'a> Trace<'a> {
         }
         let state = search.prune(state)?;
         let (after, noise_power) = search.structure(&state);
+        let before = self.since.clone().unwrap_or(before);
         Ok(verdict(&state, before, after, &noise_power))
     }
 }
@@ -157,6 +182,7 @@ impl Search<'_> {
     /// Trials of the candidates that are wanted, formed on all cores; an empty list for the others.
     fn grids<'a>(
         &self,
+        state: &State,
         candidates: &[&'a dyn Candidate],
         wanted: impl Fn(&dyn Candidate) -> bool,
     ) -> Vec<Vec<Trial<'a>>> {
@@ -165,7 +191,6 @@ impl Search<'_> {
             .collect();
         let workers = std::thread::available_parallelism().map_or(1, usize::from);
         let next = AtomicUsize::new(0);
-        let prepared = &self.prepared;
         let work = || {
             let mut done = Vec::new();
             loop {
@@ -173,7 +198,7 @@ impl Search<'_> {
                 match candidates.get(number) {
                     None => return done,
                     Some(candidate) if wanted.contains(&number) => {
-                        done.push((number, Trial::grid(*candidate, prepared)));
+                        done.push((number, self.grid(state, *candidate)));
                     }
                     Some(_) => {}
                 }
@@ -189,6 +214,21 @@ impl Search<'_> {
             }
         });
         grids
+    }
+
+    /// Trials of one candidate. A change that cannot be solved for at its neutral shapes is no candidate.
+    fn grid<'a>(&self, state: &State, candidate: &'a dyn Candidate) -> Vec<Trial<'a>> {
+        let Some(change) = candidate.change() else {
+            return Trial::grid(candidate, &self.prepared);
+        };
+        let first = self.first_order(state, change).into_iter();
+        first
+            .map(|entries| Trial {
+                candidate,
+                shapes: Vec::new(),
+                entries,
+            })
+            .collect()
     }
 
     /// Effects that depend on the load see the torque of the rigid body at the present estimate.
@@ -258,13 +298,25 @@ impl Search<'_> {
             })
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut changes = 0;
         let mut judged: Vec<Judged<'a>> = best
             .into_iter()
             .take(FINALISTS)
             .filter_map(|(_, trial)| {
                 let trial = trial.refined(&baseline.present, &self.prepared);
                 let projected = trial.project(&baseline.present)?;
-                Some(baseline.judge(trial, &projected))
+                let gain = projected.gain.clone();
+                let judged = baseline.judge(trial, &projected);
+                let Some(change) = judged.trial.candidate.change() else {
+                    return Some(judged);
+                };
+                if changes == CHANGES || !gate::is_promising(&judged) {
+                    return None;
+                }
+                changes += 1;
+                // What cannot be solved for has no merit.
+                let changed = self.solve_change(state, change, &gain).ok().flatten()?;
+                Some(baseline.judge_changed(judged, changed, &self.folds))
             })
             .filter(|judged| judged.passes)
             .collect();
@@ -330,6 +382,7 @@ fn choose<'a>(judged: Vec<Judged<'a>>) -> Option<Accepted<'a>> {
         })
         .collect();
     Some(Accepted {
+        changed: chosen.changed.map(|changed| changed.shapes),
         evidence: chosen.evidence,
         trial: chosen.trial,
         rivals,

@@ -103,4 +103,46 @@ pub struct Verdict {
     pub after: Vec<Structure>,
     /// Standard deviation per joint of the residual's part without structure, N m or N.
     pub noise_floor: Vec<f64>,
+    /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
+    /// [`Trace::since`](super::Trace::since).
+    pub goes_on: bool,
+}
+
+impl Verdict {
+    /// This one, which goes on, with what was found after it.
+    #[must_use]
+    pub fn followed_by(self, next: Self) -> Self {
+        let places = self.findings.len();
+        let is_explained = next.outcome != Outcome::Unexplained;
+        let mut found = self.findings;
+        let later = if is_explained {
+            next.findings
+        } else {
+            next.leads
+        };
+        found.extend(later);
+        let (findings, leads) = if is_explained {
+            (found, Vec::new())
+        } else {
+            (Vec::new(), found)
+        };
+        let rivals = next.alternatives.into_iter().map(|rival| Alternative {
+            instead_of: places + rival.instead_of,
+            ..rival
+        });
+        Self {
+            outcome: if is_explained {
+                Outcome::Explained
+            } else {
+                Outcome::Unexplained
+            },
+            findings,
+            leads,
+            alternatives: self.alternatives.into_iter().chain(rivals).collect(),
+            before: self.before,
+            after: next.after,
+            noise_floor: next.noise_floor,
+            goes_on: next.goes_on,
+        }
+    }
 }

@@ -1,0 +1,91 @@
+//! `trace`: effects that change where links stand or where gravity comes from.
+
+use std::fmt::Write;
+
+use crate::common::{Folder, close, json};
+
+fn spec(effects: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint up: revolute {{ a = 0.5; alpha = 90 deg; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link up: fixed {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+            link lo: fixed {{ mass = 1; com = [-0.2, 0, 0.03]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
+            effects {{ viscous_friction on all; coulomb_friction on all; {effects} }}
+        }}"
+    )
+}
+
+/// What `trace` says of the arm, whose log is that of the arm with `effect`, as text and JSON; and the amended spec.
+fn traced(effect: &str) -> (String, serde_json::Value, String) {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    folder.write("true.robot", &spec(effect));
+    folder.write(
+        "values.json",
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+            "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3}"#,
+    );
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..=5000 {
+        let t = f64::from(k) / 200.0;
+        let up = -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
+        let lo = 0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos();
+        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let simulate = ["simulate", "true.robot", "--parameters", "values.json"];
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let noise = ["--torque-noise", "0.02", "--seed", "1"];
+    folder.succeed(&[&simulate[..], &motion, &noise].concat());
+    let outputs = ["--json", "out.json", "--amend", "found.robot"];
+    let told = folder.succeed(&[&["trace", "arm.robot", "log.csv"][..], &outputs].concat());
+    let out = json(&folder.read("out.json"));
+    (told, out, folder.read("found.robot"))
+}
+
+/// The only effect that is found, of one kind, and the values of its shapes.
+fn only(told: &str, out: &serde_json::Value, kind: &str) -> Vec<f64> {
+    assert_eq!(out["outcome"], "explained", "{told}");
+    let effects = out["effects"].as_array().expect("a list");
+    assert_eq!(
+        (effects.len(), &effects[0]["kind"]),
+        (1, &kind.into()),
+        "{told}"
+    );
+    let parameters = effects[0]["parameters"].as_array().expect("a list").iter();
+    parameters
+        .map(|parameter| parameter["value"].as_f64().expect("a value"))
+        .collect()
+}
+
+#[test]
+fn a_base_that_is_tilted_is_named_with_both_angles() {
+    let (told, out, found) = traced("base_tilt(first = 0.05, second = -0.03);");
+    let angles = only(&told, &out, "base-tilt");
+    close(angles[0], 0.05, 0.003);
+    close(angles[1], -0.03, 0.003);
+    assert_eq!(out["effects"][0]["joint"], serde_json::Value::Null);
+    assert!(found.contains("base_tilt(first = "), "{told}");
+}
+
+#[test]
+fn an_encoder_with_another_zero_is_named_with_its_joint() {
+    let (told, out, found) = traced("encoder_offset(offset = 0.04) on lo;");
+    let offset = only(&told, &out, "encoder-offset");
+    close(offset[0], 0.04, 0.003);
+    assert_eq!(out["effects"][0]["joint"], 2, "{told}");
+    assert!(
+        found.contains("encoder_offset(offset = ") && found.contains(" on lo;"),
+        "{told}"
+    );
+}
+
+#[test]
+fn nothing_is_changed_where_nothing_is_missing() {
+    let (told, out, found) = traced("");
+    assert_eq!(out["outcome"], "nothing-missing", "{told}");
+    assert_eq!(found, spec(""));
+}
