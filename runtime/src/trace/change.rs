@@ -27,6 +27,8 @@ pub(super) struct Changed {
     pub(super) shapes: Vec<f64>,
     /// Rows of the arm with it and with the effects that were accepted before; the last columns are slopes by its shapes.
     pub(super) stack: Stack,
+    /// Whether the logged torque is in it, whose noise then explains itself.
+    pub(super) follows_torque: bool,
 }
 
 impl Search<'_> {
@@ -120,7 +122,13 @@ impl Search<'_> {
                     let (low, high) = range(change, k);
                     low < *value && *value < high
                 });
-                return Ok(is_inside.then_some(Changed { shapes: own, stack }));
+                let mut motions = logs.iter().map(|log| &log.motion);
+                let follows_torque = motions.any(|motion| !motion.transmitted_torque.is_empty());
+                return Ok(is_inside.then_some(Changed {
+                    shapes: own,
+                    stack,
+                    follows_torque,
+                }));
             }
         }
         Ok(None)

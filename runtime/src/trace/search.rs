@@ -10,6 +10,7 @@ use crate::identify::{
 use crate::log::Log;
 use crate::signal::Prepared;
 
+use super::change::Changed;
 use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
@@ -319,9 +320,25 @@ impl Search<'_> {
                 Some(baseline.judge_changed(judged, changed, &self.folds))
             })
             .filter(|judged| judged.passes)
+            .filter(|judged| {
+                judged
+                    .changed
+                    .as_ref()
+                    .is_none_or(|c| self.is_of_structure(state, judged, c))
+            })
             .collect();
         judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
         choose(judged)
+    }
+
+    /// A change with the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
+    fn is_of_structure(&self, state: &State, judged: &Judged, changed: &Changed) -> bool {
+        if !changed.follows_torque {
+            return true;
+        }
+        let (structure, _) = self.structure(state);
+        let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
+        joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)
     }
 
     /// Drops effects that later ones made needless.
