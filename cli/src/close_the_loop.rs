@@ -1,6 +1,6 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
-use robot_model::columns::{Arm, Candidate};
+use robot_model::columns::Arm;
 use robot_model::identify::{Errors, Estimate, Identify};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
@@ -74,7 +74,7 @@ pub(crate) fn close(
         faults.push(late);
         on_time = logs;
     }
-    let declared: Vec<Amendment> = faults.iter().filter_map(DataFault::amendment).collect();
+    let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
     let verdict = trace(source_name, text, &on_time, progress)?;
     let found = verdict.findings.iter();
     let amendments: Vec<Amendment> = declared
@@ -121,11 +121,8 @@ fn trace(
     let mut found: Option<Verdict> = None;
     loop {
         let arm = compiled(source_name, &text)?;
-        let (torques, bodies, changes) = (arm.candidates(), arm.bodies(), arm.changes());
-        let torques = torques.iter().map(|torque| torque as &dyn Candidate);
-        let bodies = bodies.iter().map(|body| body as &dyn Candidate);
-        let changes = changes.iter().map(|change| change as &dyn Candidate);
-        let mut trace = Trace::new(torques.chain(bodies).chain(changes).collect());
+        let undeclared = arm.undeclared();
+        let mut trace = Trace::new(undeclared.candidates());
         if let Some(found) = &found {
             trace = trace.since(found.before.clone());
         }
@@ -186,7 +183,17 @@ fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
     }
 }
 
+/// What a spec says of a fault of the logs; bad samples are none of its business.
+fn of_fault(fault: &DataFault) -> Option<Amendment> {
+    let (seconds, _) = fault.delay?;
+    Some(Amendment {
+        effect: "time_delay".to_owned(),
+        joints: Vec::new(),
+        shapes: vec![("delay".to_owned(), readable(seconds))],
+    })
+}
+
 /// Four digits: more of a shape parameter is not known, and a person will read it.
-pub(crate) fn readable(value: f64) -> f64 {
+fn readable(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

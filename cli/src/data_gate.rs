@@ -5,7 +5,6 @@
 
 use robot_model::identify::{Estimate, Identify, IdentifyError};
 use robot_model::log::{Fault, Log, Mended};
-use robot_model_spec::amend::Amendment;
 
 use crate::interpreted::InterpretedArm;
 use crate::progress::Progress;
@@ -26,18 +25,6 @@ pub(crate) struct DataFault {
     pub told: String,
     /// Seconds by which torque is late and their standard deviation, of a `time-delay`.
     pub delay: Option<(f64, f64)>,
-}
-
-impl DataFault {
-    /// What the spec has to say of it; bad samples are none of its business.
-    pub(crate) fn amendment(&self) -> Option<Amendment> {
-        let (seconds, _) = self.delay?;
-        Some(Amendment {
-            effect: "time_delay".to_owned(),
-            joints: Vec::new(),
-            shapes: vec![("delay".to_owned(), super::close_the_loop::readable(seconds))],
-        })
-    }
 }
 
 /// Logs without spikes and held values; what was found is said.

@@ -198,3 +198,29 @@ fn columns_times_values_are_the_torque_of_the_rigid_body() {
             .all(|value| value.abs() < 1e-15)
     );
 }
+
+/// Where an encoder does not tell a direction, a jump is its mean over the directions that there may be.
+#[test]
+fn a_jump_is_soft_where_a_direction_is_not_known() {
+    let candidates = wrist().candidates();
+    let dry = candidates.iter().find(|c| c.kind() == "coulomb-friction");
+    let dry = dry.expect("dry friction on the second joint");
+    let joint = dry.joints()[0];
+    for (velocity, width) in [(0.01, 0.02), (-0.03, 0.02), (0.5, 0.02), (0.01, 0.0)] {
+        let mut motion = motion();
+        motion.wide.dq[joint] = vec![velocity; 2];
+        motion.turn_speeds = vec![width; 2];
+        let entries = dry.entries(&motion, &[]);
+        let wanted = if width > 0.0 {
+            f64::tanh(velocity / width)
+        } else {
+            velocity.signum()
+        };
+        // Sixteen velocities make steps of an eighth.
+        let found = entries[0].values[0];
+        assert!(
+            (found - wanted).abs() < 0.0626,
+            "{velocity} {width}: {found} for {wanted}"
+        );
+    }
+}

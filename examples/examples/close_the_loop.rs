@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot_model::columns::{Arm, Candidate, Columns};
+use robot_model::columns::{Arm, Columns};
 use robot_model::identify::{Identify, torque_of};
 use robot_model::log::Log;
 use robot_model::motion::{Kinematics, Motion};
@@ -37,8 +37,8 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let before = Identify::default().fit(&arm, &logs)?;
     println!("As the spec says:\n{before}");
 
-    let candidates = arm.candidates();
-    let trace = Trace::new(candidates.iter().map(|c| c as &dyn Candidate).collect());
+    let undeclared = arm.undeclared();
+    let trace = Trace::new(undeclared.candidates());
     let verdict = trace.run(&arm, &logs, &mut |_| ())?;
     assert_eq!(verdict.outcome, Outcome::Explained);
 

@@ -99,6 +99,9 @@ impl InterpretedChange {
                 let step = grid.iter().copied().find(|value| *value > 1e-6 * high)?;
                 change.neutral.push(0.0);
                 change.probe.push(step);
+            } else if definition.shapes.len() > 1 {
+                // Which end of one changes nothing is not known without the others.
+                return None;
             } else {
                 let ends = [low, high].map(|end| change.displacement(end));
                 change

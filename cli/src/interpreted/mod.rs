@@ -24,6 +24,7 @@ mod shape;
 mod signals;
 mod springs;
 mod states;
+mod undeclared;
 
 pub use body::InterpretedBody;
 pub use candidate::InterpretedCandidate;
@@ -33,6 +34,7 @@ pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
 pub(crate) use possible::{payloads, possible_arms};
 pub(crate) use states::states;
+pub use undeclared::Undeclared;
 
 use robot_model::columns::{Arm, Columns, Entry, Nominal, Shape, Unknown};
 use robot_model::identify::PossibleArms;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::{Folder, close, json};
+use crate::common::{Folder, close, json, moved};
 
 fn spec(effects: &str) -> String {
     format!(
@@ -22,7 +22,6 @@ fn spec(effects: &str) -> String {
 fn folder(effect: &str, joint: &str, body: [f64; 2]) -> Folder {
     let folder = Folder::new();
     folder.write("arm.robot", &spec(""));
-    folder.write("loaded.robot", &spec(&format!("{effect} on {joint};")));
     let mut values = String::from(
         r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 1.5, "lo.coulomb_friction.fc": 0.7"#,
     );
@@ -32,19 +31,13 @@ fn folder(effect: &str, joint: &str, body: [f64; 2]) -> Folder {
     for (name, value) in ["m", "mx"].iter().zip(body) {
         write!(values, r#", "{joint}.{effect}.{name}": {value}"#).expect("a string takes all");
     }
-    folder.write("loaded.json", &format!("{values}}}"));
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..=5000 {
-        let t = f64::from(k) / 200.0;
-        let up = -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
-        let lo = 0.7 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos();
-        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
-    let simulate = ["simulate", "loaded.robot", "--parameters", "loaded.json"];
-    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
-    let noise = ["--torque-noise", "0.02", "--seed", "1"];
-    folder.succeed(&[&simulate[..], &motion, &noise].concat());
+    let spec = spec(&format!("{effect} on {joint};"));
+    moved(&folder, &spec, &format!("{values}}}"), |t| {
+        [
+            -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+            0.7 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+        ]
+    });
     folder
 }
 

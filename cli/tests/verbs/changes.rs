@@ -1,8 +1,6 @@
 //! `trace`: effects that change where links stand or where gravity comes from.
 
-use std::fmt::Write;
-
-use crate::common::{Folder, close, json};
+use crate::common::{Folder, close, json, moved};
 
 fn spec(effects: &str) -> String {
     format!(
@@ -22,24 +20,14 @@ fn spec(effects: &str) -> String {
 fn traced(effect: &str) -> (String, serde_json::Value, String) {
     let folder = Folder::new();
     folder.write("arm.robot", &spec(""));
-    folder.write("true.robot", &spec(effect));
-    folder.write(
-        "values.json",
-        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
-            "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3}"#,
-    );
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..=5000 {
-        let t = f64::from(k) / 200.0;
-        let up = -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin();
-        let lo = 0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos();
-        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
-    let simulate = ["simulate", "true.robot", "--parameters", "values.json"];
-    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
-    let noise = ["--torque-noise", "0.02", "--seed", "1"];
-    folder.succeed(&[&simulate[..], &motion, &noise].concat());
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3}"#;
+    moved(&folder, &spec(effect), values, |t| {
+        [
+            -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+            0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+        ]
+    });
     let outputs = ["--json", "out.json", "--amend", "found.robot"];
     let told = folder.succeed(&[&["trace", "arm.robot", "log.csv"][..], &outputs].concat());
     let out = json(&folder.read("out.json"));

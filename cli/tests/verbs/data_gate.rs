@@ -98,3 +98,29 @@ fn spikes_that_matter_are_corrupt_samples() {
     folder.write("log.csv", &log);
     assert!(folder.succeed(&TRACE).starts_with("nothing missing"));
 }
+
+/// A bad sample that is little beside what the arm lacks is mended and said, and explains nothing.
+#[test]
+fn a_spike_that_does_not_matter_is_a_note() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(40, 2.0, 0.0);
+    let spiked = log.lines().map(|row| match row.strip_prefix("10.000,") {
+        Some(rest) => {
+            let (q, _) = rest.split_once(',').expect("columns");
+            format!("10.000,{q},25\n")
+        }
+        None => format!("{row}\n"),
+    });
+    folder.write("log.csv", &spiked.collect::<String>());
+    let run = folder.run(&["trace", "cart.robot", "log.csv", "--json", "out.json"]);
+    assert!(
+        run.stderr.contains("tau1: 1 samples are far from both"),
+        "{}",
+        run.stderr
+    );
+    let out = json(&folder.read("out.json"));
+    let effects = out["effects"].as_array().expect("a list");
+    assert_eq!(effects.len(), 1, "{out}");
+    assert_eq!(effects[0]["kind"], "coulomb-friction");
+}

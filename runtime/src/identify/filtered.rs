@@ -14,7 +14,8 @@ use crate::motion::Motion;
 use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_velocities};
 
-use super::estimate::{Errors, Estimate, Form};
+use super::errors::Errors;
+use super::estimate::{Estimate, Form};
 use super::possible::PossibleArms;
 use super::stack::Stack;
 use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands};

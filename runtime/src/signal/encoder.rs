@@ -13,9 +13,12 @@ const SINGLE: f64 = 0.01;
 /// With fewer changes of so few steps nothing is said.
 const LEAST_CHANGES: usize = 10;
 
+/// Largest speed without direction, as a share of a joint's root-mean-square speed.
+const MOST_TURN_SHARE: f64 = 0.01;
+
 /// The step of an encoder: a smallest change of a position from sample to sample of which nearly all small changes are whole numbers.
 /// `None` for positions in between, that were filtered or computed.
-pub(super) fn encoder_step(positions: &[f64]) -> Option<f64> {
+fn encoder_step(positions: &[f64]) -> Option<f64> {
     let size = positions.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
     let rounding = 1e-12 * size;
     let changes = positions.windows(2).map(|pair| (pair[1] - pair[0]).abs());
@@ -45,6 +48,17 @@ pub(super) fn encoder_step(positions: &[f64]) -> Option<f64> {
         from += single.len();
     }
     None
+}
+
+/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not more
+/// than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from slow motion.
+pub(super) fn turn_speed(positions: &[f64], velocity: &[f64], wide_hz: f64) -> f64 {
+    let Some(step) = encoder_step(positions) else {
+        return 0.0;
+    };
+    let squares = velocity.iter().map(|dq| dq * dq).sum::<f64>();
+    let speed = (squares / velocity.len().max(1) as f64).sqrt();
+    (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed)
 }
 
 #[cfg(test)]
@@ -81,6 +95,15 @@ mod tests {
                 "{found:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_coarse_encoder_takes_little_of_a_motion() {
+        let read = |step: f64| turning(|q| (q / step).round() * step);
+        let of = |step: f64| turn_speed(&read(step), &[0.3, -0.3], 90.0);
+        assert!((of(1e-6) / 180e-6 - 1.0).abs() < 1e-6, "{}", of(1e-6));
+        assert!((of(1e-3) - 0.003).abs() < 1e-12, "{}", of(1e-3));
+        assert!(turn_speed(&turning(|q| q), &[0.3], 90.0) == 0.0);
     }
 
     #[test]

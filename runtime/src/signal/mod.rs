@@ -14,7 +14,7 @@ mod shared;
 mod spectrum;
 
 pub use derivative::derivative;
-use encoder::encoder_step;
+use encoder::turn_speed;
 pub use error::SignalError;
 pub use filter::LowPass;
 pub use first_order::FirstOrder;

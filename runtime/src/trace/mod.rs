@@ -28,6 +28,7 @@
 //! ```
 
 mod change;
+mod choose;
 mod conclude;
 mod folds;
 mod gate;

@@ -11,6 +11,7 @@ use crate::log::Log;
 use crate::signal::Prepared;
 
 use super::change::Changed;
+use super::choose::choose;
 use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
@@ -377,31 +378,4 @@ impl Search<'_> {
         }
         Ok(state)
     }
-}
-
-/// The best candidate and those that are as good within the size that matters; of these the simplest is taken.
-fn choose<'a>(judged: Vec<Judged<'a>>) -> Option<Accepted<'a>> {
-    let best = judged.first()?.raw_power.clone();
-    let mut class: Vec<Judged<'a>> = judged
-        .into_iter()
-        .filter(|judged| gate::worse_percent(&judged.raw_power, &best) <= MATERIAL_PERCENT)
-        .collect();
-    // Stable: among equally simple laws the one with the larger merit stays first.
-    class.sort_by_key(|judged| judged.trial.complexity());
-    let mut class = class.into_iter();
-    let chosen = class.next()?;
-    let rivals = class
-        .map(|rival| Alternative {
-            kind: rival.trial.candidate.kind().to_owned(),
-            joints: rival.trial.candidate.joints().to_vec(),
-            instead_of: 0,
-            worse_percent: gate::worse_percent(&rival.raw_power, &chosen.raw_power),
-        })
-        .collect();
-    Some(Accepted {
-        changed: chosen.changed.map(|changed| changed.shapes),
-        evidence: chosen.evidence,
-        trial: chosen.trial,
-        rivals,
-    })
 }

@@ -2,6 +2,8 @@
 
 use std::fmt::Write;
 
+use super::Folder;
+
 /// A mass on a rail: every number of a test can be checked by hand.
 pub const CART: &str = "\
 robot Cart {
@@ -70,4 +72,21 @@ pub fn white(state: &mut u64) -> f64 {
         .wrapping_mul(6_364_136_223_846_793_005)
         .wrapping_add(1_442_695_040_888_963_407);
     f64::from(u32::try_from(*state >> 33).expect("31 bits")) / f64::from(1_u32 << 31) - 0.5
+}
+
+/// A log of a spec's arm of two joints in a folder, `log.csv`: by parameters, along a wanted motion of 25 s, with a little noise.
+pub fn moved(folder: &Folder, spec: &str, parameters: &str, at: impl Fn(f64) -> [f64; 2]) {
+    folder.write("true.robot", spec);
+    folder.write("true.json", parameters);
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..=5000 {
+        let t = f64::from(k) / 200.0;
+        let [up, lo] = at(t);
+        writeln!(wanted, "{t},{up},{lo}").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let simulate = ["simulate", "true.robot", "--parameters", "true.json"];
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let noise = ["--torque-noise", "0.02", "--seed", "1"];
+    folder.succeed(&[&simulate[..], &motion, &noise].concat());
 }
