@@ -10,15 +10,18 @@ use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::load;
 
 use crate::Error;
-use crate::data_gate::{self, DataFault};
+use crate::data_gate;
+pub use crate::data_gate::DataFault;
 use crate::interpreted::InterpretedArm;
-use crate::progress::Progress;
+pub use crate::progress::Progress;
 use crate::spec::clear;
 
 /// A model, what was identified with it, and how it does on data that it was not fitted on.
 #[derive(Debug)]
-pub(crate) struct Stage {
+pub struct Stage {
+    /// The model.
     pub arm: InterpretedArm,
+    /// What was identified with it.
     pub estimate: Estimate,
     /// On the validation log, where there is one.
     pub validation: Option<Errors>,
@@ -26,10 +29,12 @@ pub(crate) struct Stage {
 
 /// The loop, closed.
 #[derive(Debug)]
-pub(crate) struct Loop {
+pub struct Loop {
+    /// The declared model.
     pub before: Stage,
     /// What is wrong with the logs; the verdict is of logs without it.
     pub faults: Vec<DataFault>,
+    /// What the tracer says of the logs without their faults.
     pub verdict: Verdict,
     /// The spec with the findings declared, in their order; the text as it was where there are none. Leads stay out: what
     /// does not explain the residual is no part of the arm.
@@ -40,12 +45,14 @@ pub(crate) struct Loop {
 
 impl Loop {
     /// The last model and its numbers.
-    pub(crate) fn after(&self) -> &Stage {
+    #[must_use]
+    pub fn after(&self) -> &Stage {
         self.changed.as_ref().unwrap_or(&self.before)
     }
 
     /// How it ended: a fault of the logs that accounts for all that was missing explains it.
-    pub(crate) fn outcome(&self) -> Outcome {
+    #[must_use]
+    pub fn outcome(&self) -> Outcome {
         match self.verdict.outcome {
             Outcome::NothingMissing if !self.faults.is_empty() => Outcome::Explained,
             other => other,
@@ -53,8 +60,12 @@ impl Loop {
     }
 }
 
-/// Runs the loop. `logs` are mended, fitted and traced; `validate` is used for numbers only, once per model.
-pub(crate) fn close(
+/// Runs the loop on the text of a spec; `source_name` is what errors call it. `logs` are mended, fitted and traced; `validate` is used for
+/// numbers only, once per model.
+///
+/// # Errors
+/// Mistakes of the text, and those of [`Identify::fit`] and [`Estimate::errors`].
+pub fn close(
     source_name: &str,
     text: &str,
     logs: &[Log],

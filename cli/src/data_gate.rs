@@ -18,7 +18,7 @@ const APART: f64 = 0.1;
 
 /// A fault of the logs that matters.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct DataFault {
+pub struct DataFault {
     /// Kebab-case name, as effects have.
     pub kind: &'static str,
     /// What was found, for people.

@@ -6,7 +6,7 @@
 mod audit;
 mod calibrate;
 mod check;
-mod close_the_loop;
+pub mod close_the_loop;
 mod data_gate;
 mod demo;
 mod diff;

@@ -9,26 +9,41 @@ use crate::output;
 
 /// A line that says what is being done: a spinner on a terminal, one plain line a step elsewhere.
 #[derive(Debug)]
-pub(crate) struct Progress {
+pub struct Progress {
     bar: Option<ProgressBar>,
+    is_silent: bool,
 }
 
 impl Progress {
     /// Nothing is shown before the first step.
-    pub(crate) fn new() -> Self {
+    #[must_use]
+    pub fn new() -> Self {
         let bar = std::io::stderr().is_terminal().then(|| {
             let bar = ProgressBar::new_spinner();
             bar.set_style(ProgressStyle::default_spinner());
             bar.enable_steady_tick(Duration::from_millis(100));
             bar
         });
-        Self { bar }
+        Self {
+            bar,
+            is_silent: false,
+        }
+    }
+
+    /// Nothing is shown at all.
+    #[must_use]
+    pub fn silent() -> Self {
+        Self {
+            bar: None,
+            is_silent: true,
+        }
     }
 
     /// Says what comes now.
     pub(crate) fn step(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.set_message(what.to_owned()),
+            None if self.is_silent => {}
             None => output::say(what),
         }
     }
@@ -37,8 +52,15 @@ impl Progress {
     pub(crate) fn note(&self, what: &str) {
         match &self.bar {
             Some(bar) => bar.println(what),
+            None if self.is_silent => {}
             None => output::say(what),
         }
+    }
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a trace found, as JSON.
 
-use robot_model::trace::{Alternative, Evidence, Finding};
+use robot_model::trace::{Alternative, Evidence, Finding, Tried};
 use serde::Serialize;
 
 use crate::close_the_loop::Loop;
@@ -28,6 +28,21 @@ pub(crate) struct Report<'a> {
     structure_after: Vec<f64>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
+    /// What was judged in every round, best first, and why it was refused.
+    tried: Vec<TriedReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct TriedReport<'a> {
+    /// From 1.
+    round: usize,
+    kind: &'a str,
+    #[serde(flatten)]
+    joints: Joints,
+    shapes: &'a [f64],
+    evidence: EvidenceReport<'a>,
+    /// None of what was accepted, or is an alternative.
+    refused: Vec<&'static str>,
 }
 
 #[derive(Serialize)]
@@ -114,6 +129,7 @@ impl<'a> Report<'a> {
             leads: leads
                 .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
                 .collect(),
+            tried: verdict.tried.iter().map(tried).collect(),
         }
     }
 }
@@ -142,25 +158,34 @@ pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -
             std: identified.map(|(_, std)| std),
         }
     });
-    let Evidence {
-        score,
-        p_value,
-        held_out_percent,
-        raw_percent,
-        folds: (folds_improved, folds),
-    } = &finding.evidence;
     EffectReport {
         kind: &finding.kind,
         joints: Joints::new(&finding.joints),
         parameters: parameters.collect(),
-        evidence: Some(EvidenceReport {
-            score: *score,
-            p_value: *p_value,
-            held_out_percent,
-            raw_percent,
-            folds_improved: *folds_improved,
-            folds: *folds,
-        }),
+        evidence: Some(evidence(&finding.evidence)),
+    }
+}
+
+fn evidence(evidence: &Evidence) -> EvidenceReport<'_> {
+    let (folds_improved, folds) = evidence.folds;
+    EvidenceReport {
+        score: evidence.score,
+        p_value: evidence.p_value,
+        held_out_percent: &evidence.held_out_percent,
+        raw_percent: &evidence.raw_percent,
+        folds_improved,
+        folds,
+    }
+}
+
+fn tried(tried: &Tried) -> TriedReport<'_> {
+    TriedReport {
+        round: tried.round + 1,
+        kind: &tried.kind,
+        joints: Joints::new(&tried.joints),
+        shapes: &tried.shapes,
+        evidence: evidence(&tried.evidence),
+        refused: tried.refusals.iter().map(|one| one.name()).collect(),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::search::{Accepted, State};
 use super::structure::Structure;
-use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Verdict};
+use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdict};
 
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
@@ -13,6 +13,7 @@ pub(super) fn verdict(
     before: Vec<Structure>,
     after: Vec<Structure>,
     noise_power: &[f64],
+    tried: Vec<Tried>,
 ) -> Verdict {
     let found = findings(state);
     let left = unsettled(&before, &after, state);
@@ -31,6 +32,7 @@ pub(super) fn verdict(
         findings,
         leads,
         alternatives: alternatives(state),
+        tried,
         before,
         after,
         noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
@@ -39,12 +41,13 @@ pub(super) fn verdict(
 }
 
 /// The verdict on a search that found a change of the arm, which is its last effect: what it leaves is not known yet.
-pub(super) fn changed(state: &State, before: Vec<Structure>) -> Verdict {
+pub(super) fn changed(state: &State, before: Vec<Structure>, tried: Vec<Tried>) -> Verdict {
     Verdict {
         outcome: Outcome::Explained,
         findings: findings(state),
         leads: Vec::new(),
         alternatives: alternatives(state),
+        tried,
         after: before.clone(),
         before,
         noise_floor: state.solution.sigma.clone(),

@@ -8,7 +8,7 @@ use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
 use super::score::{Present, Projected};
 use super::trial::Trial;
-use super::verdict::Evidence;
+use super::verdict::{Evidence, Refusal, Tried};
 
 /// An effect matters if it lowers the raw error of one of its joints by this much, percent.
 pub(super) const MATERIAL_PERCENT: f64 = 5.0;
@@ -41,8 +41,8 @@ pub(super) struct Judged<'a> {
     pub(super) merit: f64,
     /// Held-out power on raw samples per joint.
     pub(super) raw_power: Vec<f64>,
-    /// Whether it may be named.
-    pub(super) passes: bool,
+    /// Why it may not be named.
+    pub(super) refusals: Vec<Refusal>,
     /// Of an effect that changes the arm: whether it was tried as what it is, and with which rows.
     pub(super) changed: Option<Changed>,
 }
@@ -94,14 +94,18 @@ impl<'a> Baseline<'a> {
                     || gain[c] >= 0.0
                     || projected.power_share(&gain, c) < NEGATIVE_SHARE
             });
-        let passes =
-            trial.is_inside() && steady && physical && p_value < SIGNIFICANCE && compared.is_better;
+        let refusals = [
+            (p_value < SIGNIFICANCE, Refusal::Chance),
+            (trial.is_inside(), Refusal::EndOfRange),
+            (steady, Refusal::Unsteady),
+            (physical, Refusal::Sign),
+        ];
         Judged {
             trial,
             evidence,
             merit: compared.merit,
             raw_power: compared.raw_power,
-            passes,
+            refusals: refused(refusals, compared.refusals),
             changed: None,
         }
     }
@@ -142,7 +146,13 @@ impl<'a> Baseline<'a> {
             },
             merit: compared.merit,
             raw_power: compared.raw_power,
-            passes: steady && first.evidence.p_value < SIGNIFICANCE && compared.is_better,
+            refusals: refused(
+                [
+                    (first.evidence.p_value < SIGNIFICANCE, Refusal::Chance),
+                    (steady, Refusal::Unsteady),
+                ],
+                compared.refusals,
+            ),
             changed: Some(changed),
             trial: first.trial,
         }
@@ -186,8 +196,12 @@ impl<'a> Baseline<'a> {
             .map(|j| 0.5 * (self.held_out.mean(j) / held_out.mean(j).max(f64::MIN_POSITIVE)).ln())
             .sum::<f64>();
         let is_material = touched.iter().any(|j| raw_percent[*j] >= MATERIAL_PERCENT);
+        let refusals = [
+            (merit > 0.0 && improved + 1 >= folds, Refusal::HeldOut),
+            (is_material, Refusal::Small),
+        ];
         Compared {
-            is_better: merit > 0.0 && improved + 1 >= folds && is_material,
+            refusals: refused(refusals, Vec::new()),
             evidence: Evidence {
                 score: 0.0,
                 p_value: 1.0,
@@ -212,8 +226,34 @@ struct Compared {
     evidence: Evidence,
     merit: f64,
     raw_power: Vec<f64>,
-    /// Better in nearly all folds, by an amount that matters.
-    is_better: bool,
+    /// Not better in nearly all folds, or not by an amount that matters.
+    refusals: Vec<Refusal>,
+}
+
+/// What does not hold, and `more`.
+fn refused<const N: usize>(holds: [(bool, Refusal); N], more: Vec<Refusal>) -> Vec<Refusal> {
+    let failed = holds.into_iter().filter(|(holds, _)| !holds);
+    failed.map(|(_, refusal)| refusal).chain(more).collect()
+}
+
+impl Judged<'_> {
+    /// Whether it may be named.
+    pub(super) fn passes(&self) -> bool {
+        self.refusals.is_empty()
+    }
+
+    /// What is told of it.
+    pub(super) fn told(&self, round: usize) -> Tried {
+        let changed = self.changed.as_ref().map(|changed| &changed.shapes);
+        Tried {
+            round,
+            kind: self.trial.candidate.kind().to_owned(),
+            joints: self.trial.candidate.joints().to_vec(),
+            shapes: changed.unwrap_or(&self.trial.shapes).clone(),
+            evidence: self.evidence.clone(),
+            refusals: self.refusals.clone(),
+        }
+    }
 }
 
 /// Whether the first order of a change says that it may be worth a trial as what it is.

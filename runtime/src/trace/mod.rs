@@ -43,4 +43,6 @@ mod verdict;
 
 pub use search::{MOST_EFFECTS, Trace};
 pub use structure::Structure;
-pub use verdict::{Alternative, Evidence, Finding, FoundParameter, Outcome, Verdict};
+pub use verdict::{
+    Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,
+};

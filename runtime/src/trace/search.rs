@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::columns::{Arm, Candidate};
+use crate::columns::{Arm, Candidate, Change};
 use crate::identify::{
     Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
     prepare_all, slowest_bands,
@@ -10,7 +10,6 @@ use crate::identify::{
 use crate::log::Log;
 use crate::signal::Prepared;
 
-use super::change::Changed;
 use super::choose::choose;
 use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
@@ -18,7 +17,7 @@ use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::gram::Gram;
 use super::structure::Structure;
 use super::trial::Trial;
-use super::verdict::{Alternative, Evidence, Verdict};
+use super::verdict::{Alternative, Evidence, Refusal, Tried, Verdict};
 
 /// No more effects than this are looked for: a model that misses more is another model.
 pub const MOST_EFFECTS: usize = 6;
@@ -129,13 +128,14 @@ impl<'a> Trace<'a> {
             })
             .collect();
         let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&state, &candidates, |_| true);
+        let mut tried = Vec::new();
         while state.accepted.len() < MOST_EFFECTS {
             progress(&format!(
                 "round {}: {} candidates",
                 state.accepted.len() + 1,
                 candidates.len()
             ));
-            let Some(found) = search.round(&state, &grids) else {
+            let Some(found) = search.round(&state, &grids, &mut tried) else {
                 break;
             };
             progress(&format!(
@@ -147,7 +147,7 @@ impl<'a> Trace<'a> {
             state.accepted.push(found);
             if is_change {
                 // What else is missing is asked of the arm with it.
-                return Ok(changed(&state, before));
+                return Ok(changed(&state, before, tried));
             }
             state = search.refit(state)?;
             let fresh = search.grids(&state, &candidates, |candidate| {
@@ -162,7 +162,7 @@ impl<'a> Trace<'a> {
         let state = search.prune(state)?;
         let (after, noise_power) = search.structure(&state);
         let before = self.since.clone().unwrap_or(before);
-        Ok(verdict(&state, before, after, &noise_power))
+        Ok(verdict(&state, before, after, &noise_power, tried))
     }
 }
 
@@ -278,7 +278,12 @@ impl Search<'_> {
     }
 
     /// One round: the best candidate that passes, with its rivals.
-    fn round<'a>(&self, state: &State, grids: &[Vec<Trial<'a>>]) -> Option<Accepted<'a>> {
+    fn round<'a>(
+        &self,
+        state: &State,
+        grids: &[Vec<Trial<'a>>],
+        told: &mut Vec<Tried>,
+    ) -> Option<Accepted<'a>> {
         let gram = Gram::new(&state.stack, &self.folds);
         let noise_power = self.noise_power(state);
         let tried = grids.iter().map(Vec::len).sum();
@@ -301,13 +306,11 @@ impl Search<'_> {
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut changes = 0;
-        let mut judged: Vec<Judged<'a>> = best
-            .into_iter()
-            .take(FINALISTS)
+        let finalists = best.into_iter().take(FINALISTS);
+        let mut judged: Vec<Judged<'a>> = finalists
             .filter_map(|(_, trial)| {
                 let trial = trial.refined(&baseline.present, &self.prepared);
                 let projected = trial.project(&baseline.present)?;
-                let gain = projected.gain.clone();
                 let judged = baseline.judge(trial, &projected);
                 let Some(change) = judged.trial.candidate.change() else {
                     return Some(judged);
@@ -316,27 +319,40 @@ impl Search<'_> {
                     return None;
                 }
                 changes += 1;
-                // What cannot be solved for has no merit.
-                let changed = self.solve_change(state, change, &gain).ok().flatten()?;
-                Some(baseline.judge_changed(judged, changed, &self.folds))
-            })
-            .filter(|judged| judged.passes)
-            .filter(|judged| {
-                judged
-                    .changed
-                    .as_ref()
-                    .is_none_or(|c| self.is_of_structure(state, judged, c))
+                Some(self.as_what_it_is(state, &baseline, judged, change, &projected.gain))
             })
             .collect();
+        let round = state.accepted.len();
+        told.extend(judged.iter().map(|judged| judged.told(round)));
+        judged.retain(Judged::passes);
         judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
         choose(judged)
     }
 
-    /// A change with the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
-    fn is_of_structure(&self, state: &State, judged: &Judged, changed: &Changed) -> bool {
-        if !changed.follows_torque {
-            return true;
+    /// A change whose first order is promising, tried as what it is.
+    fn as_what_it_is<'t>(
+        &self,
+        state: &State,
+        baseline: &Baseline,
+        mut first: Judged<'t>,
+        change: &dyn Change,
+        gain: &[f64],
+    ) -> Judged<'t> {
+        // What cannot be solved for has no merit.
+        let Some(changed) = self.solve_change(state, change, gain).ok().flatten() else {
+            first.refusals.push(Refusal::Unsolved);
+            return first;
+        };
+        let follows_torque = changed.follows_torque;
+        let mut judged = baseline.judge_changed(first, changed, &self.folds);
+        if follows_torque && !self.is_of_structure(state, &judged) {
+            judged.refusals.push(Refusal::Noise);
         }
+        judged
+    }
+
+    /// A change with the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
+    fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
         let (structure, _) = self.structure(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
         joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)

@@ -43,6 +43,62 @@ pub struct Finding {
     pub evidence: Evidence,
 }
 
+/// Why a candidate is not named.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Refusal {
+    /// Its score may be that of noise, with all candidates tried.
+    Chance,
+    /// A shape parameter is best at the end of its range: the law is another one.
+    EndOfRange,
+    /// Its parameters differ from fold to fold.
+    Unsteady,
+    /// A parameter that is never negative is.
+    Sign,
+    /// It is worse on data that it was not fitted on, in more than one fold or altogether.
+    HeldOut,
+    /// It lowers the error of none of its joints by as much as matters.
+    Small,
+    /// The arm with it has no solution inside the ranges of its shapes.
+    Unsolved,
+    /// It reads the logged torque, whose noise explains itself, and there is no structure.
+    Noise,
+}
+
+impl Refusal {
+    /// Name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Chance => "chance",
+            Self::EndOfRange => "end-of-range",
+            Self::Unsteady => "unsteady",
+            Self::Sign => "sign",
+            Self::HeldOut => "held-out",
+            Self::Small => "small",
+            Self::Unsolved => "unsolved",
+            Self::Noise => "noise",
+        }
+    }
+}
+
+/// A candidate that was judged, at its best shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tried {
+    /// Effects that had been accepted before.
+    pub round: usize,
+    /// Kebab-case name.
+    pub kind: String,
+    /// Joints, from 0.
+    pub joints: Vec<usize>,
+    /// Values of its shape parameters.
+    pub shapes: Vec<f64>,
+    /// What it is worth.
+    pub evidence: Evidence,
+    /// Why it may not be named; empty for one that may.
+    pub refusals: Vec<Refusal>,
+}
+
 /// A candidate that the logs cannot tell from an accepted one, or nearly so.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Alternative {
@@ -97,6 +153,8 @@ pub struct Verdict {
     pub leads: Vec<Finding>,
     /// Effects that could stand for a finding.
     pub alternatives: Vec<Alternative>,
+    /// The candidates of every round that explain most, best first.
+    pub tried: Vec<Tried>,
     /// Structure of the residual per joint, with the declared model.
     pub before: Vec<Structure>,
     /// Structure of the residual per joint, with the findings or leads.
@@ -130,7 +188,12 @@ impl Verdict {
             instead_of: places + rival.instead_of,
             ..rival
         });
+        let later = next.tried.into_iter().map(|tried| Tried {
+            round: places + tried.round,
+            ..tried
+        });
         Self {
+            tried: self.tried.into_iter().chain(later).collect(),
             outcome: if is_explained {
                 Outcome::Explained
             } else {

@@ -1,0 +1,443 @@
+//! One experiment: an arm with something in it that its spec does not declare, in closed loop, and its two logs.
+
+use std::fmt::Display;
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use robot_model::columns::Arm as _;
+use robot_model::identify::torque_of;
+use robot_model::log::Log;
+use robot_model::motion::Motion;
+use robot_model::simulate::{ComputedTorque, Gains, Loop, Sensors};
+use robot_model_cli::interpreted::{InterpretedArm, InterpretedPlant};
+use robot_model_codegen::base::shape_values;
+use robot_model_codegen::{Compiled, compile_model};
+use robot_model_spec::amend::{Amendment, amend};
+use robot_model_spec::load;
+use robot_model_spec::parameter::Status;
+
+use crate::arms::{Arm, DECLARED};
+use crate::catalogue::{Injection, Place};
+use crate::motion::Waves;
+
+/// Lengths of the logs, s, and their rate, Hz.
+const SECONDS: [f64; 2] = [20.0, 15.0];
+const RATE_HZ: f64 = 500.0;
+
+/// Rate at which sizes are found, Hz.
+const SIZE_HZ: f64 = 100.0;
+
+/// Steps of the encoders, rad. Noise of the torques as shares of their root mean square: white, correlated with 0.9 from one sample to
+/// the next, and a slow wander.
+const ENCODER: f64 = 2e-5;
+const WHITE: f64 = 0.004;
+const COLORED: f64 = 0.006;
+const CORRELATION: f64 = 0.9;
+const WANDER: f64 = 0.002;
+
+/// Share of samples that are spikes.
+const SPIKES: f64 = 0.003;
+
+/// The controller's error: rad/s, damping.
+const GAINS: (f64, f64) = (40.0, 0.8);
+
+/// What is done with which arm.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    /// The arm.
+    pub arm: &'static Arm,
+    /// What is put into it.
+    pub injection: &'static Injection,
+    /// Root mean square of what it adds, as a share of the joint's torque.
+    pub share: f64,
+    /// Of motion, joint and noise.
+    pub seed: u64,
+}
+
+/// What comes of it.
+#[derive(Debug)]
+pub struct Experiment {
+    /// The spec that is traced.
+    pub declared: String,
+    /// The spec that says all; none where no spec can.
+    pub truth: Option<String>,
+    /// Joints that it is on.
+    pub joints: Vec<usize>,
+    /// The log that is fitted, the one that is not.
+    pub logs: [Log; 2],
+}
+
+/// What went wrong, in words.
+fn said(error: impl Display) -> String {
+    error.to_string()
+}
+
+impl Case {
+    /// The joints that it is on, from 0.
+    pub fn joints(&self) -> Vec<usize> {
+        let dof = self.arm.joints.len();
+        let turn = usize::try_from(self.seed).unwrap_or(0);
+        match self.injection.place {
+            Place::Joint if self.injection.kind == "link-inertial-error" => vec![turn % (dof - 1)],
+            Place::Joint | Place::Log => vec![turn % dof],
+            Place::Pair => {
+                let second = 1 + turn % (dof - 1);
+                vec![second - 1, second]
+            }
+            Place::Last => vec![dof - 1],
+            Place::Arm | Place::Nowhere => Vec::new(),
+        }
+    }
+
+    /// Moves the arm twice. `None` where this much of it cannot be: friction of a load that is not there.
+    ///
+    /// # Errors
+    /// What went wrong, in words.
+    pub fn run(&self) -> Result<Option<Experiment>, String> {
+        let joints = self.joints();
+        let declared = self.declared(&joints, true)?;
+        let motions = [0, 1].map(|k| {
+            let model = load(self.arm.name, &declared).map_err(said)?;
+            Ok::<_, String>(Waves::new(
+                &model,
+                SECONDS[k],
+                100 * self.seed + 2 * k as u64 + self.seed % 2,
+            ))
+        });
+        let [identify, validate] = motions;
+        let (identify, validate) = (identify?, validate?);
+        let Some(size) = self.size(&declared, &joints, &identify)? else {
+            return Ok(None);
+        };
+        let machine = self.machine(&joints, size, false)?;
+        let log = |waves: &Waves, part: u64| self.measure(&machine, size, waves, part);
+        let mut logs = [log(&identify, 0)?, log(&validate, 1)?];
+        if self.injection.kind == "corrupt-samples" {
+            for log in &mut logs {
+                self.spoil(log, joints[0]);
+            }
+        }
+        let is_said = self.injection.kind != "corrupt-samples";
+        Ok(Some(Experiment {
+            declared,
+            truth: is_said.then_some(machine),
+            joints,
+            logs,
+        }))
+    }
+
+    /// The arm with what it declares; `is_spec` for the spec, else for the machine without what is put in.
+    fn declared(&self, joints: &[usize], is_spec: bool) -> Result<String, String> {
+        let text = self.arm.text(self.injection.is_of_known_links);
+        let replaced = |joint: usize, effect: &str| {
+            let is_itself = self.injection.effect() == effect;
+            self.injection.replaces == Some(effect)
+                && joints.contains(&joint)
+                && (is_itself || !is_spec)
+        };
+        let model = load(self.arm.name, &text).map_err(said)?;
+        let mut amendments = Vec::new();
+        for (joint, one) in model.joints.iter().enumerate() {
+            for (effect, _) in DECLARED {
+                if !replaced(joint, effect) {
+                    amendments.push(Amendment {
+                        effect: effect.to_owned(),
+                        joints: vec![one.name.clone()],
+                        shapes: Vec::new(),
+                    });
+                }
+            }
+        }
+        amend(self.arm.name, &text, &amendments).map_err(said)
+    }
+
+    /// The machine as a spec; with `is_open` the shapes that are its size have no value.
+    fn machine(&self, joints: &[usize], size: f64, is_open: bool) -> Result<String, String> {
+        let mut text = self.declared(joints, false)?;
+        if let Some(law) = self.injection.law {
+            text = format!("{law}\n{text}");
+        }
+        if self.injection.place == Place::Nowhere || self.injection.kind == "corrupt-samples" {
+            return Ok(text);
+        }
+        let model = load(self.arm.name, &text).map_err(said)?;
+        let given = self.injection.shapes.iter().copied();
+        let scaled = self
+            .injection
+            .scaled
+            .iter()
+            .map(|(name, of)| (*name, of(size)));
+        let shapes: Vec<(&str, f64)> = if is_open {
+            given.collect()
+        } else {
+            given.chain(scaled).collect()
+        };
+        let joints = match self.injection.place {
+            Place::Log => &[][..],
+            _ => joints,
+        };
+        let amendment = Amendment {
+            effect: self.injection.effect(),
+            joints: joints
+                .iter()
+                .map(|&j| model.joints[j].name.clone())
+                .collect(),
+            shapes: shapes
+                .into_iter()
+                .map(|(name, value)| (name.to_owned(), value))
+                .collect(),
+        };
+        amend(self.arm.name, &text, &[amendment]).map_err(said)
+    }
+
+    /// Values of the machine's standard parameters.
+    fn standard(&self, compiled: &Compiled, size: f64) -> Vec<f64> {
+        let names: Vec<&str> = compiled
+            .model
+            .joints
+            .iter()
+            .map(|j| j.name.as_str())
+            .collect();
+        let value = |name: &str| {
+            let mut parts = name.split('.');
+            let (joint, effect, parameter) = (parts.next(), parts.next(), parts.next());
+            let joint = names
+                .iter()
+                .position(|one| Some(*one) == joint)
+                .unwrap_or(0);
+            let own = self
+                .injection
+                .linear
+                .iter()
+                .find(|(own, _)| Some(*own) == parameter);
+            if let (true, Some((_, value))) = (effect == Some(&self.injection.effect()), own) {
+                let is_sized = self.injection.scaled.is_empty();
+                return if is_sized { size * value } else { *value };
+            }
+            let declared = DECLARED.iter().position(|(one, _)| Some(*one) == effect);
+            declared.map_or(0.0, |k| self.arm.joints[joint][k])
+        };
+        let standard = compiled
+            .standard
+            .iter()
+            .map(|parameter| match parameter.status {
+                Status::Nominal(value) | Status::Fixed(value) => value,
+                Status::Unknown => value(&parameter.name),
+            });
+        standard.collect()
+    }
+
+    /// How much of it adds the wanted share to the torque of its joint along a motion.
+    fn size(&self, declared: &str, joints: &[usize], waves: &Waves) -> Result<Option<f64>, String> {
+        if self.injection.place == Place::Nowhere {
+            return Ok(Some(0.0));
+        }
+        let base = arm(self.arm.name, &self.declared(joints, false)?)?;
+        // What is declared and what it stands for is part of the torque that it is measured by.
+        let mut motion = waves.exact(SIZE_HZ);
+        let without = self.torque(&base, &mut motion, 0.0, &[]);
+        let reference = match self.injection.replaces {
+            Some(effect) if effect != self.injection.effect() => {
+                self.torque(&arm(self.arm.name, declared)?, &mut motion, 0.0, &[])
+            }
+            _ => without.clone(),
+        };
+        motion.tau.clone_from(&without);
+        let share = |with: &[Vec<f64>]| {
+            let of = |joint: &usize| {
+                let change = with[*joint]
+                    .iter()
+                    .zip(&reference[*joint])
+                    .map(|(a, b)| a - b);
+                rms(change) / rms(without[*joint].iter().copied())
+            };
+            let all: Vec<usize> = (0..without.len()).collect();
+            let here = if self.injection.place == Place::Joint {
+                joints
+            } else {
+                &all
+            };
+            here.iter().map(of).fold(0.0, f64::max)
+        };
+        if self.injection.kind == "corrupt-samples" {
+            return Ok(Some(self.share));
+        }
+        let with: Box<dyn Fn(f64) -> Vec<Vec<f64>>> = match self.injection.kind {
+            "time-delay" => {
+                let without = &without;
+                Box::new(move |seconds| {
+                    without
+                        .iter()
+                        .map(|tau| late(tau, seconds * SIZE_HZ))
+                        .collect()
+                })
+            }
+            "torque-saturation" => {
+                let (without, joint) = (&without, joints[0]);
+                Box::new(move |size: f64| {
+                    let mut with = without.clone();
+                    for tau in &mut with[joint] {
+                        *tau = tau.clamp(-1.0 / size, 1.0 / size);
+                    }
+                    with
+                })
+            }
+            _ => {
+                let machine = arm(
+                    self.arm.name,
+                    &self.machine(joints, 1.0, !self.injection.scaled.is_empty())?,
+                )?;
+                let injection = self.injection;
+                Box::new(move |size| {
+                    let mut motion = motion.clone();
+                    let shapes: Vec<f64> =
+                        injection.scaled.iter().map(|(_, of)| of(size)).collect();
+                    self.torque(&machine, &mut motion, size, &shapes)
+                })
+            }
+        };
+        Ok(root(self.share, &|size| share(&with(size))))
+    }
+
+    /// The machine's torque along an exact motion.
+    fn torque(
+        &self,
+        arm: &InterpretedArm,
+        motion: &mut Motion,
+        size: f64,
+        shapes: &[f64],
+    ) -> Vec<Vec<f64>> {
+        let beta = arm
+            .compiled()
+            .base
+            .beta(&self.standard(arm.compiled(), size));
+        motion.rigid_torque = arm.rigid_torque(motion, shapes, &beta);
+        motion.transmitted_torque = arm.transmitted_torque(motion, shapes, &beta);
+        let mut torque = torque_of(arm, motion, shapes, &beta, arm.dof());
+        for (torque, known) in torque.iter_mut().zip(arm.known_torque(motion, shapes)) {
+            for (torque, known) in torque.iter_mut().zip(known) {
+                *torque += known;
+            }
+        }
+        torque
+    }
+
+    /// Moves the machine under a controller that knows it, and logs it with noise.
+    fn measure(&self, machine: &str, size: f64, waves: &Waves, part: u64) -> Result<Log, String> {
+        let mut compiled = compile_model(&load(self.arm.name, machine).map_err(said)?);
+        if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
+            compiled = compiled.ungrouped();
+        }
+        let standard = self.standard(&compiled, size);
+        let shapes = shape_values(&compiled.model);
+        let trajectory = waves.trajectory().map_err(said)?;
+        let setting = Loop {
+            log_rate: RATE_HZ,
+            duration: SECONDS[usize::from(part == 1)],
+            sensors: Sensors {
+                encoder_step: ENCODER,
+                velocity_hz: 50.0,
+                seed: self.seed + part,
+                ..Sensors::default()
+            },
+            torque_delay: if self.injection.kind == "time-delay" {
+                size
+            } else {
+                0.0
+            },
+            inputs: vec![0; compiled.model.inputs().len()],
+            ..Loop::default()
+        };
+        let plant =
+            InterpretedPlant::new(compiled.clone(), &compiled.base.beta(&standard), &shapes)
+                .map_err(said)?;
+        let mut controller =
+            ComputedTorque::new(Gains::new(GAINS.0, GAINS.1).map_err(said)?, plant.clone());
+        let (record, _) = setting
+            .run(plant, &mut controller, &trajectory, &mut |_| {})
+            .map_err(said)?;
+        let mut tau = record.tau;
+        let mut random = ChaCha8Rng::seed_from_u64(7919 * self.seed + part);
+        for values in &mut tau {
+            disturb(values, &mut random);
+        }
+        let name = ["identification", "validation"][usize::from(part == 1)];
+        let mut log = Log::from_samples(name, record.time, record.q, tau).map_err(said)?;
+        log.extra = record.extra;
+        Ok(log)
+    }
+
+    /// Spikes in the torque of a joint, of both signs.
+    fn spoil(&self, log: &mut Log, joint: usize) {
+        let mut random = ChaCha8Rng::seed_from_u64(104_729 * self.seed);
+        let size = self.share * rms(log.tau[joint].iter().copied()) / SPIKES.sqrt();
+        for value in &mut log.tau[joint] {
+            if random.random_bool(SPIKES) {
+                *value += if random.random_bool(0.5) { size } else { -size };
+            }
+        }
+    }
+}
+
+fn arm(name: &str, text: &str) -> Result<InterpretedArm, String> {
+    Ok(InterpretedArm::new(compile_model(
+        &load(name, text).map_err(said)?,
+    )))
+}
+
+fn rms(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
+    (sum / f64::max(count, 1.0)).sqrt()
+}
+
+/// Values `samples` later.
+fn late(values: &[f64], samples: f64) -> Vec<f64> {
+    let at = |k: usize| {
+        let place = (k as f64 - samples).clamp(0.0, (values.len() - 1) as f64);
+        let before = (0..values.len())
+            .take_while(|&i| i as f64 <= place)
+            .last()
+            .unwrap_or(0);
+        let after = (before + 1).min(values.len() - 1);
+        let part = place - before as f64;
+        values[before] * (1.0 - part) + values[after] * part
+    };
+    (0..values.len()).map(at).collect()
+}
+
+/// Where a function that rises reaches a value; `None` where it does not.
+fn root(wanted: f64, of: &dyn Fn(f64) -> f64) -> Option<f64> {
+    const FACTOR: f64 = 4.0;
+    let mut low = 1e-6;
+    let mut high = low;
+    while of(high) < wanted {
+        low = high;
+        high *= FACTOR;
+        if high > 1e6 {
+            return None;
+        }
+    }
+    for _ in 0..20 {
+        let middle = (low * high).sqrt();
+        if of(middle) < wanted {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(high)
+}
+
+/// White noise, colored noise and a slow wander, relative to the values' root mean square.
+fn disturb(values: &mut [f64], random: &mut ChaCha8Rng) {
+    let size = rms(values.iter().copied());
+    let mut normal = || -> f64 { StandardNormal.sample(random) };
+    let (mut colored, mut wander) = (normal(), 0.0);
+    let step = (RATE_HZ * SECONDS[0]).sqrt().recip();
+    for value in values {
+        colored = CORRELATION * colored + (1.0 - CORRELATION * CORRELATION).sqrt() * normal();
+        wander += step * normal();
+        *value += size * (WHITE * normal() + COLORED * colored + WANDER * wander);
+    }
+}

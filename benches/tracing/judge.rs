@@ -1,0 +1,228 @@
+//! What `trace` made of an experiment, against what was put in.
+
+use robot_model::identify::Identify;
+use robot_model::trace::{Outcome, Tried};
+use robot_model_cli::close_the_loop::{Loop, Progress, close};
+use robot_model_cli::interpreted::InterpretedArm;
+use robot_model_codegen::compile_model;
+use robot_model_spec::load;
+use serde::Serialize;
+
+use crate::catalogue::Injection;
+use crate::experiment::{Case, Experiment};
+
+/// An effect has to be named where leaving it out costs more than this share of a joint's error on data that were not fitted.
+const LEAST_COST: f64 = 0.05;
+
+/// What an answer is worth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mark {
+    /// The effect, on its joint, and nothing else; or nothing where nothing is.
+    Exact,
+    /// A neighboring law on that joint, and nothing else.
+    Near,
+    /// Silence where what is there is too little to matter.
+    Small,
+    /// Said to be missing, without a name.
+    Abstained,
+    /// Not seen.
+    Missed,
+    /// A wrong name.
+    Wrong,
+}
+
+/// One experiment, judged.
+#[derive(Debug, Clone, Serialize)]
+pub struct Row {
+    pub arm: &'static str,
+    pub kind: &'static str,
+    pub share: f64,
+    pub seed: u64,
+    /// Joints from 1.
+    pub joints: Vec<usize>,
+    /// Whether leaving it out costs something.
+    pub is_material: bool,
+    pub mark: Mark,
+    /// What was said.
+    pub outcome: &'static str,
+    pub said: Vec<String>,
+    /// Error with what was said over that of the true model, on data that were not fitted, of the worst joint.
+    pub after_over_truth: Option<f64>,
+    pub seconds: f64,
+    /// What was judged, with the reasons against it.
+    pub tried: Vec<String>,
+}
+
+/// Closes the loop on an experiment.
+///
+/// # Errors
+/// What went wrong, in words.
+pub fn judge(case: &Case, experiment: &Experiment) -> Result<Row, String> {
+    let [identify, validate] = &experiment.logs;
+    let start = std::time::Instant::now();
+    let name = format!("{}.robot", case.arm.name);
+    let closed = close(
+        &name,
+        &experiment.declared,
+        std::slice::from_ref(identify),
+        Some(validate),
+        &Progress::silent(),
+    )
+    .map_err(|error| error.to_string())?;
+    let seconds = start.elapsed().as_secs_f64();
+    let best = experiment
+        .truth
+        .as_deref()
+        .map(|truth| true_errors(&name, truth, experiment, &closed))
+        .transpose()?;
+    let errors = |stage: &robot_model_cli::close_the_loop::Stage| {
+        stage
+            .validation
+            .as_ref()
+            .map(|errors| errors.rmse.clone())
+            .unwrap_or_default()
+    };
+    let (before, after) = (errors(&closed.before), errors(closed.after()));
+    let costs = best.as_ref().map(|best| {
+        before
+            .iter()
+            .zip(best)
+            .any(|(before, best)| *best < (1.0 - LEAST_COST) * before)
+    });
+    // Bad samples are in no model, and are as large as they were made.
+    let is_material = case.injection.is_named() && costs.unwrap_or(true);
+    let mut said: Vec<(String, Vec<usize>)> = closed
+        .faults
+        .iter()
+        .map(|fault| (fault.kind.to_owned(), Vec::new()))
+        .collect();
+    said.extend(
+        closed
+            .verdict
+            .findings
+            .iter()
+            .map(|finding| (finding.kind.clone(), finding.joints.clone())),
+    );
+    let mark = mark(
+        case.injection,
+        &experiment.joints,
+        case.arm.joints.len(),
+        closed.outcome(),
+        &said,
+        is_material,
+    );
+    Ok(Row {
+        arm: case.arm.name,
+        kind: case.injection.kind,
+        share: case.share,
+        seed: case.seed,
+        joints: experiment.joints.iter().map(|joint| joint + 1).collect(),
+        is_material,
+        mark,
+        outcome: closed.outcome().name(),
+        said: said
+            .iter()
+            .map(|(kind, joints)| {
+                let joints: Vec<String> =
+                    joints.iter().map(|joint| (joint + 1).to_string()).collect();
+                format!("{kind}@{}", joints.join("+"))
+            })
+            .collect(),
+        after_over_truth: best.map(|best| {
+            let ratios = after
+                .iter()
+                .zip(best)
+                .map(|(after, best)| after / best.max(f64::MIN_POSITIVE));
+            ratios.fold(0.0, f64::max)
+        }),
+        seconds,
+        tried: closed.verdict.tried.iter().map(told).collect(),
+    })
+}
+
+/// A candidate, what it takes off the error of each joint, and the reasons against it.
+fn told(tried: &Tried) -> String {
+    let joints: Vec<String> = tried
+        .joints
+        .iter()
+        .map(|joint| (joint + 1).to_string())
+        .collect();
+    let refusals: Vec<&str> = tried.refusals.iter().map(|one| one.name()).collect();
+    format!(
+        "round {}: {}@{} {:.3?}, p {:.1e}, folds {:?}, raw {:.1?} %, {}",
+        tried.round + 1,
+        tried.kind,
+        joints.join("+"),
+        tried.shapes,
+        tried.evidence.p_value,
+        tried.evidence.folds,
+        tried.evidence.raw_percent,
+        refusals.join(" ")
+    )
+}
+
+/// Errors of the true model, identified on the same log.
+fn true_errors(
+    name: &str,
+    truth: &str,
+    experiment: &Experiment,
+    closed: &Loop,
+) -> Result<Vec<f64>, String> {
+    let said = |error: &dyn std::fmt::Display| error.to_string();
+    let model = load(name, truth).map_err(|error| said(&error))?;
+    let arm = InterpretedArm::new(compile_model(&model));
+    let [identify, validate] = &experiment.logs;
+    let same_band = Identify {
+        bands: Some(closed.before.estimate.bands),
+        ..Identify::default()
+    };
+    let estimate = same_band
+        .fit(&arm, std::slice::from_ref(identify))
+        .map_err(|error| said(&error))?;
+    Ok(estimate
+        .errors(&arm, validate)
+        .map_err(|error| said(&error))?
+        .rmse)
+}
+
+fn mark(
+    injection: &Injection,
+    joints: &[usize],
+    dof: usize,
+    outcome: Outcome,
+    said: &[(String, Vec<usize>)],
+    is_material: bool,
+) -> Mark {
+    let names = |(kind, on): &(String, Vec<usize>), near: bool| {
+        let is_kind = kind == injection.kind
+            || injection.same.contains(&kind.as_str())
+            || (near && injection.near.contains(&kind.as_str()));
+        // A body more on the last link is that link's error.
+        let is_last =
+            kind != "link-inertial-error" || injection.kind != "payload" || on == &[dof - 1];
+        let anywhere = [
+            "payload",
+            "base-tilt",
+            "time-delay",
+            "corrupt-samples",
+            "external-force",
+        ]
+        .contains(&injection.kind);
+        is_kind
+            && is_last
+            && (anywhere || on.is_empty() || on.iter().any(|joint| joints.contains(joint)))
+    };
+    match (outcome, said) {
+        (Outcome::NothingMissing, _) if !injection.is_named() && injection.law.is_none() => {
+            Mark::Exact
+        }
+        (Outcome::NothingMissing, _) if !is_material && injection.law.is_none() => Mark::Small,
+        (Outcome::NothingMissing, _) => Mark::Missed,
+        (Outcome::Unexplained, _) if injection.law.is_some() => Mark::Exact,
+        (Outcome::Unexplained, _) if injection.is_named() => Mark::Abstained,
+        (Outcome::Explained, [one]) if injection.is_named() && names(one, false) => Mark::Exact,
+        (Outcome::Explained, [one]) if injection.is_named() && names(one, true) => Mark::Near,
+        _ => Mark::Wrong,
+    }
+}

@@ -1,0 +1,152 @@
+//! `cargo bench --bench tracing`: every effect of the library is put into simulated arms, in three sizes, and traced.
+//!
+//! An arm moves in closed loop, with an encoder's steps and colored noise; its spec does not declare what is in it. The share of right
+//! names, of silence and of wrong names is told for every effect and size. The first argument of a run is how many seeds: those from 100
+//! on are for looking at while the tracer is built, those below for the figures.
+
+mod arms;
+mod catalogue;
+mod experiment;
+mod judge;
+mod motion;
+mod table;
+
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use clap::Parser;
+
+use arms::ARMS;
+use catalogue::ALL;
+use experiment::Case;
+use judge::Row;
+
+/// Put effects into simulated arms, and trace them.
+#[derive(Debug, Parser)]
+#[command(name = "tracing", bin_name = "cargo bench --bench tracing --")]
+struct Options {
+    /// Seeds of motion, joint and noise.
+    #[arg(long, value_delimiter = ',', value_name = "N,..", default_values_t = [1, 2])]
+    seeds: Vec<u64>,
+    /// Root mean square of what an effect adds, percent of the torque of its joint.
+    #[arg(long, value_delimiter = ',', value_name = "PERCENT,..", default_values_t = [1.0, 3.0, 10.0])]
+    sizes: Vec<f64>,
+    /// Arms, by name.
+    #[arg(long, value_delimiter = ',', value_name = "NAME,..")]
+    arms: Vec<String>,
+    /// What is put in, by name.
+    #[arg(long, value_delimiter = ',', value_name = "KIND,..")]
+    kinds: Vec<String>,
+    /// Experiments at a time.
+    #[arg(long, default_value_t = 2)]
+    jobs: usize,
+    /// Write every experiment's row there, as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// What cargo says to every benchmark.
+    #[arg(long, hide = true)]
+    bench: bool,
+}
+
+impl Options {
+    fn cases(&self) -> Vec<Case> {
+        let wanted =
+            |names: &[String], name: &str| names.is_empty() || names.iter().any(|one| one == name);
+        let mut cases = Vec::new();
+        for arm in ARMS.iter().filter(|arm| wanted(&self.arms, arm.name)) {
+            for injection in ALL.iter().filter(|one| wanted(&self.kinds, one.kind)) {
+                for (number, percent) in self.sizes.iter().enumerate() {
+                    // An arm with nothing in it has motions and noise of its own in place of sizes.
+                    let astray = if injection.is_named() || injection.law.is_some() {
+                        0
+                    } else {
+                        1000 * number as u64
+                    };
+                    let seeds = self.seeds.iter();
+                    cases.extend(seeds.map(|seed| Case {
+                        arm,
+                        injection,
+                        share: percent / 100.0,
+                        seed: seed + astray,
+                    }));
+                }
+            }
+        }
+        cases
+    }
+}
+
+fn main() -> ExitCode {
+    let options = Options::parse();
+    let cases = options.cases();
+    let (next, rows) = (AtomicUsize::new(0), Mutex::new(Vec::<(usize, Row)>::new()));
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(number) else {
+                return;
+            };
+            let label = format!(
+                "{} {} {} % seed {}",
+                case.arm.name,
+                case.injection.kind,
+                100.0 * case.share,
+                case.seed
+            );
+            let found = case
+                .run()
+                .and_then(|experiment| experiment.map(|one| judge::judge(case, &one)).transpose());
+            let text = match found {
+                Ok(Some(row)) => {
+                    let text = format!(
+                        "{:?}: {} {:?} of joints {:?}, {} ({:.1} s)",
+                        row.mark,
+                        row.outcome,
+                        row.said,
+                        row.joints,
+                        if row.is_material { "matters" } else { "small" },
+                        row.seconds
+                    );
+                    rows.lock().expect("no panic").push((number, row));
+                    text
+                }
+                Ok(None) => "not there in this size".to_owned(),
+                Err(error) => format!("failed: {error}"),
+            };
+            let _ = writeln!(
+                std::io::stderr(),
+                "[{}/{}] {label}: {text}",
+                number + 1,
+                cases.len()
+            );
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..options.jobs.max(1) {
+            scope.spawn(work);
+        }
+    });
+    let mut rows = rows.into_inner().expect("no panic");
+    rows.sort_by_key(|(number, _)| *number);
+    let rows: Vec<Row> = rows.into_iter().map(|(_, row)| row).collect();
+    if let Some(path) = &options.json {
+        let text = serde_json::to_string_pretty(&rows).expect("rows are plain");
+        if let Err(error) = std::fs::write(path, text) {
+            let _ = writeln!(
+                std::io::stderr(),
+                "cannot write `{}`: {error}",
+                path.display()
+            );
+            return ExitCode::FAILURE;
+        }
+    }
+    let said = write!(std::io::stdout(), "{}", table::table(&rows));
+    if said.is_err() {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    }
+}
