@@ -21,6 +21,8 @@ pub struct Injection {
     pub replaces: Option<&'static str>,
     /// Whether inertials have to be known for it to be told.
     pub is_of_known_links: bool,
+    /// What part of the wanted size it has.
+    pub part: f64,
     /// Its law, where the library does not have it.
     pub law: Option<&'static str>,
 }
@@ -52,6 +54,7 @@ const NONE: Injection = Injection {
     scaled: &[],
     replaces: None,
     is_of_known_links: false,
+    part: 1.0,
     law: None,
 };
 
@@ -252,6 +255,8 @@ pub const ALL: &[Injection] = &[
         kind: "joint-elasticity",
         scaled: &[("stiffness", |x| 1.0 / x)],
         near: &["backlash"],
+        // A spring that gives way by more swings with the motion.
+        part: 0.1,
         ..NONE
     },
     Injection {

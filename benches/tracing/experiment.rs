@@ -1,6 +1,7 @@
 //! One experiment: an arm with something in it that its spec does not declare, in closed loop, and its two logs.
 
 use std::fmt::Display;
+use std::path::Path;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -66,6 +67,52 @@ pub struct Experiment {
     pub joints: Vec<usize>,
     /// The log that is fitted, the one that is not.
     pub logs: [Log; 2],
+}
+
+impl Experiment {
+    /// The spec, the spec that says all and both logs, as files of a folder.
+    ///
+    /// # Errors
+    /// Those of the file system.
+    pub fn keep(&self, folder: &Path) -> std::io::Result<()> {
+        std::fs::create_dir_all(folder)?;
+        std::fs::write(folder.join("declared.robot"), &self.declared)?;
+        if let Some(truth) = &self.truth {
+            std::fs::write(folder.join("truth.robot"), truth)?;
+        }
+        for log in &self.logs {
+            std::fs::write(folder.join(format!("{}.csv", log.source)), csv(log))?;
+        }
+        Ok(())
+    }
+}
+
+fn csv(log: &Log) -> String {
+    let joints = 1..=log.q.len();
+    let names =
+        |stem: &str| -> Vec<String> { joints.clone().map(|j| format!("{stem}{j}")).collect() };
+    let extra = log.extra.iter().map(|channel| channel.name.clone());
+    let head: Vec<String> = std::iter::once("time".to_owned())
+        .chain(names("q"))
+        .chain(names("tau"))
+        .chain(extra)
+        .collect();
+    let mut text = head.join(",");
+    for (k, time) in log.time.iter().enumerate() {
+        let columns = log
+            .q
+            .iter()
+            .chain(&log.tau)
+            .chain(log.extra.iter().map(|channel| &channel.values));
+        let row: Vec<String> = std::iter::once(*time)
+            .chain(columns.map(|values| values[k]))
+            .map(|x| x.to_string())
+            .collect();
+        text.push('\n');
+        text.push_str(&row.join(","));
+    }
+    text.push('\n');
+    text
 }
 
 /// What went wrong, in words.
@@ -297,7 +344,9 @@ impl Case {
                 })
             }
         };
-        Ok(root(self.share, &|size| share(&with(size))))
+        Ok(root(self.injection.part * self.share, &|size| {
+            share(&with(size))
+        }))
     }
 
     /// The machine's torque along an exact motion.

@@ -46,6 +46,9 @@ struct Options {
     /// Write every experiment's row there, as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Keep specs and logs of every experiment in a folder there, to look at with `robot-model trace`.
+    #[arg(long, value_name = "FOLDER")]
+    keep: Option<PathBuf>,
     /// What cargo says to every benchmark.
     #[arg(long, hide = true)]
     bench: bool,
@@ -96,9 +99,14 @@ fn main() -> ExitCode {
                 100.0 * case.share,
                 case.seed
             );
-            let found = case
-                .run()
-                .and_then(|experiment| experiment.map(|one| judge::judge(case, &one)).transpose());
+            let found = case.run().and_then(|experiment| {
+                if let (Some(folder), Some(experiment)) = (&options.keep, &experiment) {
+                    let name = label.replace(" % seed ", "_").replace(' ', "_");
+                    let kept = experiment.keep(&folder.join(name));
+                    kept.map_err(|error| error.to_string())?;
+                }
+                experiment.map(|one| judge::judge(case, &one)).transpose()
+            });
             let text = match found {
                 Ok(Some(row)) => {
                     let text = format!(

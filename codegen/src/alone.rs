@@ -1,9 +1,10 @@
 //! An effect by itself: what an arm does not declare, tried on given joints.
 
+use robot_model_spec::Model;
 use robot_model_spec::model::EffectDefinition;
 
 use crate::compiled::Block;
-use crate::dynamics::effect;
+use crate::dynamics::{self, effect};
 use crate::expr::{Dag, ExprId, Symbol};
 use crate::states::{self, StateProgram};
 
@@ -17,12 +18,12 @@ pub struct EffectColumns {
     pub states: Vec<StateProgram>,
 }
 
-/// Columns of `definition` on `joints` of an arm with `dof` joints.
+/// Columns of `definition` on `joints` of an arm. A force acts on links that stand where their joints say.
 #[must_use]
 pub fn effect_columns(
     definition: &EffectDefinition,
     joints: &[usize],
-    dof: usize,
+    model: &Model,
 ) -> EffectColumns {
     let mut dag = Dag::new();
     let parameters: Vec<Symbol> = (0..definition.linear.len())
@@ -33,14 +34,14 @@ pub fn effect_columns(
         .map(|&symbol| dag.symbol(symbol))
         .collect();
     let symbols = effect::Symbols::alone(&mut dag, definition);
-    let rigid_torque = effect::outside_rigid_torque(&mut dag, dof);
+    let rigid_torque = effect::outside_rigid_torque(&mut dag, model.joints.len());
+    let levers = dynamics::levers(&mut dag, model, [definition]);
     let scope = effect::Scope {
         linear: &linear,
         symbols: &symbols,
         joints,
         rigid_torque: &rigid_torque,
-        // An effect that acts otherwise than by torques does not stand alone.
-        levers: &[],
+        levers: &levers,
     };
     let entries = effect::entries(&mut dag, definition, &scope, &parameters);
     let block = Block::new(

@@ -48,7 +48,7 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
         }
     }
     let outside = effect::outside_rigid_torque(dag, dof);
-    let levers = dynamics::levers(dag, model);
+    let levers = dynamics::levers(dag, model, dynamics::declared(model));
     let mut first = inertial;
     for (index, declared) in model.effects.iter().enumerate() {
         let symbols: Vec<Symbol> = (first..first + declared.definition.linear.len())

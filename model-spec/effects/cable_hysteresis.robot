@@ -10,9 +10,9 @@ effect cable_hysteresis(j) {
     /// Travel over which the torque builds up, rad (m for a prismatic joint).
     shape width in 0.005 .. 1;
     /// How much the way back differs from the way there: 0.5 goes back along a straight line.
-    shape beta in 0.4 .. 1 step 0.3;
+    shape beta in 0.2 .. 1.1 step 0.45;
     /// How sharply the loop bends into its far sides.
-    shape n in 1 .. 2.5 step 0.5;
+    shape n in 0.5 .. 2.5 step 1;
     /// Torque over that on the far sides.
     state z;
     dot(z) = dq(j) / width * (1 - abs(z)^n * (beta * sign(dq(j) * z) + 1 - beta));

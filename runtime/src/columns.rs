@@ -175,6 +175,11 @@ pub trait Candidate: Columns {
     /// The joints it is tried on, from 0; none where it is of the arm as a whole.
     fn joints(&self) -> &[usize];
 
+    /// Whether its columns are made of the torque as logged, whose residual is traced: the noise of that explains itself.
+    fn follows_torque(&self) -> bool {
+        false
+    }
+
     /// What it is where it is no torque that is added; its [`Columns::unknowns`] are then its shapes, one a [`Change::probe`], and it
     /// has no [`Columns::entries`].
     fn change(&self) -> Option<&dyn Change> {
@@ -192,4 +197,9 @@ pub trait Change: Sync {
 
     /// Own shapes each of which, the others neutral, changes a little.
     fn probe(&self) -> &[f64];
+
+    /// Whether own shapes are a change at all, for logs with samples `period` seconds apart.
+    fn counts(&self, _shapes: &[f64], _period: f64) -> bool {
+        true
+    }
 }

@@ -54,7 +54,7 @@ impl EffectBlock {
             gain: Vec::new(),
             wide,
         };
-        if effects.reads(|symbol| matches!(symbol, Symbol::MeasuredTorque(_))) {
+        if effects.reads_measured_torque() {
             effects.gain = gain;
         }
         effects
@@ -68,6 +68,11 @@ impl EffectBlock {
     /// Whether a column reads the torque of the rigid body.
     pub(super) fn uses_rigid_torque(&self) -> bool {
         self.reads(|symbol| matches!(symbol, Symbol::RigidTorque(_)))
+    }
+
+    /// Whether a column reads the torque as logged.
+    pub(super) fn reads_measured_torque(&self) -> bool {
+        self.reads(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)))
     }
 
     fn reads(&self, wanted: impl Fn(&Symbol) -> bool) -> bool {

@@ -6,7 +6,7 @@ use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::log::Channel;
 use robot_model::motion::{Kinematics, Motion};
 use robot_model_codegen::effect_columns;
-use robot_model_spec::model::{EffectDefinition, Model};
+use robot_model_spec::model::{Act, EffectDefinition, Model};
 
 use super::InterpretedArm;
 use super::band::EffectBlock;
@@ -23,7 +23,7 @@ impl InterpretedArm {
         let definitions = model.definitions.iter();
         let tried: Vec<&EffectDefinition> = definitions
             .map(AsRef::as_ref)
-            .filter(|definition| may_be_tried(definition))
+            .filter(|definition| may_be_tried(definition, model))
             .collect();
         let definitions = tried.iter().filter(|definition| {
             !tried
@@ -57,6 +57,11 @@ impl InterpretedArm {
                 }
             }
         }
+        // Late as the arm's own columns are; one whose delay is open has none yet.
+        let delay = self.measured.seconds(&self.given);
+        for candidate in &mut candidates {
+            candidate.delay = delay.filter(|seconds| seconds.is_finite());
+        }
         candidates
     }
 }
@@ -64,13 +69,16 @@ impl InterpretedArm {
 /// A law with more linear parameters than this is a model of its own, not what another model lacks.
 const MOST_UNKNOWNS: usize = 3;
 
-/// Whether a residual may be traced to an effect: where it is a torque that is added, not where it changes the rigid body or the
-/// log; not where it is made of the torque whose residual it is, which explains itself, and not to a sum of effects that are
-/// tried one by one.
-fn may_be_tried(definition: &EffectDefinition) -> bool {
+/// Whether a residual may be traced to an effect: where it is a torque that is added, or a force on a link, not where it changes the
+/// rigid body or the log, and not to a sum of effects that are tried one by one. Forces are tried where links stand where their joints
+/// say.
+fn may_be_tried(definition: &EffectDefinition, model: &Model) -> bool {
+    let mut acts = definition.acts.iter();
+    let is_force = acts.all(|act| matches!(act, Act::Force { .. }));
+    let mut declared = model.effects.iter();
+    let stands = declared.all(|effect| effect.definition.acts.is_empty());
     definition.linear.len() <= MOST_UNKNOWNS
-        && !definition.reads_measured_torque()
-        && definition.acts.is_empty()
+        && (definition.acts.is_empty() || (is_force && stands && model.chain().is_some()))
 }
 
 /// An effect of the spec's library on joints where the spec does not declare it.
@@ -81,6 +89,8 @@ pub struct InterpretedCandidate {
     unknowns: Vec<Unknown>,
     shapes: Vec<Shape>,
     columns: EffectBlock,
+    /// By how much the log's torques are late, s.
+    delay: Option<f64>,
 }
 
 impl InterpretedCandidate {
@@ -97,7 +107,7 @@ impl InterpretedCandidate {
             name: format!("{prefix}.{}", shape.name),
             grid,
         });
-        let columns = effect_columns(definition, joints, model.joints.len());
+        let columns = effect_columns(definition, joints, model);
         Self {
             kind: definition.name.replace('_', "-"),
             joints: joints.to_vec(),
@@ -118,6 +128,7 @@ impl InterpretedCandidate {
                     .collect(),
                 |parameter| is_rough(definition, parameter),
             ),
+            delay: None,
         }
     }
 
@@ -197,13 +208,23 @@ impl Columns for InterpretedCandidate {
     }
 
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        self.columns.run(motion, shapes)
+        let mut entries = self.columns.run(motion, shapes);
+        if let Some(seconds) = self.delay {
+            for entry in &mut entries {
+                entry.values = motion.late(&entry.values, seconds);
+            }
+        }
+        entries
     }
 }
 
 impl Candidate for InterpretedCandidate {
     fn kind(&self) -> &str {
         &self.kind
+    }
+
+    fn follows_torque(&self) -> bool {
+        self.columns.reads_measured_torque()
     }
 
     fn joints(&self) -> &[usize] {

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use robot_model::columns::{Arm, Candidate, Change, Columns, Entry, Shape, Unknown};
+use robot_model::identify::is_delay;
 use robot_model::motion::{Kinematics, Motion};
 use robot_model_codegen::compile_model;
 use robot_model_spec::model::{Act, EffectDefinition};
@@ -21,17 +22,23 @@ pub struct InterpretedChange {
     arm: InterpretedArm,
     neutral: Vec<f64>,
     probe: Vec<f64>,
+    is_delay: bool,
 }
 
 impl InterpretedArm {
-    /// Every effect of the library that moves a link or tilts the base and is not declared, on every joint. Delays are faults of a
-    /// log, and bodies have [columns](Self::bodies).
+    /// Every effect of the library that moves a link, tilts the base or makes the log's torques late and is not declared, on every joint.
+    /// Bodies have [columns](Self::bodies).
     #[must_use]
     pub fn changes(&self) -> Vec<InterpretedChange> {
         let model = &self.compiled.model;
         let is_change = |definition: &&Arc<EffectDefinition>| {
             let mut acts = definition.acts.iter();
-            let moves = acts.all(|act| matches!(act, Act::Position { .. } | Act::Tilt { .. }));
+            let moves = acts.all(|act| {
+                matches!(
+                    act,
+                    Act::Position { .. } | Act::Tilt { .. } | Act::Delay { .. }
+                )
+            });
             moves
                 && !definition.acts.is_empty()
                 && definition.torques.is_empty()
@@ -45,9 +52,12 @@ impl InterpretedArm {
         let has_gravity = chain.gravity.iter().any(|g| *g != 0.0);
         let definitions = model.definitions.iter().filter(is_change);
         let all = definitions.flat_map(|definition| {
-            let is_tilt = definition.joints.is_empty();
-            let joints: Vec<Vec<usize>> = if is_tilt {
-                vec![Vec::new(); usize::from(has_gravity)]
+            let is_tilt = definition
+                .acts
+                .iter()
+                .any(|act| matches!(act, Act::Tilt { .. }));
+            let joints: Vec<Vec<usize>> = if definition.joints.is_empty() {
+                vec![Vec::new(); usize::from(has_gravity || !is_tilt)]
             } else {
                 (0..model.joints.len()).map(|joint| vec![joint]).collect()
             };
@@ -57,12 +67,23 @@ impl InterpretedArm {
             let mut effects = model.effects.iter();
             effects.any(|effect| effect.definition.name == name && effect.joints == joints)
         };
-        let all = all.filter(|(definition, joints)| !is_declared(&definition.name, joints));
+        // Of delays there is one.
+        let mut effects = model.effects.iter();
+        let is_late = effects.any(|effect| delays(&effect.definition));
+        let all = all.filter(|(definition, joints)| {
+            !is_declared(&definition.name, joints) && !(is_late && delays(definition))
+        });
         let found = each(all, |(definition, joints)| {
             InterpretedChange::new(self, definition, joints)
         });
         found.into_iter().flatten().collect()
     }
+}
+
+/// Whether an effect makes the log's torques late.
+fn delays(definition: &EffectDefinition) -> bool {
+    let mut acts = definition.acts.iter();
+    acts.any(|act| matches!(act, Act::Delay { .. }))
 }
 
 impl InterpretedChange {
@@ -91,6 +112,7 @@ impl InterpretedChange {
             arm: with,
             neutral: Vec::new(),
             probe: Vec::new(),
+            is_delay: delays(definition),
         };
         for grid in grids(definition) {
             let (low, high) = (grid[0], grid[grid.len() - 1]);
@@ -194,5 +216,9 @@ impl Change for InterpretedChange {
 
     fn probe(&self) -> &[f64] {
         &self.probe
+    }
+
+    fn counts(&self, shapes: &[f64], period: f64) -> bool {
+        !self.is_delay || shapes.iter().all(|seconds| is_delay(*seconds, period))
     }
 }

@@ -79,7 +79,8 @@ impl Measured {
         series
     }
 
-    fn seconds(&self, shapes: &[f64]) -> Option<f64> {
+    /// By how much torques are late.
+    pub(super) fn seconds(&self, shapes: &[f64]) -> Option<f64> {
         let program = self.delay.as_ref()?;
         Some(
             program.eval(&|symbol| match symbol {

@@ -71,7 +71,7 @@ mod tests {
             grids.iter().map(Vec::len).collect()
         };
         assert_eq!(sizes("stribeck"), [12]);
-        assert_eq!(sizes("cable_hysteresis"), [6, 3, 4]);
+        assert_eq!(sizes("cable_hysteresis"), [8, 3, 3]);
         assert_eq!(sizes("lugre_presliding"), [5, 5, 3]);
     }
 }

@@ -28,7 +28,7 @@ mod twist;
 mod vanishing;
 mod vector;
 
-use robot_model_spec::model::{Act, Model};
+use robot_model_spec::model::{Act, EffectDefinition, Model};
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
@@ -154,12 +154,21 @@ pub fn kinematics(dag: &mut Dag, model: &Model) -> Option<Kinematics> {
     Some(massless(dag, model)?.kinematics(dag))
 }
 
-/// What forces on links are multiplied with; empty where no declared effect is a force.
-pub(crate) fn levers(dag: &mut Dag, model: &Model) -> Vec<Lever> {
-    let mut acts = model
+/// Definitions of the declared effects.
+pub(crate) fn declared(model: &Model) -> impl Iterator<Item = &EffectDefinition> {
+    model
         .effects
         .iter()
-        .flat_map(|effect| &effect.definition.acts);
+        .map(|effect| effect.definition.as_ref())
+}
+
+/// What forces on links are multiplied with; empty where none of these effects is a force.
+pub(crate) fn levers<'a>(
+    dag: &mut Dag,
+    model: &Model,
+    effects: impl IntoIterator<Item = &'a EffectDefinition>,
+) -> Vec<Lever> {
+    let mut acts = effects.into_iter().flat_map(|effect| &effect.acts);
     if !acts.any(|act| matches!(act, Act::Force { .. })) {
         return Vec::new();
     }
@@ -205,7 +214,7 @@ fn effect_torque(
     means: &[Means],
 ) -> Vec<ExprId> {
     let mut sum = vec![dag.zero(); model.joints.len()];
-    let levers = levers(dag, model);
+    let levers = levers(dag, model, declared(model));
     effect::each_declared(
         dag,
         model,

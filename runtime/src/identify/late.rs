@@ -44,6 +44,20 @@ pub struct TorqueDelay {
     pub gain: f64,
 }
 
+/// Whether torque that is late by so many seconds, or early, is more than how a drive samples it; `period` is that of the log, s.
+#[must_use]
+pub fn is_delay(seconds: f64, period: f64) -> bool {
+    !(-HELD..=LATE).contains(&(seconds / period))
+}
+
+/// Time from one sample to the next of the slowest log, s.
+pub(crate) fn longest_period(logs: &[Prepared]) -> f64 {
+    let periods = logs
+        .iter()
+        .map(|log| 1.0 / (log.rate_hz * log.stride as f64));
+    periods.fold(0.0, f64::max)
+}
+
 /// The equations without delays.
 struct Rows<'a> {
     arm: &'a dyn Arm,
@@ -107,9 +121,7 @@ impl Identify {
     /// `None` where the rows are too few for more unknowns.
     fn delays_of(&self, rows: &Rows<'_>) -> Option<Vec<TorqueDelay>> {
         let dof = rows.arm.dof();
-        let periods = rows.logs.iter();
-        let periods = periods.map(|log| 1.0 / (log.rate_hz * log.stride as f64));
-        let period = periods.fold(0.0, f64::max);
+        let period = longest_period(rows.logs);
         let mut delays = vec![0.0; dof];
         for _ in 0..ROUNDS {
             let found = self.further(&rows.shifted(&delays))?;
@@ -118,7 +130,7 @@ impl Identify {
             }
             let is_far = |joint: &usize| {
                 let (delay, std) = (delays[*joint], found.std[*joint]);
-                delay.abs() > DEVIATIONS * std && !(-HELD..=LATE).contains(&(delay / period))
+                delay.abs() > DEVIATIONS * std && is_delay(delay, period)
             };
             let far: Vec<usize> = (0..dof).filter(is_far).collect();
             if far.is_empty() {

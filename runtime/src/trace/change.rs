@@ -11,6 +11,8 @@ use crate::columns::{Arm, Change, Entry};
 use crate::identify::{IdentifyError, Stack, load_motion, with_slopes};
 use crate::signal::Prepared;
 
+use super::raw::above;
+use super::residual::raw_residuals;
 use super::search::{Search, State};
 
 /// Steps of Gauss-Newton, and the step, in a shape's deviations or of the shape itself, that is none.
@@ -27,6 +29,8 @@ pub(super) struct Changed {
     pub(super) shapes: Vec<f64>,
     /// Rows of the arm with it and with the effects that were accepted before; the last columns are slopes by its shapes.
     pub(super) stack: Stack,
+    /// Mean square of the raw residual beyond that of the filtered one, per joint.
+    pub(super) noise_power: Vec<f64>,
     /// Whether the logged torque is in it, whose noise then explains itself.
     pub(super) follows_torque: bool,
 }
@@ -105,6 +109,7 @@ impl Search<'_> {
             let unknowns = stack.unknowns.len();
             let plain = self.identify.solve_stack(&stack)?;
             stack.silence(&plain.unexcited);
+            let filtered = stack.residuals(&plain.estimate);
             let stack = with_slopes(arm, &rows, &shapes, numbers.clone(), stack, &plain.estimate);
             let solution = self.identify.solve_stack(&stack)?;
             estimate = plain.estimate[..arm.unknowns().len()].to_vec();
@@ -124,9 +129,15 @@ impl Search<'_> {
                 });
                 let mut motions = logs.iter().map(|log| &log.motion);
                 let follows_torque = motions.any(|motion| !motion.transmitted_torque.is_empty());
+                let raw = logs
+                    .iter()
+                    .map(|log| raw_residuals(arm, &shapes, &plain.estimate, &state.accepted, log));
+                let raw: Vec<_> = raw.collect();
+                let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
                 return Ok(is_inside.then_some(Changed {
                     shapes: own,
                     stack,
+                    noise_power,
                     follows_torque,
                 }));
             }

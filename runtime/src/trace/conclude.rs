@@ -64,7 +64,7 @@ fn findings(state: &State) -> Vec<Finding> {
     let mut first =
         state.stack.unknowns.len() - torques.map(|effect| effect.trial.count()).sum::<usize>();
     let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
-    let found = state.accepted.iter().map(|effect| {
+    let found = state.accepted.iter().filter_map(|effect| {
         let candidate = effect.trial.candidate;
         let mut parameters = Vec::new();
         if effect.changed.is_none() {
@@ -97,20 +97,21 @@ fn findings(state: &State) -> Vec<Finding> {
                     shape: true,
                 }),
         );
-        Finding {
+        (!effect.is_small).then(|| Finding {
             kind: candidate.kind().to_owned(),
             joints: candidate.joints().to_vec(),
             parameters,
             evidence: effect.evidence.clone(),
-        }
+        })
     });
     found.collect()
 }
 
 /// The rivals of every accepted effect, with its place after pruning.
 fn alternatives(state: &State) -> Vec<Alternative> {
-    let numbered = state.accepted.iter().enumerate();
-    numbered
+    let named = state.accepted.iter().filter(|effect| !effect.is_small);
+    named
+        .enumerate()
         .flat_map(|(place, effect)| {
             effect.rivals.iter().map(move |rival| Alternative {
                 instead_of: place,
@@ -127,7 +128,9 @@ fn alternatives(state: &State) -> Vec<Alternative> {
 /// most of the structure is elsewhere, the names are those of something else.
 fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
     let laws = |joint: usize| {
-        let acts = |effect: &&Accepted| effect.trial.candidate.joints().contains(&joint);
+        let acts = |effect: &&Accepted| {
+            !effect.is_small && effect.trial.candidate.joints().contains(&joint)
+        };
         state.accepted.iter().filter(acts).count()
     };
     let joints = 0..after.len();

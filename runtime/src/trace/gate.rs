@@ -6,6 +6,7 @@ use crate::identify::Stack;
 use super::change::Changed;
 use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
+use super::raw::Raw;
 use super::score::{Present, Projected};
 use super::trial::Trial;
 use super::verdict::{Evidence, Refusal, Tried};
@@ -27,8 +28,8 @@ pub(super) struct Baseline<'a> {
     pub(super) present: Present<'a>,
     pub(super) gram: &'a Gram,
     pub(super) held_out: HeldOut,
-    /// Power of the raw residual per joint that no filtered fit can remove: noise above the shared band.
-    pub(super) noise_power: &'a [f64],
+    /// The residual on raw samples.
+    pub(super) raw: &'a Raw<'a>,
     /// Candidates and shapes tried.
     pub(super) tried: usize,
 }
@@ -53,14 +54,14 @@ impl<'a> Baseline<'a> {
         gram: &'a Gram,
         sigma: &'a [f64],
         residuals: &'a [Vec<f64>],
-        noise_power: &'a [f64],
+        raw: &'a Raw<'a>,
         tried: usize,
     ) -> Self {
         Self {
             present: Present::new(stack, gram, sigma, residuals),
             held_out: gram.held_out(sigma),
             gram,
-            noise_power,
+            raw,
             tried,
         }
     }
@@ -71,9 +72,10 @@ impl<'a> Baseline<'a> {
         let gram = self.gram.extended(stack, &trial.entries, count);
         let held_out = gram.held_out(self.present.sigma);
         let touched = self.touched(trial.candidate);
-        let compared = self.compared(&held_out, &touched);
-        let gain = gram.normal(self.present.sigma).solve()[self.gram.unknowns()..].to_vec();
         let score = self.present.score(&trial.entries, projected);
+        let noise_power = self.raw.noise_power_with(&trial, projected, &score.rest);
+        let compared = self.compared(&held_out, &noise_power, &touched);
+        let gain = gram.normal(self.present.sigma).solve()[self.gram.unknowns()..].to_vec();
         let p_value = (self.tried as f64 * score.p_value).min(1.0);
         let evidence = Evidence {
             score: score.f,
@@ -119,7 +121,7 @@ impl<'a> Baseline<'a> {
     ) -> Judged<'t> {
         let held_out = Gram::new(&changed.stack, folds).held_out(self.present.sigma);
         let joints: Vec<usize> = (0..self.present.stack.dof()).collect();
-        let compared = self.compared(&held_out, &joints);
+        let compared = self.compared(&held_out, &changed.noise_power, &joints);
         let neutral = first
             .trial
             .candidate
@@ -167,14 +169,15 @@ impl<'a> Baseline<'a> {
     }
 
     /// Errors that were not fitted against those of the model without the candidate; score and its chance are left open.
-    fn compared(&self, held_out: &HeldOut, touched: &[usize]) -> Compared {
+    fn compared(&self, held_out: &HeldOut, noise_power: &[f64], touched: &[usize]) -> Compared {
         let dof = self.present.stack.dof();
-        let raw = |held_out: &HeldOut| -> Vec<f64> {
+        let raw = |held_out: &HeldOut, noise_power: &[f64]| -> Vec<f64> {
             (0..dof)
-                .map(|j| self.noise_power[j] + held_out.mean(j).max(f64::MIN_POSITIVE))
+                .map(|j| noise_power[j] + held_out.mean(j).max(f64::MIN_POSITIVE))
                 .collect()
         };
-        let (raw_before, raw_power) = (raw(&self.held_out), raw(held_out));
+        let raw_before = raw(&self.held_out, &self.raw.noise_power);
+        let raw_power = raw(held_out, noise_power);
         let percent = |after: f64, before: f64| {
             100.0 * (1.0 - (after / before.max(f64::MIN_POSITIVE)).sqrt())
         };

@@ -30,10 +30,13 @@
 mod change;
 mod choose;
 mod conclude;
+mod encompass;
 mod folds;
 mod gate;
 mod gram;
+mod grid;
 mod normal;
+mod raw;
 mod residual;
 mod score;
 mod search;

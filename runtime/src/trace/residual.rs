@@ -1,48 +1,22 @@
 //! What the present model leaves of the raw torque, at the full rate of the motion.
 
+use crate::columns::Arm;
 use crate::identify::torque_of;
 use crate::signal::Prepared;
 
-use super::search::{Search, State};
+use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
 
 impl Search<'_> {
     /// Raw residuals of one log, `[joint][sample]`, both ends cut.
-    fn raw_residuals(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
-        let own = self.arm.unknowns().len();
-        let mut torque = torque_of(
+    pub(super) fn raw_residuals(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
+        raw_residuals(
             self.arm,
-            &log.motion,
             &self.shapes,
             &state.solution.estimate,
-            self.arm.dof(),
-        );
-        let mut first = own;
-        for effect in &state.accepted {
-            let estimate = &state.solution.estimate[first..first + effect.trial.count()];
-            let part = torque_of(
-                effect.trial.candidate,
-                &log.motion,
-                &effect.trial.shapes,
-                estimate,
-                self.arm.dof(),
-            );
-            for (sum, part) in torque.iter_mut().zip(part) {
-                sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
-            }
-            first += effect.trial.count();
-        }
-        let known = self.arm.known_torque(&log.motion, &self.shapes);
-        let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
-        (0..self.arm.dof())
-            .map(|j| {
-                let gain = self.arm.actuator_gain()[j];
-                inner
-                    .clone()
-                    .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
-                    .collect()
-            })
-            .collect()
+            &state.accepted,
+            log,
+        )
     }
 
     /// Mean square of the raw residual per joint over all logs, what decimation took off the torque with it; the logs are those of
@@ -64,22 +38,15 @@ impl Search<'_> {
         self.arm.actuator_gain()[joint].powi(2) * log.tau_beyond[joint]
     }
 
-    /// Mean square of the raw residual beyond that of the filtered one, per joint.
-    pub(super) fn noise_power(&self, state: &State) -> Vec<f64> {
-        let raw: Vec<_> = self
-            .prepared
-            .iter()
-            .map(|log| self.raw_residuals(state, log))
-            .collect();
-        let filtered = state
-            .residuals
-            .iter()
-            .map(|r| r.iter().map(|r| r * r).sum::<f64>() / r.len().max(1) as f64);
-        let raw = self.raw_power(&raw);
-        raw.iter()
-            .zip(filtered)
-            .map(|(raw, filtered)| (raw - filtered).max(0.0))
-            .collect()
+    /// Mean square of each joint's torque that decimation took off, over all logs; the logs are those of [`Self::raw_residuals`].
+    pub(super) fn beyond_all(&self, logs: &[Vec<Vec<f64>>]) -> Vec<f64> {
+        let of_joint = |j: usize| {
+            let count: usize = logs.iter().map(|log| log[j].len()).sum();
+            let sums = logs.iter().zip(&self.prepared);
+            let sums = sums.map(|(log, prepared)| log[j].len() as f64 * self.beyond(prepared, j));
+            sums.sum::<f64>() / count.max(1) as f64
+        };
+        (0..self.arm.dof()).map(of_joint).collect()
     }
 
     /// Structure per joint, and the power of what is not structure.
@@ -117,4 +84,38 @@ impl Search<'_> {
             .collect();
         (found, noise)
     }
+}
+
+/// Raw torque less that of an arm at an estimate, whose last numbers are those of accepted effects: `[joint][sample]` of one log, both
+/// ends cut.
+pub(super) fn raw_residuals(
+    arm: &dyn Arm,
+    shapes: &[f64],
+    estimate: &[f64],
+    accepted: &[Accepted],
+    log: &Prepared,
+) -> Vec<Vec<f64>> {
+    let dof = arm.dof();
+    let mut torque = torque_of(arm, &log.motion, shapes, estimate, dof);
+    let mut first = arm.unknowns().len();
+    for effect in accepted {
+        let trial = &effect.trial;
+        let own = &estimate[first..first + trial.count()];
+        let part = torque_of(trial.candidate, &log.motion, &trial.shapes, own, dof);
+        for (sum, part) in torque.iter_mut().zip(part) {
+            sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
+        }
+        first += trial.count();
+    }
+    let known = arm.known_torque(&log.motion, shapes);
+    let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
+    (0..dof)
+        .map(|j| {
+            let gain = arm.actuator_gain()[j];
+            inner
+                .clone()
+                .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
+                .collect()
+        })
+        .collect()
 }

@@ -24,6 +24,8 @@ pub(super) struct Score {
     pub(super) f: f64,
     /// Probability of it or more where the candidate is not there.
     pub(super) p_value: f64,
+    /// What the candidate leaves of the residual, `[joint][sample]`.
+    pub(super) rest: Vec<Vec<f64>>,
 }
 
 /// The present model's fit, against which candidates are scored.
@@ -57,6 +59,16 @@ impl Projected {
     pub(super) fn power_share(&self, gain: &[f64], column: usize) -> f64 {
         self.information[column][column] * gain[column].powi(2)
             / self.power(gain).max(f64::MIN_POSITIVE)
+    }
+
+    /// How the model's estimate changes with the candidate beside it.
+    pub(super) fn change(&self) -> Vec<f64> {
+        let unknowns = self.corrections.first().map_or(0, Vec::len);
+        let mut change = vec![0.0; unknowns];
+        for (correction, gain) in self.corrections.iter().zip(&self.gain) {
+            add(&mut change, -gain, correction);
+        }
+        change
     }
 
     fn power(&self, gain: &[f64]) -> f64 {
@@ -130,9 +142,8 @@ impl<'a> Present<'a> {
     pub(super) fn score(&self, entries: &[Entry], projected: &Projected) -> Score {
         let count = projected.gain.len();
         let columns = self.projected_columns(entries, projected);
-        let rest: Vec<Vec<f64>> = columns
-            .iter()
-            .zip(self.residuals)
+        let residuals = columns.iter().zip(self.residuals);
+        let rest: Vec<Vec<f64>> = residuals
             .map(|(columns, residual)| {
                 let mut rest = residual.clone();
                 for (column, gain) in columns.iter().zip(&projected.gain) {
@@ -174,7 +185,7 @@ impl<'a> Present<'a> {
         let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
         let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
-        Score { f, p_value }
+        Score { f, p_value, rest }
     }
 
     /// The candidate's columns less the model's, `[joint][column][sample]`.

@@ -4,10 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::columns::{Arm, Candidate, Change};
 use crate::identify::{
-    Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
-    prepare_all, slowest_bands,
+    Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, longest_period,
+    missing_input, prepare_all, slowest_bands,
 };
 use crate::log::Log;
+use crate::motion::Motion;
 use crate::signal::Prepared;
 
 use super::choose::choose;
@@ -15,6 +16,7 @@ use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::gram::Gram;
+use super::grid::{self, Grid};
 use super::structure::Structure;
 use super::trial::Trial;
 use super::verdict::{Alternative, Evidence, Refusal, Tried, Verdict};
@@ -24,6 +26,9 @@ pub const MOST_EFFECTS: usize = 6;
 
 /// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
 const FINALISTS: usize = 16;
+
+/// Candidates whose shapes are refined twice: what a shape is off by stays in the residual, and looks like another effect.
+const FINELY: usize = 3;
 
 /// Changes of the arm that are tried as what they are in a round.
 const CHANGES: usize = 3;
@@ -41,6 +46,8 @@ pub(super) struct Accepted<'a> {
     pub(super) rivals: Vec<Alternative>,
     /// Own shapes of an effect that changes the arm; it ends the trace.
     pub(super) changed: Option<Vec<f64>>,
+    /// Whether it is too small to be named.
+    pub(super) is_small: bool,
 }
 
 /// Everything that changes when an effect is accepted.
@@ -127,7 +134,7 @@ impl<'a> Trace<'a> {
                     .all(|log| missing_input(candidate.inputs(), log).is_none())
             })
             .collect();
-        let mut grids: Vec<Vec<Trial<'a>>> = search.grids(&state, &candidates, |_| true);
+        let mut grids = search.grids(&state, &candidates, |_| true);
         let mut tried = Vec::new();
         while state.accepted.len() < MOST_EFFECTS {
             progress(&format!(
@@ -154,13 +161,22 @@ impl<'a> Trace<'a> {
                 candidate.uses_rigid_torque()
             });
             for (grid, fresh) in grids.iter_mut().zip(fresh) {
-                if !fresh.is_empty() {
+                if fresh.len() > 0 {
                     *grid = fresh;
                 }
             }
         }
-        let state = search.prune(state)?;
-        let (after, noise_power) = search.structure(&state);
+        let mut state = search.prune(state)?;
+        let (mut after, mut noise_power) = search.structure(&state);
+        // What is too small to be named may be structure, and is none that is unknown.
+        while after.iter().any(Structure::is_material) && state.accepted.len() < MOST_EFFECTS {
+            let Some(small) = search.small(&state, &grids) else {
+                break;
+            };
+            state.accepted.push(small);
+            state = search.refit(state)?;
+            (after, noise_power) = search.structure(&state);
+        }
         let before = self.since.clone().unwrap_or(before);
         Ok(verdict(&state, before, after, &noise_power, tried))
     }
@@ -187,7 +203,7 @@ impl Search<'_> {
         state: &State,
         candidates: &[&'a dyn Candidate],
         wanted: impl Fn(&dyn Candidate) -> bool,
-    ) -> Vec<Vec<Trial<'a>>> {
+    ) -> Vec<Grid<'a>> {
         let wanted: Vec<usize> = (0..candidates.len())
             .filter(|&number| wanted(candidates[number]))
             .collect();
@@ -206,7 +222,8 @@ impl Search<'_> {
                 }
             }
         };
-        let mut grids: Vec<Vec<Trial>> = candidates.iter().map(|_| Vec::new()).collect();
+        let none = || Grid::Formed(Vec::new());
+        let mut grids: Vec<Grid> = candidates.iter().map(|_| none()).collect();
         std::thread::scope(|scope| {
             let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
             for thread in threads {
@@ -219,18 +236,13 @@ impl Search<'_> {
     }
 
     /// Trials of one candidate. A change that cannot be solved for at its neutral shapes is no candidate.
-    fn grid<'a>(&self, state: &State, candidate: &'a dyn Candidate) -> Vec<Trial<'a>> {
+    fn grid<'a>(&self, state: &State, candidate: &'a dyn Candidate) -> Grid<'a> {
         let Some(change) = candidate.change() else {
-            return Trial::grid(candidate, &self.prepared);
+            return Grid::new(candidate, &self.prepared);
         };
         let first = self.first_order(state, change).into_iter();
-        first
-            .map(|entries| Trial {
-                candidate,
-                shapes: Vec::new(),
-                entries,
-            })
-            .collect()
+        let trials = first.map(|entries| Trial::first_order(candidate, entries));
+        Grid::Formed(trials.collect())
     }
 
     /// Effects that depend on the load see the torque of the rigid body at the present estimate.
@@ -281,38 +293,62 @@ impl Search<'_> {
     fn round<'a>(
         &self,
         state: &State,
-        grids: &[Vec<Trial<'a>>],
+        grids: &[Grid<'a>],
         told: &mut Vec<Tried>,
     ) -> Option<Accepted<'a>> {
+        let mut judged = self.judged(state, grids);
+        let round = state.accepted.len();
+        told.extend(judged.iter().map(|judged| judged.told(round)));
+        judged.retain(Judged::passes);
+        judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
+        choose(judged, &|one, other| self.encompasses(state, one, other))
+    }
+
+    /// The torque that explains most of those that have nothing against them but their size.
+    fn small<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Option<Accepted<'a>> {
+        let mut judged = self.judged(state, grids);
+        judged.retain(|judged| judged.refusals == [Refusal::Small] && judged.changed.is_none());
+        let best = judged
+            .into_iter()
+            .max_by(|a, b| a.merit.total_cmp(&b.merit))?;
+        let mut small = choose(vec![best], &|_, _| false)?;
+        small.is_small = true;
+        Some(small)
+    }
+
+    /// The candidates that explain most, judged.
+    fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
         let gram = Gram::new(&state.stack, &self.folds);
-        let noise_power = self.noise_power(state);
-        let tried = grids.iter().map(Vec::len).sum();
+        let raw = self.raw(state);
+        let tried = grids.iter().map(Grid::len).sum();
         let baseline = Baseline::new(
             &state.stack,
             &gram,
             &state.solution.sigma,
             &state.residuals,
-            &noise_power,
+            &raw,
             tried,
         );
-        let mut best: Vec<(f64, &Trial)> = grids
+        let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
+        let mut best: Vec<(f64, Trial)> = grids
             .iter()
-            .filter_map(|grid| {
-                let drops = grid
-                    .iter()
-                    .filter_map(|trial| trial.project(&baseline.present).map(|p| (p.drop, trial)));
-                drops.max_by(|a, b| a.0.total_cmp(&b.0))
-            })
+            .filter_map(|grid| grid.best(&baseline.present, &self.prepared, &rows))
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut changes = 0;
         let finalists = best.into_iter().take(FINALISTS);
-        let mut judged: Vec<Judged<'a>> = finalists
-            .filter_map(|(_, trial)| {
-                let trial = trial.refined(&baseline.present, &self.prepared);
+        finalists
+            .enumerate()
+            .filter_map(|(place, (_, trial))| {
+                let sweeps = if place < FINELY { 2 } else { 1 };
+                let trial = trial.refined(&baseline.present, &self.prepared, sweeps);
                 let projected = trial.project(&baseline.present)?;
-                let judged = baseline.judge(trial, &projected);
+                let mut judged = baseline.judge(trial, &projected);
                 let Some(change) = judged.trial.candidate.change() else {
+                    let follows_torque = judged.trial.candidate.follows_torque();
+                    if follows_torque && !self.is_of_structure(state, &judged) {
+                        judged.refusals.push(Refusal::Noise);
+                    }
                     return Some(judged);
                 };
                 if changes == CHANGES || !gate::is_promising(&judged) {
@@ -321,12 +357,7 @@ impl Search<'_> {
                 changes += 1;
                 Some(self.as_what_it_is(state, &baseline, judged, change, &projected.gain))
             })
-            .collect();
-        let round = state.accepted.len();
-        told.extend(judged.iter().map(|judged| judged.told(round)));
-        judged.retain(Judged::passes);
-        judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
-        choose(judged)
+            .collect()
     }
 
     /// A change whose first order is promising, tried as what it is.
@@ -343,15 +374,19 @@ impl Search<'_> {
             first.refusals.push(Refusal::Unsolved);
             return first;
         };
+        let counts = change.counts(&changed.shapes, longest_period(&self.prepared));
         let follows_torque = changed.follows_torque;
         let mut judged = baseline.judge_changed(first, changed, &self.folds);
         if follows_torque && !self.is_of_structure(state, &judged) {
             judged.refusals.push(Refusal::Noise);
         }
+        if !counts {
+            judged.refusals.push(Refusal::Small);
+        }
         judged
     }
 
-    /// A change with the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
+    /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
     fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
         let (structure, _) = self.structure(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
@@ -365,13 +400,13 @@ impl Search<'_> {
             let effect = state.accepted.remove(number);
             state = self.refit(state)?;
             let gram = Gram::new(&state.stack, &self.folds);
-            let noise_power = self.noise_power(&state);
+            let raw = self.raw(&state);
             let baseline = Baseline::new(
                 &state.stack,
                 &gram,
                 &state.solution.sigma,
                 &state.residuals,
-                &noise_power,
+                &raw,
                 1,
             );
             let needed = effect

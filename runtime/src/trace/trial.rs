@@ -11,12 +11,41 @@ use super::score::{Present, Projected};
 /// A shape this close to an end of its range, relative to the range's length, is at the end.
 const END_SHARE: f64 = 0.002;
 
+/// A range whose ends are further apart than this factor.
+const DECADES: f64 = 100.0;
+
+/// How much less a candidate may explain with a shape that hardly changes anything.
+const HARDLY: f64 = 1e-3;
+
+/// How far the second sweep goes, as a share of the way to the neighbors on the grid.
+const NEARBY: f64 = 0.1;
+
 /// A candidate with values for its shape parameters.
 #[derive(Clone)]
 pub(super) struct Trial<'a> {
     pub(super) candidate: &'a dyn Candidate,
     pub(super) shapes: Vec<f64>,
     pub(super) entries: Vec<Entry>,
+    /// Which shapes change what it explains; none were asked before it was refined.
+    is_felt: Vec<bool>,
+}
+
+/// Every point of a candidate's grid.
+pub(super) fn points(candidate: &dyn Candidate) -> Vec<Vec<f64>> {
+    let mut points = vec![Vec::new()];
+    for shape in candidate.shapes() {
+        points = points
+            .iter()
+            .flat_map(|point: &Vec<f64>| {
+                shape.grid.iter().map(move |value| {
+                    let mut longer = point.clone();
+                    longer.push(*value);
+                    longer
+                })
+            })
+            .collect();
+    }
+    points
 }
 
 impl<'a> Trial<'a> {
@@ -26,28 +55,18 @@ impl<'a> Trial<'a> {
             candidate,
             shapes,
             entries,
+            is_felt: Vec::new(),
         }
     }
 
-    /// One trial for every point of the candidate's grid.
-    pub(super) fn grid(candidate: &'a dyn Candidate, logs: &[Prepared]) -> Vec<Self> {
-        let mut points = vec![Vec::new()];
-        for shape in candidate.shapes() {
-            points = points
-                .iter()
-                .flat_map(|point: &Vec<f64>| {
-                    shape.grid.iter().map(move |value| {
-                        let mut longer = point.clone();
-                        longer.push(*value);
-                        longer
-                    })
-                })
-                .collect();
+    /// What a change of the arm adds to first order.
+    pub(super) fn first_order(candidate: &'a dyn Candidate, entries: Vec<Entry>) -> Self {
+        Self {
+            candidate,
+            shapes: Vec::new(),
+            entries,
+            is_felt: Vec::new(),
         }
-        points
-            .into_iter()
-            .map(|shapes| Self::new(candidate, shapes, logs))
-            .collect()
     }
 
     /// Number of linear parameters.
@@ -60,40 +79,109 @@ impl<'a> Trial<'a> {
         self.count() + self.shapes.len()
     }
 
-    /// Whether every shape is inside its range: an optimum at the end of a range is that of another law.
+    /// Whether every shape is inside its range: an optimum at the end of a range is that of another law. Nothing lies beyond a range
+    /// that begins at zero, so that zero is inside.
     pub(super) fn is_inside(&self) -> bool {
-        let mut ranges = self.candidate.shapes().iter().zip(&self.shapes);
-        ranges.all(|(shape, value)| {
-            let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
-            let edge = END_SHARE * (high - low);
-            (low + edge..=high - edge).contains(value)
-        })
+        let numbers = 0..self.shapes.len();
+        let is_felt = |number: usize| self.is_felt.get(number).copied().unwrap_or(true);
+        let is_own = |number: usize| self.is_within(number) && is_felt(number);
+        // A law none of whose shapes is felt inside its range is a simpler one: a contact that is there all the time is no contact.
+        numbers
+            .clone()
+            .all(|number| self.is_at_zero(number) || self.is_within(number))
+            && (self.shapes.is_empty() || numbers.clone().any(is_own))
+    }
+
+    /// Whether a shape stands at zero, where its range begins.
+    fn is_at_zero(&self, number: usize) -> bool {
+        let grid = &self.candidate.shapes()[number].grid;
+        let edge = END_SHARE * (grid[grid.len() - 1] - grid[0]);
+        grid[0] == 0.0 && self.shapes[number] < edge
+    }
+
+    fn is_within(&self, number: usize) -> bool {
+        let grid = &self.candidate.shapes()[number].grid;
+        let (low, high, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
+        if low > 0.0 && high > DECADES * low {
+            // Such a range is one of its logarithm.
+            let edge = END_SHARE * (high / low).ln();
+            return (low.ln() + edge..=high.ln() - edge).contains(&value.ln());
+        }
+        let edge = END_SHARE * (high - low);
+        (low + edge..=high - edge).contains(&value)
     }
 
     pub(super) fn project(&self, present: &Present) -> Option<Projected> {
         present.project(&self.entries, self.count())
     }
 
-    /// Moves each shape between its neighbors on the grid to where the candidate explains most.
-    pub(super) fn refined(&self, present: &Present, logs: &[Prepared]) -> Self {
+    /// Moves each shape between its neighbors on the grid to where the candidate explains most; in further sweeps nearby.
+    pub(super) fn refined(&self, present: &Present, logs: &[Prepared], sweeps: usize) -> Self {
         let mut best = self.clone();
         let drop = |trial: &Self| trial.project(present).map_or(0.0, |p| p.drop);
-        for number in 0..self.shapes.len() {
-            let grid = &self.candidate.shapes()[number].grid;
-            let at = |value: f64| {
-                let mut shapes = best.shapes.clone();
-                shapes[number] = value;
-                Self::new(self.candidate, shapes, logs)
-            };
-            let (low, high) = neighbors(grid, best.shapes[number]);
-            let Ok(value) = golden(low, high, &mut |value| {
-                Ok::<_, Infallible>(-drop(&at(value)))
-            });
-            let refined = at(value);
-            if drop(&refined) > drop(&best) {
-                best = refined;
+        for sweep in 0..sweeps {
+            for number in 0..self.shapes.len() {
+                let grid = &self.candidate.shapes()[number].grid;
+                let at = |value: f64| {
+                    let mut shapes = best.shapes.clone();
+                    shapes[number] = value;
+                    Self::new(self.candidate, shapes, logs)
+                };
+                let value = best.shapes[number];
+                let (mut low, mut high) = neighbors(grid, self.shapes[number]);
+                if sweep > 0 {
+                    low = (value - NEARBY * (value - low).abs()).max(grid[0]);
+                    high = (value + NEARBY * (high - value).abs()).min(grid[grid.len() - 1]);
+                }
+                let Ok(value) = golden(low, high, &mut |value| {
+                    Ok::<_, Infallible>(-drop(&at(value)))
+                });
+                let refined = at(value);
+                if drop(&refined) > drop(&best) {
+                    best = refined;
+                }
             }
         }
+        let mut best = best.away_from_ends(&drop, logs);
+        if best.shapes.len() > 1 {
+            let numbers = 0..best.shapes.len();
+            best.is_felt = numbers
+                .map(|number| best.feels(number, &drop, logs))
+                .collect();
+        }
         best
+    }
+
+    /// Whether the candidate explains less with a shape at its neighbors on the grid.
+    fn feels(&self, number: usize, drop: &dyn Fn(&Self) -> f64, logs: &[Prepared]) -> bool {
+        let (low, high) = neighbors(&self.candidate.shapes()[number].grid, self.shapes[number]);
+        let least = (1.0 - HARDLY) * drop(self);
+        [low, high].into_iter().all(|value| {
+            let mut shapes = self.shapes.clone();
+            shapes[number] = value;
+            value == self.shapes[number] || drop(&Self::new(self.candidate, shapes, logs)) < least
+        })
+    }
+
+    /// A shape of which hardly anything changes near the end of its range is at no end: it takes the next value of its grid.
+    fn away_from_ends(mut self, drop: &dyn Fn(&Self) -> f64, logs: &[Prepared]) -> Self {
+        for number in 0..self.shapes.len() {
+            if self.is_within(number) {
+                continue;
+            }
+            let grid = &self.candidate.shapes()[number].grid;
+            let inner = if self.shapes[number] > grid[grid.len() / 2] {
+                grid[grid.len() - 2]
+            } else {
+                grid[1]
+            };
+            let mut shapes = self.shapes.clone();
+            shapes[number] = inner;
+            let inside = Self::new(self.candidate, shapes, logs);
+            if drop(&inside) >= (1.0 - HARDLY) * drop(&self) {
+                self = inside;
+            }
+        }
+        self
     }
 }

@@ -1,0 +1,48 @@
+//! Of two effects that lower the error alike, does one say all that the other says, and more?
+//!
+//! With effect `b` among the model's columns `a` is scored on what is left, and the other way round. Where `a` explains more beside `b`, and `b`
+//! nothing beside `a`, `a` encompasses `b` (Mizon & Richard 1986): `b` is what `a` looks like in these logs. A simpler law that is the
+//! right one is encompassed by none. Nor is one that leaves a smaller error somewhere.
+
+use crate::identify::Stack;
+
+use super::gate::{self, Judged};
+use super::gram::Gram;
+use super::score::Present;
+use super::search::{Search, State};
+
+/// Chance of what counts as more, and of what counts as nothing.
+const MORE: f64 = 1e-3;
+const NOTHING: f64 = 1e-2;
+
+impl Search<'_> {
+    /// Whether `one` encompasses `other`.
+    pub(super) fn encompasses(&self, state: &State, one: &Judged, other: &Judged) -> bool {
+        gate::worse_percent(&one.raw_power, &other.raw_power) < 0.0
+            && self.beside(state, one, other) < MORE
+            && self.beside(state, other, one) > NOTHING
+    }
+
+    /// Probability of the score of `one` in noise, with `other` in the model; 1 where it says nothing new.
+    fn beside(&self, state: &State, one: &Judged, other: &Judged) -> f64 {
+        let stack = match &other.changed {
+            Some(changed) => changed.stack.clone(),
+            None => {
+                let mut stack: Stack = state.stack.clone();
+                stack.append(other.trial.candidate.unknowns(), &other.trial.entries);
+                stack
+            }
+        };
+        let Ok(solution) = self.identify.solve_stack(&stack) else {
+            return 1.0;
+        };
+        let residuals = stack.residuals(&solution.estimate);
+        let gram = Gram::new(&stack, &[]);
+        let present = Present::new(&stack, &gram, &solution.sigma, &residuals);
+        let trial = &one.trial;
+        let projected = trial.project(&present);
+        projected.map_or(1.0, |projected| {
+            present.score(&trial.entries, &projected).p_value
+        })
+    }
+}

@@ -1,0 +1,159 @@
+//! First values of a candidate's shapes: which of them explain most.
+//!
+//! Columns of small grids are formed once and kept. Those of a law with many points, as the beginning and end of a contact are, would
+//! fill memory: they are screened in every round on the rows of the fit alone, unfiltered, and only the best is formed.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::columns::{Candidate, Entry};
+use crate::motion::{Kinematics, Motion};
+use crate::signal::Prepared;
+
+use super::score::Present;
+use super::trial::{Trial, points};
+
+/// Grids of more points than this are screened.
+const MOST_FORMED: usize = 128;
+
+/// A candidate at its first values.
+pub(super) enum Grid<'a> {
+    /// Every point with its filtered columns.
+    Formed(Vec<Trial<'a>>),
+    /// Too many points to keep.
+    Screened(&'a dyn Candidate),
+}
+
+impl<'a> Grid<'a> {
+    pub(super) fn new(candidate: &'a dyn Candidate, logs: &[Prepared]) -> Self {
+        let points = points(candidate);
+        if points.len() > MOST_FORMED {
+            return Self::Screened(candidate);
+        }
+        let formed = points.into_iter();
+        Self::Formed(
+            formed
+                .map(|shapes| Trial::new(candidate, shapes, logs))
+                .collect(),
+        )
+    }
+
+    /// How many points there are.
+    pub(super) fn len(&self) -> usize {
+        match self {
+            Self::Formed(trials) => trials.len(),
+            Self::Screened(candidate) => candidate
+                .shapes()
+                .iter()
+                .map(|shape| shape.grid.len())
+                .product(),
+        }
+    }
+
+    /// The point that explains most of the residual, and how much; `None` where none says anything new.
+    pub(super) fn best(
+        &self,
+        present: &Present,
+        logs: &[Prepared],
+        rows: &[Motion],
+    ) -> Option<(f64, Trial<'a>)> {
+        match self {
+            Self::Formed(trials) => {
+                let drops = trials
+                    .iter()
+                    .filter_map(|trial| trial.project(present).map(|p| (p.drop, trial)));
+                let (drop, trial) = drops.max_by(|a, b| a.0.total_cmp(&b.0))?;
+                Some((drop, trial.clone()))
+            }
+            Self::Screened(candidate) => {
+                let shapes = screened(*candidate, present, rows)?;
+                let trial = Trial::new(*candidate, shapes, logs);
+                let drop = trial.project(present)?.drop;
+                Some((drop, trial))
+            }
+        }
+    }
+}
+
+/// The best point of a large grid, on all cores.
+fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Option<Vec<f64>> {
+    let points = points(candidate);
+    let next = AtomicUsize::new(0);
+    let best: Mutex<Option<(f64, usize)>> = Mutex::new(None);
+    let work = || {
+        loop {
+            let number = next.fetch_add(1, Ordering::Relaxed);
+            let Some(shapes) = points.get(number) else {
+                return;
+            };
+            let entries = over(candidate, rows, shapes);
+            let count = candidate.unknowns().len();
+            let Some(projected) = present.project(&entries, count) else {
+                continue;
+            };
+            let mut best = best.lock().expect("no panic while it is held");
+            // Of equal ones the first, whatever thread came to it.
+            let is_better = best.is_none_or(|(drop, at)| {
+                projected.drop > drop || (projected.drop == drop && number < at)
+            });
+            if is_better {
+                *best = Some((projected.drop, number));
+            }
+        }
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(work);
+        }
+    });
+    let (_, number) = best.into_inner().expect("no panic while it is held")?;
+    Some(points[number].clone())
+}
+
+/// A candidate's columns over several motions, one after the other.
+fn over(candidate: &dyn Candidate, motions: &[Motion], shapes: &[f64]) -> Vec<Entry> {
+    let mut all: Vec<Entry> = Vec::new();
+    for motion in motions {
+        let entries = candidate.entries(motion, shapes);
+        if all.is_empty() {
+            all = entries;
+        } else {
+            for (sum, entry) in all.iter_mut().zip(entries) {
+                sum.values.extend(entry.values);
+            }
+        }
+    }
+    all
+}
+
+/// The samples of a log's motion that are rows of the fit.
+pub(super) fn rows(log: &Prepared) -> Motion {
+    let kept: Vec<usize> = log.shared.kept(log.motion.time.len()).collect();
+    let pick = |values: &Vec<f64>| -> Vec<f64> { kept.iter().map(|&k| values[k]).collect() };
+    let all = |columns: &Vec<Vec<f64>>| columns.iter().map(pick).collect();
+    let of = |kinematics: &Kinematics| Kinematics {
+        q: all(&kinematics.q),
+        dq: all(&kinematics.dq),
+        ddq: all(&kinematics.ddq),
+    };
+    let motion = &log.motion;
+    Motion {
+        time: pick(&motion.time),
+        smooth: of(&motion.smooth),
+        wide: of(&motion.wide),
+        rigid_torque: all(&motion.rigid_torque),
+        tau: all(&motion.tau),
+        transmitted_torque: all(&motion.transmitted_torque),
+        extra: motion
+            .extra
+            .iter()
+            .map(|channel| crate::log::Channel {
+                name: channel.name.clone(),
+                values: pick(&channel.values),
+            })
+            .collect(),
+        displacement_hz: motion.displacement_hz,
+        turn_speeds: motion.turn_speeds.clone(),
+    }
+}

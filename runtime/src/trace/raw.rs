@@ -1,0 +1,114 @@
+//! Errors on raw samples: what a candidate does to the residual beyond the shared band, too.
+//!
+//! Fits are of filtered rows, but an effect matters by the raw error. That of dry friction's neighbors is in short pulses at reversals,
+//! most of whose power is above the band that is fitted.
+
+use crate::columns::Entry;
+use crate::signal::Prepared;
+
+use super::score::Projected;
+use super::search::{Search, State};
+use super::trial::Trial;
+
+/// The present model's columns and residual on raw samples of every log, both ends cut.
+pub(super) struct Raw<'a> {
+    logs: &'a [Prepared],
+    columns: Vec<Vec<Entry>>,
+    /// `[log][joint][sample]`
+    residuals: Vec<Vec<Vec<f64>>>,
+    /// Mean square per joint of what decimation took off the torque.
+    beyond: Vec<f64>,
+    /// Mean square of the raw residual beyond that of the filtered one, per joint.
+    pub(super) noise_power: Vec<f64>,
+}
+
+impl Search<'_> {
+    pub(super) fn raw<'a>(&'a self, state: &State) -> Raw<'a> {
+        let of_log = |log: &Prepared| {
+            let mut columns = self.arm.entries(&log.motion, &self.shapes);
+            let mut first = self.arm.unknowns().len();
+            for effect in &state.accepted {
+                let trial = &effect.trial;
+                let entries = trial.candidate.entries(&log.motion, &trial.shapes);
+                columns.extend(entries.into_iter().map(|entry| Entry {
+                    column: first + entry.column,
+                    ..entry
+                }));
+                first += trial.count();
+            }
+            columns
+        };
+        let mut raw = Raw {
+            logs: &self.prepared,
+            columns: self.prepared.iter().map(of_log).collect(),
+            residuals: self
+                .prepared
+                .iter()
+                .map(|log| self.raw_residuals(state, log))
+                .collect(),
+            beyond: Vec::new(),
+            noise_power: Vec::new(),
+        };
+        raw.beyond = self.beyond_all(&raw.residuals);
+        raw.noise_power = raw.above(&raw.residuals, &state.residuals);
+        raw
+    }
+}
+
+impl Raw<'_> {
+    /// [`Self::noise_power`] with a trial, where `filtered` is what it leaves of the filtered residual.
+    pub(super) fn noise_power_with(
+        &self,
+        trial: &Trial,
+        projected: &Projected,
+        filtered: &[Vec<f64>],
+    ) -> Vec<f64> {
+        if trial.candidate.change().is_some() {
+            return self.noise_power.clone();
+        }
+        let change = projected.change();
+        let mut left = self.residuals.clone();
+        for ((log, columns), left) in self.logs.iter().zip(&self.columns).zip(&mut left) {
+            let border = log.shared.border();
+            let mut add = |entry: &Entry, factor: f64| {
+                if factor != 0.0 {
+                    let residual = &mut left[entry.joint];
+                    let values = entry.values.iter().skip(border);
+                    residual
+                        .iter_mut()
+                        .zip(values)
+                        .for_each(|(r, v)| *r -= factor * v);
+                }
+            };
+            for entry in trial.candidate.entries(&log.motion, &trial.shapes) {
+                add(&entry, projected.gain[entry.column]);
+            }
+            for entry in columns {
+                add(entry, change[entry.column]);
+            }
+        }
+        self.above(&left, filtered)
+    }
+
+    /// Mean square of raw residuals beyond that of filtered ones, per joint.
+    fn above(&self, raw: &[Vec<Vec<f64>>], filtered: &[Vec<f64>]) -> Vec<f64> {
+        above(raw, &self.beyond, filtered)
+    }
+}
+
+/// Mean square of raw residuals, with what decimation took off, beyond that of filtered ones, per joint.
+pub(super) fn above(raw: &[Vec<Vec<f64>>], beyond: &[f64], filtered: &[Vec<f64>]) -> Vec<f64> {
+    let joints = beyond.iter().zip(filtered).enumerate();
+    let of_joint = |(joint, (beyond, filtered)): (usize, (&f64, &Vec<f64>))| {
+        let samples = raw.iter().flat_map(|log| &log[joint]);
+        (mean_square(samples) + beyond - mean_square(filtered)).max(0.0)
+    };
+    joints.map(of_joint).collect()
+}
+
+fn mean_square<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    let sums = values.into_iter().fold((0.0, 0.0), |(sum, count), value| {
+        (sum + value * value, count + 1.0)
+    });
+    sums.0 / f64::max(sums.1, 1.0)
+}
