@@ -19,7 +19,7 @@ mod substitute;
 mod switch;
 mod uses;
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
 
 pub(crate) use display::number;
 pub use display::{Names, Style};

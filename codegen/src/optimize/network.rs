@@ -3,7 +3,9 @@
 //! In: expressions of a [`Dag`], whose sums and products have two operands each. Out: a [`Network`]. What is used once is
 //! part of the sum or product that uses it, so neither order nor parentheses hide what sums have in common.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::terms;
 use crate::expr::{Dag, ExprId, Node};
@@ -52,7 +54,7 @@ impl Network {
         let mut builder = Builder {
             dag,
             uses: &uses,
-            cell_of: HashMap::new(),
+            cell_of: HashMap::default(),
             numbers: BTreeMap::new(),
             network: Self::default(),
         };

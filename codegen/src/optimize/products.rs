@@ -1,6 +1,8 @@
 //! Products of two factors that several products contain: `(a b) c`, `(a b) d` with `a b` once.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
+
+use rustc_hash::FxHashMap as HashMap;
 
 use super::network::{Cell, Id, Network};
 
@@ -11,7 +13,7 @@ pub fn share(network: &mut Network) {
 
 fn step(network: &mut Network) -> bool {
     // Looked up only, but for the sorted list below.
-    let mut count: HashMap<(Id, Id), usize> = HashMap::new();
+    let mut count: HashMap<(Id, Id), usize> = HashMap::default();
     each_product(network, |_, factors| {
         each_pair(factors, |pair| *count.entry(pair).or_default() += 1);
     });

@@ -108,25 +108,28 @@ pub fn split(network: &mut Network) {
 /// `None` where there is nothing to collect.
 fn collected(network: &mut Network, mut terms: Vec<Term>) -> Option<Vec<Term>> {
     let before = terms.len();
+    let mut parts: Vec<(f64, Vec<Id>)> = terms.iter().map(|term| apart(network, term)).collect();
     let mut j = 1;
     while j < terms.len() {
-        let (factor, rest) = apart(network, &terms[j]);
-        let same = (0..j).find(|&i| apart(network, &terms[i]).1 == rest);
+        let same = (0..j).find(|&i| parts[i].1 == parts[j].1);
         let Some(i) = same else {
             j += 1;
             continue;
         };
-        let sum = sum_of_numbers(apart(network, &terms[i]).0, factor);
+        let sum = sum_of_numbers(parts[i].0, parts[j].0);
         if !sum.is_finite() {
             j += 1;
             continue;
         }
         terms.remove(j);
+        let (_, rest) = parts.remove(j);
         if sum == 0.0 {
             terms.remove(i);
+            parts.remove(i);
             j -= 1;
         } else {
             terms[i] = together(network, sum, rest);
+            parts[i] = apart(network, &terms[i]);
         }
     }
     (terms.len() < before).then_some(terms)
