@@ -6,7 +6,7 @@ use robot_model_spec::parameter::Owner;
 
 use super::Check;
 use crate::interpreted::{payloads, possible_arms};
-use crate::output::counted;
+use crate::output::{counted, rounded};
 use crate::parameters::Values;
 
 /// Second moments of mass are taken to be known to this share of the largest: published ones have three digits or more.
@@ -29,11 +29,8 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
     let chain = compiled.model.chain()?;
     let count = counted(chain.links.len(), "link");
     let Some(standard) = &values.standard else {
-        return Some(Check::new(
-            "bodies",
-            format!("{count}, by base parameters: whether some bodies have them"),
-            of_base(compiled, &values.beta),
-        ));
+        let scope = format!("{count}, by base parameters: whether some bodies have them");
+        return Some(of_base(compiled, &values.beta, scope));
     };
     let links = chain.links.iter().zip(standard.chunks(10));
     let links = links.map(|(link, ten)| (format!("link `{}`", link.name), ten.to_vec()));
@@ -56,7 +53,7 @@ fn impossible(inertial: &Inertial) -> Option<String> {
     let mass = inertial.mass;
     let [ixx, _, _, iyy, _, izz] = inertial.inertia;
     if mass < 0.0 {
-        return Some(format!("a mass of {mass} kg"));
+        return Some(format!("a mass of {} kg", rounded(mass)));
     }
     let first = inertial.first_moments;
     let Some(moments) = inertial.second_moments() else {
@@ -89,9 +86,9 @@ fn impossible(inertial: &Inertial) -> Option<String> {
 }
 
 /// Base parameters that would have to be others, were every link a body.
-fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
+fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
     let Some(mut arms) = possible_arms(compiled) else {
-        return Vec::new();
+        return Check::new("bodies", scope, Vec::new());
     };
     // Signs that are no link's are a check of their own.
     let base = &compiled.base;
@@ -118,10 +115,34 @@ fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
             SHARE * beta[column].abs().max(LEAST_SHARE * largest)
         })
         .collect();
-    let Some((nearest, _)) = arms.nearest_to(beta, &deviations) else {
-        return vec!["no arm whose links have bodies was found near these parameters".to_owned()];
-    };
-    let pairs = beta.iter().zip(&nearest).zip(&deviations);
+    let nearest = arms.nearest_to(beta, &deviations);
+    let nearest = nearest.map(|(nearest, _)| nearest);
+    let findings = |nearest: &Vec<f64>| missed(compiled, beta, nearest, &deviations, &is_rigid);
+    judged(scope, nearest.as_ref().map(findings))
+}
+
+/// A search that has come to no end says nothing of the values.
+fn judged(scope: String, findings: Option<Vec<String>>) -> Check {
+    match findings {
+        Some(findings) => Check::new("bodies", scope, findings),
+        None => Check::undecided(
+            "bodies",
+            scope,
+            "the search for an arm whose links have bodies came to no end near these parameters; `identify --method physical` on the logs \
+             decides, or values of standard parameters do",
+        ),
+    }
+}
+
+/// Base parameters that the nearest arm misses.
+fn missed(
+    compiled: &Compiled,
+    beta: &[f64],
+    nearest: &[f64],
+    deviations: &[f64],
+    is_rigid: &dyn Fn(usize) -> bool,
+) -> Vec<String> {
+    let pairs = beta.iter().zip(nearest).zip(deviations);
     let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
     let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
     missed.retain(|&(missed, column)| missed > MISSED && is_rigid(column));
@@ -140,4 +161,17 @@ fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
         findings.push(format!("and {} more", missed.len() - SHOWN));
     }
     findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_without_an_end_decides_nothing() {
+        let passed = |findings| judged(String::new(), findings).passed;
+        assert_eq!(passed(None), None);
+        assert_eq!(passed(Some(Vec::new())), Some(true));
+        assert_eq!(passed(Some(vec!["`a.mx`".to_owned()])), Some(false));
+    }
 }
