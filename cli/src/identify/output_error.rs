@@ -1,5 +1,6 @@
 //! `robot-model identify --method output-error`: the arm that moves as the measured one did.
 
+mod directions;
 mod law;
 mod options;
 mod report;
