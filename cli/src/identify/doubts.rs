@@ -275,7 +275,7 @@ mod tests {
     #[test]
     fn a_log_that_is_not_fitted_may_show_what_the_other_hardly_does() {
         let ill = |percents: &[f64]| ill_judged(percents).collect::<Vec<usize>>();
-        assert_eq!(ill(&[6.0, 12.0, 8.0, 172.0, 96.0]), []);
+        assert!(ill(&[6.0, 12.0, 8.0, 172.0, 96.0]).is_empty());
         assert_eq!(ill(&[6.0, 12.0, 8.0, 12.0, 199.0]), [4]);
         assert_eq!(ill(&[99.9, 99.9, 99.9, 3.0, 4.0]), [0, 1, 2]);
     }

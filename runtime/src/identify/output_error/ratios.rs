@@ -93,10 +93,10 @@ mod tests {
         let common = [[2.0, 1.0, 0.0], [-1.0, -0.5, 0.0], [0.0, 0.0, 3.0]];
         assert_eq!(found(&common, &[2.0, 4.0, 1.0]).len(), 1);
         // Of other values it is a difference that moves nothing, and no ratio.
-        assert_eq!(found(&common, &[2.0, -4.0, 1.0]), []);
+        assert!(found(&common, &[2.0, -4.0, 1.0]).is_empty());
         // All are told.
         let apart = [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]];
-        assert_eq!(found(&apart, &[2.0, 4.0, 1.0]), []);
+        assert!(found(&apart, &[2.0, 4.0, 1.0]).is_empty());
     }
 
     #[test]
