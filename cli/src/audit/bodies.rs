@@ -24,6 +24,9 @@ const SHOWN: usize = 8;
 /// Deviations, at most, by which base parameters of an arm that can be miss the values.
 const MISSED: f64 = 3.0;
 
+/// By how much wider deviations are searched with where a search with narrower ones comes to no end.
+const WIDER: [f64; 3] = [1.0, 10.0, 100.0];
+
 /// `None` for a robot that says its energies.
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
     let chain = compiled.model.chain()?;
@@ -115,10 +118,15 @@ fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
             SHARE * beta[column].abs().max(LEAST_SHARE * largest)
         })
         .collect();
-    let nearest = arms.nearest_to(beta, &deviations);
-    let nearest = nearest.map(|(nearest, _)| nearest);
-    let findings = |nearest: &Vec<f64>| missed(compiled, beta, nearest, &deviations, &is_rigid);
-    judged(scope, nearest.as_ref().map(findings))
+    let findings = WIDER.into_iter().find_map(|wider| {
+        let wide: Vec<f64> = deviations.iter().map(|one| wider * one).collect();
+        let (nearest, _) = arms.nearest_to(beta, &wide)?;
+        let missed = |least: f64| missed(compiled, [beta, &nearest, &deviations], least, &is_rigid);
+        // What is missed by less than the wider search may miss is told by no one.
+        let findings = missed(wider * MISSED);
+        (!findings.is_empty() || missed(MISSED).is_empty()).then_some(findings)
+    });
+    judged(scope, findings)
 }
 
 /// A search that has come to no end says nothing of the values.
@@ -134,18 +142,17 @@ fn judged(scope: String, findings: Option<Vec<String>>) -> Check {
     }
 }
 
-/// Base parameters that the nearest arm misses.
+/// Base parameters that the nearest arm misses by more than `least` deviations.
 fn missed(
     compiled: &Compiled,
-    beta: &[f64],
-    nearest: &[f64],
-    deviations: &[f64],
+    [beta, nearest, deviations]: [&[f64]; 3],
+    least: f64,
     is_rigid: &dyn Fn(usize) -> bool,
 ) -> Vec<String> {
     let pairs = beta.iter().zip(nearest).zip(deviations);
     let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
     let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
-    missed.retain(|&(missed, column)| missed > MISSED && is_rigid(column));
+    missed.retain(|&(missed, column)| missed > least && is_rigid(column));
     missed.sort_by(|x, y| y.0.total_cmp(&x.0));
     let mut findings: Vec<String> = missed
         .iter()

@@ -74,7 +74,7 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
         value.map_or(1.0, |value| value.expect("a ratio"))
     };
     let dry = value("q2.coulomb_friction.fc") / value("q1.coulomb_friction.fc");
-    assert!((dry / (0.076 / 0.279) - 1.0).abs() < 0.01, "{said}");
+    assert!((dry / (0.076 / 0.203) - 1.0).abs() < 0.01, "{said}");
     let reference = ratios[0]["reference"].as_str().expect("a name");
     assert!(said.contains(&format!(" / {reference} = ")), "{said}");
 }
