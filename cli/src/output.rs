@@ -11,12 +11,16 @@ use crate::Error;
 /// What the errors in a table are.
 pub(crate) const ERRORS: &str = "RMSE: raw samples, N m (prismatic joints: N), first and last second cut; relative: in the filtered band";
 
-/// The same of the filtered form.
-pub(crate) fn filtered_errors(corner: f64) -> String {
+/// The same where all of them are told, of some series of torques.
+pub(crate) fn errors(series: &str) -> String {
     format!(
-        "RMSE: torque through L(s) = w/(s + w) with w = {corner:.1} rad/s, N m (prismatic joints: N), first and last second cut; \
-         relative: in the filtered band"
+        "RMSE, MAE, NRMSE fit: {series}, N m (prismatic joints: N), first and last second cut; RMS%: relative, in the filtered band"
     )
+}
+
+/// Six digits of a number, without what rounding left behind them.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Prints a result. A reader that has gone away has read what it wanted.
@@ -259,4 +263,20 @@ pub(crate) fn names(names: &[&str]) -> String {
         text.push(format!("and {} more", names.len() - SHOWN));
     }
     text.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_leaves_what_was_meant() {
+        assert_eq!(
+            rounded(-0.002_080_000_000_000_000_3).to_string(),
+            "-0.00208"
+        );
+        assert_eq!(rounded(-2.0).to_string(), "-2");
+        assert_eq!(rounded(123_456_789.0).to_string(), "123457000");
+        assert!(rounded(f64::NAN).is_nan());
+    }
 }

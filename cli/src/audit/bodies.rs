@@ -6,7 +6,7 @@ use robot_model_spec::parameter::Owner;
 
 use super::Check;
 use crate::interpreted::{payloads, possible_arms};
-use crate::output::counted;
+use crate::output::{counted, rounded};
 use crate::parameters::Values;
 
 /// Second moments of mass are taken to be known to this share of the largest: published ones have three digits or more.
@@ -24,16 +24,16 @@ const SHOWN: usize = 8;
 /// Deviations, at most, by which base parameters of an arm that can be miss the values.
 const MISSED: f64 = 3.0;
 
+/// By how much wider deviations are searched with where a search with narrower ones comes to no end.
+const WIDER: [f64; 3] = [1.0, 10.0, 100.0];
+
 /// `None` for a robot that says its energies.
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
     let chain = compiled.model.chain()?;
     let count = counted(chain.links.len(), "link");
     let Some(standard) = &values.standard else {
-        return Some(Check::new(
-            "bodies",
-            format!("{count}, by base parameters: whether some bodies have them"),
-            of_base(compiled, &values.beta),
-        ));
+        let scope = format!("{count}, by base parameters: whether some bodies have them");
+        return Some(of_base(compiled, &values.beta, scope));
     };
     let links = chain.links.iter().zip(standard.chunks(10));
     let links = links.map(|(link, ten)| (format!("link `{}`", link.name), ten.to_vec()));
@@ -56,7 +56,7 @@ fn impossible(inertial: &Inertial) -> Option<String> {
     let mass = inertial.mass;
     let [ixx, _, _, iyy, _, izz] = inertial.inertia;
     if mass < 0.0 {
-        return Some(format!("a mass of {mass} kg"));
+        return Some(format!("a mass of {} kg", rounded(mass)));
     }
     let first = inertial.first_moments;
     let Some(moments) = inertial.second_moments() else {
@@ -89,9 +89,9 @@ fn impossible(inertial: &Inertial) -> Option<String> {
 }
 
 /// Base parameters that would have to be others, were every link a body.
-fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
+fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
     let Some(mut arms) = possible_arms(compiled) else {
-        return Vec::new();
+        return Check::new("bodies", scope, Vec::new());
     };
     // Signs that are no link's are a check of their own.
     let base = &compiled.base;
@@ -118,13 +118,41 @@ fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
             SHARE * beta[column].abs().max(LEAST_SHARE * largest)
         })
         .collect();
-    let Some((nearest, _)) = arms.nearest_to(beta, &deviations) else {
-        return vec!["no arm whose links have bodies was found near these parameters".to_owned()];
-    };
-    let pairs = beta.iter().zip(&nearest).zip(&deviations);
+    let findings = WIDER.into_iter().find_map(|wider| {
+        let wide: Vec<f64> = deviations.iter().map(|one| wider * one).collect();
+        let (nearest, _) = arms.nearest_to(beta, &wide)?;
+        let missed = |least: f64| missed(compiled, [beta, &nearest, &deviations], least, &is_rigid);
+        // What is missed by less than the wider search may miss is told by no one.
+        let findings = missed(wider * MISSED);
+        (!findings.is_empty() || missed(MISSED).is_empty()).then_some(findings)
+    });
+    judged(scope, findings)
+}
+
+/// A search that has come to no end says nothing of the values.
+fn judged(scope: String, findings: Option<Vec<String>>) -> Check {
+    match findings {
+        Some(findings) => Check::new("bodies", scope, findings),
+        None => Check::undecided(
+            "bodies",
+            scope,
+            "the search for an arm whose links have bodies came to no end near these parameters; `identify --method physical` on the logs \
+             decides, or values of standard parameters do",
+        ),
+    }
+}
+
+/// Base parameters that the nearest arm misses by more than `least` deviations.
+fn missed(
+    compiled: &Compiled,
+    [beta, nearest, deviations]: [&[f64]; 3],
+    least: f64,
+    is_rigid: &dyn Fn(usize) -> bool,
+) -> Vec<String> {
+    let pairs = beta.iter().zip(nearest).zip(deviations);
     let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
     let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
-    missed.retain(|&(missed, column)| missed > MISSED && is_rigid(column));
+    missed.retain(|&(missed, column)| missed > least && is_rigid(column));
     missed.sort_by(|x, y| y.0.total_cmp(&x.0));
     let mut findings: Vec<String> = missed
         .iter()
@@ -140,4 +168,17 @@ fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
         findings.push(format!("and {} more", missed.len() - SHOWN));
     }
     findings
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_search_without_an_end_decides_nothing() {
+        let passed = |findings| judged(String::new(), findings).passed;
+        assert_eq!(passed(None), None);
+        assert_eq!(passed(Some(Vec::new())), Some(true));
+        assert_eq!(passed(Some(vec!["`a.mx`".to_owned()])), Some(false));
+    }
 }

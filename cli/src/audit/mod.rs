@@ -12,8 +12,8 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
-use crate::output::{self, Files, counted, names};
-use crate::parameters::{self, Values};
+use crate::output::{self, Files, counted, names, rounded};
+use crate::parameters::{self, Beside, Values};
 use crate::{Error, spec};
 
 /// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, rank.
@@ -43,7 +43,8 @@ struct Report<'a> {
 #[derive(Serialize)]
 struct Check {
     name: &'static str,
-    passed: bool,
+    /// None where it was not decided.
+    passed: Option<bool>,
     /// What was looked at.
     scope: String,
     /// What is wrong; of `rank` what cannot be known.
@@ -54,9 +55,18 @@ impl Check {
     fn new(name: &'static str, scope: String, findings: Vec<String>) -> Self {
         Self {
             name,
-            passed: findings.is_empty(),
+            passed: Some(findings.is_empty()),
             scope,
             findings,
+        }
+    }
+
+    fn undecided(name: &'static str, scope: String, reason: &str) -> Self {
+        Self {
+            name,
+            passed: None,
+            scope,
+            findings: vec![reason.to_owned()],
         }
     }
 }
@@ -67,7 +77,17 @@ impl Audit {
         let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
         let json = Files::reading(inputs).claim_if(self.json.as_deref())?;
         let compiled = spec::compile(&self.spec)?;
-        let (values, _, source) = parameters::values(&compiled, self.parameters.as_deref())?;
+        let values = parameters::values(&compiled, self.parameters.as_deref())?;
+        let (mut values, _, source) = values;
+        if let (Some(file), None) = (&self.parameters, &values.standard) {
+            match parameters::beside(&compiled, file, &values.beta)? {
+                Beside::Nothing => {}
+                Beside::Same(standard) => values.standard = Some(standard),
+                Beside::Other => output::say(&format!(
+                    "warning: {source}: its standard parameters do not make its base parameters in this arm, and are left out"
+                )),
+            }
+        }
         let checks: Vec<Check> = [
             bodies::check(&compiled, &values),
             Some(signs(&compiled, &values)),
@@ -78,7 +98,10 @@ impl Audit {
         .into_iter()
         .flatten()
         .collect();
-        let failed = checks.iter().filter(|check| !check.passed).count();
+        let failed = checks
+            .iter()
+            .filter(|check| check.passed == Some(false))
+            .count();
         let report = Report {
             robot: &compiled.model.name,
             passed: failed == 0,
@@ -120,6 +143,7 @@ fn signs(compiled: &Compiled, values: &Values) -> Check {
     };
     let findings = all.iter().filter_map(|&k| {
         let value = value(k).filter(|value| *value < 0.0)?;
+        let value = rounded(value);
         Some(format!("`{}` is {value}", compiled.standard[k].name))
     });
     let findings = findings.collect();
@@ -151,7 +175,7 @@ fn rank(compiled: &Compiled) -> Check {
     }
     Check {
         name: "rank",
-        passed: true,
+        passed: Some(true),
         scope: format!(
             "{} of {} that the spec does not fix",
             counted(base.kept.len(), "base parameter"),
@@ -164,7 +188,11 @@ fn rank(compiled: &Compiled) -> Check {
 fn text(report: &Report<'_>, source: &str) -> String {
     let mut text = format!("{} with the values of {source}\n", report.robot);
     for check in &report.checks {
-        let verdict = if check.passed { "passed" } else { "FAILED" };
+        let verdict = match check.passed {
+            Some(true) => "passed",
+            Some(false) => "FAILED",
+            None => "not decided",
+        };
         writeln!(text, "{:<9} {verdict}  {}", check.name, check.scope).expect("a string takes all");
         for finding in &check.findings {
             writeln!(text, "    {finding}").expect("a string takes all");

@@ -1,7 +1,7 @@
 //! What looks like another unit, sign or order than the spec's.
 
-use robot_model::columns::Unknown;
-use robot_model::identify::Estimate;
+use robot_model::columns::{Shape, Unknown};
+use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
@@ -49,15 +49,103 @@ pub(super) fn far_positions(model: &Model, log: &Log) -> Vec<String> {
 /// A model that explains next to nothing. What instruments leave of the torque has the noise of the columns in it, so least squares is
 /// asked beside them.
 pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
-    let hausman = estimate.hausman.as_ref();
-    let all = hausman.map_or(&estimate.relative_percent, |both| {
-        &both.least_squares_percent
-    });
-    let is_nothing = all.iter().all(|percent| *percent > LITTLE);
+    let is_nothing = left(estimate).iter().all(|percent| *percent > LITTLE);
     is_nothing.then_some(
         "the model explains next to nothing of the torque of any joint; see whether the log has positions in rad and m, torques in N m \
          and N (else `actuator_gain`), signs and order of the spec's joints, and both of the same time",
     )
+}
+
+/// What is left of a joint's torque, from where on the model says little of it, percent; and of all joints of several, where two that
+/// are exchanged explain something of each other.
+const MUCH: f64 = 50.0;
+const MUCH_OF_ALL: f64 = 25.0;
+
+/// The same of a joint of a log that was not fitted, where effects that the other log hardly shows are often missing: a torque with the
+/// other sign leaves 200 %.
+const TURNED: f64 = 180.0;
+
+/// Joints of which the model explains little in the logs that are fitted.
+fn ill_fitted(percents: &[f64]) -> impl Iterator<Item = usize> + '_ {
+    let of_all = percents.len() > 1 && percents.iter().all(|percent| *percent > MUCH_OF_ALL);
+    (0..percents.len()).filter(move |&joint| of_all || percents[joint] > MUCH)
+}
+
+/// The same in a log that is not: one that is far off, or half of them.
+fn ill_judged(percents: &[f64]) -> impl Iterator<Item = usize> + '_ {
+    let ill = percents.iter().filter(|percent| **percent > MUCH).count();
+    let is_half = 2 * ill >= percents.len();
+    let least = if is_half { MUCH } else { TURNED };
+    (0..percents.len()).filter(move |&joint| percents[joint] > least)
+}
+
+fn little(
+    ill: impl Iterator<Item = usize>,
+    percents: &[f64],
+    joints: &[String],
+    of: &str,
+) -> Option<String> {
+    let ill = ill.map(|joint| format!("`{}` {:.0} %", joints[joint], percents[joint]));
+    let ill: Vec<String> = ill.collect();
+    (!ill.is_empty()).then(|| {
+        format!(
+            "the model explains little of the torque {of}, of which is left: {}; see whether signs, order and units of the columns are those \
+             of the spec's joints, then what the model lacks (`trace`)",
+            ill.join(", ")
+        )
+    })
+}
+
+/// What is left by least squares, which is asked beside instruments.
+fn left(estimate: &Estimate) -> &[f64] {
+    let hausman = estimate.hausman.as_ref();
+    hausman.map_or(&estimate.relative_percent, |both| {
+        &both.least_squares_percent
+    })
+}
+
+/// What the model explains little of, in the logs that are fitted and in the one that is not.
+pub(super) fn explained(estimate: &Estimate, validation: Option<&Errors>) -> Vec<String> {
+    let fitted = unexplained(estimate).map(str::to_owned);
+    let percents = left(estimate);
+    let fitted = fitted.or_else(|| {
+        let of = "that is fitted";
+        little(ill_fitted(percents), percents, &estimate.joints, of)
+    });
+    let other = validation.and_then(|errors| {
+        let percents = &errors.relative_percent;
+        let of = "on the log to validate on";
+        little(ill_judged(percents), percents, &estimate.joints, of)
+    });
+    fitted.into_iter().chain(other).collect()
+}
+
+/// Share of the last step of a grid within which a search that goes to its end comes.
+const AT_END: f64 = 0.02;
+
+/// Shapes that the search has left at an end of their range.
+pub(super) fn at_ends(found: &[(String, f64)], shapes: &[Shape]) -> Vec<String> {
+    let pairs = found.iter().zip(shapes);
+    let told = pairs.filter_map(|((name, value), shape)| {
+        let [low, .., high] = shape.grid[..] else {
+            return None;
+        };
+        let count = shape.grid.len();
+        let within_low = AT_END * (shape.grid[1] - low);
+        let within_high = AT_END * (high - shape.grid[count - 2]);
+        let end = if *value <= low + within_low {
+            "lower"
+        } else if *value >= high - within_high {
+            "upper"
+        } else {
+            return None;
+        };
+        Some(format!(
+            "`{name}` is at the {end} end of its range {low} .. {high}: either the logs do not tell it, or it lies beyond; an effect of the \
+             spec's own, a copy under another name, may have a wider range"
+        ))
+    });
+    told.collect()
 }
 
 /// Parameters that no arm has below zero, and that are so by more than three deviations.
@@ -134,15 +222,7 @@ pub(super) fn hardly_apart(estimate: &Estimate, model: &Model, logs: &[Log]) -> 
     if estimate.condition <= APART {
         return None;
     }
-    let joints = model.joints.iter().enumerate();
-    let resting = joints.filter_map(|(k, joint)| {
-        let all = logs.iter().flat_map(|log| log.q[k].iter().copied());
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| {
-            (low.min(q), high.max(q))
-        });
-        (high - low < HARDLY).then_some(joint.name.as_str())
-    });
-    let resting: Vec<&str> = resting.collect();
+    let resting = resting(model, logs);
     let who = if resting.is_empty() {
         String::new()
     } else {
@@ -155,7 +235,64 @@ pub(super) fn hardly_apart(estimate: &Estimate, model: &Model, logs: &[Log]) -> 
     ))
 }
 
+/// Joints that hardly move.
+pub(super) fn resting<'a>(model: &'a Model, logs: &[Log]) -> Vec<&'a str> {
+    let joints = model.joints.iter().enumerate();
+    let resting = joints.filter_map(|(k, joint)| {
+        let all = logs.iter().flat_map(|log| log.q[k].iter().copied());
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| {
+            (low.min(q), high.max(q))
+        });
+        (high - low < HARDLY).then_some(joint.name.as_str())
+    });
+    resting.collect()
+}
+
 fn names_are(below: &[&str]) -> String {
     let verb = if below.len() == 1 { "is" } else { "are" };
     format!("{} {verb}", names(below))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn joints_of_which_little_is_explained_are_named() {
+        let joints = ["one", "two"].map(str::to_owned);
+        let said = |percents: [f64; 2]| little(ill_fitted(&percents), &percents, &joints, "");
+        assert_eq!(said([3.0, 49.0]), None);
+        let one = said([3.0, 123.0]).expect("a joint");
+        assert!(
+            one.contains("`two` 123 %") && !one.contains("`one`"),
+            "{one}"
+        );
+        let both = said([41.0, 43.0]).expect("all joints");
+        assert!(both.contains("`one` 41 %, `two` 43 %"), "{both}");
+        assert_eq!(ill_fitted(&[41.0]).count(), 0);
+    }
+
+    #[test]
+    fn a_log_that_is_not_fitted_may_show_what_the_other_hardly_does() {
+        let ill = |percents: &[f64]| ill_judged(percents).collect::<Vec<usize>>();
+        assert!(ill(&[6.0, 12.0, 8.0, 172.0, 96.0]).is_empty());
+        assert_eq!(ill(&[6.0, 12.0, 8.0, 12.0, 199.0]), [4]);
+        assert_eq!(ill(&[99.9, 99.9, 99.9, 3.0, 4.0]), [0, 1, 2]);
+    }
+
+    #[test]
+    fn shapes_at_an_end_of_their_range_are_named() {
+        let grid: Vec<f64> = (0..=10).map(f64::from).collect();
+        let name = "turn.stribeck.vs".to_owned();
+        let shapes = [Shape {
+            name: name.clone(),
+            grid,
+        }];
+        let said = |value: f64| at_ends(&[(name.clone(), value)], &shapes);
+        assert!(said(9.996)[0].contains("the upper end of its range 0 .. 10"));
+        assert!(said(0.0)[0].contains("the lower end of its range 0 .. 10"));
+        for inside in [0.2, 5.0, 9.9] {
+            assert_eq!(said(inside), Vec::<String>::new());
+        }
+    }
 }

@@ -1,32 +1,57 @@
 //! Both forms of the equations behind one face.
 
-use robot_model::columns::{Columns, Unknown};
+use robot_model::columns::{Columns, Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::Log;
+use robot_model_codegen::Compiled;
 use robot_model_spec::Model;
 
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 
 /// A way to identify and to judge what was identified.
 pub(crate) trait Fit {
-    fn model(&self) -> &Model;
+    fn compiled(&self) -> &Compiled;
+    fn model(&self) -> &Model {
+        &self.compiled().model
+    }
     fn unknowns(&self) -> &[Unknown];
+    fn shapes(&self) -> &[Shape];
     fn dof(&self) -> usize {
         self.model().joints.len()
     }
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError>;
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError>;
+    /// Torques of an estimate with other values of its parameters.
+    fn predict(
+        &self,
+        values: &[f64],
+        estimate: &Estimate,
+        log: &Log,
+    ) -> Result<Vec<Vec<f64>>, IdentifyError>;
+}
+
+/// An estimate with other values of its parameters.
+fn with_values(estimate: &Estimate, values: &[f64]) -> Estimate {
+    let mut other = estimate.clone();
+    for (parameter, value) in other.parameters.iter_mut().zip(values) {
+        parameter.value = *value;
+    }
+    other
 }
 
 pub(crate) struct ByAcceleration(pub InterpretedArm);
 
 impl Fit for ByAcceleration {
-    fn model(&self) -> &Model {
-        &self.0.compiled().model
+    fn compiled(&self) -> &Compiled {
+        self.0.compiled()
     }
 
     fn unknowns(&self) -> &[Unknown] {
         self.0.unknowns()
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        self.0.shapes()
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -36,6 +61,15 @@ impl Fit for ByAcceleration {
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
         estimate.errors(&self.0, log)
     }
+
+    fn predict(
+        &self,
+        values: &[f64],
+        estimate: &Estimate,
+        log: &Log,
+    ) -> Result<Vec<Vec<f64>>, IdentifyError> {
+        with_values(estimate, values).predict(&self.0, log)
+    }
 }
 
 pub(crate) struct Filtered {
@@ -44,12 +78,16 @@ pub(crate) struct Filtered {
 }
 
 impl Fit for Filtered {
-    fn model(&self) -> &Model {
-        &self.arm.compiled().model
+    fn compiled(&self) -> &Compiled {
+        self.arm.compiled()
     }
 
     fn unknowns(&self) -> &[Unknown] {
         self.arm.unknowns()
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        self.arm.shapes()
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
@@ -58,6 +96,15 @@ impl Fit for Filtered {
 
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
         estimate.filtered_errors(&self.arm, log)
+    }
+
+    fn predict(
+        &self,
+        values: &[f64],
+        estimate: &Estimate,
+        log: &Log,
+    ) -> Result<Vec<Vec<f64>>, IdentifyError> {
+        with_values(estimate, values).predict(&self.arm, log)
     }
 }
 

@@ -3,13 +3,16 @@
 mod doubts;
 mod drive_gains;
 pub(crate) mod fit;
+mod nominal;
 mod options;
 mod output_error;
 mod payload;
 pub(crate) mod reduced;
 pub(crate) mod report;
 pub(crate) mod table;
+mod twice;
 mod units;
+mod untold;
 
 use std::path::{Path, PathBuf};
 
@@ -191,17 +194,9 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
-        if let Some(doubt) = doubts::negative(&estimate, form.unknowns()) {
-            progress.note(&format!("note: {doubt}"));
-        }
-        if let Some(doubt) = doubts::unexplained(&estimate) {
-            progress.note(&format!("note: {doubt}"));
-        }
-        let doubts = [
-            doubts::hardly_apart(&estimate, form.model(), &logs),
-            units::degrees(form, &identify, &logs, &estimate),
-        ];
-        for doubt in doubts.into_iter().flatten() {
+        let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
+        doubts.extend(units::degrees(form, &identify, &logs, &estimate));
+        for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
         faults.extend(self.late_torques(&estimate, &progress));
@@ -248,6 +243,9 @@ impl IdentifyArguments {
             .transpose()?;
         for (source, fault) in &faults {
             progress.note(&format!("note: {source}: {fault}"));
+        }
+        for doubt in twice::doubts(&self.logs, self.validate.as_deref()) {
+            progress.note(&format!("note: {doubt}"));
         }
         drop(progress);
         out.commit(reduced::text(&reduced).as_bytes())?;
@@ -300,6 +298,27 @@ fn print(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> Re
 }
 
 impl IdentifyArguments {
+    /// What is doubtful about logs and what was found of them.
+    fn doubts(
+        &self,
+        form: &dyn Fit,
+        estimate: &Estimate,
+        logs: &[Log],
+        validation: Option<&Errors>,
+    ) -> Vec<String> {
+        let mut all = twice::doubts(&self.logs, self.validate.as_deref());
+        let negative = doubts::negative(estimate, form.unknowns());
+        let explained = doubts::explained(estimate, validation);
+        let is_odd = negative.is_some() || !explained.is_empty();
+        all.extend(negative.into_iter().chain(explained));
+        all.extend(nominal::doubt(form, estimate, logs, is_odd));
+        all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
+        let resting = doubts::resting(form.model(), logs);
+        let apart = doubts::hardly_apart(estimate, form.model(), logs);
+        all.extend(apart.or_else(|| untold::doubt(estimate, form.compiled(), &resting)));
+        all
+    }
+
     /// A log, mended; its faults are added to the others.
     fn log(
         &self,

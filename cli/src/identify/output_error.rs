@@ -1,5 +1,6 @@
 //! `robot-model identify --method output-error`: the arm that moves as the measured one did.
 
+mod directions;
 mod law;
 mod options;
 mod report;
@@ -17,7 +18,7 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
-use super::{IdentifyArguments, doubts};
+use super::{IdentifyArguments, doubts, twice};
 use crate::Error;
 use crate::interpreted::{InterpretedArm, InterpretedPlant};
 use crate::output::{self, Files, names};
@@ -93,7 +94,8 @@ impl IdentifyArguments {
             doubts::below_zero(told),
             doubts::beyond_noise(&compiled.model, &logs, &rmse(&found)),
         ];
-        for doubt in doubts.into_iter().flatten() {
+        let same = twice::doubts(&self.logs, self.validate.as_deref());
+        for doubt in doubts.into_iter().flatten().chain(same) {
             progress.note(&format!("note: {doubt}"));
         }
         let linear = beginning.linear.as_ref();

@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::fit::{ByAcceleration, Fit, errors_of_all};
 use super::report::{Parameter, Report, report};
 use super::table::table;
-use super::{IdentifyArguments, doubts, told_apart};
+use super::{IdentifyArguments, doubts, told_apart, twice};
 use crate::Error;
 use crate::output::{self, Files};
 use crate::progress::Progress;
@@ -132,10 +132,13 @@ impl IdentifyArguments {
         let all = [logs.unloaded.as_slice(), &logs.loaded].concat();
         let doubts = [
             doubts::negative(&found.estimate, form.unknowns()),
-            doubts::unexplained(&found.estimate).map(str::to_owned),
             doubts::hardly_apart(&found.estimate, form.model(), &all),
         ];
-        for doubt in doubts.into_iter().flatten() {
+        let mut explained = doubts::explained(&found.estimate, None);
+        explained.extend(doubts::at_ends(&found.estimate.shapes, form.shapes()));
+        let fitted = [self.logs.as_slice(), &self.payload].concat();
+        let same = twice::doubts(&fitted, self.validate.as_deref());
+        for doubt in doubts.into_iter().flatten().chain(explained).chain(same) {
             progress.note(&format!("note: {doubt}"));
         }
         let validation = logs.validate.as_ref();

@@ -9,8 +9,8 @@ use crate::output;
 /// Errors per joint, of several logs side by side.
 ///
 /// ```text
-/// joint   identification          validation
-///             RMSE    relative        RMSE    relative
+/// joint                                 identification                                       validation
+///               RMSE         MAE        RMS%   NRMSE fit         RMSE         MAE        RMS%   NRMSE fit
 /// ```
 pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String {
     let width = estimate
@@ -21,25 +21,31 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
         .unwrap_or(0)
         .max("joint".len());
     let domain = match estimate.form {
-        Form::Acceleration => output::ERRORS.to_owned(),
-        Form::Filtered { corner } => output::filtered_errors(corner),
+        Form::Acceleration => output::errors("raw samples"),
+        Form::Filtered { corner } => output::errors(&format!(
+            "torque through L(s) = w/(s + w) with w = {corner:.1} rad/s"
+        )),
     };
     let mut text = format!("{domain}\n{:width$}", "joint");
     for (name, _) in columns {
-        write!(text, "  {name:>22}").expect("a string takes all");
+        write!(text, "  {name:>46}").expect("a string takes all");
     }
     write!(text, "\n{:width$}", "").expect("a string takes all");
     for _ in columns {
-        write!(text, "  {:>10}  {:>10}", "RMSE", "relative").expect("a string takes all");
+        for name in ["RMSE", "MAE", "RMS%", "NRMSE fit"] {
+            write!(text, "  {name:>10}").expect("a string takes all");
+        }
     }
     text.push('\n');
     for (joint, name) in estimate.joints.iter().enumerate() {
         write!(text, "{name:width$}").expect("a string takes all");
         for (_, errors) in columns {
+            let fit = errors.nrmse_fit()[joint];
+            let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
             write!(
                 text,
-                "  {:>10.4}  {:>8.2} %",
-                errors.rmse[joint], errors.relative_percent[joint]
+                "  {:>10.4}  {:>10.4}  {:>8.2} %  {fit:>10}",
+                errors.rmse[joint], errors.mae[joint], errors.relative_percent[joint]
             )
             .expect("a string takes all");
         }

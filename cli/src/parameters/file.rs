@@ -27,6 +27,16 @@ pub(super) fn read(path: &Path, shapes: &[String]) -> Result<BTreeMap<String, f6
     values.map_err(|reason| Error::json(path, &reason))
 }
 
+/// The standard parameters of the arm that a file of `identify` holds beside its base parameters, where it holds one.
+pub(super) fn beside(path: &Path) -> Result<Option<BTreeMap<String, f64>>, Error> {
+    let file = json::read(path)?;
+    let Some(standard) = file["possible"]["standard"].as_array() else {
+        return Ok(None);
+    };
+    let values = identified(standard, None).map_err(|reason| Error::json(path, &reason))?;
+    Ok(Some(values))
+}
+
 fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {
     let entries = entries.iter();
     entries

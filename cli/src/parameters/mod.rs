@@ -3,6 +3,7 @@
 //! A file is a JSON object of names and values, or what `identify --json` writes: `{"parameters":[{"name","value"}]}`.
 //! Names are those of standard parameters, of all base parameters, or of the unknown constants of a robot that says its energies.
 
+mod beside;
 mod file;
 mod physical;
 
@@ -17,6 +18,7 @@ use robot_model_spec::suggest::nearest;
 use crate::Error;
 use crate::output::{self, counted, names};
 
+pub(crate) use beside::{Beside, beside};
 pub(crate) use physical::no_body;
 
 /// Values for everything in an arm that is not a number yet.

@@ -4,6 +4,8 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::model::Inertial;
 use robot_model_spec::parameter::InertialElement;
 
+use crate::output::rounded;
+
 /// Sentences about standard parameters; `None` where nothing is known, as no torque depends on it.
 pub(super) fn of_standard(compiled: &Compiled, values: &[Option<f64>]) -> Vec<String> {
     let parameters = compiled.standard.iter().zip(values);
@@ -51,5 +53,6 @@ pub(crate) fn no_body(link: &str) -> String {
 }
 
 fn negative(name: &str, value: f64) -> Option<String> {
-    (value < 0.0).then(|| format!("`{name}` is {value}, and no arm has a negative one"))
+    let said = rounded(value);
+    (value < 0.0).then(|| format!("`{name}` is {said}, and no arm has a negative one"))
 }

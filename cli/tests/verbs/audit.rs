@@ -92,6 +92,12 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
             "exceeds the sum of the other two",
         ),
         ("upper.viscous_friction.fv", -0.5, "signs", "is -0.5"),
+        (
+            "upper.viscous_friction.fv",
+            -0.002_080_000_000_000_000_3,
+            "signs",
+            "`upper.viscous_friction.fv` is -0.00208",
+        ),
         ("upper.dahl.fc", -3.0, "friction", "joint `upper` is driven"),
         ("lower.izz", -0.3, "inertia", "not positive definite"),
     ] {

@@ -60,6 +60,23 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
             .all(|parameter| parameter["value"].is_null()),
         "{said}"
     );
+    // Eight ratios of nine parameters, whose factor nothing tells.
+    let ratios = fit["ratios"].as_array().expect("a list");
+    assert_eq!(ratios.len(), 8, "{said}");
+    let value = |name: &str| {
+        let is_reference = ratios[0]["reference"] == name;
+        let ratio = ratios.iter().find(|ratio| ratio["name"] == name);
+        let [value, std] = ["value", "std"].map(|key| ratio.map(|ratio| ratio[key].as_f64()));
+        assert!(
+            is_reference || std.flatten().expect("a deviation") > 0.0,
+            "{said}"
+        );
+        value.map_or(1.0, |value| value.expect("a ratio"))
+    };
+    let dry = value("q2.coulomb_friction.fc") / value("q1.coulomb_friction.fc");
+    assert!((dry / (0.076 / 0.203) - 1.0).abs() < 0.01, "{said}");
+    let reference = ratios[0]["reference"].as_str().expect("a name");
+    assert!(said.contains(&format!(" / {reference} = ")), "{said}");
 }
 
 /// `th'' - a sin(th) + c th' = b v` with `b v` a square wave that turns at 1.5 rad, sampled at 30 Hz: model (5.2) of the PUMA shoulder. Its

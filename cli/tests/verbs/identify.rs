@@ -21,7 +21,7 @@ fn identify_finds_a_mass_and_its_friction() {
     ];
     let table = folder.succeed(&arguments);
     assert!(
-        table.contains("cart.m") && table.contains("RMSE: raw samples, N m"),
+        table.contains("cart.m") && table.contains("NRMSE fit: raw samples, N m"),
         "{table}"
     );
     let header: Vec<Vec<&str>> = table
@@ -30,8 +30,9 @@ fn identify_finds_a_mass_and_its_friction() {
         .map(|line| line.split_whitespace().collect())
         .collect();
     assert_eq!(header[0], ["joint", "identification", "validation"]);
-    assert_eq!(header[1], ["RMSE", "relative", "RMSE", "relative"]);
-    assert_eq!(header[2].len(), 1 + 2 * 3, "{table}");
+    let each = ["RMSE", "MAE", "RMS%", "NRMSE", "fit"];
+    assert_eq!(header[1], [each, each].concat());
+    assert_eq!(header[2].len(), 1 + 2 * 6, "{table}");
     let out = json(&folder.read("out.json"));
     assert_eq!(out["method"], "wls");
     assert_eq!(out["domain"], "raw");
@@ -177,7 +178,7 @@ fn the_filtered_form_identifies_without_accelerations() {
     ];
     let table = folder.succeed(&filtered);
     assert!(
-        table.contains("RMSE: torque through L(s) = w/(s + w) with w = 40.0 rad/s"),
+        table.contains("NRMSE fit: torque through L(s) = w/(s + w) with w = 40.0 rad/s"),
         "{table}"
     );
     let out = json(&folder.read("out.json"));

@@ -14,6 +14,7 @@ mod coverage;
 mod data_gate;
 mod delays;
 mod dissect;
+mod doubts;
 mod drive_gains;
 mod energies;
 mod equations;

@@ -91,6 +91,7 @@ fn noise_makes_no_impossible_arm() {
         said.contains("border of what is possible: `lower.viscous_friction.fv`"),
         "{said}"
     );
+    assert!(said.contains("found by Newton's method with log-determinant barriers in "));
     let possible = &out["possible"];
     let standard = &possible["standard"];
     for link in ["upper", "lower"] {

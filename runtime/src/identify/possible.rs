@@ -337,7 +337,8 @@ impl fmt::Display for Possible {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(
             f,
-            "possible: every link has a body, found in {} steps to {:.0e} of the squared residual",
+            "possible: every link has a body, found by Newton's method with log-determinant barriers in {} steps, to {:.0e} of the squared \
+             residual",
             self.steps, self.gap
         )?;
         if !self.border.is_empty() {

@@ -2,9 +2,7 @@
 
 use std::fmt::Write;
 
-use robot_model::identify::output_error::{
-    Comparison, Direction, Distance, Ending, OutputEstimate,
-};
+use robot_model::identify::output_error::{Comparison, Distance, Ending, OutputEstimate};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Body;
@@ -12,6 +10,7 @@ use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
 use super::super::report::{FaultReport, Parameter, fault_reports};
+use super::directions::{DirectionReport, RatioReport, direction, hanging, ratio};
 use super::{Judged, listed};
 
 /// Longest part of a line for values of parameters.
@@ -57,6 +56,8 @@ pub(super) struct JsonReport<'a> {
     singular_values: &'a [f64],
     /// Directions of the parameters that the logs say little or nothing of.
     directions: Vec<DirectionReport<'a>>,
+    /// What the logs tell of parameters but for a common factor.
+    ratios: Vec<RatioReport<'a>>,
     /// What hangs on all that the model lacks: shares of values; null where nothing does by much.
     frail: Option<DirectionReport<'a>>,
     iterates: Vec<IterateReport<'a>>,
@@ -70,14 +71,6 @@ struct Distances {
     mae: Vec<f64>,
     relative_percent: Vec<f64>,
     nrmse_fit_percent: Vec<Option<f64>>,
-}
-
-#[derive(Serialize)]
-struct DirectionReport<'a> {
-    relative_singular_value: f64,
-    is_silent: bool,
-    is_common_factor: bool,
-    moves: Vec<(&'a str, f64)>,
 }
 
 #[derive(Serialize)]
@@ -97,38 +90,6 @@ impl Distances {
             nrmse_fit_percent: of.iter().map(|x| x.nrmse_fit_percent).collect(),
         }
     }
-}
-
-fn direction(direction: &Direction) -> DirectionReport<'_> {
-    let moves = direction.moves.iter();
-    DirectionReport {
-        relative_singular_value: direction.singular,
-        is_silent: direction.is_silent(),
-        is_common_factor: direction.is_scale(),
-        moves: moves.map(|(name, share)| (name.as_str(), *share)).collect(),
-    }
-}
-
-/// Parameters that hang on what the model lacks, in a sentence.
-fn hanging(frail: &Direction) -> String {
-    let moves = frail.moves.iter();
-    let moves: Vec<String> = moves
-        .map(|(name, share)| match frail.moves.len() {
-            1 => name.clone(),
-            _ => format!("{name} {share:+.2}"),
-        })
-        .collect();
-    let less = if frail.is_silent() {
-        "not at all beside".to_owned()
-    } else {
-        format!("{:.0} times less than", 1.0 / frail.singular)
-    };
-    format!(
-        "hardly identified beside the others: {}: a share of {} value moves positions {less} the same share of what moves them most, so \
-         whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
-        moves.join(", "),
-        if moves.len() == 1 { "its" } else { "their" },
-    )
 }
 
 impl OutputReport<'_> {
@@ -201,6 +162,7 @@ impl OutputReport<'_> {
                 .iter()
                 .map(direction)
                 .collect(),
+            ratios: found.ratios.iter().map(ratio).collect(),
             iterates: found
                 .iterates
                 .iter()
@@ -269,6 +231,13 @@ impl OutputReport<'_> {
         }
         for direction in &found.identifiability.directions {
             writeln!(text, "{direction}")?;
+        }
+        for ratio in &found.ratios {
+            let (name, over, value) = (&ratio.name, &ratio.reference, ratio.value);
+            let std = ratio
+                .std
+                .map_or(String::new(), |std| format!(" +- {std:.2e}"));
+            writeln!(text, "  {name} / {over} = {value:.5}{std}")?;
         }
         if let Some(frail) = &found.frail {
             writeln!(text, "{}", hanging(frail))?;
@@ -376,22 +345,5 @@ impl OutputReport<'_> {
             }
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn how_much_less_is_a_number_or_all() {
-        let said = |singular: f64| {
-            let moves = vec![("arm.izz".to_owned(), 1.0)];
-            hanging(&Direction { singular, moves })
-        };
-        assert!(said(0.02).contains("its value moves positions 50 times less than"));
-        for nothing in [0.0, 1e-17] {
-            assert!(said(nothing).contains("moves positions not at all beside the same share"));
-        }
     }
 }

@@ -4,6 +4,7 @@ use nalgebra::DMatrix;
 
 use super::equations::{Equations, Reduced};
 use super::identifiable::frail;
+use super::ratios::{self, Ratio};
 use super::search::{Ending, Found};
 use super::window::{Rows, Run, Window};
 use super::{Direction, Identifiability, Iterate, Place, Problem};
@@ -48,6 +49,8 @@ pub struct OutputEstimate {
     pub bound: Vec<usize>,
     /// What the logs say of which of the other parameters.
     pub identifiability: Identifiability,
+    /// Ratios of parameters of which the logs tell all but a common factor.
+    pub ratios: Vec<Ratio>,
     /// Parameters whose deviations are small, and that hang on what the model lacks: shares of values along which positions change
     /// least, with the ratio of that to the most.
     pub frail: Option<Direction>,
@@ -76,16 +79,28 @@ pub(super) fn result<P: Adjustable + Clone>(
     let free_names: Vec<String> = free.iter().map(|&k| names[k].clone()).collect();
     let r = reduced.r.select_columns(&free);
     let identifiability = Identifiability::new(&r, &values, &free_names);
+    let pairs = ratios::pairs(&identifiability, &r, &values, &free_names);
     let mut std = vec![None; names.len()];
+    let mut ratio_std = vec![None; pairs.len()];
     if *ending == Ending::Converged {
         let inverse = identifiability.inverse(&r);
         let found = deviations(problem, &rows, &reduced, &free, &inverse);
         for (place, (&k, deviation)) in free.iter().zip(found).enumerate() {
             std[k] = identifiability.is_identified(place).then_some(deviation);
         }
+        let of_ratios = inverse * ratios::slopes(&pairs, &values);
+        let found = deviations(problem, &rows, &reduced, &free, &of_ratios);
+        ratio_std = found.into_iter().map(Some).collect();
     }
+    let ratios = pairs.iter().zip(ratio_std).map(|(pair, std)| Ratio {
+        name: free_names[pair.of].clone(),
+        reference: free_names[pair.reference].clone(),
+        value: values[pair.of] / values[pair.reference],
+        std,
+    });
     let of_free: Vec<Option<f64>> = free.iter().map(|&k| std[k]).collect();
     OutputEstimate {
+        ratios: ratios.collect(),
         frail: frail(&r, &values, &of_free, &free_names),
         std,
         iterates,
@@ -98,7 +113,8 @@ pub(super) fn result<P: Adjustable + Clone>(
     }
 }
 
-/// Long-run deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs.
+/// Long-run deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs, or for functions of them, with
+/// the slopes of these behind it.
 fn deviations<P: Adjustable>(
     problem: &Problem<'_, P>,
     rows: &[Rows],
@@ -107,7 +123,7 @@ fn deviations<P: Adjustable>(
     inverse: &DMatrix<f64>,
 ) -> Vec<f64> {
     let joints = problem.scale.len();
-    let mut variances = vec![0.0; free.len()];
+    let mut variances = vec![0.0; inverse.ncols()];
     let (mut count, mut fitted) = (0, free.len());
     for (rows, start) in rows.iter().zip(&reduced.starts) {
         let own = rows.own(start).select_columns(free);

@@ -12,6 +12,7 @@ mod equations;
 mod estimate;
 mod identifiable;
 mod law;
+mod ratios;
 mod recording;
 mod search;
 mod starts;
@@ -27,6 +28,7 @@ use crate::simulate::{Adjustable, SimulateError};
 pub use estimate::{Comparison, Distance, OutputEstimate};
 pub use identifiable::{Direction, Identifiability};
 pub use law::{JointLaw, Law, Tap};
+pub use ratios::Ratio;
 pub use recording::{Hold, Recording};
 pub use search::{Ending, Iterate, Search};
 

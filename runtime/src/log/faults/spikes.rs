@@ -29,9 +29,12 @@ pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
     if quantum == 0.0 {
         return Vec::new();
     }
-    let far = (FAR * quantile(moved(&sizes), FEW))
-        .max(STEEP * quantile(moved(&steps), FEW))
-        .max(STEEP * quantum);
+    let steep = STEEP * quantile(moved(&steps), FEW).max(quantum);
+    // Where a smooth position is its own median nearly everywhere, most distances that are not zero are of spikes: beyond what steps
+    // allow they do not say how far is usual.
+    let mut usual = moved(&sizes);
+    usual.retain(|size| *size <= steep);
+    let far = steep.max(FAR * quantile(usual, FEW));
     let mut found: Vec<Range<usize>> = Vec::new();
     for (k, size) in sizes.iter().enumerate() {
         if *size <= far {

@@ -270,3 +270,31 @@ fn slow_drift_and_joints_that_hardly_move_have_no_delay() {
     log.dq = vec![time.iter().map(|t| 1e-4 * (2.0 * t).cos()).collect()];
     assert_eq!(log.mended().faults, []);
 }
+
+/// Of a position that is smooth between its steps most samples are the median of those around them.
+#[test]
+fn a_handful_of_spikes_of_a_position_is_found_as_one_is() {
+    for every in [5000, 1000, 400, 300, 100] {
+        let clean = clean(7);
+        let mut log = clean.clone();
+        log.dq.clear();
+        let mut count = 0;
+        for (k, q) in log.q[0].iter_mut().enumerate() {
+            if k % every == every / 3 {
+                *q += if k % 2 == 0 { 0.3 } else { -0.3 };
+                count += 1;
+            }
+        }
+        let mended = log.mended();
+        let found = mended.faults.iter().find_map(|fault| match fault {
+            Fault::Spikes {
+                channel, samples, ..
+            } if channel == "q1" => Some(*samples),
+            _ => None,
+        });
+        assert_eq!(found, Some(count), "one in {every}: {:?}", mended.faults);
+        for (mended, clean) in mended.log.q[0].iter().zip(&clean.q[0]) {
+            assert!((mended - clean).abs() < 1e-3, "one in {every}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Logged torques beside those of the spec's nominal links along the same motion: another unit or sign shows as a factor.
+
+use robot_model::identify::Estimate;
+use robot_model::log::Log;
+use robot_model_codegen::Compiled;
+use robot_model_spec::parameter::{Owner, Status};
+
+use super::fit::Fit;
+use crate::output::names;
+
+/// Cosine of the angle between both torques from where on a factor says something; friction and rotors are in one of them alone.
+const ALIKE: f64 = 0.5;
+
+/// Factors that no friction, rotor or rough CAD makes of all joints: at least so much, or at most one over it.
+const FAR: f64 = 5.0;
+
+/// By how much joints may differ in a factor that they are said to have in common.
+const APART: f64 = 3.0;
+
+/// What logged torque over nominal torque is on a joint, and the cosine of the angle between them.
+#[derive(Clone, Copy)]
+struct Likeness {
+    factor: f64,
+    cosine: f64,
+}
+
+/// Where all links have nominal values. A heavy rotor behind gears moves against what gravity asks of a link, so a sign is told only where
+/// what was found `is_odd`, too.
+pub(super) fn doubt(
+    form: &dyn Fit,
+    estimate: &Estimate,
+    logs: &[Log],
+    is_odd: bool,
+) -> Option<String> {
+    let values = nominal(form.compiled())?;
+    let gains = form.model().joints.iter().map(|joint| joint.actuator_gain);
+    let gains: Vec<f64> = gains.collect();
+    let mut sums = vec![[0.0; 3]; form.dof()];
+    for log in logs {
+        let torque = form.predict(&values, estimate, log).ok()?;
+        for (joint, ((sums, nominal), gain)) in sums.iter_mut().zip(&torque).zip(&gains).enumerate()
+        {
+            for (nominal, logged) in nominal.iter().zip(&log.tau[joint]) {
+                let logged = gain * logged;
+                sums[0] += nominal * nominal;
+                sums[1] += nominal * logged;
+                sums[2] += logged * logged;
+            }
+        }
+    }
+    let likeness = |[nominal, both, logged]: [f64; 3]| Likeness {
+        factor: both / nominal,
+        cosine: both / (nominal * logged).sqrt(),
+    };
+    let all: Vec<Likeness> = sums.into_iter().map(likeness).collect();
+    said(&all, &estimate.joints, is_odd)
+}
+
+/// Base parameters of the nominal links, without friction or rotors that the spec has no value for.
+fn nominal(compiled: &Compiled) -> Option<Vec<f64>> {
+    let standard =
+        compiled
+            .standard
+            .iter()
+            .map(|parameter| match (parameter.status, parameter.owner) {
+                (Status::Nominal(value) | Status::Fixed(value), _) => Some(value),
+                (Status::Unknown, Owner::Effect { .. }) => Some(0.0),
+                (Status::Unknown, _) => None,
+            });
+    let standard: Vec<f64> = standard.collect::<Option<_>>()?;
+    Some(compiled.base.beta(&standard))
+}
+
+fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
+    if all.iter().any(|joint| !joint.cosine.is_finite()) {
+        return None;
+    }
+    if let Some(factor) = common(all).filter(|factor| *factor > 0.0 || is_odd) {
+        let what = match factor.abs() {
+            large if large >= FAR => "are they in N mm, or of a drive's count?",
+            small if small <= 1.0 / FAR => {
+                "are they in kN m, of the motors before their gears, or currents?"
+            }
+            _ => "are their signs those of the spec's joints?",
+        };
+        return Some(format!(
+            "logged torques are about {} times those of the spec's nominal links along this motion, on all joints: {what} Units and gains are \
+             the spec's `log` and `actuator_gain`",
+            short(factor)
+        ));
+    }
+    let is_turned = |joint: &Likeness| is_odd && joint.cosine < -ALIKE;
+    let turned = joints.iter().zip(all).filter(|(_, joint)| is_turned(joint));
+    let turned: Vec<&str> = turned.map(|(name, _)| name.as_str()).collect();
+    (!turned.is_empty()).then(|| {
+        format!(
+            "against that of the spec's nominal links the logged torque is the other way round on {}: are signs and order of the columns \
+             those of the spec's joints?",
+            names(&turned)
+        )
+    })
+}
+
+/// The factor that all joints have in common, where it is far from 1.
+fn common(all: &[Likeness]) -> Option<f64> {
+    let is_negative = all.first()?.factor < 0.0;
+    let has_sign = |joint: &&Likeness| (joint.factor < 0.0) == is_negative;
+    if !all
+        .iter()
+        .all(|joint| joint.cosine.abs() > ALIKE && has_sign(&joint))
+    {
+        return None;
+    }
+    let logs = all.iter().map(|joint| joint.factor.abs().ln());
+    let size = (logs.sum::<f64>() / all.len() as f64).exp();
+    let is_common = all
+        .iter()
+        .all(|joint| (joint.factor.abs() / size).ln().abs() < APART.ln());
+    let is_far = is_negative || !(1.0 / FAR..FAR).contains(&size);
+    let sign = if is_negative { -1.0 } else { 1.0 };
+    (is_common && is_far).then_some(sign * size)
+}
+
+/// Two digits.
+fn short(factor: f64) -> f64 {
+    format!("{factor:.1e}").parse().unwrap_or(factor)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(all: &[(f64, f64)], is_odd: bool) -> Option<String> {
+        let likeness = |&(factor, cosine)| Likeness { factor, cosine };
+        let all: Vec<Likeness> = all.iter().map(likeness).collect();
+        let joints: Vec<String> = (1..=all.len()).map(|k| format!("j{k}")).collect();
+        said(&all, &joints, is_odd)
+    }
+
+    #[test]
+    fn a_factor_of_all_joints_is_told() {
+        let about = |all: &[(f64, f64)], words: [&str; 2]| {
+            let said = told(all, true).expect("a factor");
+            assert!(words.iter().all(|word| said.contains(word)), "{said}");
+        };
+        about(
+            &[(1440.0, 0.7), (1000.0, 0.99)],
+            ["about 1200 times", "N mm"],
+        );
+        about(
+            &[(0.01, 0.7), (0.01, 0.99)],
+            ["about 0.01 times", "currents"],
+        );
+        about(
+            &[(-1.1, -0.7), (-0.9, -0.99)],
+            ["about -0.99 times", "signs"],
+        );
+        assert_eq!(told(&[(-1.1, -0.7), (-0.9, -0.99)], false), None);
+    }
+
+    #[test]
+    fn friction_rotors_and_rough_cad_are_no_unit() {
+        for is_odd in [false, true] {
+            assert_eq!(told(&[(1.9, 0.6), (0.7, 0.9)], is_odd), None);
+            // A joint that its rotor moves, beside one that carries links.
+            assert_eq!(told(&[(9.0, 0.8), (1.1, 0.9)], is_odd), None);
+            assert_eq!(told(&[(9.0, 0.2), (8.0, 0.9)], is_odd), None);
+            assert_eq!(told(&[(f64::NAN, f64::NAN), (8.0, 0.9)], is_odd), None);
+        }
+        let turned = [(1.1, 0.9), (-0.9, -0.6)];
+        assert_eq!(told(&turned, false), None);
+        let said = told(&turned, true).expect("a sign");
+        assert!(said.contains("round on `j2`"), "{said}");
+    }
+}

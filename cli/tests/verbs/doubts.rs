@@ -1,0 +1,172 @@
+//! What `identify` notes of logs and of what was found of them.
+
+use std::fmt::Write;
+
+use crate::common::{CART, Folder, PENDULUM, cart_log, json, moved};
+
+const FRICTION: &str = "{\"upper.viscous_friction.fv\": 0.5, \"lower.viscous_friction.fv\": 0.2}";
+
+/// Swings of both joints, by a share of wide ones.
+fn swings(share: f64) -> impl Fn(f64) -> [f64; 2] {
+    move |t| {
+        let upper = 0.6 * (1.3 * t).sin() + 0.3 * (2.9 * t).sin();
+        let lower = 0.7 * (1.9 * t).sin() - 0.4 * (3.3 * t).cos();
+        [share * upper, share * lower]
+    }
+}
+
+/// A folder with a log of the double pendulum, which has links of CAD and friction.
+fn folder(share: f64) -> Folder {
+    let folder = Folder::new();
+    let spec = PENDULUM.replace("\n}\n", "\n    effects { viscous_friction on all; }\n}\n");
+    moved(&folder, &spec, FRICTION, swings(share));
+    folder
+}
+
+/// A log with torques times factors.
+fn scaled(folder: &Folder, name: &str, factors: [f64; 2]) {
+    let log = folder.read("log.csv");
+    let header = log.lines().next().expect("a header");
+    let place = |name: &str| header.split(',').position(|column| column == name);
+    let places = ["tau1", "tau2"].map(|name| place(name).expect("a torque"));
+    let mut text = format!("{header}\n");
+    for line in log.lines().skip(1) {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        for (place, factor) in places.into_iter().zip(factors) {
+            let value: f64 = fields[place].parse().expect("a number");
+            fields[place] = (factor * value).to_string();
+        }
+        writeln!(text, "{}", fields.join(",")).expect("a string takes all");
+    }
+    folder.write(name, &text);
+}
+
+/// What is noted.
+fn notes(folder: &Folder, arguments: &[&str]) -> String {
+    let run = folder.run(&[&["identify"], arguments].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let notes = run.stderr.lines().filter(|line| line.starts_with("note: "));
+    notes.collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn torques_in_another_unit_or_with_another_sign_are_noted() {
+    let folder = folder(1.0);
+    scaled(&folder, "mm.csv", [1000.0, 1000.0]);
+    scaled(&folder, "turned.csv", [1.0, -1.0]);
+    assert_eq!(notes(&folder, &["true.robot", "log.csv"]), "");
+    let said = notes(&folder, &["true.robot", "mm.csv", "--validate", "log.csv"]);
+    assert!(
+        said.contains("about 1000 times those of the spec's nominal links"),
+        "{said}"
+    );
+    assert!(
+        said.contains("on the log to validate on, of which is left: `upper` "),
+        "{said}"
+    );
+    let said = notes(&folder, &["true.robot", "turned.csv"]);
+    assert!(said.contains("the other way round on `lower`"), "{said}");
+}
+
+#[test]
+fn joints_that_hardly_move_leave_parameters_untold() {
+    let folder = folder(0.01);
+    let said = notes(&folder, &["true.robot", "log.csv"]);
+    assert!(
+        said.contains("the logs hardly tell 1 of 8 parameters")
+            && said.contains("`upper.viscous_friction.fv`; joints `upper`, `lower` hardly move"),
+        "{said}"
+    );
+    assert!(said.contains("`excite`"), "{said}");
+}
+
+#[test]
+fn a_shape_at_the_end_of_its_range_is_noted() {
+    let folder = Folder::new();
+    let spec = |range: &str| {
+        let drag = "effect drag(j) { linear f; shape w in RANGE; torque(j) = f * dq(j) / (w + abs(dq(j))); }\n";
+        drag.replace("RANGE", range) + &CART.replace("viscous_friction on rail;", "drag on rail;")
+    };
+    folder.write("narrow.robot", &spec("0.02 .. 0.1"));
+    folder.write("wide.robot", &spec("0.02 .. 5"));
+    let mut log = String::from("time,q1,tau1\n");
+    for k in 0..6000 {
+        let t = f64::from(k) / 200.0;
+        let wave = |a: f64, w: f64| {
+            let (sin, cos) = (w * t).sin_cos();
+            [a * sin, a * w * cos, -a * w * w * sin]
+        };
+        let waves = [wave(0.2, 1.3), wave(0.05, 4.1)];
+        let [q, dq, ddq] = [0, 1, 2].map(|k| waves[0][k] + waves[1][k]);
+        let tau = 3.0 * ddq + 9.0 * dq / (0.4 + dq.abs());
+        writeln!(log, "{t},{q},{tau}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    let said = notes(&folder, &["narrow.robot", "log.csv"]);
+    assert!(
+        said.contains("`rail.drag.w` is at the upper end of its range 0.02 .. 0.1"),
+        "{said}"
+    );
+    assert_eq!(notes(&folder, &["wide.robot", "log.csv"]), "");
+}
+
+#[test]
+fn a_log_that_is_given_twice_is_noted() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    for name in ["log.csv", "copy.csv"] {
+        folder.write(name, &cart_log(20, 0.0, 0.0));
+    }
+    folder.write("other.csv", &cart_log(20, 0.0, 0.7));
+    let said = |arguments: &[&str]| notes(&folder, &[&["cart.robot"], arguments].concat());
+    assert_eq!(said(&["log.csv", "other.csv"]), "");
+    for again in ["log.csv", "copy.csv"] {
+        let told = said(&["log.csv", again]);
+        assert!(
+            told.contains(&format!("{again} is the same log as log.csv: ")),
+            "{told}"
+        );
+    }
+    let told = said(&["log.csv", "--validate", "copy.csv"]);
+    assert!(
+        told.contains("copy.csv is the same log as log.csv, which is fitted"),
+        "{told}"
+    );
+    let told = said(&["log.csv", "log.csv", "--factor", "factor.json"]);
+    assert!(told.contains("is the same log as"), "{told}");
+}
+
+/// Base parameters of a possible arm come with the standard ones that make them.
+#[test]
+fn an_audit_of_a_possible_arm_looks_at_its_bodies() {
+    let folder = folder(1.0);
+    let physical = ["--method", "physical", "--json", "fit.json"];
+    folder.succeed(&[&["identify", "true.robot", "log.csv"][..], &physical].concat());
+    let audit = |file: &str| folder.run(&["audit", "true.robot", "--parameters", file]);
+    let run = audit("fit.json");
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    assert!(
+        run.stdout.contains("2 links: mass spread over space"),
+        "{}",
+        run.stdout
+    );
+    // Of another arm they are left out.
+    let mut fit = json(&folder.read("fit.json"));
+    let standard = fit["possible"]["standard"].as_array_mut().expect("a list");
+    let inertia = standard
+        .iter_mut()
+        .find(|entry| entry["name"] == "lower.izz");
+    inertia.expect("an inertia")["value"] = 7.0.into();
+    folder.write("other.json", &fit.to_string());
+    let run = audit("other.json");
+    assert!(
+        run.stderr.contains("do not make its base parameters"),
+        "{}",
+        run.stderr
+    );
+    assert!(
+        run.stdout.contains("2 links, by base parameters"),
+        "{}",
+        run.stdout
+    );
+}
