@@ -1,5 +1,8 @@
 //! What is put into an arm: every effect of the library with a law of its size, faults of logs, and laws that no library has.
 
+/// A shape parameter by the size of its effect.
+pub type OfSize = fn(f64) -> f64;
+
 /// What is put into an arm.
 #[derive(Debug)]
 pub struct Injection {
@@ -16,7 +19,7 @@ pub struct Injection {
     /// Shape parameters.
     pub shapes: &'static [(&'static str, f64)],
     /// The shape parameters that are its size, where no linear ones are.
-    pub scaled: &'static [(&'static str, fn(f64) -> f64)],
+    pub scaled: &'static [(&'static str, OfSize)],
     /// The declared effect that it stands for.
     pub replaces: Option<&'static str>,
     /// Whether inertials have to be known for it to be told.

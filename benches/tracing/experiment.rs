@@ -1,17 +1,13 @@
 //! One experiment: an arm with something in it that its spec does not declare, in closed loop, and its two logs.
 
 use std::fmt::Display;
-use std::path::Path;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot_model::columns::Arm as _;
-use robot_model::identify::torque_of;
 use robot_model::log::Log;
-use robot_model::motion::Motion;
 use robot_model::simulate::{ComputedTorque, Gains, Loop, Sensors};
-use robot_model_cli::interpreted::{InterpretedArm, InterpretedPlant};
+use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_codegen::base::shape_values;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::amend::{Amendment, amend};
@@ -25,9 +21,6 @@ use crate::motion::Waves;
 /// Lengths of the logs, s, and their rate, Hz.
 const SECONDS: [f64; 2] = [20.0, 15.0];
 const RATE_HZ: f64 = 500.0;
-
-/// Rate at which sizes are found, Hz.
-const SIZE_HZ: f64 = 100.0;
 
 /// Steps of the encoders, rad. Noise of the torques as shares of their root mean square: white, correlated with 0.9 from one sample to
 /// the next, and a slow wander.
@@ -69,54 +62,8 @@ pub struct Experiment {
     pub logs: [Log; 2],
 }
 
-impl Experiment {
-    /// The spec, the spec that says all and both logs, as files of a folder.
-    ///
-    /// # Errors
-    /// Those of the file system.
-    pub fn keep(&self, folder: &Path) -> std::io::Result<()> {
-        std::fs::create_dir_all(folder)?;
-        std::fs::write(folder.join("declared.robot"), &self.declared)?;
-        if let Some(truth) = &self.truth {
-            std::fs::write(folder.join("truth.robot"), truth)?;
-        }
-        for log in &self.logs {
-            std::fs::write(folder.join(format!("{}.csv", log.source)), csv(log))?;
-        }
-        Ok(())
-    }
-}
-
-fn csv(log: &Log) -> String {
-    let joints = 1..=log.q.len();
-    let names =
-        |stem: &str| -> Vec<String> { joints.clone().map(|j| format!("{stem}{j}")).collect() };
-    let extra = log.extra.iter().map(|channel| channel.name.clone());
-    let head: Vec<String> = std::iter::once("time".to_owned())
-        .chain(names("q"))
-        .chain(names("tau"))
-        .chain(extra)
-        .collect();
-    let mut text = head.join(",");
-    for (k, time) in log.time.iter().enumerate() {
-        let columns = log
-            .q
-            .iter()
-            .chain(&log.tau)
-            .chain(log.extra.iter().map(|channel| &channel.values));
-        let row: Vec<String> = std::iter::once(*time)
-            .chain(columns.map(|values| values[k]))
-            .map(|x| x.to_string())
-            .collect();
-        text.push('\n');
-        text.push_str(&row.join(","));
-    }
-    text.push('\n');
-    text
-}
-
 /// What went wrong, in words.
-fn said(error: impl Display) -> String {
+pub(crate) fn said(error: impl Display) -> String {
     error.to_string()
 }
 
@@ -175,7 +122,7 @@ impl Case {
     }
 
     /// The arm with what it declares; `is_spec` for the spec, else for the machine without what is put in.
-    fn declared(&self, joints: &[usize], is_spec: bool) -> Result<String, String> {
+    pub(crate) fn declared(&self, joints: &[usize], is_spec: bool) -> Result<String, String> {
         let text = self.arm.text(self.injection.is_of_known_links);
         let replaced = |joint: usize, effect: &str| {
             let is_itself = self.injection.effect() == effect;
@@ -200,7 +147,12 @@ impl Case {
     }
 
     /// The machine as a spec; with `is_open` the shapes that are its size have no value.
-    fn machine(&self, joints: &[usize], size: f64, is_open: bool) -> Result<String, String> {
+    pub(crate) fn machine(
+        &self,
+        joints: &[usize],
+        size: f64,
+        is_open: bool,
+    ) -> Result<String, String> {
         let mut text = self.declared(joints, false)?;
         if let Some(law) = self.injection.law {
             text = format!("{law}\n{text}");
@@ -239,7 +191,7 @@ impl Case {
     }
 
     /// Values of the machine's standard parameters.
-    fn standard(&self, compiled: &Compiled, size: f64) -> Vec<f64> {
+    pub(crate) fn standard(&self, compiled: &Compiled, size: f64) -> Vec<f64> {
         let names: Vec<&str> = compiled
             .model
             .joints
@@ -273,103 +225,6 @@ impl Case {
                 Status::Unknown => value(&parameter.name),
             });
         standard.collect()
-    }
-
-    /// How much of it adds the wanted share to the torque of its joint along a motion.
-    fn size(&self, declared: &str, joints: &[usize], waves: &Waves) -> Result<Option<f64>, String> {
-        if self.injection.place == Place::Nowhere {
-            return Ok(Some(0.0));
-        }
-        let base = arm(self.arm.name, &self.declared(joints, false)?)?;
-        // What is declared and what it stands for is part of the torque that it is measured by.
-        let mut motion = waves.exact(SIZE_HZ);
-        let without = self.torque(&base, &mut motion, 0.0, &[]);
-        let reference = match self.injection.replaces {
-            Some(effect) if effect != self.injection.effect() => {
-                self.torque(&arm(self.arm.name, declared)?, &mut motion, 0.0, &[])
-            }
-            _ => without.clone(),
-        };
-        motion.tau.clone_from(&without);
-        let share = |with: &[Vec<f64>]| {
-            let of = |joint: &usize| {
-                let change = with[*joint]
-                    .iter()
-                    .zip(&reference[*joint])
-                    .map(|(a, b)| a - b);
-                rms(change) / rms(without[*joint].iter().copied())
-            };
-            let all: Vec<usize> = (0..without.len()).collect();
-            let here = if self.injection.place == Place::Joint {
-                joints
-            } else {
-                &all
-            };
-            here.iter().map(of).fold(0.0, f64::max)
-        };
-        if self.injection.kind == "corrupt-samples" {
-            return Ok(Some(self.share));
-        }
-        let with: Box<dyn Fn(f64) -> Vec<Vec<f64>>> = match self.injection.kind {
-            "time-delay" => {
-                let without = &without;
-                Box::new(move |seconds| {
-                    without
-                        .iter()
-                        .map(|tau| late(tau, seconds * SIZE_HZ))
-                        .collect()
-                })
-            }
-            "torque-saturation" => {
-                let (without, joint) = (&without, joints[0]);
-                Box::new(move |size: f64| {
-                    let mut with = without.clone();
-                    for tau in &mut with[joint] {
-                        *tau = tau.clamp(-1.0 / size, 1.0 / size);
-                    }
-                    with
-                })
-            }
-            _ => {
-                let machine = arm(
-                    self.arm.name,
-                    &self.machine(joints, 1.0, !self.injection.scaled.is_empty())?,
-                )?;
-                let injection = self.injection;
-                Box::new(move |size| {
-                    let mut motion = motion.clone();
-                    let shapes: Vec<f64> =
-                        injection.scaled.iter().map(|(_, of)| of(size)).collect();
-                    self.torque(&machine, &mut motion, size, &shapes)
-                })
-            }
-        };
-        Ok(root(self.injection.part * self.share, &|size| {
-            share(&with(size))
-        }))
-    }
-
-    /// The machine's torque along an exact motion.
-    fn torque(
-        &self,
-        arm: &InterpretedArm,
-        motion: &mut Motion,
-        size: f64,
-        shapes: &[f64],
-    ) -> Vec<Vec<f64>> {
-        let beta = arm
-            .compiled()
-            .base
-            .beta(&self.standard(arm.compiled(), size));
-        motion.rigid_torque = arm.rigid_torque(motion, shapes, &beta);
-        motion.transmitted_torque = arm.transmitted_torque(motion, shapes, &beta);
-        let mut torque = torque_of(arm, motion, shapes, &beta, arm.dof());
-        for (torque, known) in torque.iter_mut().zip(arm.known_torque(motion, shapes)) {
-            for (torque, known) in torque.iter_mut().zip(known) {
-                *torque += known;
-            }
-        }
-        torque
     }
 
     /// Moves the machine under a controller that knows it, and logs it with noise.
@@ -429,53 +284,9 @@ impl Case {
     }
 }
 
-fn arm(name: &str, text: &str) -> Result<InterpretedArm, String> {
-    Ok(InterpretedArm::new(compile_model(
-        &load(name, text).map_err(said)?,
-    )))
-}
-
-fn rms(values: impl Iterator<Item = f64>) -> f64 {
+pub(crate) fn rms(values: impl Iterator<Item = f64>) -> f64 {
     let (sum, count) = values.fold((0.0, 0.0), |(sum, count), x| (sum + x * x, count + 1.0));
     (sum / f64::max(count, 1.0)).sqrt()
-}
-
-/// Values `samples` later.
-fn late(values: &[f64], samples: f64) -> Vec<f64> {
-    let at = |k: usize| {
-        let place = (k as f64 - samples).clamp(0.0, (values.len() - 1) as f64);
-        let before = (0..values.len())
-            .take_while(|&i| i as f64 <= place)
-            .last()
-            .unwrap_or(0);
-        let after = (before + 1).min(values.len() - 1);
-        let part = place - before as f64;
-        values[before] * (1.0 - part) + values[after] * part
-    };
-    (0..values.len()).map(at).collect()
-}
-
-/// Where a function that rises reaches a value; `None` where it does not.
-fn root(wanted: f64, of: &dyn Fn(f64) -> f64) -> Option<f64> {
-    const FACTOR: f64 = 4.0;
-    let mut low = 1e-6;
-    let mut high = low;
-    while of(high) < wanted {
-        low = high;
-        high *= FACTOR;
-        if high > 1e6 {
-            return None;
-        }
-    }
-    for _ in 0..20 {
-        let middle = (low * high).sqrt();
-        if of(middle) < wanted {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Some(high)
 }
 
 /// White noise, colored noise and a slow wander, relative to the values' root mean square.

@@ -54,6 +54,13 @@ pub struct Row {
     pub tried: Vec<String>,
 }
 
+impl Row {
+    /// Whether it is of this size.
+    pub fn is_of(&self, share: f64) -> bool {
+        (self.share - share).abs() < 1e-9
+    }
+}
+
 /// Closes the loop on an experiment.
 ///
 /// # Errors

@@ -1,14 +1,16 @@
 //! `cargo bench --bench tracing`: every effect of the library is put into simulated arms, in three sizes, and traced.
 //!
 //! An arm moves in closed loop, with an encoder's steps and colored noise; its spec does not declare what is in it. The share of right
-//! names, of silence and of wrong names is told for every effect and size. The first argument of a run is how many seeds: those from 100
-//! on are for looking at while the tracer is built, those below for the figures.
+//! names, of silence and of wrong names is told for every effect and size. Seeds from 100 on are looked at while the tracer is built, those
+//! below are for figures alone.
 
 mod arms;
 mod catalogue;
 mod experiment;
 mod judge;
+mod keep;
 mod motion;
+mod size;
 mod table;
 
 use std::io::Write;

@@ -53,7 +53,7 @@ pub fn table(rows: &[Row]) -> String {
         if !kinds.contains(&row.kind) {
             kinds.push(row.kind);
         }
-        if !sizes.contains(&row.share) {
+        if !sizes.iter().any(|size| row.is_of(*size)) {
             sizes.push(row.share);
         }
     }
@@ -61,7 +61,7 @@ pub fn table(rows: &[Row]) -> String {
         for size in &sizes {
             let here = || {
                 rows.iter()
-                    .filter(|row| row.kind == *kind && row.share == *size)
+                    .filter(|row| row.kind == *kind && row.is_of(*size))
             };
             let counts = Counts::new(here());
             if counts.all == 0 {
@@ -82,7 +82,7 @@ pub fn table(rows: &[Row]) -> String {
     }
     let of = |wanted: &dyn Fn(&&Row) -> bool| Counts::new(rows.iter().filter(wanted));
     for size in &sizes {
-        let counts = of(&|row| row.is_material && row.share == *size);
+        let counts = of(&|row| row.is_material && row.is_of(*size));
         let _ = writeln!(
             text,
             "{} % of torque, where it matters ({}): exact {:.0} %, exact or near {:.0} %, wrong {:.0} %",

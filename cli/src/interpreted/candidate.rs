@@ -247,6 +247,13 @@ fn is_case_of(model: &Model, law: &EffectDefinition, other: &EffectDefinition) -
     let candidate = InterpretedCandidate::new(model, law, &joints);
     let values = candidate.middle();
     let wanted = candidate.probe(dof);
+    // A limit that the probe does not reach says nothing of the law.
+    if wanted
+        .iter()
+        .all(|entry| entry.values.iter().all(|value| *value == 0.0))
+    {
+        return false;
+    }
     let other = InterpretedCandidate::new(model, other, &joints);
     let mut points = vec![Vec::new()];
     for shape in &other.shapes {

@@ -10,6 +10,7 @@ mod changes;
 mod clipped;
 mod columns;
 mod common;
+mod contact;
 mod coverage;
 mod data_gate;
 mod delays;

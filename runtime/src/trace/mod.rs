@@ -7,6 +7,10 @@
 //! the right sign; each time the full system of all joints is fitted again. Last, *structure* asks whether what is left
 //! still follows the motion; then no name is given.
 //!
+//! What changes the arm itself, as an encoder's offset does, has no column: it is scored by its first order, and where that is promising it
+//! is judged as what it is. Of candidates that lower the error alike the simplest is named, unless another one says all that it says and
+//! more; the rest are alternatives. What passes but for its size is no unknown structure.
+//!
 //! # Examples
 //! A pendulum's model declares inertia, gravity and viscous friction; the machine has dry friction, too.
 //! ```
@@ -38,6 +42,7 @@ mod grid;
 mod normal;
 mod raw;
 mod residual;
+mod round;
 mod score;
 mod search;
 mod structure;

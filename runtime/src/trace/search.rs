@@ -2,36 +2,25 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::columns::{Arm, Candidate, Change};
+use crate::columns::{Arm, Candidate};
 use crate::identify::{
-    Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, longest_period,
-    missing_input, prepare_all, slowest_bands,
+    Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
+    prepare_all, slowest_bands,
 };
 use crate::log::Log;
-use crate::motion::Motion;
 use crate::signal::Prepared;
 
-use super::choose::choose;
 use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
-use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
+use super::gate::{Baseline, MATERIAL_PERCENT};
 use super::gram::Gram;
-use super::grid::{self, Grid};
+use super::grid::Grid;
 use super::structure::Structure;
 use super::trial::Trial;
-use super::verdict::{Alternative, Evidence, Refusal, Tried, Verdict};
+use super::verdict::{Alternative, Evidence, Verdict};
 
 /// No more effects than this are looked for: a model that misses more is another model.
 pub const MOST_EFFECTS: usize = 6;
-
-/// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
-const FINALISTS: usize = 16;
-
-/// Candidates whose shapes are refined twice: what a shape is off by stays in the residual, and looks like another effect.
-const FINELY: usize = 3;
-
-/// Changes of the arm that are tried as what they are in a round.
-const CHANGES: usize = 3;
 
 /// A trace: candidates against the residual of an arm's declared model.
 pub struct Trace<'a> {
@@ -287,110 +276,6 @@ impl Search<'_> {
         };
         self.update_rigid_torque(&state);
         Ok(state)
-    }
-
-    /// One round: the best candidate that passes, with its rivals.
-    fn round<'a>(
-        &self,
-        state: &State,
-        grids: &[Grid<'a>],
-        told: &mut Vec<Tried>,
-    ) -> Option<Accepted<'a>> {
-        let mut judged = self.judged(state, grids);
-        let round = state.accepted.len();
-        told.extend(judged.iter().map(|judged| judged.told(round)));
-        judged.retain(Judged::passes);
-        judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
-        choose(judged, &|one, other| self.encompasses(state, one, other))
-    }
-
-    /// The torque that explains most of those that have nothing against them but their size.
-    fn small<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Option<Accepted<'a>> {
-        let mut judged = self.judged(state, grids);
-        judged.retain(|judged| judged.refusals == [Refusal::Small] && judged.changed.is_none());
-        let best = judged
-            .into_iter()
-            .max_by(|a, b| a.merit.total_cmp(&b.merit))?;
-        let mut small = choose(vec![best], &|_, _| false)?;
-        small.is_small = true;
-        Some(small)
-    }
-
-    /// The candidates that explain most, judged.
-    fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
-        let gram = Gram::new(&state.stack, &self.folds);
-        let raw = self.raw(state);
-        let tried = grids.iter().map(Grid::len).sum();
-        let baseline = Baseline::new(
-            &state.stack,
-            &gram,
-            &state.solution.sigma,
-            &state.residuals,
-            &raw,
-            tried,
-        );
-        let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
-        let mut best: Vec<(f64, Trial)> = grids
-            .iter()
-            .filter_map(|grid| grid.best(&baseline.present, &self.prepared, &rows))
-            .collect();
-        best.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut changes = 0;
-        let finalists = best.into_iter().take(FINALISTS);
-        finalists
-            .enumerate()
-            .filter_map(|(place, (_, trial))| {
-                let sweeps = if place < FINELY { 2 } else { 1 };
-                let trial = trial.refined(&baseline.present, &self.prepared, sweeps);
-                let projected = trial.project(&baseline.present)?;
-                let mut judged = baseline.judge(trial, &projected);
-                let Some(change) = judged.trial.candidate.change() else {
-                    let follows_torque = judged.trial.candidate.follows_torque();
-                    if follows_torque && !self.is_of_structure(state, &judged) {
-                        judged.refusals.push(Refusal::Noise);
-                    }
-                    return Some(judged);
-                };
-                if changes == CHANGES || !gate::is_promising(&judged) {
-                    return None;
-                }
-                changes += 1;
-                Some(self.as_what_it_is(state, &baseline, judged, change, &projected.gain))
-            })
-            .collect()
-    }
-
-    /// A change whose first order is promising, tried as what it is.
-    fn as_what_it_is<'t>(
-        &self,
-        state: &State,
-        baseline: &Baseline,
-        mut first: Judged<'t>,
-        change: &dyn Change,
-        gain: &[f64],
-    ) -> Judged<'t> {
-        // What cannot be solved for has no merit.
-        let Some(changed) = self.solve_change(state, change, gain).ok().flatten() else {
-            first.refusals.push(Refusal::Unsolved);
-            return first;
-        };
-        let counts = change.counts(&changed.shapes, longest_period(&self.prepared));
-        let follows_torque = changed.follows_torque;
-        let mut judged = baseline.judge_changed(first, changed, &self.folds);
-        if follows_torque && !self.is_of_structure(state, &judged) {
-            judged.refusals.push(Refusal::Noise);
-        }
-        if !counts {
-            judged.refusals.push(Refusal::Small);
-        }
-        judged
-    }
-
-    /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
-    fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
-        let (structure, _) = self.structure(state);
-        let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
-        joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)
     }
 
     /// Drops effects that later ones made needless.

@@ -17,6 +17,10 @@ const DECADES: f64 = 100.0;
 /// How much less a candidate may explain with a shape that hardly changes anything.
 const HARDLY: f64 = 1e-3;
 
+/// A column of the logged torque may be more than this share of its largest value in this share of all rows.
+const THERE: f64 = 0.01;
+const RARELY: f64 = 0.4;
+
 /// How far the second sweep goes, as a share of the way to the neighbors on the grid.
 const NEARBY: f64 = 0.1;
 
@@ -111,8 +115,25 @@ impl<'a> Trial<'a> {
         (low + edge..=high - edge).contains(&value)
     }
 
+    /// `None` where it says nothing new, or where it is made of the logged torque nearly all the time: the torque explains itself.
     pub(super) fn project(&self, present: &Present) -> Option<Projected> {
+        if self.candidate.follows_torque() && !self.is_rare() {
+            return None;
+        }
         present.project(&self.entries, self.count())
+    }
+
+    /// Whether every column is next to nothing in most rows.
+    fn is_rare(&self) -> bool {
+        self.entries.iter().all(|entry| {
+            let largest = entry
+                .values
+                .iter()
+                .fold(0.0_f64, |most, v| most.max(v.abs()));
+            let is_there = |value: &&f64| value.abs() > THERE * largest;
+            let there = entry.values.iter().filter(is_there).count();
+            there as f64 <= RARELY * entry.values.len() as f64
+        })
     }
 
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; in further sweeps nearby.
@@ -152,14 +173,21 @@ impl<'a> Trial<'a> {
         best
     }
 
-    /// Whether the candidate explains less with a shape at its neighbors on the grid.
+    /// Whether the candidate explains less with a shape that is one step of its grid lower or higher.
     fn feels(&self, number: usize, drop: &dyn Fn(&Self) -> f64, logs: &[Prepared]) -> bool {
-        let (low, high) = neighbors(&self.candidate.shapes()[number].grid, self.shapes[number]);
+        let grid = &self.candidate.shapes()[number].grid;
+        let (first, last, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
+        let (low, high) = neighbors(grid, value);
+        let steps = if first > 0.0 && last > DECADES * first {
+            [value * low / high, value * high / low]
+        } else {
+            [value - (high - low), value + (high - low)]
+        };
         let least = (1.0 - HARDLY) * drop(self);
-        [low, high].into_iter().all(|value| {
+        steps.into_iter().all(|step| {
             let mut shapes = self.shapes.clone();
-            shapes[number] = value;
-            value == self.shapes[number] || drop(&Self::new(self.candidate, shapes, logs)) < least
+            shapes[number] = step.clamp(first, last);
+            drop(&Self::new(self.candidate, shapes, logs)) < least
         })
     }
 

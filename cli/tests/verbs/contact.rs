@@ -1,0 +1,94 @@
+//! `trace`: forces of the world, motors at their limit, and torque that is late by less than dry friction tells.
+
+use serde_json::Value;
+
+use crate::common::{Folder, close, json, moved};
+
+fn spec(effects: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint up: revolute {{ a = 0.5; alpha = 90 deg; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link up: fixed {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+            link lo: fixed {{ mass = 1; com = [-0.2, 0, 0.03]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
+            effects {{ viscous_friction on all; coulomb_friction on all; {effects} }}
+        }}"
+    )
+}
+
+/// What `trace` says of the arm whose log is that of the arm with `effect`: its only finding.
+fn only(effect: &str, values: &str) -> (String, Value) {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    let values = format!(
+        r#"{{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3{values}}}"#
+    );
+    moved(&folder, &spec(effect), &values, |t| {
+        [
+            -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+            0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+        ]
+    });
+    let told = folder.succeed(&["trace", "arm.robot", "log.csv", "--json", "out.json"]);
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["outcome"], "explained", "{told}");
+    assert_eq!(out["effects"].as_array().map(Vec::len), Some(1), "{told}");
+    (told, out)
+}
+
+fn value(out: &Value, name: &str) -> f64 {
+    let parameters = out["effects"][0]["parameters"].as_array();
+    let found = parameters
+        .into_iter()
+        .flatten()
+        .find(|parameter| parameter["name"] == name);
+    found
+        .and_then(|parameter| parameter["value"].as_f64())
+        .unwrap_or_else(|| panic!("{name} in {out}"))
+}
+
+#[test]
+fn a_contact_is_named_with_its_force_and_its_time() {
+    let force = r#", "lo.external_force.fx": 0.5, "lo.external_force.fy": 1.0, "lo.external_force.fz": -0.8"#;
+    let (told, out) = only("external_force(start = 6.3, end = 9.1) on lo;", force);
+    assert_eq!(out["effects"][0]["kind"], "external-force", "{told}");
+    close(value(&out, "start"), 6.3, 0.05);
+    close(value(&out, "end"), 9.1, 0.05);
+    close(value(&out, "fx"), 0.5, 0.03);
+    close(value(&out, "fy"), 1.0, 0.03);
+    close(value(&out, "fz"), -0.8, 0.03);
+    // What was judged beside it is told, with the reasons against it.
+    let tried = out["tried"].as_array().expect("a list");
+    assert_eq!(tried[0]["kind"], "external-force", "{out}");
+    assert_eq!(tried[0]["refused"].as_array().map(Vec::len), Some(0));
+    let refused = |one: &Value| one["refused"].as_array().is_some_and(|r| !r.is_empty());
+    assert!(tried.iter().any(refused), "{out}");
+}
+
+#[test]
+fn a_motor_at_its_limit_is_named() {
+    let (told, out) = only(
+        "torque_saturation(limit = 2.2, v0 = 100000) on lo;",
+        r#", "lo.torque_saturation.share": 1.0"#,
+    );
+    let effect = &out["effects"][0];
+    assert_eq!(
+        (&effect["kind"], &effect["joint"]),
+        (&"torque-saturation".into(), &2.into()),
+        "{told}"
+    );
+    close(value(&out, "share"), 1.0, 0.1);
+    assert!((1.5..3.5).contains(&value(&out, "limit")), "{told}");
+}
+
+/// The simulated drive holds its torque from one sample to the next, so that what it logs is early by half a sample of 1 ms.
+#[test]
+fn torque_that_is_a_few_samples_late_is_a_delay() {
+    let (told, out) = only("time_delay(delay = 0.003);", "");
+    assert_eq!(out["effects"][0]["kind"], "time-delay", "{told}");
+    assert_eq!(out["effects"][0]["joint"], Value::Null);
+    close(value(&out, "delay"), 0.0025, 0.0003);
+}
