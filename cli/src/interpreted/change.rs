@@ -70,9 +70,10 @@ impl InterpretedArm {
         // Of delays there is one.
         let mut effects = model.effects.iter();
         let is_late = effects.any(|effect| delays(&effect.definition));
-        let all = all.filter(|(definition, joints)| {
-            !is_declared(&definition.name, joints) && !(is_late && delays(definition))
-        });
+        let is_there = |definition: &EffectDefinition, joints: &[usize]| {
+            is_declared(&definition.name, joints) || (is_late && delays(definition))
+        };
+        let all = all.filter(|(definition, joints)| !is_there(definition, joints));
         let found = each(all, |(definition, joints)| {
             InterpretedChange::new(self, definition, joints)
         });

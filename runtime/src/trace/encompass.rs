@@ -4,8 +4,6 @@
 //! nothing beside `a`, `a` encompasses `b` (Mizon & Richard 1986): `b` is what `a` looks like in these logs. A simpler law that is the
 //! right one is encompassed by none. Nor is one that leaves a smaller error somewhere.
 
-use crate::identify::Stack;
-
 use super::gate::{self, Judged};
 use super::gram::Gram;
 use super::score::Present;
@@ -25,13 +23,12 @@ impl Search<'_> {
 
     /// Probability of the score of `one` in noise, with `other` in the model; 1 where it says nothing new.
     fn beside(&self, state: &State, one: &Judged, other: &Judged) -> f64 {
-        let stack = match &other.changed {
-            Some(changed) => changed.stack.clone(),
-            None => {
-                let mut stack: Stack = state.stack.clone();
-                stack.append(other.trial.candidate.unknowns(), &other.trial.entries);
-                stack
-            }
+        let stack = if let Some(changed) = &other.changed {
+            changed.stack.clone()
+        } else {
+            let mut stack = state.stack.clone();
+            stack.append(other.trial.candidate.unknowns(), &other.trial.entries);
+            stack
         };
         let Ok(solution) = self.identify.solve_stack(&stack) else {
             return 1.0;

@@ -94,7 +94,8 @@ fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Op
             let mut best = best.lock().expect("no panic while it is held");
             // Of equal ones the first, whatever thread came to it.
             let is_better = best.is_none_or(|(drop, at)| {
-                projected.drop > drop || (projected.drop == drop && number < at)
+                let order = projected.drop.total_cmp(&drop);
+                order.then_with(|| at.cmp(&number)).is_gt()
             });
             if is_better {
                 *best = Some((projected.drop, number));
