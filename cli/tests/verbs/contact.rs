@@ -2,21 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::{Folder, close, json, moved};
-
-fn spec(effects: &str) -> String {
-    format!(
-        "robot A {{
-            gravity = [0, -9.81, 0];
-            convention = standard_dh;
-            joint up: revolute {{ a = 0.5; alpha = 90 deg; d = 0; }}
-            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
-            link up: fixed {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
-            link lo: fixed {{ mass = 1; com = [-0.2, 0, 0.03]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
-            effects {{ viscous_friction on all; coulomb_friction on all; {effects} }}
-        }}"
-    )
-}
+use crate::common::{Folder, close, folding as spec, json, moved};
 
 /// What `trace` says of the arm whose log is that of the arm with `effect`: its only finding.
 fn only(effect: &str, values: &str) -> (String, Value) {

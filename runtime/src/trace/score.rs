@@ -13,10 +13,11 @@ use super::normal::Normal;
 const LEAST_NEW: f64 = 1e-3;
 
 /// Length of a block that counts as one independent sample: so many correlation times of what the candidate leaves, and at
-/// least this many seconds. Fewest blocks of a log.
+/// least this many seconds. Fewest blocks of a log, and for each parameter: a body has ten, and as many blocks would say nothing of them.
 const BLOCK_CORRELATIONS: f64 = 4.0;
 const BLOCK_S: f64 = 0.25;
 const LEAST_BLOCKS: usize = 10;
+const BLOCKS_OF_A_PARAMETER: usize = 4;
 
 /// A candidate's score.
 pub(super) struct Score {
@@ -155,7 +156,8 @@ impl<'a> Present<'a> {
         let touched = entries
             .iter()
             .map(|entry| correlation_time(&rest[entry.joint]));
-        let blocks = self.blocks(touched.fold(1.0, f64::max));
+        let least = LEAST_BLOCKS.max(BLOCKS_OF_A_PARAMETER * count);
+        let blocks = self.blocks(touched.fold(1.0, f64::max), least);
         let mut information = vec![vec![0.0; count]; count];
         let mut variance = vec![vec![0.0; count]; count];
         for block in &blocks {
@@ -208,8 +210,9 @@ impl<'a> Present<'a> {
             .collect()
     }
 
-    /// Blocks of neighboring rows that never cross from one log into another. `correlation` is a number of samples.
-    fn blocks(&self, correlation: f64) -> Vec<std::ops::Range<usize>> {
+    /// Blocks of neighboring rows, `least` of a log or more, that never cross from one log into another. `correlation` is a number of
+    /// samples.
+    fn blocks(&self, correlation: f64, least: usize) -> Vec<std::ops::Range<usize>> {
         let mut blocks = Vec::new();
         for segment in &self.stack.segments {
             let rows = segment.time.len();
@@ -218,7 +221,7 @@ impl<'a> Present<'a> {
             }
             let seconds = segment.time[rows - 1] - segment.time[0];
             let length = BLOCK_S.max(BLOCK_CORRELATIONS * correlation * seconds / rows as f64);
-            let count = whole_steps(seconds / length).max(LEAST_BLOCKS).min(rows);
+            let count = whole_steps(seconds / length).max(least).min(rows);
             blocks.extend(
                 (0..count).map(|b| {
                     segment.start + b * rows / count..segment.start + (b + 1) * rows / count

@@ -90,3 +90,18 @@ pub fn moved(folder: &Folder, spec: &str, parameters: &str, at: impl Fn(f64) -> 
     let noise = ["--torque-noise", "0.02", "--seed", "1"];
     folder.succeed(&[&simulate[..], &motion, &noise].concat());
 }
+
+/// Two joints and known links, with friction and `effects`.
+pub fn folding(effects: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint up: revolute {{ a = 0.5; alpha = 90 deg; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link up: fixed {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+            link lo: fixed {{ mass = 1; com = [-0.2, 0, 0.03]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
+            effects {{ viscous_friction on all; coulomb_friction on all; {effects} }}
+        }}"
+    )
+}

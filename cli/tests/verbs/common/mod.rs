@@ -8,7 +8,7 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub use inputs::{CART, PENDULUM, URDF, cart_log, moved, white};
+pub use inputs::{CART, PENDULUM, URDF, cart_log, folding, moved, white};
 
 /// What a run left behind.
 pub struct Run {
