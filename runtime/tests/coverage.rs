@@ -3,25 +3,54 @@
 mod plant;
 
 use plant::{Pendulums, Plant, TRUTH};
-use robot_model::identify::{Identify, Method};
+use robot_model::identify::{Estimate, Factor, Identify, Method};
+use robot_model::log::Log;
 use robot_model::signal::Bands;
 
 const EXPERIMENTS: u64 = 200;
 
+type Fit<'a> = &'a dyn Fn(&Pendulums, Log) -> Estimate;
+
 #[test]
 fn intervals_cover_the_truth_as_often_as_they_say() {
-    let arm = Pendulums::new();
+    cover("wls", &[0.005, 0.2, 1.0], &|arm, log| {
+        fit(arm, log, Method::Wls)
+    });
+}
+
+#[test]
+fn intervals_of_total_least_squares_do() {
+    cover("tls", &[0.005, 0.2], &|arm, log| {
+        fit(arm, log, Method::Total)
+    });
+}
+
+#[test]
+fn intervals_of_merged_factors_do() {
+    cover("merge", &[0.005, 0.2], &|arm, log| {
+        let mut factor = Factor::new(arm, Bands::DEFAULT).expect("bands");
+        factor.push(arm, &log).expect("the log is sound");
+        factor.estimate(arm, Method::Wls).expect("excited")
+    });
+}
+
+fn fit(arm: &Pendulums, log: Log, method: Method) -> Estimate {
     let identify = Identify {
-        method: Method::Wls,
+        method,
         bands: Some(Bands::DEFAULT),
         ..Identify::default()
     };
+    identify.fit(arm, &[log]).expect("the log is sound")
+}
+
+fn cover(name: &str, times: &[f64], fit: Fit) {
+    let arm = Pendulums::new();
     let quiet = Plant {
         white: 0.0,
         ..Plant::default()
     };
     let log = quiet.log();
-    for correlated_s in [0.005, 0.2, 1.0] {
+    for &correlated_s in times {
         let (mut hits, mut errors, mut claimed) = ([0; 8], [0.0; 8], [0.0; 8]);
         for seed in 100..100 + EXPERIMENTS {
             // The motion's seed is part of the log's; only the noise may differ between experiments.
@@ -40,7 +69,7 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
                     .zip(noise)
                     .for_each(|(tau, (x, y))| *tau += x - y);
             }
-            let estimate = identify.fit(&arm, &[log]).expect("the log is sound");
+            let estimate = fit(&arm, log);
             for (k, found) in estimate.parameters.iter().enumerate() {
                 let error = found.value - TRUTH[k];
                 hits[k] += u32::from(error.abs() < 1.96 * found.std);
@@ -51,11 +80,14 @@ fn intervals_cover_the_truth_as_often_as_they_say() {
         let all = f64::from(hits.iter().sum::<u32>()) / (8.0 * EXPERIMENTS as f64);
         assert!(
             (0.90..0.98).contains(&all),
-            "{correlated_s} s: {all} {hits:?}"
+            "{name}, {correlated_s} s: {all} {hits:?}"
         );
         for (claimed, error) in claimed.iter().zip(errors) {
             let ratio = (claimed / error).sqrt();
-            assert!((0.8..1.6).contains(&ratio), "{correlated_s} s: {ratio}");
+            assert!(
+                (0.8..1.6).contains(&ratio),
+                "{name}, {correlated_s} s: {ratio}"
+            );
         }
     }
 }

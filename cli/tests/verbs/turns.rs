@@ -50,6 +50,15 @@ fn errors(folder: &Folder, run: usize, more: &[&str]) -> Vec<f64> {
     of.collect()
 }
 
+/// By instruments: the chance that least squares has no bias, run by run.
+fn chances(folder: &Folder) -> Vec<f64> {
+    let chance = |run: usize| {
+        let fit = json(&folder.read(&format!("fit{run}.json")));
+        fit["hausman"]["probability"].as_f64().expect("a number")
+    };
+    (0..RUNS).map(chance).collect()
+}
+
 /// Errors over deviations of all runs.
 fn all(folder: &Folder, more: &[&str]) -> Vec<Vec<f64>> {
     let half = |first: usize| -> Vec<Vec<f64>> {
@@ -77,4 +86,17 @@ fn intervals_hold_the_truth_where_joints_stick_and_encoders_have_steps() {
             assert!(mean.abs() < bias, "{more:?}, {name}: {mean}");
         }
     }
+}
+
+/// The wanted motion turns a little before the measured one, which is no noise of columns.
+#[test]
+fn dry_friction_alone_does_not_set_instruments_against_least_squares() {
+    let folder = folder("");
+    let all = all(&folder, &["--method", "iv", "--instruments", "wanted.csv"]);
+    let held = all.iter().flatten().filter(|z| z.abs() < 1.96).count();
+    let share = held as f64 / (RUNS * TRUTH.len()) as f64;
+    assert!((0.90..=0.98).contains(&share), "{share}");
+    let chances = chances(&folder);
+    let apart = chances.iter().filter(|chance| **chance < 0.05).count();
+    assert!(apart <= RUNS / 10, "{apart}: {chances:?}");
 }

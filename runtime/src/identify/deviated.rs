@@ -74,8 +74,22 @@ impl Identify {
 
     /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.
     pub(super) fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
+        self.widened(stack, solution, hac::deviations)
+    }
+
+    /// Those whose residual is no noise all along, as it follows what is looked for: of the products with columns alone.
+    pub(super) fn deviations_of_products(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
+        self.widened(stack, solution, hac::deviations_of_products)
+    }
+
+    fn widened(
+        &self,
+        stack: &Stack,
+        solution: &Solution,
+        deviations: fn(&Stack, &Solution, &[Vec<f64>]) -> Vec<f64>,
+    ) -> Vec<f64> {
         let weights = self.row_weights(stack, solution);
-        let mut std = hac::deviations(stack, solution, &weights);
+        let mut std = deviations(stack, solution, &weights);
         if !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty()) {
             turns::widen(stack, solution, &weights, &mut std);
         }

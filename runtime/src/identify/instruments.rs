@@ -15,10 +15,10 @@ use faer::linalg::solvers::Solve;
 use statrs::function::erf::erfc;
 
 use super::estimate::Identified;
-use super::hac::{Rows, weighed};
+use super::hac::{Rows, larger, weighed};
 use super::least_squares::{Excited, Factors, Solution};
 use super::stack::Stack;
-use super::{IdentifyError, Weights, robust};
+use super::{IdentifyError, Weights, robust, turns};
 use crate::log::Log;
 use crate::simulate::Trajectory;
 
@@ -104,6 +104,23 @@ pub(super) fn wanted(log: &Log, reference: &Trajectory) -> Result<Log, IdentifyE
     Ok(wanted)
 }
 
+/// Both stacks without the rows that turns of dry joints in either motion reach: there the wanted motion has another direction than the
+/// measured one, which is no noise of columns.
+pub(super) fn without_turns(stack: &Stack, instruments: &Stack) -> [Stack; 2] {
+    let mut turns = stack.turns.clone();
+    for (own, wanted) in turns.iter_mut().zip(&instruments.turns) {
+        own.extend(wanted);
+        own.sort_unstable();
+        own.dedup();
+    }
+    [stack, instruments].map(|stack| {
+        let mut rest = stack.clone();
+        rest.turns.clone_from(&turns);
+        turns::leave_out(&mut rest);
+        rest
+    })
+}
+
 /// Puts the instrumental estimate in the place of least squares', with its deviations.
 pub(super) fn make(
     solution: &mut Solution,
@@ -146,8 +163,12 @@ pub(super) fn make(
         }
         let residuals = weighed(stack.residuals(&solution.estimate), scale, &ones);
         // In units of the columns' lengths, as the deviations of least squares are.
-        let series = z.influence(&residuals, &z.product(&w));
-        solution.std = w.deviations(&series);
+        let bread = z.product(&w);
+        let series = z.influence(&residuals, &bread);
+        solution.std = larger(
+            w.deviations(&series),
+            &w.roots(&z.steady_variances(&residuals, &bread)),
+        );
         solution.unexcited = silent;
         solution.sigma = factors.sigma(&solution.estimate, w.excited.len());
         influence = Some((series, w));

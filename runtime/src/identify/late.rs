@@ -166,7 +166,8 @@ impl Identify {
     /// What is left of the delays of a stack whose last unknowns they are.
     fn further(&self, stack: &Stack) -> Option<Found> {
         let mut solution = self.solve_stack(stack).ok()?;
-        solution.std = self.deviations(stack, &solution);
+        // A delay that is left is in the residual, which is no noise then.
+        solution.std = self.deviations_of_products(stack, &solution);
         let first = stack.unknowns.len() - stack.dof();
         let residuals = stack.residuals(&solution.estimate);
         let of = |joint: usize| {

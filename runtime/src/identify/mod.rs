@@ -219,8 +219,15 @@ impl Identify {
             Method::Total => total::make(&mut solution, &stack, self.weights)?,
             Method::Instrumental => {
                 let instruments = instruments()?;
-                let found = instruments::make(&mut solution, &stack, &instruments, self.weights);
-                beside.hausman = Some(found?);
+                let [rest, clean] = instruments::without_turns(&stack, &instruments);
+                let found = self.solve_stack(&rest)?;
+                beside.hausman = Some(if found.unexcited == solution.unexcited {
+                    solution = found;
+                    instruments::make(&mut solution, &rest, &clean, self.weights)?
+                } else {
+                    // Turns are all that some parameter shows in.
+                    instruments::make(&mut solution, &stack, &instruments, self.weights)?
+                });
             }
         }
         let fitted = Fitted::new(&stack, &solution.estimate);

@@ -7,7 +7,7 @@
 
 use faer::Mat;
 
-use super::hac::{Rows, weighed};
+use super::hac::{Rows, larger, weighed};
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use super::{IdentifyError, Weights, robust};
@@ -102,7 +102,9 @@ impl Total {
             .iter()
             .map(|scale| scale * self.target)
             .collect();
-        let residuals = weighed(stack.residuals(&solution.estimate), &unit, &ones);
+        let rest = stack.residuals(&solution.estimate);
+        let steady = rows.steady_variances(&weighed(rest.clone(), &solution.scale, &ones), &bread);
+        let residuals = weighed(rest, &unit, &ones);
         let targets = stack.joints.iter().map(|rows| rows.target.clone());
         let targets = weighed(targets.collect(), &unit, &ones);
         let size = 1.0 + self.scaled.iter().map(|x| x * x).sum::<f64>();
@@ -118,7 +120,10 @@ impl Total {
                 }
             }
         }
-        rows.deviations(&rows.influence(&ones, &bread))
+        larger(
+            rows.deviations(&rows.influence(&ones, &bread)),
+            &rows.roots(&steady),
+        )
     }
 }
 
