@@ -30,6 +30,7 @@ mod logs;
 mod merge;
 mod methods;
 mod motions;
+mod named;
 mod output_error;
 mod outputs;
 mod parameters;

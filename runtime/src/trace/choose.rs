@@ -44,3 +44,127 @@ pub(super) fn choose<'a>(
         rivals,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::trial::Trial;
+    use super::super::verdict::Evidence;
+    use super::*;
+    use crate::columns::{Candidate, Columns, Entry, Shape, Unknown};
+    use crate::motion::Motion;
+
+    /// A law by its name, how many parameters it has, and the channels that it reads.
+    struct Law {
+        kind: &'static str,
+        unknowns: Vec<Unknown>,
+        inputs: Vec<String>,
+    }
+
+    impl Columns for Law {
+        fn unknowns(&self) -> &[Unknown] {
+            &self.unknowns
+        }
+
+        fn shapes(&self) -> &[Shape] {
+            &[]
+        }
+
+        fn uses_rigid_torque(&self) -> bool {
+            false
+        }
+
+        fn inputs(&self) -> &[String] {
+            &self.inputs
+        }
+
+        fn entries(&self, _: &Motion, _: &[f64]) -> Vec<Entry> {
+            Vec::new()
+        }
+    }
+
+    impl Candidate for Law {
+        fn kind(&self) -> &str {
+            self.kind
+        }
+
+        fn joints(&self) -> &[usize] {
+            &[0]
+        }
+    }
+
+    fn law(kind: &'static str, parameters: usize, inputs: &[&str]) -> Law {
+        let unknown = |number| Unknown {
+            name: format!("{kind}.{number}"),
+            nonnegative: false,
+        };
+        Law {
+            kind,
+            unknowns: (0..parameters).map(unknown).collect(),
+            inputs: inputs.iter().map(|&name| name.to_owned()).collect(),
+        }
+    }
+
+    /// The law that is named and the rest, of laws with their errors in the order of their merit.
+    fn chosen<'a>(
+        laws: &'a [(Law, f64)],
+        encompasses: &dyn Fn(&str, &str) -> bool,
+    ) -> (&'a str, Vec<String>) {
+        let judged = laws.iter().map(|(law, error)| Judged {
+            trial: Trial::first_order(law, Vec::new()),
+            evidence: Evidence {
+                score: 10.0,
+                p_value: 0.0,
+                held_out_percent: vec![50.0],
+                raw_percent: vec![50.0],
+                folds: (5, 5),
+            },
+            merit: -error.ln(),
+            raw_power: vec![error * error],
+            refusals: Vec::new(),
+            changed: None,
+        });
+        let kind = |judged: &Judged| judged.trial.candidate.kind().to_owned();
+        let chosen = choose(judged.collect(), &|one, other| {
+            encompasses(&kind(one), &kind(other))
+        });
+        let chosen = chosen.expect("one of them");
+        let rivals = chosen.rivals.into_iter().map(|rival| rival.kind).collect();
+        (chosen.trial.candidate.kind(), rivals)
+    }
+
+    #[test]
+    fn the_simplest_of_those_that_are_alike_is_named() {
+        let laws = [
+            (law("long", 3, &[]), 1.0),
+            (law("middling", 2, &[]), 1.01),
+            (law("short", 1, &[]), 1.04),
+            (law("worse", 1, &[]), 1.06),
+        ];
+        let (named, rivals) = chosen(&laws, &|_, _| false);
+        assert_eq!(named, "short");
+        assert_eq!(rivals, ["middling", "long"], "`worse` is by 6 %");
+    }
+
+    #[test]
+    fn a_law_of_a_channel_goes_before_one_of_time() {
+        let laws = [
+            (law("drift", 2, &[]), 1.0),
+            (law("warmth", 2, &["temperature"]), 1.02),
+        ];
+        let (named, rivals) = chosen(&laws, &|_, _| false);
+        assert_eq!((named, rivals), ("warmth", vec!["drift".to_owned()]));
+    }
+
+    #[test]
+    fn a_law_that_encompasses_the_simpler_one_is_named() {
+        let laws = [
+            (law("spring", 2, &[]), 1.0),
+            (law("offset", 1, &[]), 1.01),
+            (law("other", 1, &[]), 1.02),
+        ];
+        let is_said = |one: &str, other: &str| (one, other) == ("spring", "offset");
+        let (named, rivals) = chosen(&laws, &is_said);
+        assert_eq!(named, "spring");
+        assert_eq!(rivals, ["offset", "other"]);
+    }
+}

@@ -13,10 +13,14 @@ use super::search::{Search, State};
 const MORE: f64 = 1e-3;
 const NOTHING: f64 = 1e-2;
 
+/// Held-out errors within this of each other are alike, percent: the error of a joint that neither effect touches is not the same in two
+/// fits.
+const ALIKE_PERCENT: f64 = 0.2;
+
 impl Search<'_> {
     /// Whether `one` encompasses `other`.
     pub(super) fn encompasses(&self, state: &State, one: &Judged, other: &Judged) -> bool {
-        gate::worse_percent(&one.raw_power, &other.raw_power) < 0.0
+        gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
             && self.beside(state, one, other) < MORE
             && self.beside(state, other, one) > NOTHING
     }

@@ -1,13 +1,13 @@
 //! Does a candidate hold on data that it was not fitted on?
 
 use crate::columns::{Candidate, Change};
-use crate::identify::Stack;
 
 use super::change::Changed;
 use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
 use super::raw::Raw;
 use super::score::{Present, Projected};
+use super::search::{Search, State};
 use super::trial::Trial;
 use super::verdict::{Evidence, Refusal, Tried};
 
@@ -26,12 +26,12 @@ const NEGATIVE_SHARE: f64 = 0.05;
 /// The model without the candidate.
 pub(super) struct Baseline<'a> {
     pub(super) present: Present<'a>,
-    pub(super) gram: &'a Gram,
-    pub(super) held_out: HeldOut,
+    gram: Gram,
+    held_out: HeldOut,
     /// The residual on raw samples.
-    pub(super) raw: &'a Raw<'a>,
+    raw: Raw<'a>,
     /// Candidates and shapes tried.
-    pub(super) tried: usize,
+    tried: usize,
 }
 
 /// A candidate's trial, judged.
@@ -48,24 +48,22 @@ pub(super) struct Judged<'a> {
     pub(super) changed: Option<Changed>,
 }
 
-impl<'a> Baseline<'a> {
-    pub(super) fn new(
-        stack: &'a Stack,
-        gram: &'a Gram,
-        sigma: &'a [f64],
-        residuals: &'a [Vec<f64>],
-        raw: &'a Raw<'a>,
-        tried: usize,
-    ) -> Self {
-        Self {
-            present: Present::new(stack, gram, sigma, residuals),
+impl Search<'_> {
+    /// The present model as that which `tried` candidates and shapes are judged against.
+    pub(super) fn baseline<'a>(&'a self, state: &'a State, tried: usize) -> Baseline<'a> {
+        let (stack, sigma) = (&state.stack, &state.solution.sigma);
+        let gram = Gram::new(stack, &self.folds);
+        Baseline {
+            present: Present::new(stack, &gram, sigma, &state.residuals),
             held_out: gram.held_out(sigma),
             gram,
-            raw,
+            raw: self.raw(state),
             tried,
         }
     }
+}
 
+impl Baseline<'_> {
     pub(super) fn judge<'t>(&self, trial: Trial<'t>, projected: &Projected) -> Judged<'t> {
         let stack = self.present.stack;
         let count = trial.count();

@@ -11,7 +11,7 @@ use crate::motion::{Kinematics, Motion};
 use crate::signal::Prepared;
 
 use super::score::Present;
-use super::trial::{Trial, points};
+use super::trial::{Trial, points, project};
 
 /// Grids of more points than this are screened.
 const MOST_FORMED: usize = 128;
@@ -87,8 +87,7 @@ fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Op
                 return;
             };
             let entries = over(candidate, rows, shapes);
-            let count = candidate.unknowns().len();
-            let Some(projected) = present.project(&entries, count) else {
+            let Some(projected) = project(candidate, &entries, present) else {
                 continue;
             };
             let mut best = best.lock().expect("no panic while it is held");

@@ -6,7 +6,6 @@ use crate::motion::Motion;
 
 use super::choose::choose;
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
-use super::gram::Gram;
 use super::grid::{self, Grid};
 use super::search::{Accepted, Search, State};
 use super::trial::Trial;
@@ -51,17 +50,7 @@ impl Search<'_> {
 
     /// The candidates that explain most, judged.
     fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
-        let gram = Gram::new(&state.stack, &self.folds);
-        let raw = self.raw(state);
-        let tried = grids.iter().map(Grid::len).sum();
-        let baseline = Baseline::new(
-            &state.stack,
-            &gram,
-            &state.solution.sigma,
-            &state.residuals,
-            &raw,
-            tried,
-        );
+        let baseline = self.baseline(state, grids.iter().map(Grid::len).sum());
         let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
         let mut best: Vec<(f64, Trial)> = grids
             .iter()

@@ -12,8 +12,7 @@ use crate::signal::Prepared;
 
 use super::conclude::{changed, verdict};
 use super::folds::{self, Fold};
-use super::gate::{Baseline, MATERIAL_PERCENT};
-use super::gram::Gram;
+use super::gate::MATERIAL_PERCENT;
 use super::grid::Grid;
 use super::structure::Structure;
 use super::trial::Trial;
@@ -278,35 +277,23 @@ impl Search<'_> {
         Ok(state)
     }
 
+    /// Whether a model without an effect is worse by as much as matters on one of its joints.
+    fn is_needed(&self, state: &State, trial: &Trial) -> bool {
+        let baseline = self.baseline(state, 1);
+        trial.project(&baseline.present).is_some_and(|projected| {
+            let judged = baseline.judge(trial.clone(), &projected);
+            let mut joints = trial.candidate.joints().iter();
+            joints.any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
+        })
+    }
+
     /// Drops effects that later ones made needless.
     fn prune<'a>(&mut self, mut state: State<'a>) -> Result<State<'a>, IdentifyError> {
         let mut number = 0;
         while state.accepted.len() > 1 && number + 1 < state.accepted.len() {
             let effect = state.accepted.remove(number);
             state = self.refit(state)?;
-            let gram = Gram::new(&state.stack, &self.folds);
-            let raw = self.raw(&state);
-            let baseline = Baseline::new(
-                &state.stack,
-                &gram,
-                &state.solution.sigma,
-                &state.residuals,
-                &raw,
-                1,
-            );
-            let needed = effect
-                .trial
-                .project(&baseline.present)
-                .is_some_and(|projected| {
-                    let judged = baseline.judge(effect.trial.clone(), &projected);
-                    effect
-                        .trial
-                        .candidate
-                        .joints()
-                        .iter()
-                        .any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
-                });
-            if needed {
+            if self.is_needed(&state, &effect.trial) {
                 state.accepted.insert(number, effect);
                 number += 1;
                 state = self.refit(state)?;

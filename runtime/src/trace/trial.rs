@@ -52,6 +52,32 @@ pub(super) fn points(candidate: &dyn Candidate) -> Vec<Vec<f64>> {
     points
 }
 
+/// What a candidate's columns explain of the residual beside the model. `None` where they say nothing new, or where they are made of the
+/// logged torque nearly all the time: the torque explains itself.
+pub(super) fn project(
+    candidate: &dyn Candidate,
+    entries: &[Entry],
+    present: &Present,
+) -> Option<Projected> {
+    if candidate.follows_torque() && !is_rare(entries) {
+        return None;
+    }
+    present.project(entries, candidate.unknowns().len())
+}
+
+/// Whether every column is next to nothing in most rows.
+fn is_rare(entries: &[Entry]) -> bool {
+    entries.iter().all(|entry| {
+        let largest = entry
+            .values
+            .iter()
+            .fold(0.0_f64, |most, v| most.max(v.abs()));
+        let is_there = |value: &&f64| value.abs() > THERE * largest;
+        let there = entry.values.iter().filter(is_there).count();
+        there as f64 <= RARELY * entry.values.len() as f64
+    })
+}
+
 impl<'a> Trial<'a> {
     pub(super) fn new(candidate: &'a dyn Candidate, shapes: Vec<f64>, logs: &[Prepared]) -> Self {
         let entries = filtered_columns(candidate, logs, &shapes);
@@ -115,25 +141,9 @@ impl<'a> Trial<'a> {
         (low + edge..=high - edge).contains(&value)
     }
 
-    /// `None` where it says nothing new, or where it is made of the logged torque nearly all the time: the torque explains itself.
+    /// What it explains of the residual beside the model.
     pub(super) fn project(&self, present: &Present) -> Option<Projected> {
-        if self.candidate.follows_torque() && !self.is_rare() {
-            return None;
-        }
-        present.project(&self.entries, self.count())
-    }
-
-    /// Whether every column is next to nothing in most rows.
-    fn is_rare(&self) -> bool {
-        self.entries.iter().all(|entry| {
-            let largest = entry
-                .values
-                .iter()
-                .fold(0.0_f64, |most, v| most.max(v.abs()));
-            let is_there = |value: &&f64| value.abs() > THERE * largest;
-            let there = entry.values.iter().filter(is_there).count();
-            there as f64 <= RARELY * entry.values.len() as f64
-        })
+        project(self.candidate, &self.entries, present)
     }
 
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; in further sweeps nearby.

@@ -42,25 +42,39 @@ pub const URDF: &str = r#"<robot name="arm">
 
 /// A log of the cart at 200 Hz: mass 3 kg, viscous friction 5 N s/m, Coulomb friction `coulomb` N, a little noise.
 pub fn cart_log(seconds: u32, coulomb: f64, phase: f64) -> String {
+    cart_with(200, seconds, &tones(phase), |_, dq| coulomb * dq.signum())
+}
+
+/// Amplitude, angular frequency and phase of the sines that the cart moves along.
+pub const fn tones(phase: f64) -> [[f64; 3]; 3] {
+    [
+        [0.20, 1.3, phase],
+        [0.05, 4.1, 1.0 + phase],
+        [0.02, 7.9, 2.0],
+    ]
+}
+
+/// A log of the cart along other sines and with another force of position and velocity beside inertia and viscous friction.
+pub fn cart_with(
+    rate: u32,
+    seconds: u32,
+    tones: &[[f64; 3]],
+    extra: impl Fn(f64, f64) -> f64,
+) -> String {
     let mut text = String::from("time,q1,tau1\n");
     let mut noise = 12_345_u64;
-    for k in 0..seconds * 200 {
-        let t = f64::from(k) / 200.0;
-        let tones = [
-            (0.20, 1.3, phase),
-            (0.05, 4.1, 1.0 + phase),
-            (0.02, 7.9, 2.0),
-        ];
+    for k in 0..seconds * rate {
+        let t = f64::from(k) / f64::from(rate);
         let sum = |f: &dyn Fn(f64, f64, f64) -> f64| {
             tones
                 .iter()
-                .map(|&(a, w, p)| f(a, w, w * t + p))
+                .map(|&[a, w, p]| f(a, w, w * t + p))
                 .sum::<f64>()
         };
         let q = sum(&|a, _, angle| a * angle.sin());
         let dq = sum(&|a, w, angle| a * w * angle.cos());
         let ddq = sum(&|a, w, angle| -a * w * w * angle.sin());
-        let tau = 3.0 * ddq + 5.0 * dq + coulomb * dq.signum() + 0.1 * white(&mut noise);
+        let tau = 3.0 * ddq + 5.0 * dq + extra(q, dq) + 0.1 * white(&mut noise);
         writeln!(text, "{t:.3},{q:.9},{tau:.6}").expect("a string takes all");
     }
     text

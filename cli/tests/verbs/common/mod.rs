@@ -8,7 +8,7 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub use inputs::{CART, PENDULUM, URDF, cart_log, folding, moved, white};
+pub use inputs::{CART, PENDULUM, URDF, cart_log, cart_with, folding, moved, tones, white};
 
 /// What a run left behind.
 pub struct Run {
