@@ -10,8 +10,11 @@
 //! Every contender is a program of its own that holds the states and the clock and answers two questions about a function:
 //! its values at some states, and the nanoseconds of one pass over all blocks. So ours and the peers' are timed in the same
 //! way and in turns, and none is in the address space of another.
+//!
+//! Beside that, [`baselines`] are what the tracer's study compares it with.
 
 pub mod arm;
+pub mod baselines;
 pub mod build;
 pub mod docs;
 pub mod generation;

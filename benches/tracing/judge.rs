@@ -6,16 +6,17 @@ use robot_model_cli::close_the_loop::{Loop, Progress, close};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
 use robot_model_spec::load;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::catalogue::Injection;
+use crate::baselines;
+use crate::catalogue::{Injection, Place};
 use crate::experiment::{Case, Experiment};
 
 /// An effect has to be named where leaving it out costs more than this share of a joint's error on data that were not fitted.
 const LEAST_COST: f64 = 0.05;
 
 /// What an answer is worth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Mark {
     /// The effect, on its joint, and nothing else; or nothing where nothing is.
@@ -33,10 +34,10 @@ pub enum Mark {
 }
 
 /// One experiment, judged.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Row {
-    pub arm: &'static str,
-    pub kind: &'static str,
+    pub arm: String,
+    pub kind: String,
     pub share: f64,
     pub seed: u64,
     /// Joints from 1.
@@ -45,14 +46,33 @@ pub struct Row {
     pub is_material: bool,
     pub mark: Mark,
     /// What was said.
-    pub outcome: &'static str,
+    pub outcome: String,
     pub said: Vec<String>,
     /// Error with what was said over that of the true model, on data that were not fitted, of the worst joint.
     pub after_over_truth: Option<f64>,
     pub seconds: f64,
     /// What was judged, with the reasons against it.
     pub tried: Vec<String>,
+    /// What baselines made of the same logs; none of faults of the logs, which are found before any of them runs.
+    #[serde(default)]
+    pub baselines: Vec<Answer>,
 }
+
+/// What a baseline made of an experiment.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Answer {
+    pub method: String,
+    /// Of what it said first.
+    pub mark: Mark,
+    /// What was said, the largest first.
+    pub said: Vec<String>,
+    /// How many effects it chose, with those that do not matter.
+    pub chosen: usize,
+    pub seconds: f64,
+}
+
+/// Effects and the joints, from 0, that they are said to be on.
+type Said = [(String, Vec<usize>)];
 
 impl Row {
     /// Whether it is of this size.
@@ -61,11 +81,11 @@ impl Row {
     }
 }
 
-/// Closes the loop on an experiment.
+/// Closes the loop on an experiment; asks the baselines, too, where that is wanted.
 ///
 /// # Errors
 /// What went wrong, in words.
-pub fn judge(case: &Case, experiment: &Experiment) -> Result<Row, String> {
+pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Result<Row, String> {
     let [identify, validate] = &experiment.logs;
     let start = std::time::Instant::now();
     let name = format!("{}.robot", case.arm.name);
@@ -111,31 +131,33 @@ pub fn judge(case: &Case, experiment: &Experiment) -> Result<Row, String> {
             .iter()
             .map(|finding| (finding.kind.clone(), finding.joints.clone())),
     );
-    let mark = mark(
-        case.injection,
-        &experiment.joints,
-        case.arm.joints.len(),
-        closed.outcome(),
-        &said,
-        is_material,
-    );
+    let judged = |outcome: Outcome, said: &Said| {
+        let dof = case.arm.joints.len();
+        mark(
+            case.injection,
+            &experiment.joints,
+            dof,
+            outcome,
+            said,
+            is_material,
+        )
+    };
+    let answers = if with_baselines && case.injection.place != Place::Log {
+        baselines::answers(&closed)?
+    } else {
+        Vec::new()
+    };
+    let faults = &said[..closed.faults.len()];
     Ok(Row {
-        arm: case.arm.name,
-        kind: case.injection.kind,
+        arm: case.arm.name.to_owned(),
+        kind: case.injection.kind.to_owned(),
         share: case.share,
         seed: case.seed,
         joints: experiment.joints.iter().map(|joint| joint + 1).collect(),
         is_material,
-        mark,
-        outcome: closed.outcome().name(),
-        said: said
-            .iter()
-            .map(|(kind, joints)| {
-                let joints: Vec<String> =
-                    joints.iter().map(|joint| (joint + 1).to_string()).collect();
-                format!("{kind}@{}", joints.join("+"))
-            })
-            .collect(),
+        mark: judged(closed.outcome(), &said),
+        outcome: closed.outcome().name().to_owned(),
+        said: said.iter().map(label).collect(),
         after_over_truth: best.map(|best| {
             let ratios = after
                 .iter()
@@ -145,7 +167,39 @@ pub fn judge(case: &Case, experiment: &Experiment) -> Result<Row, String> {
         }),
         seconds,
         tried: closed.verdict.tried.iter().map(told).collect(),
+        baselines: answers
+            .into_iter()
+            .map(|answer| first(answer, faults, &judged))
+            .collect(),
     })
+}
+
+/// A baseline's answer by what it says first, where a fault of the logs comes before all else. It has no word for what no effect explains.
+fn first(
+    answer: baselines::Answer,
+    faults: &Said,
+    judged: &dyn Fn(Outcome, &Said) -> Mark,
+) -> Answer {
+    let said = [faults, &answer.named].concat();
+    let first = &said[..said.len().min(1)];
+    let outcome = if first.is_empty() {
+        Outcome::NothingMissing
+    } else {
+        Outcome::Explained
+    };
+    Answer {
+        method: answer.method.to_owned(),
+        mark: judged(outcome, first),
+        said: said.iter().map(label).collect(),
+        chosen: answer.chosen,
+        seconds: answer.seconds,
+    }
+}
+
+/// An effect and its joints, from 1.
+fn label((kind, joints): &(String, Vec<usize>)) -> String {
+    let joints: Vec<String> = joints.iter().map(|joint| (joint + 1).to_string()).collect();
+    format!("{kind}@{}", joints.join("+"))
 }
 
 /// A candidate, what it takes off the error of each joint, and the reasons against it.
@@ -198,7 +252,7 @@ fn mark(
     joints: &[usize],
     dof: usize,
     outcome: Outcome,
-    said: &[(String, Vec<usize>)],
+    said: &Said,
     is_material: bool,
 ) -> Mark {
     let names = |(kind, on): &(String, Vec<usize>), near: bool| {

@@ -1,25 +1,30 @@
 //! `cargo bench --bench tracing`: every effect of the library is put into simulated arms, in three sizes, and traced.
 //!
 //! An arm moves in closed loop, with an encoder's steps and colored noise; its spec does not declare what is in it. The share of right
-//! names, of silence and of wrong names is told for every effect and size. Seeds from 100 on are looked at while the tracer is built, those
+//! names, of silence and of wrong names is told for every effect and size, beside that of baselines on the same logs. Seeds from 100 on are looked at while the tracer is built, those
 //! below are for figures alone.
 
 mod arms;
+mod baselines;
 mod catalogue;
+mod columns;
+mod comparison;
 mod experiment;
+mod figures;
 mod judge;
 mod keep;
 mod motion;
 mod size;
 mod table;
 
+use std::fmt::Display;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use clap::Parser;
+use clap::{ArgAction, Parser};
 
 use arms::ARMS;
 use catalogue::ALL;
@@ -45,6 +50,20 @@ struct Options {
     /// Experiments at a time.
     #[arg(long, default_value_t = 2)]
     jobs: usize,
+    /// Ask LASSO, sequential thresholding and forward selection about the same logs.
+    #[arg(long, value_name = "BOOL", default_value_t = true, action = ArgAction::Set)]
+    baselines: bool,
+    /// Run nothing, but take the rows that earlier runs wrote with `--json`.
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "FILE,..",
+        conflicts_with_all = ["seeds", "sizes", "arms", "kinds", "jobs", "keep", "baselines"]
+    )]
+    from: Vec<PathBuf>,
+    /// Draw detection over sizes, and the methods beside each other, as SVG files of a folder there.
+    #[arg(long, value_name = "FOLDER")]
+    figures: Option<PathBuf>,
     /// Write every experiment's row there, as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -86,6 +105,57 @@ impl Options {
 
 fn main() -> ExitCode {
     let options = Options::parse();
+    let done = if options.from.is_empty() {
+        Ok(run(&options))
+    } else {
+        read(&options.from)
+    };
+    match done.and_then(|rows| tell(&options, &rows)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(std::io::stderr(), "{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Rows of earlier runs, one run after the other.
+fn read(paths: &[PathBuf]) -> Result<Vec<Row>, String> {
+    let mut rows = Vec::new();
+    for path in paths {
+        let text = std::fs::read_to_string(path).map_err(|error| cannot("read", path, &error))?;
+        let own = serde_json::from_str(&text).map_err(|error| cannot("read", path, &error))?;
+        rows.extend::<Vec<Row>>(own);
+    }
+    Ok(rows)
+}
+
+/// Tables to standard output; rows and figures where they are wanted.
+fn tell(options: &Options, rows: &[Row]) -> Result<(), String> {
+    let write = |path: &Path, text: &str| {
+        std::fs::write(path, text).map_err(|error| cannot("write", path, &error))
+    };
+    if let Some(path) = &options.json {
+        let text = serde_json::to_string_pretty(rows).expect("rows are plain");
+        write(path, &text)?;
+    }
+    if let Some(folder) = &options.figures {
+        std::fs::create_dir_all(folder).map_err(|error| cannot("make", folder, &error))?;
+        write(&folder.join("detection.svg"), &figures::detection(rows))?;
+        if let Some(picture) = figures::comparison(rows) {
+            write(&folder.join("methods.svg"), &picture)?;
+        }
+    }
+    let (own, compared) = (table::table(rows), comparison::table(rows));
+    write!(std::io::stdout(), "{own}{compared}").map_err(|error| error.to_string())
+}
+
+fn cannot(what: &str, path: &Path, error: &dyn Display) -> String {
+    format!("cannot {what} `{}`: {error}", path.display())
+}
+
+/// All experiments, in order.
+fn run(options: &Options) -> Vec<Row> {
     let cases = options.cases();
     let (next, rows) = (AtomicUsize::new(0), Mutex::new(Vec::<(usize, Row)>::new()));
     let work = || {
@@ -101,25 +171,9 @@ fn main() -> ExitCode {
                 100.0 * case.share,
                 case.seed
             );
-            let found = case.run().and_then(|experiment| {
-                if let (Some(folder), Some(experiment)) = (&options.keep, &experiment) {
-                    let name = label.replace(" % seed ", "_").replace(' ', "_");
-                    let kept = experiment.keep(&folder.join(name));
-                    kept.map_err(|error| error.to_string())?;
-                }
-                experiment.map(|one| judge::judge(case, &one)).transpose()
-            });
-            let text = match found {
+            let text = match judged(options, case, &label) {
                 Ok(Some(row)) => {
-                    let text = format!(
-                        "{:?}: {} {:?} of joints {:?}, {} ({:.1} s)",
-                        row.mark,
-                        row.outcome,
-                        row.said,
-                        row.joints,
-                        if row.is_material { "matters" } else { "small" },
-                        row.seconds
-                    );
+                    let text = told(&row);
                     rows.lock().expect("no panic").push((number, row));
                     text
                 }
@@ -141,22 +195,38 @@ fn main() -> ExitCode {
     });
     let mut rows = rows.into_inner().expect("no panic");
     rows.sort_by_key(|(number, _)| *number);
-    let rows: Vec<Row> = rows.into_iter().map(|(_, row)| row).collect();
-    if let Some(path) = &options.json {
-        let text = serde_json::to_string_pretty(&rows).expect("rows are plain");
-        if let Err(error) = std::fs::write(path, text) {
-            let _ = writeln!(
-                std::io::stderr(),
-                "cannot write `{}`: {error}",
-                path.display()
-            );
-            return ExitCode::FAILURE;
-        }
+    rows.into_iter().map(|(_, row)| row).collect()
+}
+
+/// One experiment, kept where that is wanted.
+fn judged(options: &Options, case: &Case, label: &str) -> Result<Option<Row>, String> {
+    let Some(experiment) = case.run()? else {
+        return Ok(None);
+    };
+    if let Some(folder) = &options.keep {
+        let name = label.replace(" % seed ", "_").replace(' ', "_");
+        let kept = experiment.keep(&folder.join(name));
+        kept.map_err(|error| error.to_string())?;
     }
-    let said = write!(std::io::stdout(), "{}", table::table(&rows));
-    if said.is_err() {
-        ExitCode::FAILURE
-    } else {
-        ExitCode::SUCCESS
+    judge::judge(case, &experiment, options.baselines).map(Some)
+}
+
+/// A row for people who wait.
+fn told(row: &Row) -> String {
+    let mut text = format!(
+        "{:?}: {} {:?} of joints {:?}, {} ({:.1} s)",
+        row.mark,
+        row.outcome,
+        row.said,
+        row.joints,
+        if row.is_material { "matters" } else { "small" },
+        row.seconds
+    );
+    for answer in &row.baselines {
+        text.push_str(&format!(
+            "\n    {}: {:?} {:?} ({:.1} s)",
+            answer.method, answer.mark, answer.said, answer.seconds
+        ));
     }
+    text
 }

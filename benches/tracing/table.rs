@@ -42,21 +42,35 @@ impl Counts {
     }
 }
 
+/// What was put in, in the order of the rows.
+pub fn kinds(rows: &[Row]) -> Vec<&str> {
+    let mut kinds: Vec<&str> = Vec::new();
+    for row in rows {
+        if !kinds.contains(&row.kind.as_str()) {
+            kinds.push(&row.kind);
+        }
+    }
+    kinds
+}
+
+/// Sizes, from the least.
+pub fn sizes(rows: &[Row]) -> Vec<f64> {
+    let mut sizes: Vec<f64> = Vec::new();
+    for row in rows {
+        if !sizes.iter().any(|size| row.is_of(*size)) {
+            sizes.push(row.share);
+        }
+    }
+    sizes.sort_by(f64::total_cmp);
+    sizes
+}
+
 /// The table of kinds and sizes, and what it comes to.
 pub fn table(rows: &[Row]) -> String {
     let mut text = String::from(
         "| in the arm | size | tried | matters | exact | near | small | abstained | missed | wrong |\n|---|---|---|---|---|---|---|---|---|---|\n",
     );
-    let mut kinds: Vec<&str> = Vec::new();
-    let mut sizes: Vec<f64> = Vec::new();
-    for row in rows {
-        if !kinds.contains(&row.kind) {
-            kinds.push(row.kind);
-        }
-        if !sizes.iter().any(|size| row.is_of(*size)) {
-            sizes.push(row.share);
-        }
-    }
+    let (kinds, sizes) = (kinds(rows), sizes(rows));
     for kind in &kinds {
         for size in &sizes {
             let here = || {

@@ -34,6 +34,8 @@ pub struct Loop {
     pub before: Stage,
     /// What is wrong with the logs; the verdict is of logs without it.
     pub faults: Vec<DataFault>,
+    /// The logs without it, which were traced.
+    pub traced: Vec<Log>,
     /// What the tracer says of the logs without their faults.
     pub verdict: Verdict,
     /// The spec with the findings declared, in their order; the text as it was where there are none. Leads stay out: what
@@ -115,6 +117,7 @@ pub fn close(
     Ok(Loop {
         before,
         faults,
+        traced: on_time,
         verdict,
         amended,
         changed,

@@ -1,0 +1,398 @@
+//! Rows of a model's columns, of effects' columns and of what is to be explained, cut into folds.
+
+use faer::Mat;
+use faer::linalg::solvers::Solve;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+use super::Choice;
+use super::products::{Products, Reduced};
+
+/// Folds of cross-validation.
+const FOLDS: usize = 10;
+
+/// A column is new if this share of its norm is outside the model's columns, as for the tracer.
+pub(super) const LEAST_NEW: f64 = 1e-3;
+
+/// Of more columns than this the trials that explain most alone are kept: sure independence screening (Fan & Lv 2008).
+const MOST_COLUMNS: usize = 600;
+
+/// Added to the diagonal of a fit of chosen columns, which may be next to each other.
+const RIDGE: f64 = 1e-8;
+
+/// A column of an effect, at values of its shapes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Which effect.
+    pub effect: usize,
+    /// Which values of its shapes.
+    pub trial: usize,
+    /// One value a row.
+    pub values: Vec<f64>,
+}
+
+/// A column that was kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Label {
+    pub(super) effect: usize,
+    pub(super) trial: usize,
+    /// Place among all that were given.
+    pub(super) number: usize,
+}
+
+/// Rows, cut into folds as if they were independent.
+#[derive(Debug)]
+pub struct Rows {
+    /// An orthonormal basis of the model's columns, what it leaves of the effects' columns, and of the target.
+    table: Mat<f64>,
+    model: usize,
+    labels: Vec<Label>,
+    /// Of each fold its rows.
+    folds: Vec<Vec<usize>>,
+    /// Products of the table's columns per row, over all rows and over those of each fold.
+    all: Mat<f64>,
+    of_folds: Vec<Mat<f64>>,
+}
+
+impl Rows {
+    /// Weighted rows. Columns that the model says are left out, and the least of too many.
+    #[must_use]
+    pub fn new(model: &[Vec<f64>], columns: &[Column], target: &[f64]) -> Self {
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        for column in model {
+            basis.extend(new_of(column, &basis));
+        }
+        let mut left = target.to_vec();
+        take_out(&mut left, &basis);
+        let mut kept: Vec<(Label, Vec<f64>)> = Vec::new();
+        for (number, column) in columns.iter().enumerate() {
+            let Column { effect, trial, .. } = *column;
+            let label = Label {
+                effect,
+                trial,
+                number,
+            };
+            kept.extend(new_of(&column.values, &basis).map(|values| (label, values)));
+        }
+        screen(&mut kept, &left);
+        let mut labels = Vec::new();
+        let model = basis.len();
+        let mut all = basis;
+        for (label, values) in kept {
+            labels.push(label);
+            all.push(values);
+        }
+        all.push(left);
+        let table = Mat::from_fn(target.len(), all.len(), |row, column| all[column][row]);
+        let folds = folds(target.len());
+        let of_folds: Vec<Mat<f64>> = folds.iter().map(|rows| products(&table, rows)).collect();
+        let mut sum = Mat::zeros(all.len(), all.len());
+        for of_fold in &of_folds {
+            sum += of_fold;
+        }
+        Self {
+            table,
+            model,
+            labels,
+            folds,
+            all: sum,
+            of_folds,
+        }
+    }
+
+    /// How many rows.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.table.nrows()
+    }
+
+    /// How many columns the model has of its own.
+    pub(super) fn model(&self) -> usize {
+        self.model
+    }
+
+    /// The columns.
+    pub(super) fn labels(&self) -> &[Label] {
+        &self.labels
+    }
+
+    /// Products over all rows.
+    pub(super) fn products(&self) -> Products {
+        Reduced::new(&per_row(&self.all, self.count()), self.model).products
+    }
+
+    /// Coefficients on all rows at the sparsest step of a path whose error on held-out rows is within a standard error of the least
+    /// (Breiman et al. 1984); `path` gives coefficients for every step, and steps are from the sparsest on.
+    pub(super) fn cross_validated(
+        &self,
+        path: &dyn Fn(&Products, &[f64]) -> Vec<Vec<f64>>,
+        steps: &[f64],
+    ) -> Vec<f64> {
+        let errors: Vec<Vec<f64>> = (0..FOLDS)
+            .map(|fold| {
+                let reduced = Reduced::new(&self.train(fold), self.model);
+                let path = path(&reduced.products, steps);
+                let error = |coefficients: &Vec<f64>| self.error(fold, &reduced, coefficients);
+                path.iter().map(error).collect()
+            })
+            .collect();
+        let step = one_standard_error(&errors);
+        let mut path = path(&self.products(), &steps[..=step]);
+        path.pop().unwrap_or_default()
+    }
+
+    /// Effects by the power of what their coefficients make.
+    pub(super) fn choices(&self, coefficients: &[f64]) -> Vec<Choice> {
+        let products = self.products();
+        let mut effects: Vec<usize> = self.labels.iter().map(|label| label.effect).collect();
+        effects.dedup();
+        let mut found: Vec<(f64, Choice)> = Vec::new();
+        for effect in effects {
+            let is_there = |column: &usize| {
+                self.labels[*column].effect == effect && coefficients[*column].abs() > 0.0
+            };
+            let columns: Vec<usize> = (0..coefficients.len()).filter(is_there).collect();
+            if !columns.is_empty() {
+                let power = products.power_of(&columns, coefficients);
+                let columns = columns.iter().map(|c| self.labels[*c].number).collect();
+                found.push((power, Choice { effect, columns }));
+            }
+        }
+        found.sort_by(|a, b| b.0.total_cmp(&a.0));
+        found.into_iter().map(|(_, choice)| choice).collect()
+    }
+
+    /// What the model with some columns, by their places among all that were given, leaves of every row, which was not among those that
+    /// it was fitted on.
+    #[must_use]
+    pub fn held_out(&self, columns: &[usize]) -> Vec<f64> {
+        let target = self.table.ncols() - 1;
+        let own = (0..self.labels.len()).filter(|c| columns.contains(&self.labels[*c].number));
+        let used: Vec<usize> = (0..self.model).chain(own.map(|c| self.model + c)).collect();
+        let mut left: Vec<f64> = (0..self.count())
+            .map(|row| self.table[(row, target)])
+            .collect();
+        if used.is_empty() {
+            return left;
+        }
+        for (fold, rows) in self.folds.iter().enumerate() {
+            let train = self.train(fold);
+            let own = Mat::from_fn(used.len(), used.len(), |a, b| {
+                train[(used[a], used[b])] + if a == b { RIDGE } else { 0.0 }
+            });
+            let right = Mat::from_fn(used.len(), 1, |a, _| train[(used[a], target)]);
+            let found = own.partial_piv_lu().solve(&right);
+            for &row in rows {
+                let said = used.iter().enumerate();
+                left[row] -= said
+                    .map(|(k, column)| found[(k, 0)] * self.table[(row, *column)])
+                    .sum::<f64>();
+            }
+        }
+        left
+    }
+
+    /// Products over the rows outside a fold, per row.
+    fn train(&self, fold: usize) -> Mat<f64> {
+        let rows = self.count() - self.folds[fold].len();
+        per_row(&(&self.all - &self.of_folds[fold]), rows)
+    }
+
+    /// Mean squared error on a fold's rows.
+    fn error(&self, fold: usize, reduced: &Reduced, coefficients: &[f64]) -> f64 {
+        let columns = coefficients.len();
+        let there: Vec<usize> = (0..columns)
+            .filter(|c| coefficients[*c].abs() > 0.0)
+            .collect();
+        let of_model = |a: usize| {
+            let said = there
+                .iter()
+                .map(|c| reduced.taken[(a, *c)] * coefficients[*c]);
+            reduced.taken[(a, columns)] - said.sum::<f64>()
+        };
+        let model = (0..self.model).map(|a| (a, of_model(a)));
+        let own = there.iter().map(|c| (self.model + c, coefficients[*c]));
+        let all: Vec<(usize, f64)> = model
+            .chain(own)
+            .chain([(self.model + columns, -1.0)])
+            .collect();
+        let products = &self.of_folds[fold];
+        let terms = all.iter().flat_map(|(a, left)| {
+            all.iter()
+                .map(move |(b, right)| left * products[(*a, *b)] * right)
+        });
+        terms.sum::<f64>().max(0.0) / self.folds[fold].len().max(1) as f64
+    }
+}
+
+/// The first step whose mean error is within a standard error of the least; `errors` are `[fold][step]`.
+fn one_standard_error(errors: &[Vec<f64>]) -> usize {
+    let folds = errors.len() as f64;
+    let steps = errors.first().map_or(0, Vec::len);
+    let mean = |step: usize| errors.iter().map(|of| of[step]).sum::<f64>() / folds;
+    let Some(best) = (0..steps).min_by(|a, b| mean(*a).total_cmp(&mean(*b))) else {
+        return 0;
+    };
+    let spread = errors.iter().map(|of| (of[best] - mean(best)).powi(2));
+    let error = (spread.sum::<f64>() / (folds - 1.0) / folds).sqrt();
+    (0..best)
+        .find(|step| mean(*step) <= mean(best) + error)
+        .unwrap_or(best)
+}
+
+/// Rows of every fold, drawn by lot.
+fn folds(rows: usize) -> Vec<Vec<usize>> {
+    let mut random = ChaCha8Rng::seed_from_u64(1);
+    let mut drawn: Vec<(u64, usize)> = (0..rows).map(|row| (random.random(), row)).collect();
+    drawn.sort_unstable();
+    let mut folds = vec![Vec::new(); FOLDS];
+    for (place, (_, row)) in drawn.into_iter().enumerate() {
+        folds[place % FOLDS].push(row);
+    }
+    folds
+}
+
+fn products(table: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
+    let part = Mat::from_fn(rows.len(), table.ncols(), |k, c| table[(rows[k], c)]);
+    part.transpose() * &part
+}
+
+fn per_row(products: &Mat<f64>, rows: usize) -> Mat<f64> {
+    faer::Scale(1.0 / rows.max(1) as f64) * products
+}
+
+/// What a basis leaves of a column, with a mean square of one; `None` where that is next to nothing.
+fn new_of(column: &[f64], basis: &[Vec<f64>]) -> Option<Vec<f64>> {
+    let before = mean_product(column, column).sqrt();
+    let mut left = column.to_vec();
+    take_out(&mut left, basis);
+    let after = mean_product(&left, &left).sqrt();
+    if after <= LEAST_NEW * before {
+        return None;
+    }
+    left.iter_mut().for_each(|value| *value /= after);
+    Some(left)
+}
+
+/// Takes a basis out of a column, twice, as the first time leaves rounding.
+fn take_out(column: &mut [f64], basis: &[Vec<f64>]) {
+    for of_basis in basis.iter().chain(basis) {
+        let part = mean_product(column, of_basis);
+        column
+            .iter_mut()
+            .zip(of_basis)
+            .for_each(|(value, own)| *value -= part * own);
+    }
+}
+
+fn mean_product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>() / a.len().max(1) as f64
+}
+
+/// Keeps the trials one of whose columns explains most of the target, as far as there is room.
+fn screen(columns: &mut Vec<(Label, Vec<f64>)>, target: &[f64]) {
+    if columns.len() <= MOST_COLUMNS {
+        return;
+    }
+    let mut trials: Vec<(f64, usize, usize, usize)> = Vec::new();
+    for (label, values) in columns.iter() {
+        let says = mean_product(values, target).abs();
+        match trials.last_mut() {
+            Some((most, effect, trial, count))
+                if (*effect, *trial) == (label.effect, label.trial) =>
+            {
+                *most = most.max(says);
+                *count += 1;
+            }
+            _ => trials.push((says, label.effect, label.trial, 1)),
+        }
+    }
+    trials.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut room = MOST_COLUMNS;
+    trials.retain(|(_, _, _, count)| {
+        let fits = *count <= room;
+        room -= if fits { *count } else { 0 };
+        fits
+    });
+    let kept: std::collections::BTreeSet<(usize, usize)> = trials
+        .into_iter()
+        .map(|(_, effect, trial, _)| (effect, trial))
+        .collect();
+    columns.retain(|(label, _)| kept.contains(&(label.effect, label.trial)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::{noise, rows};
+    use super::*;
+
+    #[test]
+    fn the_sparsest_step_within_a_standard_error() {
+        // Means 3, 1.05, 1, 1.2; the standard error of the least is 0.1.
+        let errors = [vec![3.0, 1.0, 0.9, 1.0], vec![3.0, 1.1, 1.1, 1.4]];
+        assert_eq!(one_standard_error(&errors), 1);
+        assert_eq!(one_standard_error(&[vec![2.0], vec![2.0]]), 0);
+    }
+
+    #[test]
+    fn a_column_of_the_model_is_none_of_an_effect() {
+        let model = noise(1, 50);
+        let twice = model.iter().map(|value| 2.0 * value).collect();
+        let column = |values: Vec<f64>| Column {
+            effect: 0,
+            trial: 0,
+            values,
+        };
+        let columns = [column(twice), column(noise(2, 50))];
+        let rows = Rows::new(std::slice::from_ref(&model), &columns, &noise(3, 50));
+        let numbers: Vec<usize> = rows.labels().iter().map(|label| label.number).collect();
+        assert_eq!(numbers, [1]);
+        let gram = rows.products().gram;
+        assert!((gram[(0, 0)] - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn held_out_errors_are_those_of_the_folds() {
+        let rows = rows(0.0);
+        let power = |left: &[f64]| left.iter().map(|x| x * x).sum::<f64>() / left.len() as f64;
+        let none = power(&rows.held_out(&[]));
+        let both = power(&rows.held_out(&[1, 3]));
+        assert!(both < 1e-10 * none, "{both} of {none}");
+        // The same as the error of a path that has them.
+        let path = |products: &Products, steps: &[f64]| -> Vec<Vec<f64>> {
+            steps
+                .iter()
+                .map(|_| vec![0.0; products.columns()])
+                .collect()
+        };
+        let errors: f64 = (0..FOLDS)
+            .map(|fold| {
+                let reduced = Reduced::new(&rows.train(fold), rows.model);
+                let zeros = path(&reduced.products, &[1.0]).remove(0);
+                rows.error(fold, &reduced, &zeros) * rows.folds[fold].len() as f64
+            })
+            .sum();
+        assert!((errors / rows.count() as f64 / none - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn of_too_many_columns_those_stay_that_say_most() {
+        let target = noise(1, 40);
+        let label = |number: usize| Label {
+            effect: number,
+            trial: 0,
+            number,
+        };
+        let mut columns: Vec<(Label, Vec<f64>)> = (0..MOST_COLUMNS + 5)
+            .map(|number| (label(number), vec![0.0; 40]))
+            .collect();
+        columns[MOST_COLUMNS + 2].1.clone_from(&target);
+        screen(&mut columns, &target);
+        assert_eq!(columns.len(), MOST_COLUMNS);
+        assert!(
+            columns
+                .iter()
+                .any(|(one, _)| one.number == MOST_COLUMNS + 2)
+        );
+    }
+}
