@@ -3,6 +3,8 @@
 mod doubt;
 mod report;
 mod summary;
+mod tried;
+mod whereabouts;
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

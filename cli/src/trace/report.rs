@@ -1,6 +1,6 @@
 //! What a trace found, as JSON.
 
-use robot_model::trace::{Alternative, Evidence, Finding, Tried};
+use robot_model::trace::{Alternative, Evidence, Finding, Share, Tried, Whereabouts};
 use serde::Serialize;
 
 use crate::close_the_loop::Loop;
@@ -26,10 +26,31 @@ pub(crate) struct Report<'a> {
     /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
     structure_before: Vec<f64>,
     structure_after: Vec<f64>,
+    /// Of what the structure after is a function, for every joint where it matters.
+    structure_where: Vec<WhereReport>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
     /// What was judged in every round, best first, and why it was refused.
     tried: Vec<TriedReport<'a>>,
+}
+
+#[derive(Serialize)]
+struct WhereReport {
+    joint: usize,
+    /// The largest first.
+    shares: Vec<ShareReport>,
+    peak_hz: f64,
+    peak_share: f64,
+}
+
+#[derive(Serialize)]
+struct ShareReport {
+    /// position, velocity, acceleration, load or time
+    of: &'static str,
+    /// None of time.
+    joint: Option<usize>,
+    /// Of the residual's power in the band of the fit, out of fold.
+    share: f64,
 }
 
 #[derive(Serialize)]
@@ -126,6 +147,7 @@ impl<'a> Report<'a> {
             noise_floor: &verdict.noise_floor,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
+            structure_where: verdict.left.iter().map(whereabouts).collect(),
             leads: leads
                 .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
                 .collect(),
@@ -175,6 +197,20 @@ fn evidence(evidence: &Evidence) -> EvidenceReport<'_> {
         raw_percent: &evidence.raw_percent,
         folds_improved,
         folds,
+    }
+}
+
+fn whereabouts(one: &Whereabouts) -> WhereReport {
+    let share = |share: &Share| ShareReport {
+        of: share.of.name(),
+        joint: share.of.joint().map(|joint| joint + 1),
+        share: share.share,
+    };
+    WhereReport {
+        joint: one.joint + 1,
+        shares: one.shares.iter().map(share).collect(),
+        peak_hz: one.peak_hz,
+        peak_share: one.peak_share,
     }
 }
 

@@ -7,6 +7,8 @@ use robot_model::trace::{Finding, MOST_EFFECTS, Outcome};
 
 use super::doubt::{doubt, on_joints};
 use super::report::effect;
+use super::tried::tried;
+use super::whereabouts::whereabouts;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
 use crate::output;
@@ -74,8 +76,11 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
                 "  {share:.0} % of the error's power on {name} still follows the motion"
             )
             .expect("a string takes all");
+            let found = verdict.left.iter().filter(|one| one.joint == joint);
+            found.for_each(|one| out.push_str(&whereabouts(closed, one)));
         }
     }
+    out.push_str(&tried(closed));
     let change = diff(text, &closed.amended);
     if !change.is_empty() {
         write!(out, "\n{change}").expect("a string takes all");

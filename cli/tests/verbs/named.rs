@@ -1,18 +1,59 @@
-//! `trace`: the one of several laws that is named, and what is not.
+//! `trace`: the one of several laws that is named, and what it says of those that are not.
 
 use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::common::{CART, Folder, cart_with, folding, json, moved, tones};
+use crate::common::{CART, Folder, cart_with, close, folding, json, moved, tones};
 
-/// What `trace` says of a log by a spec.
-fn traced(spec: &str, log: &str) -> Value {
+/// What `trace` says of a log by a spec, as text and as JSON.
+fn told(spec: &str, log: &str) -> (String, Value) {
     let folder = Folder::new();
     folder.write("arm.robot", spec);
     folder.write("log.csv", log);
-    folder.succeed(&["trace", "arm.robot", "log.csv", "--json", "out.json"]);
-    json(&folder.read("out.json"))
+    let told = folder.succeed(&["trace", "arm.robot", "log.csv", "--json", "out.json"]);
+    (told, json(&folder.read("out.json")))
+}
+
+fn traced(spec: &str, log: &str) -> Value {
+    told(spec, log).1
+}
+
+/// A log of the folding arm with an effect more, to whose torques `more` of time and positions is added.
+fn folded(effect: &str, values: &str, more: impl Fn(f64, [f64; 2]) -> [f64; 2]) -> String {
+    let folder = Folder::new();
+    let values = format!(
+        r#"{{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3{values}}}"#
+    );
+    moved(&folder, &folding(effect), &values, |t| {
+        [
+            -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+            0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+        ]
+    });
+    let log = folder.read("log.csv");
+    let mut lines = log.lines();
+    let header = lines.next().expect("a header");
+    let place = |name: &str| {
+        let mut columns = header.split(',');
+        columns.position(|column| column == name).expect(name)
+    };
+    let (q, tau) = (["q1", "q2"].map(place), ["tau1", "tau2"].map(place));
+    let mut text = format!("{header}\n");
+    for line in lines {
+        let fields = line
+            .split(',')
+            .map(|field| field.parse().expect("a number"));
+        let mut fields: Vec<f64> = fields.collect();
+        let added = more(fields[place("time")], q.map(|column| fields[column]));
+        for (column, torque) in tau.into_iter().zip(added) {
+            fields[column] += torque;
+        }
+        let fields: Vec<String> = fields.iter().map(f64::to_string).collect();
+        writeln!(text, "{}", fields.join(",")).expect("a string takes all");
+    }
+    text
 }
 
 /// Kinds of its effects or alternatives.
@@ -60,37 +101,85 @@ fn effects_that_are_small_are_not_unexplained() {
     assert_eq!(out["outcome"], "nothing-missing", "{out}");
 }
 
+/// Both laws leave the same of the other joint but for noise.
+#[test]
+fn a_joint_that_no_law_touches_does_not_keep_one_from_saying_more() {
+    let log = folded("", "", |_, [_, lo]| [0.0, 0.08 + 0.015 * lo]);
+    let out = traced(&folding(""), &log);
+    assert_eq!(kinds(&out, "effects"), ["joint-spring"], "{out}");
+}
+
 /// A body has ten unknowns: as many blocks of slow noise would say nothing of it.
 #[test]
 fn a_body_is_named_beside_slow_noise() {
-    let folder = Folder::new();
-    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
-        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3, "lo.payload.m": 0.2, "lo.payload.mx": 0.02,
-        "lo.payload.my": 0, "lo.payload.mz": 0.01, "lo.payload.ixx": 0.001, "lo.payload.ixy": 0, "lo.payload.ixz": 0,
-        "lo.payload.iyy": 0.001, "lo.payload.iyz": 0, "lo.payload.izz": 0.001}"#;
-    moved(&folder, &folding("payload on lo;"), values, |t| {
-        [
-            -1.57 + 0.9 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
-            0.9 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
-        ]
+    let values = r#", "lo.payload.m": 0.2, "lo.payload.mx": 0.02, "lo.payload.my": 0, "lo.payload.mz": 0.01,
+        "lo.payload.ixx": 0.001, "lo.payload.ixy": 0, "lo.payload.ixz": 0, "lo.payload.iyy": 0.001,
+        "lo.payload.iyz": 0, "lo.payload.izz": 0.001"#;
+    let log = folded("payload on lo;", values, |t, _| {
+        [0.02 * (0.4 * t).sin(), 0.02 * (0.3 * t).cos()]
     });
-    let log = folder.read("log.csv");
-    let mut lines = log.lines();
-    let header = lines.next().expect("a header");
-    let place = |name: &str| header.split(',').position(|column| column == name);
-    let places = ["tau1", "tau2"].map(|name| place(name).expect("a torque"));
-    let mut slow = format!("{header}\n");
-    for line in lines {
-        let mut fields: Vec<f64> = line
-            .split(',')
-            .map(|field| field.parse().expect("a number"))
-            .collect();
-        let t = fields[0];
-        fields[places[0]] += 0.02 * (0.4 * t).sin();
-        fields[places[1]] += 0.02 * (0.3 * t).cos();
-        let fields: Vec<String> = fields.iter().map(f64::to_string).collect();
-        writeln!(slow, "{}", fields.join(",")).expect("a string takes all");
-    }
-    let out = traced(&folding(""), &slow);
+    let out = traced(&folding(""), &log);
     assert_eq!(kinds(&out, "effects"), ["payload"], "{out}");
+}
+
+/// The share of a quantity of a joint, from 1, in the residual of the only joint with structure.
+fn share(out: &Value, of: &str, joint: usize) -> f64 {
+    let one = &out["structure_where"];
+    assert_eq!(one.as_array().map(Vec::len), Some(1), "{out}");
+    let mut shares = one[0]["shares"].as_array().expect("a list").iter();
+    let found = shares.find(|share| share["of"] == of && share["joint"] == joint);
+    found
+        .and_then(|found| found["share"].as_f64())
+        .unwrap_or_else(|| panic!("{of} of {joint} in {out}"))
+}
+
+/// No effect of the library follows another joint's position.
+#[test]
+fn a_law_of_another_joints_position_is_told_to_live_there() {
+    let log = folded("", "", |_, [up, _]| [0.0, 0.15 * (7.0 * up).sin()]);
+    let (told, out) = told(&folding(""), &log);
+    assert_eq!(out["outcome"], "unexplained", "{told}");
+    assert_eq!(out["structure_where"][0]["joint"], 2, "{told}");
+    assert!(share(&out, "position", 1) > 0.9, "{out}");
+    for (of, joint) in [("position", 2), ("velocity", 1), ("load", 2)] {
+        assert!(share(&out, of, joint) < 0.2, "{of} of {joint}: {out}");
+    }
+    assert!(told.contains("% a function of position of up; "), "{told}");
+    // What comes nearest is told with what is against it.
+    assert!(told.contains("\nround   effect "), "{told}");
+    assert!(told.contains("under 5 % of the error"), "{told}");
+}
+
+/// A product of functions of position and velocity is a function of neither.
+#[test]
+fn a_law_of_position_and_velocity_is_told_to_live_in_both() {
+    let law = |q: f64, dq: f64| 0.5 * (13.0 * q + 0.4).sin() * (6.0 * dq).cos();
+    let (told, out) = told(CART, &cart_with(200, 40, &tones(0.0), law));
+    assert_eq!(out["outcome"], "unexplained", "{told}");
+    assert!(share(&out, "position-and-velocity", 1) > 0.9, "{out}");
+    assert!(share(&out, "position", 1) < 0.5, "{out}");
+    assert!(
+        told.contains("% a function of position and velocity of rail"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_law_of_time_is_told_by_its_frequency() {
+    let log = folded("", "", |t, _| {
+        [0.3 * (2.36 * t + 0.3 * (0.7 * t).sin()).sin(), 0.0]
+    });
+    let (told, out) = told(&folding(""), &log);
+    assert_eq!(out["outcome"], "unexplained", "{told}");
+    assert!(share(&out, "position-and-velocity", 1) < 0.2, "{out}");
+    let peak = &out["structure_where"][0];
+    close(peak["peak_hz"].as_f64().expect("a number"), 0.3756, 0.01);
+    assert!(
+        peak["peak_share"].as_f64().is_some_and(|s| s > 0.8),
+        "{out}"
+    );
+    assert!(
+        told.contains("no function of a position, velocity"),
+        "{told}"
+    );
 }

@@ -35,6 +35,7 @@ pub(super) fn verdict(
         tried,
         before,
         after,
+        left: Vec::new(),
         noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
         goes_on: false,
     }
@@ -50,6 +51,7 @@ pub(super) fn changed(state: &State, before: Vec<Structure>, tried: Vec<Tried>) 
         tried,
         after: before.clone(),
         before,
+        left: Vec::new(),
         noise_floor: state.solution.sigma.clone(),
         goes_on: true,
     }

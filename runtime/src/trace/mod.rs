@@ -9,7 +9,8 @@
 //!
 //! What changes the arm itself, as an encoder's offset does, has no column: it is scored by its first order, and where that is promising it
 //! is judged as what it is. Of candidates that lower the error alike the simplest is named, unless another one says all that it says and
-//! more; the rest are alternatives. What passes but for its size is no unknown structure.
+//! more; the rest are alternatives. What passes but for its size is no unknown structure. Of structure that is left the verdict says what it
+//! is a function of.
 //!
 //! # Examples
 //! A pendulum's model declares inertia, gravity and viscous friction; the machine has dry friction, too.
@@ -48,9 +49,11 @@ mod search;
 mod structure;
 mod trial;
 mod verdict;
+mod whereabouts;
 
 pub use search::{MOST_EFFECTS, Trace};
 pub use structure::Structure;
 pub use verdict::{
     Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,
 };
+pub use whereabouts::{Quantity, Share, Whereabouts};

@@ -166,7 +166,9 @@ impl<'a> Trace<'a> {
             (after, noise_power) = search.structure(&state);
         }
         let before = self.since.clone().unwrap_or(before);
-        Ok(verdict(&state, before, after, &noise_power, tried))
+        let left = search.whereabouts(&state, &after);
+        let verdict = verdict(&state, before, after, &noise_power, tried);
+        Ok(Verdict { left, ..verdict })
     }
 }
 

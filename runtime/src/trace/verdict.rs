@@ -2,7 +2,9 @@
 
 use std::fmt;
 
+use super::gate::MATERIAL_PERCENT;
 use super::structure::Structure;
+use super::whereabouts::Whereabouts;
 
 /// Why an effect was accepted, in numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,6 +80,21 @@ impl Refusal {
             Self::Small => "small",
             Self::Unsolved => "unsolved",
             Self::Noise => "noise",
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Chance => write!(f, "no more than chance"),
+            Self::EndOfRange => write!(f, "shape at the end of its range"),
+            Self::Unsteady => write!(f, "folds disagree"),
+            Self::Sign => write!(f, "wrong sign"),
+            Self::HeldOut => write!(f, "no better held out"),
+            Self::Small => write!(f, "under {MATERIAL_PERCENT} % of the error"),
+            Self::Unsolved => write!(f, "no solution in its ranges"),
+            Self::Noise => write!(f, "noise of the torque itself"),
         }
     }
 }
@@ -159,6 +176,8 @@ pub struct Verdict {
     pub before: Vec<Structure>,
     /// Structure of the residual per joint, with the findings or leads.
     pub after: Vec<Structure>,
+    /// Of what the structure with the findings or leads is a function, for every joint where it matters.
+    pub left: Vec<Whereabouts>,
     /// Standard deviation per joint of the residual's part without structure, N m or N.
     pub noise_floor: Vec<f64>,
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
@@ -204,6 +223,7 @@ impl Verdict {
             alternatives: self.alternatives.into_iter().chain(rivals).collect(),
             before: self.before,
             after: next.after,
+            left: next.left,
             noise_floor: next.noise_floor,
             goes_on: next.goes_on,
         }

@@ -1,0 +1,102 @@
+//! What was tried in the rounds of a trace, and why it is not named, for people.
+
+use std::fmt::Write;
+
+use robot_model::trace::{Finding, Refusal, Tried};
+
+use super::doubt::on_joints;
+use crate::close_the_loop::Loop;
+
+/// Rows of a round.
+const MOST: usize = 5;
+
+const PUT: &str = "a string takes all";
+
+/// A table of what explained more than chance, round by round; nothing where none did.
+pub(super) fn tried(closed: &Loop) -> String {
+    let all = &closed.verdict.tried;
+    let rounds = all
+        .iter()
+        .map(|one| one.round)
+        .max()
+        .map_or(0, |last| last + 1);
+    let mut rows: Vec<[String; 6]> = Vec::new();
+    for round in 0..rounds {
+        let counts = |one: &&Tried| one.round == round && !one.refusals.contains(&Refusal::Chance);
+        rows.extend(
+            all.iter()
+                .filter(counts)
+                .take(MOST)
+                .map(|one| row(closed, one)),
+        );
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let head = ["round", "effect", "score", "held-out", "raw", "outcome"].map(str::to_owned);
+    rows.insert(0, head);
+    let width = |column: usize| rows.iter().map(|row| row[column].len()).max().unwrap_or(0);
+    let widths = [0, 1, 2, 3, 4].map(width);
+    let mut out = String::from(
+        "\nExplained beyond chance, the fall of errors on the joint where it is most:\n",
+    );
+    for [round, effect, score, held_out, raw, end] in &rows {
+        let [of_round, of_effect, of_score, of_held_out, of_raw] = widths;
+        let line = format!(
+            "{round:of_round$}   {effect:of_effect$}   {score:>of_score$}   {held_out:>of_held_out$}   {raw:>of_raw$}   {end}"
+        );
+        writeln!(out, "{}", line.trim_end()).expect(PUT);
+    }
+    out
+}
+
+fn row(closed: &Loop, one: &Tried) -> [String; 6] {
+    let best = |percents: &[f64]| {
+        let best = percents.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // No zero has a sign.
+        format!("{:.1} %", (10.0 * best).round() / 10.0 + 0.0)
+    };
+    let reasons: Vec<String> = one.refusals.iter().map(ToString::to_string).collect();
+    let end = if reasons.is_empty() {
+        passed(closed, one).to_owned()
+    } else {
+        reasons.join(", ")
+    };
+    [
+        (one.round + 1).to_string(),
+        on_joints(closed, &one.kind, &one.joints),
+        format!("{:.1}", one.evidence.score),
+        best(&one.evidence.held_out_percent),
+        best(&one.evidence.raw_percent),
+        end,
+    ]
+}
+
+/// What became of an effect that passes every gate.
+fn passed(closed: &Loop, one: &Tried) -> &'static str {
+    let verdict = &closed.verdict;
+    let is_one = |kind: &str, joints: &[usize]| (kind, joints) == (&one.kind, &one.joints);
+    // A second ripple has another period.
+    let is_taken = |found: &[Finding]| {
+        found.iter().any(|finding| {
+            let shapes = finding.parameters.iter().filter(|found| found.shape);
+            let shapes = shapes.map(|found| found.value);
+            is_one(&finding.kind, &finding.joints) && shapes.eq(one.shapes.iter().copied())
+        })
+    };
+    // What is without shapes passes in every round until it is taken.
+    let passes_later = verdict.tried.iter().any(|other| {
+        let is_same = is_one(&other.kind, &other.joints) && other.shapes == one.shapes;
+        other.round > one.round && is_same && other.refusals.is_empty()
+    });
+    let mut rivals = verdict.alternatives.iter();
+    if !passes_later && is_taken(&verdict.findings) {
+        "named"
+    } else if !passes_later && is_taken(&verdict.leads) {
+        "a lead"
+    } else if rivals.any(|rival| is_one(&rival.kind, &rival.joints)) {
+        "an alternative"
+    } else {
+        "another one lowers the error more"
+    }
+}

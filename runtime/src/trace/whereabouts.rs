@@ -1,0 +1,304 @@
+//! Of what the structure that is left is a function.
+//!
+//! Where no effect accounts for a joint's residual, what it moves along with says where to look for one. Quantities of the motion are
+//! asked one by one, a joint's own position and velocity together as well: a curve in one of them, whatever its form, stands beside the model's columns as an effect would, and its share is
+//! what it takes off the squared error of folds that it was not fitted on. Shares overlap, as quantities of one motion move together.
+
+use std::f64::consts::TAU;
+
+use crate::columns::Entry;
+use crate::identify::golden;
+use crate::signal::Prepared;
+use crate::signal::resample::whole_steps;
+
+use super::gram::Gram;
+use super::search::{Search, State};
+use super::structure::Structure;
+
+/// A curve is straight between so many values of its quantity, among which samples are evenly spread.
+const KNOTS: usize = 24;
+
+/// The same of a surface in two quantities, for each of them.
+const FEW_KNOTS: usize = 8;
+
+/// Knots in time are further apart, s: a curve has to reach across the blocks that a fold leaves out.
+const KNOT_S: f64 = 6.0;
+
+/// A quantity that spans less than this of its largest value stands.
+const LEAST_SPAN: f64 = 1e-6;
+
+/// Phases of a line in the spectrum are those of pieces of a log that are no longer than this, s.
+const PIECE_S: f64 = 60.0;
+
+/// What a torque may follow from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// Position of a joint, from 0.
+    Position(usize),
+    /// Velocity of a joint; its curve may jump where the joint turns round.
+    Velocity(usize),
+    /// Acceleration of a joint.
+    Acceleration(usize),
+    /// What the transmission of a joint carries: torque of the rigid body.
+    Load(usize),
+    /// Position and velocity of a joint at once, one surface over both.
+    Motion(usize),
+    /// Time since the start of a log.
+    Time,
+}
+
+impl Quantity {
+    /// Name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Position(_) => "position",
+            Self::Velocity(_) => "velocity",
+            Self::Acceleration(_) => "acceleration",
+            Self::Load(_) => "load",
+            Self::Motion(_) => "position-and-velocity",
+            Self::Time => "time",
+        }
+    }
+
+    /// The joint, from 0; none of time.
+    #[must_use]
+    pub const fn joint(self) -> Option<usize> {
+        match self {
+            Self::Position(joint)
+            | Self::Velocity(joint)
+            | Self::Acceleration(joint)
+            | Self::Load(joint)
+            | Self::Motion(joint) => Some(joint),
+            Self::Time => None,
+        }
+    }
+
+    /// Of a quantity that is several each of them; the last one may be a velocity.
+    fn axes(self) -> Vec<Self> {
+        match self {
+            Self::Motion(joint) => vec![Self::Position(joint), Self::Velocity(joint)],
+            one => vec![one],
+        }
+    }
+
+    fn values(self, log: &Prepared) -> &[f64] {
+        let motion = &log.motion;
+        match self {
+            Self::Position(joint) | Self::Motion(joint) => &motion.wide.q[joint],
+            Self::Velocity(joint) => &motion.wide.dq[joint],
+            Self::Acceleration(joint) => &motion.smooth.ddq[joint],
+            Self::Load(joint) => &motion.rigid_torque[joint],
+            Self::Time => &motion.time,
+        }
+    }
+
+    /// The values between which a curve is straight; none of a quantity that stands.
+    fn knots(self, most: usize, logs: &[Prepared]) -> Option<Vec<f64>> {
+        let mut values: Vec<f64> = Vec::new();
+        for log in logs {
+            let of_log = self.values(log);
+            values.extend(log.shared.kept(of_log.len()).map(|k| of_log[k]));
+        }
+        values.sort_by(f64::total_cmp);
+        let (first, last) = (*values.first()?, *values.last()?);
+        let count = match self {
+            Self::Time => whole_steps((last - first) / KNOT_S).clamp(2, most),
+            _ => most,
+        };
+        let at = |k: usize| values[k * (values.len() - 1) / (count - 1)];
+        let mut knots: Vec<f64> = (0..count).map(at).collect();
+        // Where a joint rests many samples are the same.
+        let least = (last - first) / (8 * most) as f64;
+        knots.dedup_by(|next, before| *next - *before < least);
+        let stands = last - first <= LEAST_SPAN * first.abs().max(last.abs());
+        (knots.len() > 1 && !stands).then_some(knots)
+    }
+}
+
+/// How much of a joint's residual follows from one quantity.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Share {
+    /// The quantity.
+    pub of: Quantity,
+    /// Share of the residual's power, in the band of the fit, that a curve in it takes off folds that it was not fitted on.
+    pub share: f64,
+}
+
+/// Where the structure of a joint's residual lives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Whereabouts {
+    /// The joint, from 0.
+    pub joint: usize,
+    /// Every quantity that is not at rest, the one of the largest share first.
+    pub shares: Vec<Share>,
+    /// Frequency of the highest line of the residual's spectrum, Hz.
+    pub peak_hz: f64,
+    /// Share of that line in the residual's power, in the band of the fit.
+    pub peak_share: f64,
+}
+
+impl Search<'_> {
+    /// Of every joint with structure that matters.
+    pub(super) fn whereabouts(&self, state: &State, structure: &[Structure]) -> Vec<Whereabouts> {
+        let joints = (0..structure.len()).filter(|&joint| structure[joint].is_material());
+        let joints: Vec<usize> = joints.collect();
+        if joints.is_empty() {
+            return Vec::new();
+        }
+        let gram = Gram::new(&state.stack, &self.folds);
+        let without = gram.held_out(&state.solution.sigma);
+        let of_joint = |joint: usize| {
+            let shares = self.quantities(joint).filter_map(|of| {
+                let columns = self.curve(of)?;
+                let entries = columns.into_iter().enumerate();
+                let entries = entries.map(|(column, values)| Entry {
+                    joint,
+                    column,
+                    values,
+                });
+                let entries: Vec<Entry> = entries.collect();
+                let with = gram.extended(&state.stack, &entries, entries.len());
+                let with = with.held_out(&state.solution.sigma);
+                let left = with.mean(joint) / without.mean(joint).max(f64::MIN_POSITIVE);
+                let share = (1.0 - left).max(0.0);
+                Some(Share { of, share })
+            });
+            let mut shares: Vec<Share> = shares.collect();
+            shares.sort_by(|a, b| b.share.total_cmp(&a.share));
+            let (peak_hz, peak_share) = self.peak(state, joint);
+            Whereabouts {
+                joint,
+                shares,
+                peak_hz,
+                peak_share,
+            }
+        };
+        joints.into_iter().map(of_joint).collect()
+    }
+
+    /// What a joint's residual is asked for.
+    fn quantities(&self, joint: usize) -> impl Iterator<Item = Quantity> {
+        let own = [
+            Quantity::Position(joint),
+            Quantity::Velocity(joint),
+            Quantity::Acceleration(joint),
+            Quantity::Load(joint),
+            Quantity::Motion(joint),
+            Quantity::Time,
+        ];
+        let others = (0..self.arm.dof()).filter(move |&other| other != joint);
+        let of_others = |other| [Quantity::Position(other), Quantity::Velocity(other)];
+        own.into_iter().chain(others.flat_map(of_others))
+    }
+
+    /// Columns of a curve in a quantity, filtered: each is 1 at one knot and falls to 0 at its neighbors. None of a quantity that stands.
+    fn curve(&self, of: Quantity) -> Option<Vec<Vec<f64>>> {
+        let axes = of.axes();
+        let most = if axes.len() > 1 { FEW_KNOTS } else { KNOTS };
+        let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));
+        let knots = knots.collect::<Option<Vec<_>>>()?;
+        let jumps = axes.last().filter(|of| matches!(of, Quantity::Velocity(_)));
+        let cells: usize = knots.iter().map(Vec::len).product();
+        let mut all = vec![Vec::new(); cells + usize::from(jumps.is_some())];
+        let mut filtered = Vec::new();
+        for log in &self.prepared {
+            let samples = log.motion.time.len();
+            let mut columns = vec![vec![0.0; samples]; all.len()];
+            for k in 0..samples {
+                let mut near = vec![(0, 1.0)];
+                for (axis, knots) in axes.iter().zip(&knots) {
+                    let (place, part) = between(knots, axis.values(log)[k]);
+                    let beside = |&(cell, weight): &(usize, f64)| {
+                        let cell = cell * knots.len() + place;
+                        [(cell, weight * (1.0 - part)), (cell + 1, weight * part)]
+                    };
+                    near = near.iter().flat_map(beside).collect();
+                }
+                for (cell, weight) in near {
+                    columns[cell][k] = weight;
+                }
+                if let Some(velocity) = jumps {
+                    columns[cells][k] = velocity.values(log)[k].signum();
+                }
+            }
+            for (all, column) in all.iter_mut().zip(&columns) {
+                log.shared.apply(column, &mut filtered);
+                all.extend_from_slice(&filtered);
+            }
+        }
+        Some(all)
+    }
+
+    /// Frequency and share of the highest line of a joint's residual.
+    fn peak(&self, state: &State, joint: usize) -> (f64, f64) {
+        let residual = &state.residuals[joint];
+        let segments = state.stack.segments.iter();
+        let pieces = segments.flat_map(|segment| {
+            let time = &segment.time;
+            let seconds = time.last().map_or(0.0, |last| last - time[0]);
+            let count = whole_steps((seconds / PIECE_S).ceil()).max(1);
+            let rows = move |k: usize| k * time.len() / count;
+            let of_piece = move |k| {
+                let rows = rows(k)..rows(k + 1);
+                let of_rows = segment.start + rows.start..segment.start + rows.end;
+                (&time[rows], &residual[of_rows])
+            };
+            (0..count).map(of_piece)
+        });
+        let pieces: Vec<(&[f64], &[f64])> = pieces.filter(|(time, _)| time.len() > 2).collect();
+        let total: f64 = residual.iter().map(|r| r * r).sum();
+        let lasts = pieces
+            .iter()
+            .map(|(time, _)| time[time.len() - 1] - time[0]);
+        let longest = lasts.fold(0.0, f64::max);
+        if longest <= 0.0 || total <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let power = |hz: f64| -> f64 { pieces.iter().map(|piece| line(*piece, hz)).sum() };
+        let step = 0.5 / longest;
+        let lines = (2..=whole_steps(self.shared_hz / step)).map(|k| step * k as f64);
+        let highest = lines.map(|hz| (power(hz), hz));
+        let highest = highest.max_by(|a, b| a.0.total_cmp(&b.0));
+        let about = highest.map_or(0.0, |(_, hz)| hz);
+        let Ok(hz) = golden(about - step, about + step, &mut |hz| {
+            Ok::<_, std::convert::Infallible>(-power(hz))
+        });
+        (hz, (power(hz) / total).min(1.0))
+    }
+}
+
+/// The knot below a value, and how far that is on the way to the next one.
+fn between(knots: &[f64], value: f64) -> (usize, f64) {
+    let above = knots.partition_point(|knot| *knot <= value);
+    let above = above.clamp(1, knots.len() - 1);
+    let (low, high) = (knots[above - 1], knots[above]);
+    (above - 1, ((value - low) / (high - low)).clamp(0.0, 1.0))
+}
+
+/// Sum of squares of a sine of a frequency, of the amplitude and phase that values at some times have.
+fn line((time, values): (&[f64], &[f64]), hz: f64) -> f64 {
+    let (mut re, mut im) = (0.0, 0.0);
+    for (time, value) in time.iter().zip(values) {
+        let (sin, cos) = (TAU * hz * time).sin_cos();
+        re += value * cos;
+        im += value * sin;
+    }
+    2.0 * (re * re + im * im) / time.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line;
+
+    #[test]
+    fn a_line_has_the_power_of_its_sine() {
+        let time: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
+        let sine = |t: &f64| 3.0 * (7.0 * t + 0.4).sin() + (11.0 * t).cos();
+        let values: Vec<f64> = time.iter().map(sine).collect();
+        let hz = 7.0 / std::f64::consts::TAU;
+        let power = line((&time, &values), hz) / 2000.0;
+        assert!((power - 4.5).abs() < 0.1, "{power}");
+    }
+}
