@@ -48,7 +48,7 @@ pub fn answers(closed: &Loop) -> Result<Vec<Answer>, String> {
         .filter(has_channels)
         .collect();
     let fit = fitted(closed)?;
-    let trials = fit.trials(&candidates)?;
+    let trials = fit.trials(&candidates);
     let given = Given::new(&fit, &trials);
     let forming = start.elapsed().as_secs_f64();
     ALL.iter()

@@ -1,11 +1,9 @@
 //! The columns of all that a spec does not declare, filtered as the tracer's are, for methods that choose among columns.
 
 use robot_model::columns::{Arm, Candidate, Change, Columns as _, Entry, Unknown};
-use robot_model::identify::{Identify, Solution, Stack, filtered_columns};
+use robot_model::identify::{Identify, IdentifyError, Solution, Stack, filtered_columns};
 use robot_model::signal::Prepared;
 use robot_model_cli::interpreted::InterpretedArm;
-
-use crate::experiment::said;
 
 /// A column of the logged torque may be more than this share of its largest value in this share of all rows, as for the tracer: else the
 /// torque explains itself.
@@ -44,20 +42,19 @@ pub struct Fit<'a> {
 }
 
 impl Fit<'_> {
-    /// Every candidate at a handful of values of its shapes.
-    ///
-    /// # Errors
-    /// What went wrong, in words.
-    pub fn trials<'a>(&self, candidates: &[&'a dyn Candidate]) -> Result<Vec<Trial<'a>>, String> {
+    /// Every candidate at a handful of values of its shapes. A change that cannot be solved for where nothing is changed is none, as for the
+    /// tracer.
+    pub fn trials<'a>(&self, candidates: &[&'a dyn Candidate]) -> Vec<Trial<'a>> {
         let mut trials = Vec::new();
         for (effect, &candidate) in candidates.iter().enumerate() {
             if let Some(change) = candidate.change() {
-                trials.push(Trial {
+                let first = self.first_order(change).ok();
+                trials.extend(first.map(|entries| Trial {
                     candidate,
                     effect,
                     shapes: Vec::new(),
-                    entries: self.first_order(change)?,
-                });
+                    entries,
+                }));
                 continue;
             }
             for shapes in points(candidate) {
@@ -73,11 +70,11 @@ impl Fit<'_> {
                 });
             }
         }
-        Ok(trials)
+        trials
     }
 
     /// What a change adds to first order at the declared model's estimate: one column a shape, for the shape at its probe.
-    fn first_order(&self, change: &dyn Change) -> Result<Vec<Entry>, String> {
+    fn first_order(&self, change: &dyn Change) -> Result<Vec<Entry>, IdentifyError> {
         let arm = change.arm();
         let is_same = |(a, b): (&Unknown, &Unknown)| a.name == b.name;
         let (own, others) = (self.arm.unknowns(), arm.unknowns());
@@ -87,7 +84,7 @@ impl Fit<'_> {
             self.solution.estimate.clone()
         } else {
             let stack = Stack::new(arm, &logs, change.neutral());
-            self.identify.solve_stack(&stack).map_err(said)?.estimate
+            self.identify.solve_stack(&stack)?.estimate
         };
         load(arm, &mut logs, change.neutral(), &estimate);
         let before = Stack::new(arm, &logs, change.neutral()).residuals(&estimate);

@@ -164,25 +164,23 @@ pub fn table(rows: &[Row]) -> String {
         (Group::Unknown, "unknown laws", "wrong name"),
     ];
     for (group, head, what) in others {
-        if tracer.count(group) > 0 {
-            line(
-                &format!("{head} ({}): {what}", tracer.count(group)),
-                &|method| percent(method.percent(group, &[Mark::Wrong])),
-            );
+        if tracer.count(group) == 0 {
+            continue;
         }
-    }
-    if tracer.count(Group::Nothing) > 0 {
-        line("the same, were all named that is chosen", &|method| {
-            percent(method.percent_of(Group::Nothing, &|one| one.chosen > 0))
+        let head = format!("{head} ({})", tracer.count(group));
+        line(&format!("{head}: {what}"), &|method| {
+            percent(method.percent(group, &[Mark::Wrong]))
+        });
+        line(&format!("{head}: anything chosen"), &|method| {
+            percent(method.percent_of(group, &|one| one.chosen > 0))
         });
     }
-    let means: [(&str, &dyn Fn(&Given) -> usize); 2] = [
-        ("effects named, mean", &|one| one.named),
-        ("effects chosen, mean", &|one| one.chosen),
-    ];
-    for (label, of) in means {
-        line(label, &|method| format!("{:.1}", method.mean(of)));
-    }
+    line("effects named, mean", &|method| {
+        format!("{:.1}", method.mean(&|one| one.named))
+    });
+    line("effects chosen, mean", &|method| {
+        format!("{:.1}", method.mean(&|one| one.chosen))
+    });
     line("seconds, median", &|method| {
         format!("{:.1}", method.median_seconds())
     });

@@ -14,7 +14,7 @@ const WIDE: (u32, u32) = (330, 260);
 const HEAD: u32 = 40;
 
 /// Room of a panel around its axes: left, top, right, bottom.
-const ROOM: [i32; 4] = [34, 24, 12, 22];
+const ROOM: [i32; 4] = [40, 24, 10, 22];
 
 const RIGHT: RGBColor = RGBColor(0, 90, 160);
 const NEAR: RGBColor = RGBColor(120, 175, 220);
@@ -167,7 +167,7 @@ fn picture(
             let line = PathElement::new([(left, 18), (left + 22, 18)], color.stroke_width(2));
             head.draw(&line).expect(DRAWN);
             let at = (left + 28, 11);
-            head.draw(&Text::new(name.clone(), at, ("sans-serif", 13)))
+            head.draw(&Text::new(name.clone(), at, ("sans-serif", 16)))
                 .expect(DRAWN);
             // Letters are about this wide.
             left += 52 + 7 * i32::try_from(name.len()).expect("a short name");
@@ -189,11 +189,11 @@ impl Panel {
         let y = |percent: i32| top + down - down * percent / 100;
         let places = i32::try_from(self.ticks.len()).expect("few sizes");
         let x = |place: i32| left + across * (2 * place + 1) / (2 * places.max(1));
-        let small = ("sans-serif", 10);
+        let small = ("sans-serif", 12);
         area.draw(&Text::new(
             self.title.clone(),
             (left, 6),
-            ("sans-serif", 12),
+            ("sans-serif", 14),
         ))
         .expect(DRAWN);
         for percent in [0, 50, 100] {
@@ -201,7 +201,7 @@ impl Panel {
             area.draw(&PathElement::new(line, GRID.stroke_width(1)))
                 .expect(DRAWN);
             let at = (6, y(percent) - 5);
-            area.draw(&Text::new(format!("{percent:>3}"), at, small))
+            area.draw(&Text::new(format!("{percent:>3} %"), at, small))
                 .expect(DRAWN);
         }
         for (place, tick) in (0..).zip(&self.ticks) {

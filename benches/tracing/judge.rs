@@ -168,7 +168,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         seconds,
         tried: closed.verdict.tried.iter().map(told).collect(),
         baselines: answers
-            .into_iter()
+            .iter()
             .map(|answer| first(answer, faults, &judged))
             .collect(),
     })
@@ -176,7 +176,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
 
 /// A baseline's answer by what it says first, where a fault of the logs comes before all else. It has no word for what no effect explains.
 fn first(
-    answer: baselines::Answer,
+    answer: &baselines::Answer,
     faults: &Said,
     judged: &dyn Fn(Outcome, &Said) -> Mark,
 ) -> Answer {

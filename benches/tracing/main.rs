@@ -213,7 +213,7 @@ fn judged(options: &Options, case: &Case, label: &str) -> Result<Option<Row>, St
 
 /// A row for people who wait.
 fn told(row: &Row) -> String {
-    let mut text = format!(
+    let own = format!(
         "{:?}: {} {:?} of joints {:?}, {} ({:.1} s)",
         row.mark,
         row.outcome,
@@ -222,11 +222,11 @@ fn told(row: &Row) -> String {
         if row.is_material { "matters" } else { "small" },
         row.seconds
     );
-    for answer in &row.baselines {
-        text.push_str(&format!(
+    let others = row.baselines.iter().map(|answer| {
+        format!(
             "\n    {}: {:?} {:?} ({:.1} s)",
             answer.method, answer.mark, answer.said, answer.seconds
-        ));
-    }
-    text
+        )
+    });
+    std::iter::once(own).chain(others).collect()
 }

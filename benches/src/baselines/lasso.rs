@@ -24,7 +24,7 @@ pub fn lasso(rows: &Rows) -> Vec<Choice> {
     let steps: Vec<f64> = (0..STEPS)
         .map(|k| largest * LEAST.powf(f64::from(k) / f64::from(STEPS - 1)))
         .collect();
-    rows.choices(&rows.cross_validated(&path, &steps))
+    rows.choices(&rows.cross_validated(path, &steps))
 }
 
 /// The least penalty that leaves no column in.

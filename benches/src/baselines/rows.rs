@@ -40,6 +40,9 @@ pub(super) struct Label {
     pub(super) number: usize,
 }
 
+/// Coefficients of all columns at every step, of a penalty or a threshold.
+pub(super) type Path = fn(&Products, &[f64]) -> Vec<Vec<f64>>;
+
 /// Rows, cut into folds as if they were independent.
 #[derive(Debug)]
 pub struct Rows {
@@ -123,11 +126,7 @@ impl Rows {
 
     /// Coefficients on all rows at the sparsest step of a path whose error on held-out rows is within a standard error of the least
     /// (Breiman et al. 1984); `path` gives coefficients for every step, and steps are from the sparsest on.
-    pub(super) fn cross_validated(
-        &self,
-        path: &dyn Fn(&Products, &[f64]) -> Vec<Vec<f64>>,
-        steps: &[f64],
-    ) -> Vec<f64> {
+    pub(super) fn cross_validated(&self, path: Path, steps: &[f64]) -> Vec<f64> {
         let errors: Vec<Vec<f64>> = (0..FOLDS)
             .map(|fold| {
                 let reduced = Reduced::new(&self.train(fold), self.model);
@@ -267,11 +266,10 @@ fn new_of(column: &[f64], basis: &[Vec<f64>]) -> Option<Vec<f64>> {
     let mut left = column.to_vec();
     take_out(&mut left, basis);
     let after = mean_product(&left, &left).sqrt();
-    if after <= LEAST_NEW * before {
-        return None;
+    for value in &mut left {
+        *value /= after;
     }
-    left.iter_mut().for_each(|value| *value /= after);
-    Some(left)
+    (after.is_finite() && after > LEAST_NEW * before).then_some(left)
 }
 
 /// Takes a basis out of a column, twice, as the first time leaves rounding.
@@ -358,17 +356,11 @@ mod tests {
         let none = power(&rows.held_out(&[]));
         let both = power(&rows.held_out(&[1, 3]));
         assert!(both < 1e-10 * none, "{both} of {none}");
-        // The same as the error of a path that has them.
-        let path = |products: &Products, steps: &[f64]| -> Vec<Vec<f64>> {
-            steps
-                .iter()
-                .map(|_| vec![0.0; products.columns()])
-                .collect()
-        };
+        // The same as the error of no coefficients.
         let errors: f64 = (0..FOLDS)
             .map(|fold| {
                 let reduced = Reduced::new(&rows.train(fold), rows.model);
-                let zeros = path(&reduced.products, &[1.0]).remove(0);
+                let zeros = vec![0.0; reduced.products.columns()];
                 rows.error(fold, &reduced, &zeros) * rows.folds[fold].len() as f64
             })
             .sum();

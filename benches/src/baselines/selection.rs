@@ -49,7 +49,9 @@ pub fn selection(rows: &Rows) -> Vec<Choice> {
                 columns: numbers.collect(),
             }),
         }
-        columns.iter().for_each(|column| products.without(*column));
+        for column in columns {
+            products.without(*column);
+        }
         freedom -= test.rank as f64;
     }
 }

@@ -25,7 +25,7 @@ pub fn thresholding(rows: &Rows) -> Vec<Choice> {
     let steps: Vec<f64> = (0..STEPS)
         .map(|k| size * LEAST.powf(f64::from(k) / f64::from(STEPS - 1)))
         .collect();
-    rows.choices(&rows.cross_validated(&path, &steps))
+    rows.choices(&rows.cross_validated(path, &steps))
 }
 
 /// What stays at each threshold.
