@@ -150,8 +150,11 @@ pub fn table(rows: &[Row]) -> String {
         let is_near = |one: &Given| matches!(one.mark, Mark::Exact | Mark::Near);
         share("exact", &|one| one.mark == Mark::Exact);
         share("exact or near", &is_near);
-        share("that and nothing else", &|one| {
+        share("that and nothing else named", &|one| {
             is_near(one) && one.named == 1
+        });
+        share("that and nothing else chosen", &|one| {
+            is_near(one) && one.chosen == 1
         });
         share("wrong name", &|one| one.mark == Mark::Wrong);
         share("no name", &|one| {
