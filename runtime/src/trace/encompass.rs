@@ -2,7 +2,7 @@
 //!
 //! With effect `b` among the model's columns `a` is scored on what is left, and the other way round. Where `a` explains more beside `b`, and `b`
 //! nothing beside `a`, `a` encompasses `b` (Mizon & Richard 1986): `b` is what `a` looks like in these logs. A simpler law that is the
-//! right one is encompassed by none. Nor is one that leaves a smaller error somewhere.
+//! right one is encompassed by none. Nor is one that leaves a smaller error on some joint, by more than noise.
 
 use super::gate::{self, Judged};
 use super::gram::Gram;

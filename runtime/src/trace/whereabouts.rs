@@ -1,8 +1,9 @@
 //! Of what the structure that is left is a function.
 //!
 //! Where no effect accounts for a joint's residual, what it moves along with says where to look for one. Quantities of the motion are
-//! asked one by one, a joint's own position and velocity together as well: a curve in one of them, whatever its form, stands beside the model's columns as an effect would, and its share is
-//! what it takes off the squared error of folds that it was not fitted on. Shares overlap, as quantities of one motion move together.
+//! asked one by one, a joint's own position and velocity together as well: a curve in one of them, whatever its form, stands beside the
+//! model's columns as an effect would, and its share is what it takes off the squared error of folds that it was not fitted on. Shares
+//! overlap, as quantities of one motion move together.
 
 use std::f64::consts::TAU;
 
