@@ -25,6 +25,7 @@ const ORDERS: f64 = 10.0;
 const SAMPLES_AN_ORDER: f64 = 8.0;
 
 /// Columns that have a value in a solution: rows over their joint's scale, columns over their length.
+#[derive(Clone)]
 pub(super) struct Rows {
     /// How many unknowns there are, and which have a value.
     unknowns: usize,

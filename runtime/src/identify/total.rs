@@ -103,11 +103,12 @@ impl Total {
             .map(|scale| scale * self.target)
             .collect();
         let rest = stack.residuals(&solution.estimate);
-        let steady = rows.steady_variances(&weighed(rest.clone(), &solution.scale, &ones), &bread);
-        let residuals = weighed(rest, &unit, &ones);
+        let residuals = weighed(rest.clone(), &unit, &ones);
+        let size = 1.0 + self.scaled.iter().map(|x| x * x).sum::<f64>();
+        let steady = self.corrected(&rows, &residuals, size);
+        let steady = steady.steady_variances(&weighed(rest, &solution.scale, &ones), &bread);
         let targets = stack.joints.iter().map(|rows| rows.target.clone());
         let targets = weighed(targets.collect(), &unit, &ones);
-        let size = 1.0 + self.scaled.iter().map(|x| x * x).sum::<f64>();
         for (joint, rows) in rows.joints.iter_mut().enumerate() {
             for (sample, &r) in residuals[joint].iter().enumerate() {
                 let parts = self.scaled.iter().enumerate();
@@ -124,6 +125,19 @@ impl Total {
             rows.deviations(&rows.influence(&ones, &bread)),
             &rows.roots(&steady),
         )
+    }
+
+    /// The columns without the part of their errors that is in the residual, too: `a + x r / (1 + x'x)`, Golub and Van Loan's correction.
+    /// What is left goes its way beside the residual, as columns without errors do.
+    fn corrected(&self, rows: &Rows, residuals: &[Vec<f64>], size: f64) -> Rows {
+        let mut corrected = rows.clone();
+        for (rows, residuals) in corrected.joints.iter_mut().zip(residuals) {
+            for (k, x) in self.scaled.iter().enumerate() {
+                let rows = rows.col_mut(k).iter_mut();
+                rows.zip(residuals).for_each(|(a, r)| *a += x * r / size);
+            }
+        }
+        corrected
     }
 }
 
@@ -190,7 +204,8 @@ mod tests {
 
     #[test]
     fn columns_with_errors_bias_least_squares_and_not_the_total_one() {
-        const DRAWS: u32 = 200;
+        // The spread of so many is known within 2 %.
+        const DRAWS: u32 = 1000;
         let mut mean = [[0.0; 2]; 2];
         let (mut errors, mut told) = ([0.0; 2], [0.0; 2]);
         for seed in 0..DRAWS {
@@ -214,7 +229,7 @@ mod tests {
             );
             assert!((mean[1][c] / TRUTH[c] - 1.0).abs() < 0.01, "{mean:?}");
             let ratio = (told[c] / errors[c]).sqrt();
-            assert!((ratio - 1.0).abs() < 0.15, "{ratio}");
+            assert!((ratio - 1.0).abs() < 0.12, "{ratio}");
         }
     }
 
