@@ -1,5 +1,6 @@
 //! `robot-model identify --method output-error`: the arm that moves as the measured one did.
 
+mod bounds;
 mod directions;
 mod law;
 mod options;
@@ -24,8 +25,9 @@ use crate::interpreted::{InterpretedArm, InterpretedPlant};
 use crate::output::{self, Files, names};
 use crate::parameters::{self, Values};
 use crate::progress::Progress;
+use bounds::bounds;
 pub(super) use options::Options;
-use options::{HoldArgument, SearchArgument, bounds};
+use options::{HoldArgument, SearchArgument};
 use report::OutputReport;
 
 /// Where the search starts, and what least squares says where it has a say.
@@ -67,7 +69,7 @@ impl IdentifyArguments {
         let logs: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let beginning = self.begin(&compiled, &form, &logs)?;
-        let settings = self.settings(&compiled, &beginning)?;
+        let mut settings = self.settings(&compiled, &beginning)?;
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
         let starts = match self.output_error.start {
@@ -82,6 +84,7 @@ impl IdentifyArguments {
             &settings, &beginning, &starts, &fitted, &is_there, &progress,
         )
         .map_err(|error| refused(&error))?;
+        settings.hold = found.hold;
         let told = beginning.names.iter().zip(&found.values).zip(&found.std);
         let told = told.map(|((name, value), std)| (name.as_str(), *value, *std));
         let told = told.filter_map(|(name, value, std)| Some((name, value, std?)));
@@ -243,10 +246,10 @@ impl IdentifyArguments {
                 None | Some(SearchArgument::LevenbergMarquardt) => Search::LevenbergMarquardt,
                 Some(SearchArgument::TrustRegion) => Search::TrustRegion,
             },
-            hold: match options.hold {
-                None | Some(HoldArgument::Mean) => Hold::Mean,
-                Some(HoldArgument::Sample) => Hold::Sample,
-            },
+            hold: options.hold.map(|hold| match hold {
+                HoldArgument::Mean => Hold::Mean,
+                HoldArgument::Sample => Hold::Sample,
+            }),
             window: options.window.or(is_open.then_some(1.0)),
             law: law.transpose()?,
             bounds: bounds(compiled, &beginning.names, options.bounds.as_deref())?,

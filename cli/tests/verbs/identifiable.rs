@@ -79,6 +79,75 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
     assert!(said.contains(&format!(" / {reference} = ")), "{said}");
 }
 
+/// Their Table 5, of constants that show in five sums of products alone.
+#[test]
+fn bounds_of_constants_are_those_of_what_they_make() {
+    let folder = Folder::new();
+    let spec = include_str!("../../../tests/specs/pass/pneumatic_arm.robot");
+    folder.write("arm.robot", spec);
+    folder.write("log.csv", "time,q1,q2,tau1,tau2\n");
+    let mut log = String::from("time,q1,q2,tau1,tau2\n");
+    for k in 0..100 {
+        let t = 0.01 * f64::from(k);
+        let q = 0.3 * (9.0 * t).sin();
+        writeln!(log, "{t},{q},{q},{},{}", -40.0 * q, -8.0 * q).expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    folder.write(
+        "start.json",
+        "{\"q1.viscous_friction.fv\": 0.35, \"q2.viscous_friction.fv\": 0.35, \"q1.coulomb_friction.fc\": 0.35, \
+         \"q2.coulomb_friction.fc\": 0.35}",
+    );
+    let table = "\"m1\": [5, 7], \"m2\": [3, 5], \"l1\": [0.5, 0.7], \"c1\": [0.2, 0.4], \"c2\": [0.13, 0.25], \
+                 \"I1\": [0.25, 0.45], \"I2\": [0.009, 0.017]";
+    folder.write("bounds.json", &format!("{{{table}}}"));
+    let options = [
+        "output-error",
+        "--search",
+        "trust-region",
+        "--start",
+        "start.json",
+        "--json",
+        "fit.json",
+        "--bounds",
+    ];
+    let basics = [&SIMULATED[..], &options].concat();
+    let said = folder.succeed(&[&basics[..], &["bounds.json"]].concat());
+    let fit = json(&folder.read("fit.json"));
+    let bounds = [
+        (
+            "I1r",
+            0.25 + 5.0 * 0.04 + 3.0 * 0.25,
+            0.45 + 7.0 * 0.16 + 5.0 * 0.49,
+        ),
+        ("I2r", 0.009 + 3.0 * 0.13 * 0.13, 0.017 + 5.0 * 0.25 * 0.25),
+    ];
+    // The motion wants other inertias than the bounds let it have.
+    let held = fit["at_bounds"].as_array().expect("a list");
+    assert!(!held.is_empty(), "{said}");
+    for (name, low, high) in bounds {
+        let value = of(&fit, name, "value");
+        assert!(
+            low - 1e-12 <= value && value <= high + 1e-12,
+            "{name} {value}: {said}"
+        );
+        let is_end = (value - low).abs() < 1e-9 || (value - high).abs() < 1e-9;
+        assert_eq!(held.iter().any(|held| held == name), is_end, "{said}");
+    }
+    folder.write("alone.json", "{\"I1\": [0.2, 0.3]}");
+    let said = folder.refuse(&[&basics[..], &["alone.json"]].concat());
+    assert!(
+        said.contains("`I1` alone bounds nothing that a motion tells; `I1r` needs bounds of "),
+        "{said}"
+    );
+    folder.write("unknown.json", "{\"I3\": [0.2, 0.3]}");
+    let said = folder.refuse(&[&basics[..], &["unknown.json"]].concat());
+    assert!(
+        said.contains("no parameter is called `I3`; there are `I1`, "),
+        "{said}"
+    );
+}
+
 /// `th'' - a sin(th) + c th' = b v` with `b v` a square wave that turns at 1.5 rad, sampled at 30 Hz: model (5.2) of the PUMA shoulder. Its
 /// damping is not the same both ways, as there.
 fn shoulder() -> String {
@@ -113,43 +182,89 @@ fn shoulder() -> String {
     log
 }
 
+/// What is found of it with friction of a law.
+fn of_law(folder: &Folder, effects: &str, options: &[&str]) -> (String, serde_json::Value) {
+    let spec = format!(
+        "robot Shoulder {{
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint turn: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+        effects {{ {effects} }}
+    }}"
+    );
+    folder.write("arm.robot", &spec);
+    let whole = ["output-error", "--window", "20", "--json", "fit.json"];
+    let said = folder.succeed(&[&SIMULATED[..], &whole, options].concat());
+    (said, json(&folder.read("fit.json")))
+}
+
+fn of(fit: &serde_json::Value, name: &str, key: &str) -> f64 {
+    let mut all = fit["parameters"].as_array().expect("a list").iter();
+    let found = all.find(|parameter| parameter["name"] == name);
+    found.expect("one")[key].as_f64().expect("a number")
+}
+
+const LAWS: [&str; 3] = [
+    "viscous_friction on turn;",
+    "viscous_friction on turn; quadratic_viscous on turn;",
+    "viscous_friction on turn; asymmetric_viscous on turn;",
+];
+
 #[test]
 fn an_inertia_that_hardly_shows_is_told() {
     let folder = Folder::new();
-    let spec = "robot Shoulder {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
-        effects { viscous_friction on turn; }
-    }";
-    folder.write("arm.robot", spec);
     folder.write("log.csv", &shoulder());
-    let options = ["output-error", "--window", "20", "--json", "fit.json"];
-    let said = folder.succeed(&[&SIMULATED[..], &options].concat());
-    let fit = json(&folder.read("fit.json"));
-    let of = |name: &str, key: &str| {
-        let mut all = fit["parameters"].as_array().expect("a list").iter();
-        let found = all.find(|parameter| parameter["name"] == name);
-        found.expect("one")[key].as_f64().expect("a number")
-    };
-    // One damping for both ways takes it far off, while its deviation is small.
-    let (inertia, std) = (of("turn.izzr", "value"), of("turn.izzr", "std"));
-    assert!((inertia - 1.0 / 21.42) > 5.0 * std, "{inertia} +- {std}");
-    let damping = of("turn.viscous_friction.fv", "value");
-    assert!((damping * 21.42 / 35.36 - 1.0).abs() < 0.02, "{damping}");
-    let frail = &fit["frail"];
-    let ratio = frail["relative_singular_value"].as_f64().expect("a number");
-    assert!(ratio < 1.0 / 30.0, "{said}");
-    let moves = frail["moves"].as_array().expect("a list");
-    let most = moves.iter().find(|part| part[1] == 1.0).expect("one");
-    assert_eq!(most[0], "turn.izzr", "{said}");
+    for (law, effects) in LAWS.iter().enumerate() {
+        let (said, fit) = of_law(&folder, effects, &[]);
+        let [inertia, std] = ["value", "std"].map(|key| of(&fit, "turn.izzr", key));
+        let off = inertia * 21.42 - 1.0;
+        if law == 2 {
+            // The law of the arm.
+            assert!(off.abs() < 0.01, "{inertia} +- {std}");
+        } else {
+            // Any other takes it far off, while its deviation is small.
+            assert!(off > 0.1 && off / 21.42 > 3.0 * std, "{inertia} +- {std}");
+        }
+        let frail = &fit["frail"];
+        let ratio = frail["relative_singular_value"].as_f64();
+        assert!(ratio.expect("a number") < 1.0 / 30.0, "{said}");
+        let moves = frail["moves"].as_array().expect("a list");
+        assert!(moves.iter().any(|part| part[0] == "turn.izzr"), "{said}");
+        assert!(
+            said.contains("hardly identified beside the others: "),
+            "{said}"
+        );
+        // What (5.2) does tell are ratios to the torque: what drives it over what damps it.
+        if law == 0 {
+            let damping = of(&fit, "turn.viscous_friction.fv", "value");
+            assert!((damping * 21.42 / 35.36 - 1.0).abs() < 0.02, "{damping}");
+            let most = moves.iter().find(|part| part[1] == 1.0).expect("one");
+            assert_eq!(most[0], "turn.izzr", "{said}");
+            assert!(said.contains("turn.izzr +1.00"), "{said}");
+            // The way there, with values.
+            assert!(
+                said.contains("cost      turn.mxr       turn.my     turn.izzr"),
+                "{said}"
+            );
+        }
+    }
+}
+
+/// The drive of that arm is a command that is held; half a sample of 30 Hz is half of its inertia.
+#[test]
+fn how_torque_goes_between_samples_is_what_fits() {
+    let folder = Folder::new();
+    folder.write("log.csv", &shoulder());
+    let (said, held) = of_law(&folder, LAWS[2], &[]);
+    assert_eq!(held["hold"], "sample", "{said}");
     assert!(
-        said.contains("hardly identified beside the others: ") && said.contains("turn.izzr +1.00"),
+        said.contains("torque held from each sample to the next"),
         "{said}"
     );
-    // The way there, with values.
-    assert!(
-        said.contains("cost      turn.mxr       turn.my     turn.izzr"),
-        "{said}"
-    );
+    let rmse = |fit: &serde_json::Value| fit["position"]["rmse"][0].as_f64().expect("a number");
+    let (said, mean) = of_law(&folder, LAWS[2], &["--hold", "mean"]);
+    assert_eq!(mean["hold"], "mean", "{said}");
+    assert!(!said.contains("held from each sample"), "{said}");
+    assert!(rmse(&mean) > 2.0 * rmse(&held), "{said}");
+    assert!(of(&mean, "turn.izzr", "value") * 21.42 > 1.4, "{said}");
 }

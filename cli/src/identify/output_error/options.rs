@@ -1,12 +1,8 @@
-//! Options of output error, and the bounds that a file gives.
+//! Options of output error.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_model_codegen::Compiled;
-use serde_json::Value;
-
-use crate::{Error, json, output};
 
 /// Options of `--method output-error`.
 #[derive(Debug, Args)]
@@ -18,7 +14,8 @@ pub(crate) struct Options {
     /// Who looks for the least error; `levenberg-marquardt` without it.
     #[arg(long, value_enum)]
     pub(super) search: Option<SearchArgument>,
-    /// Least and largest values of parameters, `{"NAME": [LOW, HIGH], ..}`; without it ranges of shapes.
+    /// Least and largest values of parameters, `{"NAME": [LOW, HIGH], ..}`, also of the standard parameters and constants that base parameters
+    /// are sums of; without it ranges of shapes.
     #[arg(long, value_name = "FILE.json")]
     pub bounds: Option<PathBuf>,
     /// Cut logs into windows of so many seconds, each with a start of its own, its effects' memories at zero; without it 1 s, and whole
@@ -28,7 +25,7 @@ pub(crate) struct Options {
     /// The controller of the experiment, which is simulated too; without it the logged torque drives the arm.
     #[arg(long, value_name = "FILE.json")]
     pub controller: Option<PathBuf>,
-    /// Torque between samples of the log; `mean` without it.
+    /// Torque between samples of the log; without it the one whose errors are less, where torque changes from sample to sample.
     #[arg(long, value_enum)]
     pub(super) hold: Option<HoldArgument>,
 }
@@ -69,49 +66,4 @@ impl Options {
             .into_iter()
             .flatten()
     }
-}
-
-/// Ranges of shapes, and what a file says.
-pub(super) fn bounds(
-    compiled: &Compiled,
-    names: &[String],
-    file: Option<&Path>,
-) -> Result<Vec<[f64; 2]>, Error> {
-    let ranges = compiled.model.effects.iter().flat_map(|effect| {
-        let shapes = effect.definition.shapes.iter();
-        shapes.map(|shape| [shape.low, shape.high])
-    });
-    let ranges: Vec<[f64; 2]> = ranges.collect();
-    let open = [f64::NEG_INFINITY, f64::INFINITY];
-    let mut bounds = vec![open; compiled.base.kept.len()];
-    bounds.extend(compiled.free_shapes().into_iter().map(|k| ranges[k]));
-    let Some(path) = file else {
-        return Ok(bounds);
-    };
-    let refuse = |reason: &str| Err(Error::json(path, &reason));
-    let Value::Object(entries) = json::read(path)? else {
-        return refuse("write `{\"NAME\": [LOW, HIGH], ..}`");
-    };
-    for (name, range) in entries {
-        let Some(place) = names.iter().position(|other| *other == name) else {
-            let known: Vec<&str> = names.iter().map(String::as_str).collect();
-            return refuse(&format!(
-                "no parameter is called `{name}`; there are {}",
-                output::names(&known)
-            ));
-        };
-        let pair = range.as_array().and_then(|pair| match pair.as_slice() {
-            [low, high] => Some([low.as_f64()?, high.as_f64()?]),
-            _ => None,
-        });
-        match pair {
-            Some([low, high]) if low <= high => bounds[place] = [low, high],
-            _ => {
-                return refuse(&format!(
-                    "`{name}`: write `[LOW, HIGH]`, two numbers that rise"
-                ));
-            }
-        }
-    }
-    Ok(bounds)
 }

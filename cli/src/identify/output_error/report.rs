@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use robot_model::identify::output_error::{Comparison, Distance, Ending, OutputEstimate};
+use robot_model::identify::output_error::{Comparison, Distance, Ending, Hold, OutputEstimate};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Body;
@@ -50,6 +50,8 @@ pub(super) struct JsonReport<'a> {
     torque_validate: Option<Distances>,
     /// Seconds of windows; null where logs were simulated whole.
     window: Option<f64>,
+    /// How logged torque goes between samples; null where a controller makes it.
+    hold: Option<&'static str>,
     is_converged: bool,
     /// Parameters that a bound holds.
     at_bounds: Vec<&'a str>,
@@ -153,6 +155,10 @@ impl OutputReport<'_> {
             torque: told(Some(self.train)),
             torque_validate: told(self.validation),
             window: self.window,
+            hold: found.hold.map(|hold| match hold {
+                Hold::Sample => "sample",
+                Hold::Mean => "mean",
+            }),
             is_converged: found.ending == Ending::Converged,
             at_bounds: self.on_bounds().map(String::as_str).collect(),
             singular_values: &found.identifiability.singular,
@@ -317,9 +323,13 @@ impl OutputReport<'_> {
             Some(seconds) => format!("in windows of {seconds} s, the start of each fitted"),
             None => "logs whole, their starts fitted".to_owned(),
         };
+        let hold = match self.found.hold {
+            Some(Hold::Sample) => ", torque held from each sample to the next",
+            _ => "",
+        };
         writeln!(
             text,
-            "\nSimulated beside logged, {windows}; rad or m, N m or N"
+            "\nSimulated beside logged, {windows}{hold}; rad or m, N m or N"
         )?;
         let columns = std::iter::once(("identification", self.train));
         let columns = columns.chain(self.validation.map(|judged| ("validation", judged)));

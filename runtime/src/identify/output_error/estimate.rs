@@ -4,10 +4,11 @@ use nalgebra::DMatrix;
 
 use super::equations::{Equations, Reduced};
 use super::identifiable::frail;
+use super::parts::Part;
 use super::ratios::{self, Ratio};
-use super::search::{Ending, Found};
+use super::search::Ending;
 use super::window::{Rows, Run, Window};
-use super::{Direction, Identifiability, Iterate, Place, Problem};
+use super::{Direction, Hold, Identifiability, Iterate, Problem};
 use crate::identify::hac::long_run_sum;
 use crate::simulate::Adjustable;
 
@@ -58,16 +59,21 @@ pub struct OutputEstimate {
     pub fit: Comparison,
     /// Samples a joint.
     pub samples: usize,
+    /// How logged torque goes between samples; none where a controller makes it.
+    pub hold: Option<Hold>,
 }
 
 pub(super) fn result<P: Adjustable + Clone>(
-    problem: &Problem<'_, P>,
-    place: Place,
-    (runs, ending): &Found,
+    part: Part<'_, P>,
     bounds: &[[f64; 2]],
     iterates: Vec<Iterate>,
     names: &[String],
 ) -> OutputEstimate {
+    let Part {
+        problem,
+        place,
+        found: (runs, ending),
+    } = &part;
     let rows = problem.rows(runs);
     let reduced = Equations::new(&rows).reduced(0.0);
     let is_bound = |k: usize| {
@@ -109,7 +115,8 @@ pub(super) fn result<P: Adjustable + Clone>(
         fit: comparison(&problem.windows, runs, problem.law.is_some()),
         samples: problem.windows.iter().map(Window::counted).sum(),
         identifiability,
-        values: place.values,
+        hold: problem.law.is_none().then_some(problem.hold),
+        values: part.place.values,
     }
 }
 

@@ -5,6 +5,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::equations::triangle;
+
 /// Of the largest singular value: below, outputs do not change at all; below, they change so little that noise decides.
 const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
@@ -123,17 +125,24 @@ pub(super) fn frail(
     let pairs = values.iter().zip(std).enumerate();
     let known = pairs.filter(|(_, (value, std))| std.is_some_and(|std| std < KNOWN * value.abs()));
     let known: Vec<usize> = known.map(|(k, _)| k).collect();
-    let mut shares = r.select_columns(&known);
-    for (mut column, &k) in shares.column_iter_mut().zip(&known) {
-        column *= values[k];
+    let mut all = r.clone();
+    for (mut column, value) in all.column_iter_mut().zip(values) {
+        column *= *value;
     }
-    if known.len() < 2 || !shares.iter().all(|x| x.is_finite()) {
+    if known.is_empty() || names.len() < 2 || !all.iter().all(|x| x.is_finite()) {
         return None;
     }
+    let most = all.singular_values().max();
+    // What is hardly known by itself follows.
+    let unknown: Vec<usize> = (0..names.len()).filter(|k| !known.contains(k)).collect();
+    let order = [unknown.as_slice(), known.as_slice()].concat();
+    let (first, count) = (unknown.len(), known.len());
+    let all = triangle(all.select_columns(&order));
+    let shares = all.view((first, first), (count, count)).into_owned();
     let svd = shares.svd(false, true);
     let (singular, v) = (svd.singular_values, svd.v_t?);
     let last = singular.len() - 1;
-    let ratio = singular[last] / singular[0];
+    let ratio = singular[last] / most;
     let moves = v.row(last);
     let largest = moves
         .iter()

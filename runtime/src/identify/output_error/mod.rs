@@ -12,6 +12,7 @@ mod equations;
 mod estimate;
 mod identifiable;
 mod law;
+mod parts;
 mod ratios;
 mod recording;
 mod search;
@@ -33,6 +34,7 @@ pub use recording::{Hold, Recording};
 pub use search::{Ending, Iterate, Search};
 
 use estimate::{comparison, result};
+use parts::Parts;
 use window::{Rows, Run, Window};
 
 /// Of the window that is asked for, for the first part of a search.
@@ -50,8 +52,8 @@ pub struct OutputError {
     pub window: Option<f64>,
     /// The controller of the experiment; without it logged torques drive the arm.
     pub law: Option<Law>,
-    /// Logged torque between samples.
-    pub hold: Hold,
+    /// Logged torque between samples; none is the one whose errors are less, where it makes a difference.
+    pub hold: Option<Hold>,
 }
 
 /// Why there is no estimate.
@@ -214,48 +216,29 @@ impl OutputError {
         progress: &mut dyn FnMut(&Iterate),
     ) -> Result<OutputEstimate, OutputErrorError> {
         self.check(plant, names, start)?;
-        let bounds = self.bounds_of(start.len());
-        let joints = plant.joints();
         let mut plant = plant.clone();
         plant.prepare();
-        let mut scale = vec![1.0; joints];
+        let mut parts = Parts::new(self, start.len(), plant.joints(), progress);
+        let hold = self.hold.unwrap_or_default();
         let mut values = start.to_vec();
-        let mut iterates = Vec::new();
         // From a start that is far away a short motion leads back sooner than a long one.
-        let first = self.first_window().map(Some);
-        for window in first.into_iter().chain([self.window]) {
-            let mut problem = match self.problem(plant.clone(), recordings, window) {
-                Err(OutputErrorError::Short { .. }) if window != self.window => continue,
-                problem => problem?,
-            };
-            let mut place = problem.place(&values);
-            // A joint counts by what its errors are, once they are known.
-            let mut last = None;
-            for _ in 0..if joints > 1 { 2 } else { 1 } {
-                problem.scale.clone_from(&scale);
-                let runs = problem.run(&place, false);
-                let runs = runs.map_err(|(k, error)| no_start(&problem, k, error))?;
-                let found = search::search(
-                    self.search,
-                    &mut problem,
-                    &mut place,
-                    &runs,
-                    &bounds,
-                    &mut iterates,
-                    progress,
-                );
-                let found = found.map_err(|(k, error)| no_start(&problem, k, error))?;
-                if joints > 1 {
-                    scale = problem.scales(&found.0);
-                }
-                last = Some(found);
-            }
-            values.clone_from(&place.values);
-            if let (Some(found), true) = (&last, window == self.window) {
-                return Ok(result(&problem, place, found, &bounds, iterates, names));
+        if let Some(first) = self.first_window() {
+            match self.problem(plant.clone(), recordings, Some(first), hold) {
+                Err(OutputErrorError::Short { .. }) => {}
+                problem => values = parts.search(problem?, &values)?.place.values,
             }
         }
-        unreachable!("the last stage has the window that was asked for")
+        let problem = |hold| self.problem(plant.clone(), recordings, self.window, hold);
+        let mut part = parts.search(problem(hold)?, &values)?;
+        if self.is_hold_open(recordings) {
+            let other = parts.search(problem(Hold::Sample)?, &part.place.values);
+            // An arm that runs away was not driven so.
+            part = match other {
+                Ok(other) if other.error() < part.error() => other,
+                _ => part,
+            };
+        }
+        Ok(result(part, &parts.bounds, parts.iterates, names))
     }
 
     /// How an arm with given parameters moves beside logs, with the start of each window fitted.
@@ -268,7 +251,8 @@ impl OutputError {
         values: &[f64],
         recordings: &[Recording],
     ) -> Result<Comparison, OutputErrorError> {
-        let mut problem = self.problem(plant.clone(), recordings, self.window)?;
+        let hold = self.hold.unwrap_or_default();
+        let mut problem = self.problem(plant.clone(), recordings, self.window, hold)?;
         let mut place = problem.place(values);
         let runs = problem.run(&place, false);
         let away =
@@ -305,6 +289,7 @@ impl OutputError {
         plant: P,
         recordings: &'a [Recording],
         window: Option<f64>,
+        hold: Hold,
     ) -> Result<Problem<'a, P>, OutputErrorError> {
         let windows = recordings.iter().map(|recording| {
             if recording.torque.len() != plant.joints() {
@@ -321,7 +306,7 @@ impl OutputError {
             scale: vec![1.0; plant.joints()],
             windows: windows.into_iter().flatten().collect(),
             law: self.law.as_ref(),
-            hold: self.hold,
+            hold,
             most: search::MOST,
             plant,
         })
@@ -369,12 +354,5 @@ impl OutputError {
             }
         }
         Ok(())
-    }
-}
-
-fn no_start<P>(problem: &Problem<'_, P>, window: usize, error: SimulateError) -> OutputErrorError {
-    OutputErrorError::Start {
-        log: problem.windows[window].source().to_owned(),
-        error,
     }
 }

@@ -40,10 +40,10 @@ impl OutputError {
             if self.check(&plant, names, start).is_err() {
                 continue;
             }
-            let window = self.first_window();
-            let mut problem = match self.problem(plant.clone(), recordings, window) {
+            let (window, hold) = (self.first_window(), self.hold.unwrap_or_default());
+            let mut problem = match self.problem(plant.clone(), recordings, window, hold) {
                 Err(OutputErrorError::Short { .. }) => {
-                    self.problem(plant.clone(), recordings, self.window)?
+                    self.problem(plant.clone(), recordings, self.window, hold)?
                 }
                 problem => problem?,
             };
@@ -66,9 +66,7 @@ impl OutputError {
             let Ok((runs, _)) = found else {
                 continue;
             };
-            let spread = problem.spread(&runs).into_iter();
-            let cost: f64 = spread.map(|x| x.max(f64::MIN_POSITIVE).ln()).sum();
-            places.push((cost, place.values));
+            places.push((problem.error(&runs), place.values));
         }
         if places.is_empty() {
             return Ok(vec![first.clone()]);

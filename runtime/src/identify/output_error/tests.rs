@@ -118,7 +118,7 @@ const HELD: OutputError = OutputError {
     bounds: Vec::new(),
     window: None,
     law: None,
-    hold: Hold::Sample,
+    hold: Some(Hold::Sample),
 };
 
 #[test]

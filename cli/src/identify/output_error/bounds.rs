@@ -1,0 +1,220 @@
+//! Bounds that a file gives: of parameters by themselves, or of the standard parameters and constants that base parameters are made of.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use robot_model_codegen::Compiled;
+use robot_model_spec::model::Body;
+use robot_model_spec::parameter::Owner;
+use serde_json::Value;
+
+use crate::{Error, json, output};
+
+/// Least and largest value.
+type Range = [f64; 2];
+
+const OPEN: Range = [f64::NEG_INFINITY, f64::INFINITY];
+
+/// What a file says, by name.
+type Given = BTreeMap<String, Range>;
+
+/// Ranges of parameters: those of shapes, and what a file says. `names` are base parameters, then open shapes.
+pub(super) fn bounds(
+    compiled: &Compiled,
+    names: &[String],
+    file: Option<&Path>,
+) -> Result<Vec<Range>, Error> {
+    let ranges = compiled.model.effects.iter().flat_map(|effect| {
+        let shapes = effect.definition.shapes.iter();
+        shapes.map(|shape| [shape.low, shape.high])
+    });
+    let ranges: Vec<Range> = ranges.collect();
+    let mut bounds = vec![OPEN; compiled.base.kept.len()];
+    bounds.extend(compiled.free_shapes().into_iter().map(|k| ranges[k]));
+    let Some(path) = file else {
+        return Ok(bounds);
+    };
+    let given = read(path)?;
+    let parts = Parts {
+        compiled,
+        given: &given,
+    };
+    for (base, bounds) in compiled.base.combinations.iter().zip(&mut bounds) {
+        *bounds = parts.sum(base);
+    }
+    for (name, range) in &given {
+        if let Some(place) = names.iter().position(|other| other == name) {
+            bounds[place] = *range;
+        } else if let Err(reason) = parts.check(name, names, &bounds) {
+            return Err(Error::json(path, &reason));
+        }
+    }
+    Ok(bounds)
+}
+
+fn read(path: &Path) -> Result<Given, Error> {
+    let Value::Object(entries) = json::read(path)? else {
+        return Err(Error::json(path, &"write `{\"NAME\": [LOW, HIGH], ..}`"));
+    };
+    let range = |(name, value): (String, Value)| {
+        let pair = value.as_array().and_then(|pair| match pair.as_slice() {
+            [low, high] => Some([low.as_f64()?, high.as_f64()?]),
+            _ => None,
+        });
+        match pair {
+            Some(range) if range[0] <= range[1] => Ok((name, range)),
+            _ => Err(Error::json(
+                path,
+                &format!("`{name}`: write `[LOW, HIGH]`, two numbers that rise"),
+            )),
+        }
+    };
+    entries.into_iter().map(range).collect()
+}
+
+/// What base parameters are made of, with what is given of it.
+struct Parts<'a> {
+    compiled: &'a Compiled,
+    given: &'a Given,
+}
+
+impl Parts<'_> {
+    /// Least and largest value of a sum of standard parameters: none that they can make lies outside, though they may not make all inside.
+    fn sum(&self, combination: &[(usize, f64)]) -> Range {
+        let parts = combination.iter();
+        let parts = parts.map(|&(k, factor)| product([factor, factor], self.standard(k)));
+        parts.fold([0.0, 0.0], |sum, part| [sum[0] + part[0], sum[1] + part[1]])
+    }
+
+    fn standard(&self, parameter: usize) -> Range {
+        if let Some(range) = self.given.get(&self.compiled.standard[parameter].name) {
+            return *range;
+        }
+        let factors = self.constants(parameter).into_iter();
+        let powers = factors.map(|(name, exponent)| {
+            let range = self.given.get(name).copied().unwrap_or(OPEN);
+            power(range, exponent)
+        });
+        powers.reduce(product).unwrap_or(OPEN)
+    }
+
+    /// Constants of energies whose product a standard parameter is, with their exponents.
+    fn constants(&self, parameter: usize) -> Vec<(&str, i32)> {
+        match (
+            &self.compiled.model.body,
+            self.compiled.standard[parameter].owner,
+        ) {
+            (Body::Energies(energies), Owner::Monomial(k)) => {
+                let factors = energies.monomials[k].factors.iter();
+                let named = |&(k, exponent): &(usize, i32)| {
+                    (energies.parameters[k].name.as_str(), exponent)
+                };
+                factors.map(named).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// Names of all that a base parameter is made of.
+    fn names(&self, base: usize) -> Vec<&str> {
+        let combination = self.compiled.base.combinations[base].iter();
+        let names = combination.flat_map(|&(k, _)| {
+            let constants = self.constants(k);
+            if constants.is_empty() {
+                vec![self.compiled.standard[k].name.as_str()]
+            } else {
+                constants.into_iter().map(|(name, _)| name).collect()
+            }
+        });
+        let mut names: Vec<&str> = names.collect();
+        names.sort_unstable();
+        names.dedup();
+        names
+    }
+
+    /// Whether a name that is no parameter of the search bounds one.
+    fn check(&self, name: &str, names: &[String], bounds: &[Range]) -> Result<(), String> {
+        let bases = 0..self.compiled.base.combinations.len();
+        let within: Vec<usize> = bases
+            .clone()
+            .filter(|&base| self.names(base).contains(&name))
+            .collect();
+        let is_bounded = |&base: &usize| bounds[base] != OPEN;
+        match within.first() {
+            None => {
+                let own = bases.flat_map(|base| self.names(base));
+                let mut known: Vec<&str> = names.iter().map(String::as_str).chain(own).collect();
+                known.sort_unstable();
+                known.dedup();
+                Err(format!(
+                    "no parameter is called `{name}`; there are {}",
+                    output::names(&known)
+                ))
+            }
+            Some(_) if within.iter().any(is_bounded) => Ok(()),
+            Some(&base) => {
+                let open = self.names(base).into_iter();
+                let open: Vec<&str> = open
+                    .filter(|part| !self.given.contains_key(*part))
+                    .collect();
+                Err(format!(
+                    "`{name}` alone bounds nothing that a motion tells; `{}` needs bounds of {}, too, or one of its own",
+                    names[base],
+                    output::names(&open)
+                ))
+            }
+        }
+    }
+}
+
+/// Of all products of a value of one and a value of the other.
+fn product(one: Range, other: Range) -> Range {
+    let all = [
+        one[0] * other[0],
+        one[0] * other[1],
+        one[1] * other[0],
+        one[1] * other[1],
+    ];
+    // Nothing times what may be anything is nothing.
+    let all = all.map(|x| if x.is_nan() { 0.0 } else { x });
+    [
+        all.into_iter().fold(f64::INFINITY, f64::min),
+        all.into_iter().fold(f64::NEG_INFINITY, f64::max),
+    ]
+}
+
+/// Of all powers of its values.
+fn power([low, high]: Range, exponent: i32) -> Range {
+    if exponent < 0 {
+        return if low <= 0.0 && 0.0 <= high {
+            OPEN
+        } else {
+            power([1.0 / high, 1.0 / low], -exponent)
+        };
+    }
+    let ends = [low.powi(exponent), high.powi(exponent)];
+    let least = if exponent % 2 == 0 && low <= 0.0 && 0.0 <= high {
+        0.0
+    } else {
+        ends[0].min(ends[1])
+    };
+    [least, ends[0].max(ends[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_and_products_hold_what_their_values_make() {
+        assert_eq!(power([-2.0, 3.0], 2), [0.0, 9.0]);
+        assert_eq!(power([-3.0, -2.0], 2), [4.0, 9.0]);
+        assert_eq!(power([-3.0, 2.0], 3), [-27.0, 8.0]);
+        assert_eq!(power([2.0, 4.0], -1), [0.25, 0.5]);
+        assert_eq!(power([-4.0, -2.0], -2), [0.0625, 0.25]);
+        assert_eq!(power([-1.0, 1.0], -1), OPEN);
+        assert_eq!(product([-2.0, 3.0], [-5.0, 4.0]), [-15.0, 12.0]);
+        assert_eq!(product([0.0, 0.0], OPEN), [0.0, 0.0]);
+        assert_eq!(product([1.0, 2.0], OPEN), OPEN);
+    }
+}

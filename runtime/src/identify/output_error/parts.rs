@@ -1,0 +1,118 @@
+//! The parts of a search: with short windows, with those that are asked for, and with torque that goes the other way between samples.
+
+use super::search::{self, Found};
+use super::{Iterate, OutputError, OutputErrorError, Place, Problem, Recording, SimulateError};
+use crate::simulate::Adjustable;
+
+/// Half the change of torque from sample to sample, over the torque, roots of mean squares: below, it does not matter how torque goes between
+/// samples.
+const SMOOTH: f64 = 0.01;
+
+/// What the parts of a search share.
+pub(super) struct Parts<'s> {
+    search: search::Search,
+    pub bounds: Vec<[f64; 2]>,
+    /// What joints are weighed by: errors of the part before.
+    scale: Vec<f64>,
+    pub iterates: Vec<Iterate>,
+    progress: &'s mut dyn FnMut(&Iterate),
+}
+
+/// Where a part has led.
+pub(super) struct Part<'a, P> {
+    pub problem: Problem<'a, P>,
+    pub place: Place,
+    pub found: Found,
+}
+
+impl<'s> Parts<'s> {
+    /// Before the first.
+    pub fn new(
+        settings: &OutputError,
+        parameters: usize,
+        joints: usize,
+        progress: &'s mut dyn FnMut(&Iterate),
+    ) -> Self {
+        Self {
+            search: settings.search,
+            bounds: settings.bounds_of(parameters),
+            scale: vec![1.0; joints],
+            iterates: Vec::new(),
+            progress,
+        }
+    }
+
+    /// One of them, from given parameters on; a joint counts by what its errors are, once they are known.
+    pub fn search<'a, P: Adjustable + Clone>(
+        &mut self,
+        mut problem: Problem<'a, P>,
+        values: &[f64],
+    ) -> Result<Part<'a, P>, OutputErrorError> {
+        let mut place = problem.place(values);
+        let weighed = self.scale.len() > 1;
+        let mut last = None;
+        for _ in 0..if weighed { 2 } else { 1 } {
+            problem.scale.clone_from(&self.scale);
+            let runs = problem.run(&place, false);
+            let runs = runs.map_err(|error| no_start(&problem, error))?;
+            let found = search::search(
+                self.search,
+                &mut problem,
+                &mut place,
+                &runs,
+                &self.bounds,
+                &mut self.iterates,
+                self.progress,
+            );
+            let found = found.map_err(|error| no_start(&problem, error))?;
+            if weighed {
+                self.scale = problem.scales(&found.0);
+            }
+            last = Some(found);
+        }
+        let found = last.expect("there is at least one round");
+        Ok(Part {
+            problem,
+            place,
+            found,
+        })
+    }
+}
+
+impl<P: Adjustable + Clone> Part<'_, P> {
+    /// Sum of the logarithms of the joints' errors, which does not depend on their units.
+    pub fn error(&self) -> f64 {
+        self.problem.error(&self.found.0)
+    }
+}
+
+impl<P: Adjustable + Clone> Problem<'_, P> {
+    /// Sum of the logarithms of the joints' errors.
+    pub fn error(&self, runs: &[super::Run]) -> f64 {
+        let spread = self.spread(runs).into_iter();
+        spread.map(|x| x.max(f64::MIN_POSITIVE).ln()).sum()
+    }
+}
+
+impl OutputError {
+    /// Whether errors are to say how torque goes between samples: nobody has said it, and it matters.
+    pub(super) fn is_hold_open(&self, recordings: &[Recording]) -> bool {
+        let torques = || recordings.iter().flat_map(|recording| &recording.torque);
+        let power = |values: &mut dyn Iterator<Item = f64>| values.map(|x| x * x).sum::<f64>();
+        let level: f64 = torques().map(|tau| power(&mut tau.iter().copied())).sum();
+        let steps: f64 = torques()
+            .map(|tau| power(&mut tau.windows(2).map(|pair| 0.5 * (pair[1] - pair[0]))))
+            .sum();
+        self.hold.is_none() && self.law.is_none() && steps > SMOOTH.powi(2) * level
+    }
+}
+
+fn no_start<P>(
+    problem: &Problem<'_, P>,
+    (window, error): (usize, SimulateError),
+) -> OutputErrorError {
+    OutputErrorError::Start {
+        log: problem.windows[window].source().to_owned(),
+        error,
+    }
+}
