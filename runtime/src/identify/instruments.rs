@@ -15,7 +15,7 @@ use faer::linalg::solvers::Solve;
 use statrs::function::erf::erfc;
 
 use super::estimate::Identified;
-use super::hac::{Rows, larger, weighed};
+use super::hac::{Rows, weighed};
 use super::least_squares::{Excited, Factors, Solution};
 use super::stack::Stack;
 use super::{IdentifyError, Weights, robust, turns};
@@ -165,10 +165,8 @@ pub(super) fn make(
         // In units of the columns' lengths, as the deviations of least squares are.
         let bread = z.product(&w);
         let series = z.influence(&residuals, &bread);
-        solution.std = larger(
-            w.deviations(&series),
-            &w.roots(&z.steady_variances(&residuals, &bread)),
-        );
+        let steady = z.steady(&w, &residuals, &bread);
+        solution.std = w.deviations(&series, Some(&steady));
         solution.unexcited = silent;
         solution.sigma = factors.sigma(&solution.estimate, w.excited.len());
         influence = Some((series, w));
@@ -232,7 +230,7 @@ fn compare(
             .zip(series.col(k).iter())
             .for_each(|(x, y)| *x = y - *x * unit);
     }
-    let deviations = rows.deviations(&difference);
+    let deviations = rows.deviations(&difference, None);
     let pairs = found.estimate.iter().zip(&ordinary.estimate);
     // What rounding leaves of both is no difference.
     let differences: Vec<f64> = pairs

@@ -16,6 +16,7 @@
 //! # Ok::<(), robot_model::identify::IdentifyError>(())
 //! ```
 
+mod autoregression;
 mod band;
 mod bootstrap;
 mod clipped;
@@ -39,11 +40,13 @@ mod possible;
 mod ridge;
 mod robust;
 mod shapes;
+mod short;
 mod stack;
 mod table;
 mod total;
 mod turns;
 
+pub(crate) use autoregression::long_run_sum;
 pub use bootstrap::Bootstrap;
 pub use combination::{Combination, Shared};
 use deviated::Solved;
@@ -53,7 +56,6 @@ pub use essential::Essential;
 use estimate::Fitted;
 pub use estimate::{Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock};
-pub(crate) use hac::long_run_sum;
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
 pub use late::{TorqueDelay, is_delay};

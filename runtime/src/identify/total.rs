@@ -7,7 +7,7 @@
 
 use faer::Mat;
 
-use super::hac::{Rows, larger, weighed};
+use super::hac::{Rows, weighed};
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use super::{IdentifyError, Weights, robust};
@@ -106,7 +106,7 @@ impl Total {
         let residuals = weighed(rest.clone(), &unit, &ones);
         let size = 1.0 + self.scaled.iter().map(|x| x * x).sum::<f64>();
         let steady = self.corrected(&rows, &residuals, size);
-        let steady = steady.steady_variances(&weighed(rest, &solution.scale, &ones), &bread);
+        let steady = steady.steady(&rows, &weighed(rest, &solution.scale, &ones), &bread);
         let targets = stack.joints.iter().map(|rows| rows.target.clone());
         let targets = weighed(targets.collect(), &unit, &ones);
         for (joint, rows) in rows.joints.iter_mut().enumerate() {
@@ -121,10 +121,7 @@ impl Total {
                 }
             }
         }
-        larger(
-            rows.deviations(&rows.influence(&ones, &bread)),
-            &rows.roots(&steady),
-        )
+        rows.deviations(&rows.influence(&ones, &bread), Some(&steady))
     }
 
     /// The columns without the part of their errors that is in the residual, too: `a + x r / (1 + x'x)`, Golub and Van Loan's correction.

@@ -9,7 +9,7 @@ use super::ratios::{self, Ratio};
 use super::search::Ending;
 use super::window::{Rows, Run, Window};
 use super::{Direction, Hold, Identifiability, Iterate, Problem};
-use crate::identify::hac::long_run_sum;
+use crate::identify::long_run_sum;
 use crate::simulate::Adjustable;
 
 /// How far a simulated channel is from its log.

@@ -1,0 +1,174 @@
+//! What deviations lack of logs that are short beside their noise.
+//!
+//! An estimate takes some of the noise for parameters, the slow part above all, so residuals have too little of it, and an autoregression through
+//! a few independent samples is itself unsure. Both are seen where the truth is known: noise is drawn from the autoregressions that were
+//! found, the estimate takes its share, and what is told of the rest is compared with what is so. A parameter's variance is larger than what is
+//! told by the mean of `so / told`. This is the parametric bootstrap of Efron, Tibshirani 1993, chapter 6, for what a variance lacks.
+
+use faer::Mat;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+
+use super::autoregression::Autoregression;
+
+/// Draws of noise.
+const DRAWS: usize = 16;
+
+/// Logs with more independent samples of each joint for a parameter lack nothing.
+const ENOUGH: f64 = 100.0;
+
+/// The noise of a joint: rows that count, one after the other.
+pub(super) struct Noise {
+    /// What a unit of noise moves the estimate by, parameter by parameter.
+    weights: Vec<Vec<f64>>,
+    /// What the estimate takes of it.
+    columns: Mat<f64>,
+    law: Autoregression,
+    /// Independent samples.
+    independent: f64,
+}
+
+impl Noise {
+    /// Of residuals; rows that are left out have none.
+    pub fn new(weights: &Mat<f64>, columns: &Mat<f64>, residuals: &[f64]) -> Self {
+        let there = (0..residuals.len()).filter(|&k| residuals[k] != 0.0);
+        let there: Vec<usize> = there.collect();
+        let rest: Vec<f64> = there.iter().map(|&k| residuals[k]).collect();
+        let law = Autoregression::through(&rest);
+        let weights =
+            (0..weights.ncols()).map(|c| there.iter().map(|&k| weights[(k, c)]).collect());
+        let ones = vec![1.0; there.len()];
+        let power: f64 = rest.iter().map(|r| r * r).sum();
+        Self {
+            weights: weights.collect(),
+            columns: Mat::from_fn(there.len(), columns.ncols(), |k, c| columns[(there[k], c)]),
+            independent: there.len() as f64 * power
+                / law.variance_of_sum(&ones).max(f64::MIN_POSITIVE),
+            law,
+        }
+    }
+
+    /// Of a parameter, as far as this noise makes it.
+    pub fn variance(&self, parameter: usize) -> f64 {
+        self.law.variance_of_sum(&self.weights[parameter])
+    }
+}
+
+/// By how much more variances are than what noise says of them, parameter by parameter; 1 where logs are long.
+/// `so` are variances of that noise.
+pub(super) fn shortfalls(noise: &[Noise], so: &[f64]) -> Vec<f64> {
+    let count = so.len();
+    let mut lack = vec![0.0; count];
+    let joints = noise.iter().filter(|noise| noise.columns.nrows() > 0);
+    let few = joints.fold(f64::INFINITY, |few: f64, noise| few.min(noise.independent));
+    if few * noise.len() as f64 > ENOUGH * count as f64 {
+        return vec![1.0; count];
+    }
+    let mut random = ChaCha8Rng::seed_from_u64(0);
+    for _ in 0..DRAWS {
+        let draws: Vec<Vec<f64>> = noise
+            .iter()
+            .map(|noise| noise.law.drawn(noise.columns.nrows(), &mut random))
+            .collect();
+        let step = Mat::from_fn(count, 1, |k, _| {
+            let joints = noise.iter().zip(&draws);
+            let sum = |(noise, drawn): (&Noise, &Vec<f64>)| -> f64 {
+                noise.weights[k].iter().zip(drawn).map(|(w, x)| w * x).sum()
+            };
+            joints.map(sum).sum::<f64>()
+        });
+        let rest: Vec<Autoregression> = noise
+            .iter()
+            .zip(&draws)
+            .map(|(noise, drawn)| {
+                let taken = &noise.columns * &step;
+                let rest = drawn.iter().enumerate().map(|(k, x)| x - taken[(k, 0)]);
+                Autoregression::through(&rest.collect::<Vec<f64>>())
+            })
+            .collect();
+        for (k, lack) in lack.iter_mut().enumerate() {
+            let joints = noise.iter().zip(&rest);
+            let told: f64 = joints
+                .map(|(noise, law)| law.variance_of_sum(&noise.weights[k]))
+                .sum();
+            *lack += if told > 0.0 { so[k] / told } else { 1.0 };
+        }
+    }
+    lack.into_iter()
+        .map(|sum| f64::max(sum / DRAWS as f64, 1.0))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use rand_distr::{Distribution, StandardNormal};
+
+    use super::*;
+    use crate::columns::Unknown;
+    use crate::identify::{Identify, JointRows, Segment, Stack};
+
+    const ROWS: u32 = 400;
+    const SHARE: f64 = 0.95;
+    const UNKNOWNS: usize = 6;
+
+    /// Slow waves, and noise that is alike over 40 samples: ten independent ones for six unknowns.
+    fn stack(seed: u64) -> Stack {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let mut state = 0.0;
+        let mut noise = || {
+            let fresh: f64 = StandardNormal.sample(&mut random);
+            state = SHARE * state + fresh;
+            state
+        };
+        let before = (0..200).map(|_| noise()).count();
+        assert_eq!(before, 200);
+        let target: Vec<f64> = (0..ROWS).map(|_| noise()).collect();
+        let wave = |c: usize| -> Vec<f64> {
+            let (rate, phase) = (0.02 * (c / 2 + 1) as f64, (c % 2) as f64 * 1.6);
+            (0..ROWS)
+                .map(|k| (rate * f64::from(k) + phase).sin())
+                .collect()
+        };
+        Stack {
+            turns: Vec::new(),
+            clipped: Vec::new(),
+            unknowns: (0..UNKNOWNS)
+                .map(|c| Unknown {
+                    name: format!("p{c}"),
+                    nonnegative: false,
+                })
+                .collect(),
+            joints: vec![JointRows {
+                tau: target.clone(),
+                target,
+                columns: (0..UNKNOWNS).map(|c| (c, wave(c))).collect(),
+            }],
+            segments: vec![Segment {
+                start: 0,
+                time: Vec::new(),
+            }],
+        }
+    }
+
+    #[test]
+    fn intervals_hold_the_truth_where_noise_is_alike_for_a_tenth_of_a_log() {
+        const DRAWS: u32 = 150;
+        let identify = Identify::default();
+        let mut held = [0.0; 2];
+        for seed in 0..DRAWS {
+            let stack = stack(u64::from(seed));
+            let solution = identify.solve_stack(&stack).expect("samples enough");
+            let std = identify.deviations(&stack, &solution);
+            // The truth is zero.
+            let products = identify.deviations_of_products(&stack, &solution);
+            for (held, std) in held.iter_mut().zip([std, products]) {
+                let pairs = solution.estimate.iter().zip(&std);
+                *held += pairs.filter(|(x, std)| x.abs() < 1.96 * **std).count() as f64;
+            }
+        }
+        let [with, without] = held.map(|held| held / f64::from(DRAWS) / UNKNOWNS as f64);
+        assert!((0.9..=0.98).contains(&with), "{with}");
+        // That is what it is for.
+        assert!(without < 0.8, "{without}");
+    }
+}
