@@ -90,22 +90,60 @@ impl Identify {
     ) -> Vec<f64> {
         let weights = self.row_weights(stack, solution);
         let mut std = deviations(stack, solution, &weights);
-        if !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty()) {
+        if self.has_turns(stack) {
             turns::widen(stack, solution, &weights, &mut std);
         }
         std
     }
 
-    /// Intervals from blocks that are drawn, where they are wanted.
+    /// Another solution in the place of one of least squares; what rows at turns move it by is a part of its deviations.
+    pub(super) fn widened_by(
+        &self,
+        solution: &mut Solution,
+        stack: &Stack,
+        make: &dyn Fn(&mut Solution, &Stack) -> Result<(), IdentifyError>,
+    ) -> Result<(), IdentifyError> {
+        let mut without = solution.clone();
+        make(solution, stack)?;
+        if self.has_turns(stack) {
+            let mut rest = stack.clone();
+            turns::leave_out(&mut rest);
+            // Where other rows do not tell, deviations stay as they are.
+            if make(&mut without, &rest).is_ok() {
+                let with = solution.clone();
+                turns::widen_between(&with, &without, &mut solution.std);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether rows at turns are in estimates.
+    fn has_turns(&self, stack: &Stack) -> bool {
+        !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty())
+    }
+
+    /// Intervals from blocks that are drawn, where they are wanted; what rows at turns move estimates by widens them as it does deviations.
     pub(super) fn draw(
         &self,
         stack: &Stack,
         solution: &Solution,
     ) -> Result<Option<Bootstrap>, IdentifyError> {
+        if self.bootstrap == 0 {
+            return Ok(None);
+        }
         let weights = self.row_weights(stack, solution);
-        let draws = (self.bootstrap > 0).then_some(self.bootstrap);
-        let found = draws.map(|draws| bootstrap::intervals(stack, solution, &weights, draws));
-        found.transpose()
+        let mut found = bootstrap::intervals(stack, solution, &weights, self.bootstrap)?;
+        if self.has_turns(stack) {
+            let noise = hac::deviations(stack, solution, &weights);
+            let mut widened = noise.clone();
+            turns::widen(stack, solution, &weights, &mut widened);
+            for (k, ends) in found.intervals.iter_mut().enumerate() {
+                let center = solution.estimate[k];
+                let wider = widened[k] / noise[k].max(f64::MIN_POSITIVE);
+                *ends = ends.map(|ends| ends.map(|end| center + wider * (end - center)));
+            }
+        }
+        Ok(Some(found))
     }
 
     fn row_weights(&self, stack: &Stack, solution: &Solution) -> Vec<Vec<f64>> {

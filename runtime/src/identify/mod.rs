@@ -217,8 +217,15 @@ impl Identify {
             Method::Ls | Method::Wls => {}
             Method::Robust => beside.outliers = Some(robust::outliers(&stack, &solution.estimate)),
             Method::Physical => beside.possible = Some(possible::make(arm, &mut solution, &stack)?),
-            Method::Ridge => ridge::make(&arm.nominal(), self.prior, &mut solution, &stack)?,
-            Method::Total => total::make(&mut solution, &stack, self.weights)?,
+            Method::Ridge => {
+                let nominal = arm.nominal();
+                self.widened_by(&mut solution, &stack, &|solution, stack| {
+                    ridge::make(&nominal, self.prior, solution, stack)
+                })?;
+            }
+            Method::Total => self.widened_by(&mut solution, &stack, &|solution, stack| {
+                total::make(solution, stack, self.weights)
+            })?,
             Method::Instrumental => {
                 let instruments = instruments()?;
                 let [rest, clean] = instruments::without_turns(&stack, &instruments);

@@ -20,19 +20,29 @@ const NOISE: f64 = 5.0;
 /// stop, and noise that is larger says nothing of turns.
 const SHARES: [f64; 2] = [0.005, 0.1];
 
+/// Of a log: a joint that may stand for more of it is held by its friction.
+const HELD: f64 = 0.85;
+
 /// What the shared filter spreads a turn over, on either side, in periods of its cutoff.
 const SPREAD: f64 = 0.75;
 
-/// Notes which rows of a stack of the logs the turns of dry joints reach.
+/// Notes which rows of a stack of the logs the turns of dry joints reach. Those of a joint that stands nearly all the time are left out:
+/// dry friction holds it with a torque that nobody knows, and steps of its encoder are no motion.
 pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     stack.turns = vec![Vec::new(); stack.dof()];
+    let mut held = stack.turns.clone();
     for (number, log) in logs.iter().enumerate() {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
-            let is_near = near_turns(log, joint);
-            stack.turns[joint].extend(rows_at(start, log, &is_near));
+            let motion = Motion::new(log, joint);
+            let rows = rows_at(start, log, &motion.near_turns(log.shared.border() as f64));
+            if motion.standing() > HELD {
+                held[joint].extend(&rows);
+            }
+            stack.turns[joint].extend(rows);
         }
     }
+    clear_rows(&mut stack.joints, &held);
 }
 
 /// Makes the rows zero that turns reach.
@@ -57,7 +67,11 @@ pub(super) fn widen(stack: &Stack, solution: &Solution, weights: &[Vec<f64>], st
         let factors = Factors::of_rows(stack, &|joint, row| roots[joint][row]);
         factors.solve(&solution.scale, &vec![1.0; stack.dof()])
     };
-    let (with, without) = (solved(false), solved(true));
+    widen_between(&solved(false), &solved(true), std);
+}
+
+/// The same of two solutions by one method, with all rows and without those at turns.
+pub(super) fn widen_between(with: &Solution, without: &Solution, std: &mut [f64]) {
     for (k, std) in std.iter_mut().enumerate() {
         if with.is_told(k) && without.is_told(k) && with.std[k] > 0.0 {
             let difference = with.estimate[k] - without.estimate[k];
@@ -68,23 +82,45 @@ pub(super) fn widen(stack: &Stack, solution: &Solution, weights: &[Vec<f64>], st
     }
 }
 
-/// Which samples of a motion the turns of a joint reach.
-fn near_turns(log: &Prepared, joint: usize) -> Vec<bool> {
-    let (wide, smooth) = (&log.motion.wide.dq[joint], &log.motion.smooth.dq[joint]);
-    let slow = standing(wide, smooth);
-    let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
-    let mut is_near = vec![false; wide.len()];
-    let mut told = 0;
-    for k in 0..wide.len() {
-        let turns = k > 0 && wide[k] * wide[k - 1] <= 0.0;
-        if turns || wide[k].abs() < slow {
-            let end = (k + reach + 1).min(wide.len());
-            let from = told.max(k.saturating_sub(reach));
-            is_near[from..end].fill(true);
-            told = end;
+/// Velocities of a joint along a log.
+struct Motion<'a> {
+    wide: &'a [f64],
+    /// Below this it may stand.
+    slow: f64,
+}
+
+impl<'a> Motion<'a> {
+    fn new(log: &'a Prepared, joint: usize) -> Self {
+        let (wide, smooth) = (&log.motion.wide.dq[joint], &log.motion.smooth.dq[joint]);
+        Self {
+            wide,
+            slow: standing(wide, smooth),
         }
     }
-    is_near
+
+    /// The share of its samples at which it may stand.
+    fn standing(&self) -> f64 {
+        let slow = self.wide.iter().filter(|dq| dq.abs() < self.slow).count();
+        slow as f64 / self.wide.len().max(1) as f64
+    }
+
+    /// Which samples its turns reach, with the border of the shared filter.
+    fn near_turns(&self, border: f64) -> Vec<bool> {
+        let Self { wide, slow } = *self;
+        let reach = whole_steps((SPREAD * border).ceil());
+        let mut is_near = vec![false; wide.len()];
+        let mut told = 0;
+        for k in 0..wide.len() {
+            let turns = k > 0 && wide[k] * wide[k - 1] <= 0.0;
+            if turns || wide[k].abs() < slow {
+                let end = (k + reach + 1).min(wide.len());
+                let from = told.max(k.saturating_sub(reach));
+                is_near[from..end].fill(true);
+                told = end;
+            }
+        }
+        is_near
+    }
 }
 
 /// The velocity below which a joint may stand.
