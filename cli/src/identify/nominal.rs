@@ -25,13 +25,16 @@ struct Likeness {
 }
 
 /// Where all links have nominal values. A heavy rotor behind gears moves against what gravity asks of a link, so a sign is told only where
-/// what was found `is_odd`, too.
+/// what was found `is_odd`, too. Links behind springs move with torques of their own.
 pub(super) fn doubt(
     form: &dyn Fit,
     estimate: &Estimate,
     logs: &[Log],
     is_odd: bool,
 ) -> Option<String> {
+    if form.compiled().displacements().is_some() {
+        return None;
+    }
     let values = nominal(form.compiled())?;
     let gains = form.model().joints.iter().map(|joint| joint.actuator_gain);
     let gains: Vec<f64> = gains.collect();

@@ -80,14 +80,40 @@ impl IdentifyArguments {
         let is_there = |found: &OutputEstimate| {
             doubts::beyond_noise(&compiled.model, &logs, &rmse(found)).is_none()
         };
+        let other = self.output_error.search.is_none();
         let found = starts::search(
-            &settings, &beginning, &starts, &fitted, &is_there, &progress,
+            &settings,
+            &beginning,
+            &starts,
+            &fitted,
+            other.then_some(Search::TrustRegion),
+            &is_there,
+            &progress,
         )
         .map_err(|error| refused(&error))?;
         settings.hold = found.hold;
+        if settings.window != found.window {
+            progress.note(&format!(
+                "note: the simulated arm runs away from its logs in {}, so windows have {} s: what moves slowly shows little in them",
+                settings.window.map_or("whole logs".to_owned(), |window| format!("windows of {window} s")),
+                found.window.unwrap_or_default()
+            ));
+            settings.window = found.window;
+        }
+        // What its sign holds is as least squares would have it.
+        let free = |name: &String| {
+            let linear = beginning
+                .linear
+                .iter()
+                .flat_map(|linear| &linear.parameters);
+            let mut linear = linear.filter(|parameter| parameter.name == *name);
+            linear.next().map(|found| (found.value, found.std))
+        };
         let told = beginning.names.iter().zip(&found.values).zip(&found.std);
-        let told = told.map(|((name, value), std)| (name.as_str(), *value, *std));
-        let told = told.filter_map(|(name, value, std)| Some((name, value, std?)));
+        let told = told.filter_map(|((name, value), std)| {
+            let found = std.map_or_else(|| free(name), |std| Some((*value, std)));
+            found.map(|(value, std)| (name.as_str(), value, std))
+        });
         let unknowns = form.unknowns();
         let told = told.filter_map(|told| {
             let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
@@ -173,7 +199,7 @@ impl IdentifyArguments {
                 others = starts::starts(form, estimate, logs);
                 (estimate.values(), shapes)
             }
-            (None, linear) => both(parameters::resolve(compiled, None).map_err(|_| {
+            (None, linear) => both(parameters::resolve(compiled, None).map_err(|lack| {
                 let why = match linear {
                     Err(error) => error.to_string(),
                     Ok(estimate) => {
@@ -183,8 +209,7 @@ impl IdentifyArguments {
                     }
                 };
                 Error::Argument(format!(
-                    "a simulation has to start somewhere, and least squares on these logs gives none: {why}; nor has the \
-                     spec a value for all; give one with `--start FILE.json`"
+                    "a simulation has to start somewhere, and least squares on these logs gives no place: {why}; nor does the spec: {lack}"
                 ))
             })?),
         };
@@ -252,7 +277,15 @@ impl IdentifyArguments {
             }),
             window: options.window.or(is_open.then_some(1.0)),
             law: law.transpose()?,
-            bounds: bounds(compiled, &beginning.names, options.bounds.as_deref())?,
+            bounds: bounds(
+                compiled,
+                &beginning.names,
+                options
+                    .start
+                    .as_ref()
+                    .map(|_| beginning.starts[0].as_slice()),
+                options.bounds.as_deref(),
+            )?,
         })
     }
 }

@@ -115,7 +115,7 @@ pub(super) struct Parameter<'a> {
 
 /// What the logs tell of parameters that they do not tell apart.
 #[derive(Serialize)]
-struct CombinationReport<'a> {
+pub(super) struct CombinationReport<'a> {
     terms: Vec<Term<'a>>,
     value: f64,
     std: f64,
@@ -141,7 +141,7 @@ struct BootstrapReport {
     blocks: usize,
 }
 
-fn combination(found: &Combination) -> CombinationReport<'_> {
+pub(super) fn combination(found: &Combination) -> CombinationReport<'_> {
     let terms = found.terms.iter();
     CombinationReport {
         terms: terms

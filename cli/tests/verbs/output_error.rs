@@ -323,7 +323,9 @@ fn what_moves_the_arm_beside_its_model_is_noted() {
     let bounds = ["--method", "output-error", "--bounds", "bounds.json"];
     let said = folder.succeed(&[&["identify", "arm.robot", "log.csv"], &bounds[..]].concat());
     assert!(
-        said.contains("held by a bound, not by the logs: `a.coulomb_friction.fc`"),
+        said.contains(
+            "held by a bound, not by the logs: `a.viscous_friction.fv`, `a.coulomb_friction.fc`"
+        ),
         "{said}"
     );
 }
@@ -384,7 +386,7 @@ fn what_a_simulation_cannot_take_is_told() {
         ),
         (
             &["--method", "output-error"],
-            "give one with `--start FILE.json`",
+            "nor does the spec: arm.robot: no value for `a.motor_inertia.ia`, ",
         ),
         (
             &[&simulated[..], &["--window", "0.02"]].concat(),

@@ -34,6 +34,22 @@ pub struct Combination {
     pub std: f64,
 }
 
+impl Combination {
+    /// One of unknowns with values and names.
+    pub(super) fn of(shared: &Shared, values: &[f64], names: &[String], std: f64) -> Self {
+        let others = shared.others.iter().copied();
+        let terms: Vec<(usize, f64)> = std::iter::once((shared.lead, 1.0)).chain(others).collect();
+        Self {
+            value: terms.iter().map(|&(k, factor)| factor * values[k]).sum(),
+            terms: terms
+                .into_iter()
+                .map(|(k, factor)| (names[k].clone(), factor))
+                .collect(),
+            std,
+        }
+    }
+}
+
 impl fmt::Display for Combination {
     /// `a + 0.5 b - 2 c`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

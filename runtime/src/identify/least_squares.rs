@@ -268,6 +268,11 @@ pub(super) struct Excited {
 impl Excited {
     /// Among the first `n` columns of a factor.
     pub fn new(r: &Mat<f64>, n: usize) -> Self {
+        Self::beyond(r, n, RANK_TOLERANCE)
+    }
+
+    /// The same with another least pivot.
+    pub fn beyond(r: &Mat<f64>, n: usize, least: f64) -> Self {
         let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
         let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
             if norms[c] > 0.0 {
@@ -280,7 +285,7 @@ impl Excited {
         let diagonal = pivoted.thin_R();
         let order = pivoted.P().arrays().0;
         let rank = (0..n.min(diagonal.nrows()))
-            .take_while(|&k| diagonal[(k, k)].abs() > RANK_TOLERANCE)
+            .take_while(|&k| diagonal[(k, k)].abs() > least)
             .count();
         let mut columns: Vec<usize> = order[..rank].to_vec();
         columns.sort_unstable();

@@ -18,10 +18,12 @@ const OPEN: Range = [f64::NEG_INFINITY, f64::INFINITY];
 /// What a file says, by name.
 type Given = BTreeMap<String, Range>;
 
-/// Ranges of parameters: those of shapes, and what a file says. `names` are base parameters, then open shapes.
+/// Ranges of parameters: those of shapes, signs that effects declare, and what a file says. `names` are base parameters, then open
+/// shapes; where somebody has given a start below zero it is the least value.
 pub(super) fn bounds(
     compiled: &Compiled,
     names: &[String],
+    start: Option<&[f64]>,
     file: Option<&Path>,
 ) -> Result<Vec<Range>, Error> {
     let ranges = compiled.model.effects.iter().flat_map(|effect| {
@@ -29,7 +31,15 @@ pub(super) fn bounds(
         shapes.map(|shape| [shape.low, shape.high])
     });
     let ranges: Vec<Range> = ranges.collect();
-    let mut bounds = vec![OPEN; compiled.base.kept.len()];
+    let signs = compiled.base.combinations.iter().enumerate();
+    let signs = signs.map(|(place, base)| match base[..] {
+        [(k, factor)] if factor > 0.0 && is_sign(compiled, k) => {
+            let start = start.map_or(0.0, |start| start[place]);
+            [start.min(0.0), f64::INFINITY]
+        }
+        _ => OPEN,
+    });
+    let mut bounds: Vec<Range> = signs.collect();
     bounds.extend(compiled.free_shapes().into_iter().map(|k| ranges[k]));
     let Some(path) = file else {
         return Ok(bounds);
@@ -40,7 +50,8 @@ pub(super) fn bounds(
         given: &given,
     };
     for (base, bounds) in compiled.base.combinations.iter().zip(&mut bounds) {
-        *bounds = parts.sum(base);
+        let [low, high] = parts.sum(base);
+        *bounds = [low.max(bounds[0]), high.min(bounds[1])];
     }
     for (name, range) in &given {
         if let Some(place) = names.iter().position(|other| other == name) {
@@ -50,6 +61,12 @@ pub(super) fn bounds(
         }
     }
     Ok(bounds)
+}
+
+/// Whether an effect declares that a parameter is never below zero.
+fn is_sign(compiled: &Compiled, parameter: usize) -> bool {
+    let parameter = &compiled.standard[parameter];
+    matches!(parameter.owner, Owner::Effect { .. }) && compiled.model.is_nonnegative(parameter)
 }
 
 fn read(path: &Path) -> Result<Given, Error> {

@@ -9,7 +9,7 @@ use robot_model_spec::model::Body;
 use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
-use super::super::report::{FaultReport, Parameter, fault_reports};
+use super::super::report::{CombinationReport, FaultReport, Parameter, combination, fault_reports};
 use super::directions::{DirectionReport, RatioReport, direction, hanging, ratio};
 use super::{Judged, listed};
 
@@ -60,6 +60,8 @@ pub(super) struct JsonReport<'a> {
     directions: Vec<DirectionReport<'a>>,
     /// What the logs tell of parameters but for a common factor.
     ratios: Vec<RatioReport<'a>>,
+    /// Sums of others that they do not tell apart.
+    combinations: Vec<CombinationReport<'a>>,
     /// What hangs on all that the model lacks: shares of values; null where nothing does by much.
     frail: Option<DirectionReport<'a>>,
     iterates: Vec<IterateReport<'a>>,
@@ -169,6 +171,7 @@ impl OutputReport<'_> {
                 .map(direction)
                 .collect(),
             ratios: found.ratios.iter().map(ratio).collect(),
+            combinations: found.combinations.iter().map(combination).collect(),
             iterates: found
                 .iterates
                 .iter()
@@ -228,8 +231,21 @@ impl OutputReport<'_> {
         if found.ending == Ending::OutOfIterations {
             writeln!(
                 text,
-                "the search ran out of iterations: values are on their way; start nearer, with `--start`, or with longer windows"
+                "the search ran out of iterations: values are on their way; start nearer, with `--start`{}",
+                self.window.map_or("", |_| ", or with longer windows")
             )?;
+            let unsure = found.unsure.iter().map(|(name, share)| match share {
+                share if *share < 10.0 => format!("{name} (+- {:.0} %)", 100.0 * share),
+                _ => name.clone(),
+            });
+            let unsure: Vec<String> = unsure.collect();
+            if !unsure.is_empty() {
+                writeln!(
+                    text,
+                    "hardly identified, where it came to: {}",
+                    unsure.join(", ")
+                )?;
+            }
         }
         let bound: Vec<String> = self.on_bounds().cloned().collect();
         if !bound.is_empty() {
@@ -244,6 +260,10 @@ impl OutputReport<'_> {
                 .std
                 .map_or(String::new(), |std| format!(" +- {std:.2e}"));
             writeln!(text, "  {name} / {over} = {value:.5}{std}")?;
+        }
+        for sum in &found.combinations {
+            let (value, std) = (sum.value, sum.std);
+            writeln!(text, "  {sum} = {value:.5} +- {std:.2e}")?;
         }
         if let Some(frail) = &found.frail {
             writeln!(text, "{}", hanging(frail))?;

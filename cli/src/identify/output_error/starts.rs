@@ -2,7 +2,7 @@
 
 use robot_model::columns::{Columns, Shape};
 use robot_model::identify::output_error::{
-    Iterate, OutputError, OutputErrorError, OutputEstimate, Recording,
+    Iterate, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
 };
 use robot_model::identify::{Estimate, Identify};
 use robot_model::log::Log;
@@ -82,12 +82,14 @@ pub(super) fn within(starts: &[Vec<f64>], bounds: &[[f64; 2]]) -> Vec<Vec<f64>> 
     starts.iter().map(start).collect()
 }
 
-/// What is found from the starts: of several searches the first that is there, or the one whose errors are least.
+/// What is found from the starts: of several searches the first that is there, or the one whose errors are least. Where none is, the best
+/// start is tried with the `other` search, too, which comes out of other valleys.
 pub(super) fn search(
     settings: &OutputError,
     beginning: &Beginning,
     starts: &[Vec<f64>],
     recordings: &[Recording],
+    other: Option<Search>,
     is_there: &dyn Fn(&OutputEstimate) -> bool,
     progress: &Progress,
 ) -> Result<OutputEstimate, OutputErrorError> {
@@ -113,7 +115,13 @@ pub(super) fn search(
     };
     let mut best: Option<OutputEstimate> = None;
     let mut refusal = None;
-    for place in places.iter().take(SEARCHES) {
+    let again = other.map(|search| OutputError {
+        search,
+        ..settings.clone()
+    });
+    let again = again.iter().zip(&places);
+    let searches = places.iter().take(SEARCHES).map(|place| (settings, place));
+    for (settings, place) in searches.chain(again) {
         match settings.fit(plant, names, place, recordings, &mut tell) {
             Ok(found) => {
                 let is_better = best.as_ref().is_none_or(|best| error(&found) < error(best));

@@ -3,13 +3,14 @@
 use nalgebra::DMatrix;
 
 use super::equations::{Equations, Reduced};
-use super::identifiable::frail;
+use super::identifiable::{KNOWN, frail};
 use super::parts::Part;
 use super::ratios::{self, Ratio};
 use super::search::Ending;
 use super::window::{Rows, Run, Window};
-use super::{Direction, Hold, Identifiability, Iterate, Problem};
-use crate::identify::long_run_sum;
+use super::{Direction, Hold, Identifiability, Iterate, Problem, sums};
+use crate::identify::Combination;
+use crate::identify::autoregression::{Autoregression, long_run_sum};
 use crate::simulate::Adjustable;
 
 /// How far a simulated channel is from its log.
@@ -52,13 +53,20 @@ pub struct OutputEstimate {
     pub identifiability: Identifiability,
     /// Ratios of parameters of which the logs tell all but a common factor.
     pub ratios: Vec<Ratio>,
+    /// Sums of other parameters that the logs do not tell apart; none where the search ran out of iterations.
+    pub combinations: Vec<Combination>,
     /// Parameters whose deviations are small, and that hang on what the model lacks: shares of values along which positions change
     /// least, with the ratio of that to the most.
     pub frail: Option<Direction>,
+    /// Where the search ran out of iterations, parameters that the logs hardly tell at the place it came to, with their deviations as shares of
+    /// values.
+    pub unsure: Vec<(String, f64)>,
     /// On the logs that were fitted.
     pub fit: Comparison,
     /// Samples a joint.
     pub samples: usize,
+    /// Seconds of the windows that were fitted, none of whole logs: shorter than what was asked for where the arm runs away in those.
+    pub window: Option<f64>,
     /// How logged torque goes between samples; none where a controller makes it.
     pub hold: Option<Hold>,
 }
@@ -73,6 +81,7 @@ pub(super) fn result<P: Adjustable + Clone>(
         problem,
         place,
         found: (runs, ending),
+        window,
     } = &part;
     let rows = problem.rows(runs);
     let reduced = Equations::new(&rows).reduced(0.0);
@@ -86,14 +95,37 @@ pub(super) fn result<P: Adjustable + Clone>(
     let r = reduced.r.select_columns(&free);
     let identifiability = Identifiability::new(&r, &values, &free_names);
     let pairs = ratios::pairs(&identifiability, &r, &values, &free_names);
+    let told = sums::sums(&identifiability, &r, &free_names);
+    let mut combinations = Vec::new();
     let mut std = vec![None; names.len()];
     let mut ratio_std = vec![None; pairs.len()];
-    if *ending == Ending::Converged {
-        let inverse = identifiability.inverse(&r);
-        let found = deviations(problem, &rows, &reduced, &free, &inverse);
-        for (place, (&k, deviation)) in free.iter().zip(found).enumerate() {
-            std[k] = identifiability.is_identified(place).then_some(deviation);
+    let inverse = identifiability.inverse(&r);
+    let found = deviations(problem, &rows, &reduced, &free, &inverse);
+    let of_free = found.into_iter().enumerate();
+    let of_free: Vec<Option<f64>> = of_free
+        .map(|(place, std)| identifiability.is_identified(place).then_some(std))
+        .collect();
+    // What hangs on what the model lacks does so on the way, too.
+    let frail = frail(&r, &values, &of_free, &free_names);
+    let mut unsure = Vec::new();
+    if *ending == Ending::OutOfIterations {
+        for ((name, value), std) in free_names.iter().zip(&values).zip(&of_free) {
+            let share = std.map_or(f64::INFINITY, |std| std / value.abs());
+            if share > KNOWN {
+                unsure.push((name.clone(), share));
+            }
         }
+    } else {
+        for (&k, deviation) in free.iter().zip(of_free) {
+            std[k] = deviation;
+        }
+        let of_sums = &inverse * sums::slopes(&told, values.len());
+        let found = deviations(problem, &rows, &reduced, &free, &of_sums);
+        combinations = told
+            .iter()
+            .zip(found)
+            .map(|(sum, std)| Combination::of(sum, &values, &free_names, std))
+            .collect();
         let of_ratios = inverse * ratios::slopes(&pairs, &values);
         let found = deviations(problem, &rows, &reduced, &free, &of_ratios);
         ratio_std = found.into_iter().map(Some).collect();
@@ -104,10 +136,11 @@ pub(super) fn result<P: Adjustable + Clone>(
         value: values[pair.of] / values[pair.reference],
         std,
     });
-    let of_free: Vec<Option<f64>> = free.iter().map(|&k| std[k]).collect();
     OutputEstimate {
         ratios: ratios.collect(),
-        frail: frail(&r, &values, &of_free, &free_names),
+        combinations,
+        frail,
+        unsure,
         std,
         iterates,
         ending: *ending,
@@ -115,13 +148,14 @@ pub(super) fn result<P: Adjustable + Clone>(
         fit: comparison(&problem.windows, runs, problem.law.is_some()),
         samples: problem.windows.iter().map(Window::counted).sum(),
         identifiability,
+        window: *window,
         hold: problem.law.is_none().then_some(problem.hold),
         values: part.place.values,
     }
 }
 
-/// Long-run deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs, or for functions of them, with
-/// the slopes of these behind it.
+/// Deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs, or for functions of them, with the slopes of
+/// these behind it: as of least squares, the larger of those of products and of noise that is the same all along.
 fn deviations<P: Adjustable>(
     problem: &Problem<'_, P>,
     rows: &[Rows],
@@ -130,29 +164,44 @@ fn deviations<P: Adjustable>(
     inverse: &DMatrix<f64>,
 ) -> Vec<f64> {
     let joints = problem.scale.len();
-    let mut variances = vec![0.0; inverse.ncols()];
+    let noise: Vec<Autoregression> = (0..joints)
+        .map(|joint| {
+            let errors = rows.iter().flat_map(|rows| {
+                let samples = rows.errors.len() / joints;
+                rows.errors
+                    .rows(joint * samples, samples)
+                    .iter()
+                    .copied()
+                    .collect::<Vec<f64>>()
+            });
+            Autoregression::through(&errors.collect::<Vec<f64>>())
+        })
+        .collect();
+    let mut products = vec![0.0; inverse.ncols()];
+    let mut steady = products.clone();
     let (mut count, mut fitted) = (0, free.len());
     for (rows, start) in rows.iter().zip(&reduced.starts) {
-        let own = rows.own(start).select_columns(free);
+        let weights = rows.own(start).select_columns(free) * inverse;
         let samples = rows.errors.len() / joints;
         count += rows.errors.len();
         fitted += start.moving();
-        let mut scores = DMatrix::zeros(samples, free.len());
-        for joint in 0..joints {
-            for k in 0..samples {
-                let row = joint * samples + k;
-                let mut score = scores.row_mut(k);
-                score += own.row(row) * rows.errors[row];
+        for (k, weights) in weights.column_iter().enumerate() {
+            let mut series = vec![0.0; samples];
+            for (joint, noise) in noise.iter().enumerate() {
+                let weights = weights.rows(joint * samples, samples);
+                let errors = rows.errors.rows(joint * samples, samples);
+                let parts = series.iter_mut().zip(weights.iter().zip(errors.iter()));
+                parts.for_each(|(sum, (weight, error))| *sum += weight * error);
+                steady[k] += noise.variance_of_sum(&weights.iter().copied().collect::<Vec<f64>>());
             }
-        }
-        let series = scores * inverse;
-        for (variance, column) in variances.iter_mut().zip(series.column_iter()) {
-            *variance += long_run_sum(&column.iter().copied().collect::<Vec<f64>>());
+            products[k] += long_run_sum(&series);
         }
     }
     let freedom = count as f64 / (count as f64 - fitted as f64).max(1.0);
-    let root = |variance: f64| (freedom * variance).max(0.0).sqrt();
-    variances.into_iter().map(root).collect()
+    let pairs = products.into_iter().zip(steady);
+    pairs
+        .map(|(products, steady)| (freedom * products.max(steady)).max(0.0).sqrt())
+        .collect()
 }
 
 pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool) -> Comparison {

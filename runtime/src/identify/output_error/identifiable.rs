@@ -8,14 +8,14 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::triangle;
 
 /// Of the largest singular value: below, outputs do not change at all; below, they change so little that noise decides.
-const SILENT: f64 = 1e-5;
+pub(super) const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
 /// The same of shares of values: below, what a model lacks moves parameters by more than it moves others, however small deviations are.
 const FRAIL: f64 = 1.0 / 30.0;
 
 /// Deviations above this share of a value say by themselves that it is hardly known.
-const KNOWN: f64 = 0.1;
+pub(super) const KNOWN: f64 = 0.1;
 
 /// Parts of a direction that are smaller are noise of the decomposition.
 const LOUD: f64 = 1e-3;

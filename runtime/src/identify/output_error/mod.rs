@@ -17,6 +17,7 @@ mod ratios;
 mod recording;
 mod search;
 mod starts;
+mod sums;
 #[cfg(test)]
 mod tests;
 mod window;
@@ -220,18 +221,25 @@ impl OutputError {
         plant.prepare();
         let mut parts = Parts::new(self, start.len(), plant.joints(), progress);
         let hold = self.hold.unwrap_or_default();
-        let mut values = start.to_vec();
+        let problem = |window, hold| self.problem(plant.clone(), recordings, window, hold);
         // From a start that is far away a short motion leads back sooner than a long one.
-        if let Some(first) = self.first_window() {
-            match self.problem(plant.clone(), recordings, Some(first), hold) {
-                Err(OutputErrorError::Short { .. }) => {}
-                problem => values = parts.search(problem?, &values)?.place.values,
-            }
-        }
-        let problem = |hold| self.problem(plant.clone(), recordings, self.window, hold);
-        let mut part = parts.search(problem(hold)?, &values)?;
+        let first = match self.first_window() {
+            Some(first) => match problem(Some(first), hold) {
+                Err(OutputErrorError::Short { .. }) => None,
+                problem => Some(parts.search(problem?, Some(first), start)?),
+            },
+            None => None,
+        };
+        let values = first.as_ref().map_or(start, |part| &part.place.values);
+        let whole = parts.search(problem(self.window, hold)?, self.window, values);
+        let mut part = match (whole, first) {
+            // The arm runs away along the longer motion; the shorter ones have told what they could.
+            (Err(_), Some(first)) => first,
+            (whole, _) => whole?,
+        };
         if self.is_hold_open(recordings) {
-            let other = parts.search(problem(Hold::Sample)?, &part.place.values);
+            let window = part.window;
+            let other = parts.search(problem(window, Hold::Sample)?, window, &part.place.values);
             // An arm that runs away was not driven so.
             part = match other {
                 Ok(other) if other.error() < part.error() => other,

@@ -23,6 +23,8 @@ pub(super) struct Part<'a, P> {
     pub problem: Problem<'a, P>,
     pub place: Place,
     pub found: Found,
+    /// Seconds of its windows; none of whole logs.
+    pub window: Option<f64>,
 }
 
 impl<'s> Parts<'s> {
@@ -46,6 +48,7 @@ impl<'s> Parts<'s> {
     pub fn search<'a, P: Adjustable + Clone>(
         &mut self,
         mut problem: Problem<'a, P>,
+        window: Option<f64>,
         values: &[f64],
     ) -> Result<Part<'a, P>, OutputErrorError> {
         let mut place = problem.place(values);
@@ -75,6 +78,7 @@ impl<'s> Parts<'s> {
             problem,
             place,
             found,
+            window,
         })
     }
 }
