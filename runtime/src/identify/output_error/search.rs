@@ -16,7 +16,7 @@ use super::{Place, Problem};
 use crate::simulate::{Adjustable, SimulateError};
 
 /// Iterations at most of a search that is to end.
-pub(super) const MOST: usize = 150;
+pub(super) const MOST: usize = 100;
 
 /// Least damping, of columns of length one: directions that outputs do not answer to are left alone.
 const LEAST: f64 = 1e-10;
