@@ -21,7 +21,7 @@ use std::path::Path;
 
 pub use columns::{Column, Columns};
 pub use error::LogError;
-pub use faults::{Fault, Mended};
+pub use faults::{Fault, Mended, Stretches};
 pub use note::Note;
 pub use pieces::Pieces;
 

@@ -1,0 +1,217 @@
+//! What can be wrong with the data of a log, and the words for it.
+
+use std::fmt;
+
+use super::velocity;
+
+/// What is wrong with the data of a log.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// Samples far from both their neighbors; they were replaced by a straight line.
+    Spikes {
+        /// Name of the channel, `q1` or `tau1`.
+        channel: String,
+        /// How many samples.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
+    /// A value that stood still while the arm moved on; short holds were replaced by a straight line, at longer ones the log has a hole.
+    Held {
+        /// Name of the channel.
+        channel: String,
+        /// How often and how long.
+        at: Stretches,
+    },
+    /// A constant to which a channel jumps, and from which it jumps back; short ones were replaced by a straight line, at longer ones the log
+    /// has a hole.
+    Dropouts {
+        /// Name of the channel.
+        channel: String,
+        /// How often and how long.
+        at: Stretches,
+    },
+    /// A torque that stands at its largest or smallest value.
+    Clipped {
+        /// Name of the channel.
+        channel: String,
+        /// That value, in the log's unit.
+        value: f64,
+        /// Share of the samples.
+        share: f64,
+    },
+    /// A logged velocity that is not the slope of the position at the same time.
+    VelocityLate {
+        /// Name of the channel.
+        channel: String,
+        /// By how much it is late, s; negative where it is early.
+        delay: f64,
+    },
+    /// A torque that is not of the time of the position, as an identification tells it; no log is mended of it.
+    TorqueLate {
+        /// Name of the channel.
+        channel: String,
+        /// Name of the joint.
+        joint: String,
+        /// By how much it is late, s; negative where it is early.
+        delay: f64,
+        /// Its standard deviation, s.
+        std: f64,
+        /// By which share the joint's error is less without it.
+        gain: f64,
+    },
+    /// A logged velocity in another unit than the position, or of the other sign.
+    VelocityScale {
+        /// Name of the channel.
+        channel: String,
+        /// Logged velocity over slope of the position.
+        factor: f64,
+    },
+    /// A joint that does not move.
+    Still {
+        /// Name of the channel.
+        channel: String,
+    },
+    /// A torque that is the same at all times.
+    Constant {
+        /// Name of the channel.
+        channel: String,
+        /// That value.
+        value: f64,
+    },
+}
+
+/// Samples in a row that are not the sensor's, as often as there are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretches {
+    /// How often.
+    pub times: usize,
+    /// How many samples.
+    pub samples: usize,
+    /// Time of the first, s.
+    pub first: f64,
+    /// The longest, s.
+    pub longest: f64,
+}
+
+impl fmt::Display for Stretches {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            times,
+            samples,
+            first,
+            longest,
+        } = self;
+        write!(
+            f,
+            "{times} times, {samples} samples in all, {longest:.3} s at most, the first at {first:.3} s; they were replaced by straight \
+             lines, and nothing is fitted around those of more than 10 ms"
+        )
+    }
+}
+
+impl Fault {
+    /// Kebab-case name of its kind.
+    #[must_use]
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Spikes { .. } => "spikes",
+            Self::Held { .. } => "held",
+            Self::Dropouts { .. } => "dropouts",
+            Self::Clipped { .. } => "clipped",
+            Self::VelocityLate { .. } => "velocity-late",
+            Self::TorqueLate { .. } => "late-torque",
+            Self::VelocityScale { .. } => "velocity-scale",
+            Self::Still { .. } => "still",
+            Self::Constant { .. } => "constant",
+        }
+    }
+
+    /// Name of the channel that has it.
+    #[must_use]
+    pub fn channel(&self) -> &str {
+        match self {
+            Self::Spikes { channel, .. }
+            | Self::Held { channel, .. }
+            | Self::Dropouts { channel, .. }
+            | Self::Clipped { channel, .. }
+            | Self::VelocityLate { channel, .. }
+            | Self::TorqueLate { channel, .. }
+            | Self::VelocityScale { channel, .. }
+            | Self::Still { channel }
+            | Self::Constant { channel, .. } => channel,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Spikes {
+                channel,
+                samples,
+                first,
+            } => write!(
+                f,
+                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
+            ),
+            Self::Held { channel, at } => {
+                write!(f, "{channel} stands still while the arm moves on, {at}")
+            }
+            Self::Dropouts { channel, at } => {
+                write!(f, "{channel} jumps to a constant and back, {at}")
+            }
+            Self::Clipped {
+                channel,
+                value,
+                share,
+            } => write!(
+                f,
+                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
+                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
+                100.0 * share
+            ),
+            Self::VelocityLate { channel, delay } => {
+                let word = if *delay > 0.0 { "late" } else { "early" };
+                write!(
+                    f,
+                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
+                    delay.abs()
+                )
+            }
+            Self::TorqueLate {
+                channel,
+                joint,
+                delay,
+                std,
+                gain,
+            } => {
+                let word = if *delay > 0.0 { "late" } else { "early" };
+                write!(
+                    f,
+                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {word} against the position, and friction and inertia are found with it; \
+                     its error is {:.0} % less without that: `time_delay;` among the effects finds one delay of all joints, up to 0.03 s, \
+                     longer ones are to be taken out of the log",
+                    delay.abs(),
+                    100.0 * gain
+                )
+            }
+            Self::VelocityScale { channel, factor } => {
+                write!(
+                    f,
+                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+                    velocity::unit(*factor)
+                )
+            }
+            Self::Still { channel } => write!(
+                f,
+                "{channel} is the same at all times: the joint does not move"
+            ),
+            Self::Constant { channel, value } => write!(
+                f,
+                "{channel} is {value} at all times: nothing was logged, or the drive was off"
+            ),
+        }
+    }
+}

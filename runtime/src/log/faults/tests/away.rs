@@ -1,0 +1,105 @@
+//! Values that jump away and come back.
+
+use super::*;
+
+fn dropouts(faults: &[Fault]) -> Vec<(&str, usize, usize)> {
+    let told = faults.iter().filter_map(|fault| match fault {
+        Fault::Dropouts { channel, at } => Some((channel.as_str(), at.times, at.samples)),
+        _ => None,
+    });
+    told.collect()
+}
+
+/// What is mended is near what was there, and nothing but the lost samples is changed.
+fn assert_mended(mended: &[f64], clean: &[f64], lost: &[Range<usize>], within: f64) {
+    for (k, (mended, clean)) in mended.iter().zip(clean).enumerate() {
+        if lost.iter().any(|range| range.contains(&k)) {
+            assert!((mended - clean).abs() < within, "{k}: {mended} {clean}");
+        } else {
+            assert!((mended - clean).abs() == 0.0, "{k}");
+        }
+    }
+}
+
+#[test]
+fn dropouts_of_any_length_are_lines_between_sound_samples() {
+    for count in [1, 2, 3, 4, 5, 6, 10, 40, 200] {
+        let log = clean(11);
+        let mut worn = log.clone();
+        worn.dq.clear();
+        let lost = 900..900 + count;
+        worn.q[0][lost.clone()].fill(0.0);
+        let Mended { log: piece, faults } = worn.mended();
+        if count < 4 {
+            assert!(
+                matches!(&faults[..], [Fault::Spikes { samples, .. }] if *samples == count),
+                "{count}: {faults:?}"
+            );
+        } else {
+            assert_eq!(dropouts(&faults), [("q1", 1, count)], "{faults:?}");
+            assert_eq!(faults.len(), 1, "{faults:?}");
+        }
+        let within = if count < 41 { 0.02 } else { 0.3 };
+        assert_mended(&piece.q[0], &log.q[0], &[lost], within);
+        // Those of more than 10 ms are no samples to be fitted.
+        assert_eq!(piece.holes.len(), usize::from(count > 5), "{count}");
+    }
+}
+
+/// Joint at rest and in motion, values that are the largest of all, and torques.
+#[test]
+fn dropouts_are_found_at_rest_and_at_the_ends_of_what_is_measured() {
+    let log = clean(12);
+    let mut worn = log.clone();
+    worn.dq.clear();
+    let lost = [600..612, 2400..2412, 4300..4307];
+    for range in &lost {
+        worn.q[0][range.clone()].fill(-5.0);
+        worn.tau[0][range.clone()].fill(0.0);
+    }
+    let Mended { log: piece, faults } = worn.mended();
+    assert_eq!(
+        dropouts(&faults),
+        [("q1", 3, 31), ("tau1", 3, 31)],
+        "{faults:?}"
+    );
+    assert_mended(&piece.q[0], &log.q[0], &lost, 0.02);
+    assert_mended(&piece.tau[0], &log.tau[0], &lost, 1.0);
+}
+
+/// Torques that jump by themselves: square waves, clean, noisy and coarse; a channel that is slower than the log; a drive at its limit.
+#[test]
+fn torques_that_jump_are_no_dropouts() {
+    let wave = |k: usize, half: usize| if k / half % 2 == 0 { 6.0 } else { -6.0 };
+    for half in [5, 12, 50, 250] {
+        for (noise, step) in [(0.0, 1e-9), (1.0, 1e-9), (0.0, 0.5), (1.0, 0.05)] {
+            let mut log = clean(13);
+            log.dq.clear();
+            for (k, tau) in log.tau[0].iter_mut().enumerate() {
+                let value = wave(k, half) + noise * 0.1 * *tau;
+                *tau = (value / step).round() * step;
+            }
+            let faults = log.mended().faults;
+            let is_sound = |fault: &Fault| matches!(fault, Fault::Clipped { .. });
+            assert!(
+                faults.iter().all(is_sound),
+                "{half} {noise} {step}: {faults:?}"
+            );
+        }
+    }
+    for every in [2, 3, 4, 5, 6, 7, 10] {
+        let mut log = clean(14);
+        log.dq.clear();
+        let tau = log.tau[0].clone();
+        for (k, value) in log.tau[0].iter_mut().enumerate() {
+            *value = tau[k / every * every];
+        }
+        assert_eq!(dropouts(&log.mended().faults), [], "{every}");
+    }
+    let mut log = clean(15);
+    log.dq.clear();
+    for k in [400, 1300, 2900] {
+        log.tau[0][k..k + 9].fill(40.0);
+    }
+    assert_eq!(dropouts(&log.mended().faults), []);
+}
