@@ -1,6 +1,6 @@
 //! The data gate: what is wrong with logs, before anything may be wrong with the model.
 //!
-//! Spikes, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
+//! Spikes, bursts, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
 //! is traced, and both are told.
 
 use robot_model::identify::{Estimate, Identify, IdentifyError};
@@ -27,7 +27,7 @@ pub struct DataFault {
     pub delay: Option<(f64, f64)>,
 }
 
-/// Logs without spikes, dropouts and held values; what was found is said.
+/// Logs without spikes, bursts, dropouts and held values; what was found is said.
 pub(crate) fn mend(logs: &[Log], progress: &Progress) -> Vec<Mended> {
     let mended = logs.iter().map(|log| log.clone().mended());
     let mended: Vec<Mended> = mended.collect();
@@ -54,7 +54,10 @@ pub(crate) fn corrupt(
         let is_sample = |fault: &&Fault| {
             matches!(
                 fault,
-                Fault::Spikes { .. } | Fault::Held { .. } | Fault::Dropouts { .. }
+                Fault::Spikes { .. }
+                    | Fault::Held { .. }
+                    | Fault::Dropouts { .. }
+                    | Fault::Bursts { .. }
             )
         };
         let faults: Vec<&Fault> = mended.faults.iter().filter(is_sample).collect();

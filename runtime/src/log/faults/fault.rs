@@ -32,6 +32,14 @@ pub enum Fault {
         /// How often and how long.
         at: Stretches,
     },
+    /// Samples that are far from those around them for some time, and come back; short ones were replaced by a straight line, at longer ones
+    /// the log has a hole.
+    Bursts {
+        /// Name of the channel.
+        channel: String,
+        /// How often and how long.
+        at: Stretches,
+    },
     /// A torque that stands at its largest or smallest value.
     Clipped {
         /// Name of the channel.
@@ -119,6 +127,7 @@ impl Fault {
             Self::Spikes { .. } => "spikes",
             Self::Held { .. } => "held",
             Self::Dropouts { .. } => "dropouts",
+            Self::Bursts { .. } => "bursts",
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
             Self::TorqueLate { .. } => "late-torque",
@@ -135,6 +144,7 @@ impl Fault {
             Self::Spikes { channel, .. }
             | Self::Held { channel, .. }
             | Self::Dropouts { channel, .. }
+            | Self::Bursts { channel, .. }
             | Self::Clipped { channel, .. }
             | Self::VelocityLate { channel, .. }
             | Self::TorqueLate { channel, .. }
@@ -161,6 +171,9 @@ impl fmt::Display for Fault {
             }
             Self::Dropouts { channel, at } => {
                 write!(f, "{channel} jumps to a constant and back, {at}")
+            }
+            Self::Bursts { channel, at } => {
+                write!(f, "{channel} jumps far away and back, {at}")
             }
             Self::Clipped {
                 channel,

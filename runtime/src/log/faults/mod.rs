@@ -1,10 +1,11 @@
 //! Faults of the data themselves: what a sensor or a recorder did, not the arm.
 //!
-//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts and holds are replaced by straight
-//! lines; around longer ones the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
+//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
+//! straight lines; around longer ones the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
 //! of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
 //! hardly any.
 
+mod bursts;
 mod clipped;
 mod dropouts;
 mod fault;
@@ -18,7 +19,7 @@ pub use fault::{Fault, Stretches};
 
 use super::Log;
 
-/// Dropouts and holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
+/// Dropouts, bursts and holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
 const BRIDGED_S: f64 = 0.01;
 
 /// Samples and steps beyond this share are faults' own, where there are any; a step is steep beyond so many times what others are below.
@@ -82,13 +83,19 @@ impl Log {
             channel: channel(),
             at,
         });
+        let at = self.cut_out(q, bursts::of_position(q, self.rate_hz()));
+        let bursts = at.map(|at| Fault::Bursts {
+            channel: channel(),
+            at,
+        });
         let spikes = self.replace_spikes(q, channel());
         let at = self.cut_out(q, held::of_position(q));
         let held = at.map(|at| Fault::Held {
             channel: channel(),
             at,
         });
-        dropouts.into_iter().chain(spikes).chain(held).collect()
+        let found = [dropouts, bursts, spikes, held];
+        found.into_iter().flatten().collect()
     }
 
     /// A torque without what was found in it.
@@ -99,13 +106,19 @@ impl Log {
             channel: channel(),
             at,
         });
+        let at = self.cut_out(tau, bursts::of_torque(tau, &self.q[joint], self.rate_hz()));
+        let bursts = at.map(|at| Fault::Bursts {
+            channel: channel(),
+            at,
+        });
         let spikes = self.replace_spikes(tau, channel());
         let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
         let held = at.map(|at| Fault::Held {
             channel: channel(),
             at,
         });
-        dropouts.into_iter().chain(spikes).chain(held).collect()
+        let found = [dropouts, bursts, spikes, held];
+        found.into_iter().flatten().collect()
     }
 
     fn replace_spikes(&self, values: &mut [f64], channel: String) -> Option<Fault> {

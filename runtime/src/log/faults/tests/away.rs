@@ -67,9 +67,66 @@ fn dropouts_are_found_at_rest_and_at_the_ends_of_what_is_measured() {
     assert_mended(&piece.tau[0], &log.tau[0], &lost, 1.0);
 }
 
+fn bursts(faults: &[Fault]) -> Vec<(&str, usize, usize)> {
+    let told = faults.iter().filter_map(|fault| match fault {
+        Fault::Bursts { channel, at } => Some((channel.as_str(), at.times, at.samples)),
+        _ => None,
+    });
+    told.collect()
+}
+
+#[test]
+fn bursts_are_replaced_and_counted() {
+    for count in [4, 5, 8, 12, 20] {
+        let log = clean(16);
+        let mut worn = log.clone();
+        worn.dq.clear();
+        let lost: Vec<Range<usize>> = [400, 1500, 2500, 3900].map(|k| k..k + count).into();
+        for (range, size) in lost.iter().zip([25.0, -20.0, 25.0, 15.0]) {
+            for k in range.clone() {
+                worn.tau[0][k] += size;
+            }
+        }
+        worn.q[0][3200..3200 + count]
+            .iter_mut()
+            .for_each(|q| *q += 0.4);
+        let Mended { log: piece, faults } = worn.mended();
+        assert_eq!(
+            bursts(&faults),
+            [("q1", 1, count), ("tau1", 4, 4 * count)],
+            "{faults:?}"
+        );
+        assert_mended(&piece.tau[0], &log.tau[0], &lost, 1.5);
+        assert_mended(&piece.q[0], &log.q[0], &[3200..3200 + count], 0.02);
+        assert_eq!(piece.holes.len(), if count > 5 { 5 } else { 0 });
+    }
+}
+
+/// A joint of inertia 0.5 kg m^2 that is pushed for as long moves, and its torque is what it was.
+#[test]
+fn pushes_are_no_bursts() {
+    for (count, times) in [(5, 1), (5, 12), (12, 1), (20, 1), (20, 12)] {
+        let mut log = clean(17);
+        log.dq.clear();
+        let mut push = vec![0.0; log.time.len()];
+        for k in 0..times {
+            let start = 300 + 370 * k;
+            push[start..start + count].fill(20.0);
+        }
+        let (mut speed, mut way) = (0.0, 0.0);
+        for (k, push) in push.iter().enumerate() {
+            log.tau[0][k] += push;
+            log.q[0][k] += (way / 1e-4_f64).round() * 1e-4;
+            speed += (push / 0.5 - 3.0 * speed) / RATE;
+            way += speed / RATE;
+        }
+        assert_eq!(bursts(&log.mended().faults), [], "{count} {times}");
+    }
+}
+
 /// Torques that jump by themselves: square waves, clean, noisy and coarse; a channel that is slower than the log; a drive at its limit.
 #[test]
-fn torques_that_jump_are_no_dropouts() {
+fn torques_that_jump_are_sound() {
     let wave = |k: usize, half: usize| if k / half % 2 == 0 { 6.0 } else { -6.0 };
     for half in [5, 12, 50, 250] {
         for (noise, step) in [(0.0, 1e-9), (1.0, 1e-9), (0.0, 0.5), (1.0, 0.05)] {
