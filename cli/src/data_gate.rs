@@ -32,7 +32,7 @@ pub(crate) fn mend(logs: &[Log], progress: &Progress) -> Vec<Mended> {
     let mended = logs.iter().map(|log| log.clone().mended());
     let mended: Vec<Mended> = mended.collect();
     for one in &mended {
-        for fault in &one.faults {
+        for fault in one.faults.iter().filter(|fault| !fault.is_in_report()) {
             progress.note(&format!("note: {}: {fault}", one.log.source));
         }
     }

@@ -241,7 +241,9 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
-        for (source, fault) in &faults {
+        // The reader has told what is in its report.
+        let unsaid = faults.iter().filter(|(_, fault)| !fault.is_in_report());
+        for (source, fault) in unsaid {
             progress.note(&format!("note: {source}: {fault}"));
         }
         for doubt in twice::doubts(&self.logs, self.validate.as_deref()) {

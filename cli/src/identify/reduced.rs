@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
-use robot_model::log::{Fault, Log, Mended};
+use robot_model::log::{Fault, Log, Mended, Note};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -189,10 +189,10 @@ impl Streams<'_> {
         let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
         let pieces = pieces.map(|(k, piece)| {
             let piece = piece?;
-            if k == 0 {
-                for note in &piece.report {
-                    progress.note(&format!("note: {}: {note}", path.display()));
-                }
+            // Each piece has its own gaps; all else is alike.
+            let is_new = |note: &&Note| k == 0 || matches!(note, Note::Gaps { .. });
+            for note in piece.report.iter().filter(is_new) {
+                progress.note(&format!("note: {}: {note}", path.display()));
             }
             progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
             Ok(piece)

@@ -323,7 +323,7 @@ fn faults_of_the_data_are_mended_counted_and_told() {
     assert_eq!(kinds, ["held", "spikes", "held"], "{out:#}");
     assert_eq!(faults[1]["channel"], "tau1");
     assert!(
-        said.contains("note: worn.csv: q1 stands still 1 times while the arm moves on"),
+        said.contains("note: worn.csv: q1 stands still while the arm moves on, 1 times"),
         "{said}"
     );
     let (as_logged, out, _) = fit("worn.csv", &["--as-logged"]);

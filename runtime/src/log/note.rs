@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Stretches;
 use super::error::list;
 
 /// Something about a log that its user should know, and that is no error.
@@ -20,6 +21,11 @@ pub enum Note {
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
+    /// Samples are missing in time.
+    Gaps {
+        /// How often and how long.
+        at: Stretches,
+    },
     /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
     Resampled {
         /// Samples as logged.
@@ -50,6 +56,7 @@ impl fmt::Display for Note {
                 f,
                 "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
             ),
+            Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Resampled {
                 logged,
                 resampled,

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::velocity;
+use crate::log::Note;
 
 /// What is wrong with the data of a log.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,11 @@ pub enum Fault {
     Bursts {
         /// Name of the channel.
         channel: String,
+        /// How often and how long.
+        at: Stretches,
+    },
+    /// Samples that are missing in time, as the reader tells; short gaps were filled by a straight line, at longer ones the log has a hole.
+    Gaps {
         /// How often and how long.
         at: Stretches,
     },
@@ -120,6 +126,20 @@ impl fmt::Display for Stretches {
 }
 
 impl Fault {
+    /// What the reader noted and had to mend.
+    pub(super) fn of_note(note: &Note) -> Option<Self> {
+        match note {
+            Note::Gaps { at } => Some(Self::Gaps { at: *at }),
+            _ => None,
+        }
+    }
+
+    /// Whether [`Log::report`](crate::log::Log::report) tells it, too.
+    #[must_use]
+    pub const fn is_in_report(&self) -> bool {
+        matches!(self, Self::Gaps { .. })
+    }
+
     /// Kebab-case name of its kind.
     #[must_use]
     pub const fn kind(&self) -> &'static str {
@@ -128,6 +148,7 @@ impl Fault {
             Self::Held { .. } => "held",
             Self::Dropouts { .. } => "dropouts",
             Self::Bursts { .. } => "bursts",
+            Self::Gaps { .. } => "gaps",
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
             Self::TorqueLate { .. } => "late-torque",
@@ -137,7 +158,7 @@ impl Fault {
         }
     }
 
-    /// Name of the channel that has it.
+    /// Name of the channel that has it; `time` where that is all of them.
     #[must_use]
     pub fn channel(&self) -> &str {
         match self {
@@ -151,6 +172,7 @@ impl Fault {
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
             | Self::Constant { channel, .. } => channel,
+            Self::Gaps { .. } => "time",
         }
     }
 }
@@ -175,6 +197,7 @@ impl fmt::Display for Fault {
             Self::Bursts { channel, at } => {
                 write!(f, "{channel} jumps far away and back, {at}")
             }
+            Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Clipped {
                 channel,
                 value,

@@ -19,8 +19,8 @@ pub use fault::{Fault, Stretches};
 
 use super::Log;
 
-/// Dropouts, bursts and holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
-const BRIDGED_S: f64 = 0.01;
+/// What is replaced up to this long is bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
+pub(super) const BRIDGED_S: f64 = 0.01;
 
 /// Samples and steps beyond this share are faults' own, where there are any; a step is steep beyond so many times what others are below.
 const FEW: f64 = 0.9;
@@ -52,7 +52,7 @@ impl Log {
     /// ```
     #[must_use]
     pub fn mended(mut self) -> Mended {
-        let mut faults = Vec::new();
+        let mut faults: Vec<Fault> = self.report.iter().filter_map(Fault::of_note).collect();
         for joint in 0..self.dof() {
             let mut q = std::mem::take(&mut self.q[joint]);
             faults.extend(self.mend_position(joint, &mut q));
