@@ -7,6 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 use super::*;
 
 mod away;
+mod clipped;
 
 const RATE: f64 = 500.0;
 
