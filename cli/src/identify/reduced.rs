@@ -189,9 +189,9 @@ impl Streams<'_> {
         let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
         let pieces = pieces.map(|(k, piece)| {
             let piece = piece?;
-            // Each piece has its own gaps; all else is alike.
-            let is_new = |note: &&Note| k == 0 || matches!(note, Note::Gaps { .. });
-            for note in piece.report.iter().filter(is_new) {
+            // Each piece has its own gaps and samples that coincide; all else is alike.
+            let is_own = |note: &&Note| matches!(note, Note::Gaps { .. } | Note::Coincident { .. });
+            for note in piece.report.iter().filter(|note| k == 0 || is_own(note)) {
                 progress.note(&format!("note: {}: {note}", path.display()));
             }
             progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));

@@ -3,6 +3,7 @@
 //! In: CSV text, plain or gzip, or Parquet. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
+mod close;
 mod columns;
 mod csv;
 mod error;
@@ -76,7 +77,7 @@ impl Log {
     /// Reads a CSV file, plain or gzip, or with feature `parquet` a Parquet file (told by its first bytes, not by its name), of an arm with `dof` joints.
     ///
     /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
-    /// resampled to the median step by cubic interpolation, and short gaps are filled by straight lines, which [`Log::report`] tells.
+    /// resampled to the median step by cubic interpolation, short gaps are filled by straight lines, and the mean stands for samples that nearly coincide, which [`Log::report`] tells.
     ///
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a

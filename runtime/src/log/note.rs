@@ -21,6 +21,13 @@ pub enum Note {
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
+    /// Samples that nearly coincide in time with the one before: their mean stands for both.
+    Coincident {
+        /// How many.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
     /// Samples are missing in time.
     Gaps {
         /// How often and how long.
@@ -55,6 +62,10 @@ impl fmt::Display for Note {
             Self::StandardColumns => write!(
                 f,
                 "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
+            ),
+            Self::Coincident { samples, first } => write!(
+                f,
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
             ),
             Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Resampled {

@@ -12,6 +12,7 @@ use flate2::write::GzEncoder;
 
 use super::*;
 
+mod close;
 mod columns;
 mod gaps;
 

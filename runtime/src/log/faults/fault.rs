@@ -41,6 +41,13 @@ pub enum Fault {
         /// How often and how long.
         at: Stretches,
     },
+    /// Samples that nearly coincide in time with the one before, as the reader tells: their mean stands for both.
+    Coincident {
+        /// How many.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
     /// Samples that are missing in time, as the reader tells; short gaps were filled by a straight line, at longer ones the log has a hole.
     Gaps {
         /// How often and how long.
@@ -129,6 +136,10 @@ impl Fault {
     /// What the reader noted and had to mend.
     pub(super) fn of_note(note: &Note) -> Option<Self> {
         match note {
+            Note::Coincident { samples, first } => Some(Self::Coincident {
+                samples: *samples,
+                first: *first,
+            }),
             Note::Gaps { at } => Some(Self::Gaps { at: *at }),
             _ => None,
         }
@@ -137,7 +148,7 @@ impl Fault {
     /// Whether [`Log::report`](crate::log::Log::report) tells it, too.
     #[must_use]
     pub const fn is_in_report(&self) -> bool {
-        matches!(self, Self::Gaps { .. })
+        matches!(self, Self::Coincident { .. } | Self::Gaps { .. })
     }
 
     /// Kebab-case name of its kind.
@@ -148,6 +159,7 @@ impl Fault {
             Self::Held { .. } => "held",
             Self::Dropouts { .. } => "dropouts",
             Self::Bursts { .. } => "bursts",
+            Self::Coincident { .. } => "coincident",
             Self::Gaps { .. } => "gaps",
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
@@ -172,7 +184,7 @@ impl Fault {
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
             | Self::Constant { channel, .. } => channel,
-            Self::Gaps { .. } => "time",
+            Self::Coincident { .. } | Self::Gaps { .. } => "time",
         }
     }
 }
@@ -197,6 +209,10 @@ impl fmt::Display for Fault {
             Self::Bursts { channel, at } => {
                 write!(f, "{channel} jumps far away and back, {at}")
             }
+            Self::Coincident { samples, first } => write!(
+                f,
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+            ),
             Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Clipped {
                 channel,
