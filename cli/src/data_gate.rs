@@ -58,6 +58,7 @@ pub(crate) fn corrupt(
                     | Fault::Held { .. }
                     | Fault::Dropouts { .. }
                     | Fault::Bursts { .. }
+                    | Fault::Slips { .. }
             )
         };
         let faults: Vec<&Fault> = mended.faults.iter().filter(is_sample).collect();

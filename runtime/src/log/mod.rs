@@ -77,12 +77,14 @@ impl Log {
     /// Reads a CSV file, plain or gzip, or with feature `parquet` a Parquet file (told by its first bytes, not by its name), of an arm with `dof` joints.
     ///
     /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
-    /// resampled to the median step by cubic interpolation, short gaps are filled by straight lines, and the mean stands for samples that nearly coincide, which [`Log::report`] tells.
+    /// resampled to the median step by cubic interpolation, short gaps are filled by straight lines, and the mean stands for
+    /// samples that nearly coincide, which [`Log::report`] tells.
     ///
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
-    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time of more than half a second or a twentieth of the log, too few samples, a
-    /// sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
+    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time of more than half a
+    /// second or a twentieth of the log, too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond
+    /// 1e6 in magnitude.
     ///
     /// # Examples
     /// ```

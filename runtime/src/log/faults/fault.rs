@@ -1,5 +1,6 @@
 //! What can be wrong with the data of a log, and the words for it.
 
+use std::f64::consts::TAU;
 use std::fmt;
 
 use super::velocity;
@@ -40,6 +41,17 @@ pub enum Fault {
         channel: String,
         /// How often and how long.
         at: Stretches,
+    },
+    /// A position that jumps and stays; the log has a hole there.
+    Slips {
+        /// Name of the channel.
+        channel: String,
+        /// How often.
+        times: usize,
+        /// Time of the first, s.
+        first: f64,
+        /// The largest, rad or m.
+        largest: f64,
     },
     /// Samples that nearly coincide in time with the one before, as the reader tells: their mean stands for both.
     Coincident {
@@ -159,6 +171,7 @@ impl Fault {
             Self::Held { .. } => "held",
             Self::Dropouts { .. } => "dropouts",
             Self::Bursts { .. } => "bursts",
+            Self::Slips { .. } => "slips",
             Self::Coincident { .. } => "coincident",
             Self::Gaps { .. } => "gaps",
             Self::Clipped { .. } => "clipped",
@@ -178,6 +191,7 @@ impl Fault {
             | Self::Held { channel, .. }
             | Self::Dropouts { channel, .. }
             | Self::Bursts { channel, .. }
+            | Self::Slips { channel, .. }
             | Self::Clipped { channel, .. }
             | Self::VelocityLate { channel, .. }
             | Self::TorqueLate { channel, .. }
@@ -208,6 +222,23 @@ impl fmt::Display for Fault {
             }
             Self::Bursts { channel, at } => {
                 write!(f, "{channel} jumps far away and back, {at}")
+            }
+            Self::Slips {
+                channel,
+                times,
+                first,
+                largest,
+            } => {
+                let way_out = if (largest.abs() / TAU - 1.0).abs() < 0.01 {
+                    "it is a whole turn: unwrap the angle"
+                } else {
+                    "an encoder slipped or was set anew: split the log there and leave out what is wrong"
+                };
+                write!(
+                    f,
+                    "{channel} jumps and stays {times} times, the first at {first:.3} s, by {largest:.4} at most; nothing is fitted around \
+                     it, but positions before and behind do not have the same zero; {way_out}"
+                )
             }
             Self::Coincident { samples, first } => write!(
                 f,

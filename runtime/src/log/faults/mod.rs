@@ -1,8 +1,8 @@
 //! Faults of the data themselves: what a sensor or a recorder did, not the arm.
 //!
 //! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
-//! straight lines; around longer ones the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
-//! of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
+//! straight lines; around longer ones the log has a [hole](Log::holes), of which no row of identification knows. Where a position jumps and stays
+//! the log has a hole, too. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
 //! hardly any.
 
 mod bursts;
@@ -10,6 +10,7 @@ mod clipped;
 mod dropouts;
 mod fault;
 mod held;
+mod slips;
 mod spikes;
 mod velocity;
 
@@ -94,7 +95,8 @@ impl Log {
             channel: channel(),
             at,
         });
-        let found = [dropouts, bursts, spikes, held];
+        let slips = self.mask_slips(q, channel());
+        let found = [dropouts, bursts, spikes, held, slips];
         found.into_iter().flatten().collect()
     }
 
@@ -132,6 +134,24 @@ impl Log {
             channel,
             samples,
             first: self.time[first],
+        })
+    }
+
+    /// Holes over jumps that stay.
+    fn mask_slips(&mut self, values: &[f64], channel: String) -> Option<Fault> {
+        let found = slips::find(values);
+        let first = *found.first()?;
+        let size = |k: usize| values[k + 1] - values[k];
+        let larger = |a: &&usize, b: &&usize| size(**a).abs().total_cmp(&size(**b).abs());
+        let largest = size(*found.iter().max_by(larger)?);
+        let after = |sample: usize| sample as f64 / self.rate_hz();
+        let holes: Vec<Range<f64>> = found.iter().map(|&k| after(k)..after(k + 1)).collect();
+        self.holes.extend(holes);
+        Some(Fault::Slips {
+            channel,
+            times: found.len(),
+            first: self.time[first + 1],
+            largest,
         })
     }
 

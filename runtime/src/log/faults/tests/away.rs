@@ -160,3 +160,65 @@ fn torques_that_jump_are_sound() {
     }
     assert_eq!(dropouts(&log.mended().faults), []);
 }
+
+/// An encoder that slips is told, wherever it does so; the log stays as it is but for a hole.
+#[test]
+fn a_position_that_jumps_and_stays_is_told() {
+    for (at, size) in [
+        (1200, 0.05),
+        (2900, -0.05),
+        (3000, 0.5),
+        (4100, -std::f64::consts::TAU),
+    ] {
+        let mut log = clean(18);
+        log.dq.clear();
+        log.q[0][at..].iter_mut().for_each(|q| *q += size);
+        let q = log.q[0].clone();
+        let Mended { log: piece, faults } = log.mended();
+        let [
+            Fault::Slips {
+                times: 1,
+                first,
+                largest,
+                ..
+            },
+        ] = &faults[..]
+        else {
+            panic!("{at}: {faults:?}");
+        };
+        assert!(
+            (first - at as f64 / RATE).abs() < 1e-9 && (largest - size).abs() < 5e-3,
+            "{first} {largest}"
+        );
+        let told = faults[0].to_string();
+        assert_eq!(told.contains("unwrap"), size.abs() > 6.0, "{told}");
+        assert_eq!(piece.q[0], q);
+        let hole = &piece.holes[0];
+        assert!(piece.holes.len() == 1 && hole.start < *first && *first <= hole.end + 1e-9);
+    }
+}
+
+/// A joint that rests most of the time and then moves as fast as it can, at once, at a low rate, too.
+#[test]
+fn fast_moves_are_no_slips() {
+    for stride in [1, 5, 20] {
+        for lasts in [0.1, 0.3] {
+            let mut log = clean(19);
+            log.dq.clear();
+            let way = |t: f64| {
+                0.5 * (((t % 2.0) - 1.0) / lasts).clamp(0.0, 1.0) + 0.5 * (t / 2.0).floor()
+            };
+            log.q[0] = log
+                .time
+                .iter()
+                .map(|t| (way(*t) / 1e-4).round() * 1e-4)
+                .collect();
+            let every = |values: &[f64]| values.iter().copied().step_by(stride).collect();
+            let (time, q, tau) = (every(&log.time), every(&log.q[0]), every(&log.tau[0]));
+            let log = Log::from_samples("a plant", time, vec![q], vec![tau]).expect("sound");
+            let faults = log.mended().faults;
+            let is_slip = |fault: &Fault| matches!(fault, Fault::Slips { .. });
+            assert!(!faults.iter().any(is_slip), "{stride} {lasts}: {faults:?}");
+        }
+    }
+}
