@@ -1,5 +1,6 @@
 //! `robot-model identify`: parameters from measured logs.
 
+mod data_faults;
 mod doubts;
 mod drive_gains;
 pub(crate) mod fit;

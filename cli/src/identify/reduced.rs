@@ -160,7 +160,17 @@ impl Streams<'_> {
             let blocks = |log: &Log| Ok(FactorBlock::of_log(arm, log, &bands)?);
             self.each(path, &bands, progress, blocks, |blocks, found| {
                 let source = path.display().to_string();
-                faults.extend(found.into_iter().map(|fault| (source.clone(), fault)));
+                for fault in found {
+                    // Stamps that jitter do so in every piece.
+                    let is_jitter = matches!(fault, Fault::Jitter { .. });
+                    let mut before = faults.iter();
+                    let same = |(log, told): &(String, Fault)| {
+                        *log == source && told.kind() == fault.kind()
+                    };
+                    if !(is_jitter && before.any(same)) {
+                        faults.push((source.clone(), fault));
+                    }
+                }
                 factor.extend(blocks);
             })?;
         }

@@ -16,7 +16,7 @@ pub(super) fn of_position(values: &[f64]) -> Vec<Range<usize>> {
     let steps = Steps::of(values);
     let is_fault = |one: &Excursion| {
         let is_far = one.jump > steps.steep();
-        (one.moves || is_far) && (is_far || !is_limit(values, one.value))
+        is_far || one.moves && !is_limit(values, one.value)
     };
     find(values, &steps, FEWEST, is_fault)
 }

@@ -60,6 +60,15 @@ pub enum Fault {
         /// Time of the first, s.
         first: f64,
     },
+    /// Time stamps that are not uniform, as the reader tells: the log is interpolated onto a grid of their median step.
+    Jitter {
+        /// That step, s.
+        step: f64,
+        /// Root mean square of what steps differ from it, s.
+        rms: f64,
+        /// The most that one does, s.
+        largest: f64,
+    },
     /// Samples that are missing in time, as the reader tells; short gaps were filled by a straight line, at longer ones the log has a hole.
     Gaps {
         /// How often and how long.
@@ -153,6 +162,16 @@ impl Fault {
                 first: *first,
             }),
             Note::Gaps { at } => Some(Self::Gaps { at: *at }),
+            Note::Resampled {
+                step,
+                jitter_rms,
+                jitter_max,
+                ..
+            } => Some(Self::Jitter {
+                step: *step,
+                rms: *jitter_rms,
+                largest: *jitter_max,
+            }),
             _ => None,
         }
     }
@@ -160,7 +179,10 @@ impl Fault {
     /// Whether [`Log::report`](crate::log::Log::report) tells it, too.
     #[must_use]
     pub const fn is_in_report(&self) -> bool {
-        matches!(self, Self::Coincident { .. } | Self::Gaps { .. })
+        matches!(
+            self,
+            Self::Coincident { .. } | Self::Jitter { .. } | Self::Gaps { .. }
+        )
     }
 
     /// Kebab-case name of its kind.
@@ -173,6 +195,7 @@ impl Fault {
             Self::Bursts { .. } => "bursts",
             Self::Slips { .. } => "slips",
             Self::Coincident { .. } => "coincident",
+            Self::Jitter { .. } => "jitter",
             Self::Gaps { .. } => "gaps",
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
@@ -198,7 +221,7 @@ impl Fault {
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
             | Self::Constant { channel, .. } => channel,
-            Self::Coincident { .. } | Self::Gaps { .. } => "time",
+            Self::Coincident { .. } | Self::Jitter { .. } | Self::Gaps { .. } => "time",
         }
     }
 }
@@ -243,6 +266,14 @@ impl fmt::Display for Fault {
             Self::Coincident { samples, first } => write!(
                 f,
                 "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+            ),
+            Self::Jitter { step, rms, largest } => write!(
+                f,
+                "time stamps are not uniform: steps differ from their median of {:.4} ms by {:.4} ms RMS, {:.4} ms at most; the log was \
+                 resampled",
+                1e3 * step,
+                1e3 * rms,
+                1e3 * largest
             ),
             Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Clipped {
