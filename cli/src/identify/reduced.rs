@@ -199,8 +199,13 @@ impl Streams<'_> {
         let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
         let pieces = pieces.map(|(k, piece)| {
             let piece = piece?;
-            // Each piece has its own gaps and samples that coincide; all else is alike.
-            let is_own = |note: &&Note| matches!(note, Note::Gaps { .. } | Note::Coincident { .. });
+            // What is wrong with rows is of each piece; all else is alike.
+            let is_own = |note: &&Note| {
+                matches!(
+                    note,
+                    Note::Gaps { .. } | Note::Coincident { .. } | Note::LostRows { .. }
+                )
+            };
             for note in piece.report.iter().filter(|note| k == 0 || is_own(note)) {
                 progress.note(&format!("note: {}: {note}", path.display()));
             }

@@ -82,9 +82,9 @@ impl Log {
     ///
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
-    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time of more than half a
-    /// second or a twentieth of the log, too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond
-    /// 1e6 in magnitude.
+    /// field that is no number, a twentieth of the rows with fields that are empty or not finite (fewer count as missing), a
+    /// row of the wrong length, time that does not rise, a gap in time of more than half a second or a twentieth of the log,
+    /// too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
     ///
     /// # Examples
     /// ```
@@ -166,7 +166,12 @@ impl Log {
             .extra
             .iter()
             .partition(|(_, place)| table.is_number[place.column]);
+        let lost = table.lost.few(table.lines.len())?;
         let mut report = Vec::new();
+        if let Some((rows, first)) = &lost {
+            let first = first.to_string();
+            report.push(Note::LostRows { rows: *rows, first });
+        }
         if header.is_standard_instead {
             report.push(Note::StandardColumns);
         }
@@ -191,7 +196,12 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
         };
-        log.finish(Some(&table.lines))
+        let finished = log.finish(Some(&table.lines));
+        // A gap is none in the file where its rows hold no numbers.
+        finished.map_err(|error| match (error, lost) {
+            (LogError::Gap { .. }, Some((_, first))) => first,
+            (error, _) => error,
+        })
     }
 
     /// A log from samples in memory: `q` and `tau` are `[joint][sample]`, as long as `time`.

@@ -21,6 +21,13 @@ pub enum Note {
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
+    /// Rows that hold no finite number somewhere: they count as missing.
+    LostRows {
+        /// How many.
+        rows: usize,
+        /// What is wrong with the first.
+        first: String,
+    },
     /// Samples that nearly coincide in time with the one before: their mean stands for both.
     Coincident {
         /// How many.
@@ -63,6 +70,12 @@ impl fmt::Display for Note {
                 f,
                 "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
             ),
+            Self::LostRows { rows, first } => {
+                write!(
+                    f,
+                    "{rows} rows count as missing, the first of them since {first}"
+                )
+            }
             Self::Coincident { samples, first } => write!(
                 f,
                 "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"

@@ -119,3 +119,56 @@ fn pieces_have_holes_where_their_own_gaps_are() {
     assert_eq!(holes.len(), 1);
     assert!((holes[0] - 2.0).abs() < 1e-9, "{holes:?}");
 }
+
+/// Rows without a number in them count as missing where they are few; text that is none, and many of them, are refused as before.
+#[test]
+fn rows_without_numbers_are_missing() {
+    let regular = |k: u32| 0.002 * f64::from(k);
+    let with = |bad: &dyn Fn(u32) -> Option<&'static str>| {
+        let all = rows(|_| true, regular);
+        let worn = all.into_iter().enumerate().map(|(k, row)| {
+            let bad = u32::try_from(k).ok().and_then(bad);
+            let (rest, _) = row.rsplit_once(',').expect("columns");
+            bad.map_or(row.clone(), |bad| format!("{rest},{bad}"))
+        });
+        read(&text("time,q1,tau1", &worn.collect::<Vec<_>>()), 1)
+    };
+    let log = with(&|k| match k {
+        300 => Some("nan"),
+        400..=429 => Some(""),
+        900 => Some("-inf"),
+        _ => None,
+    });
+    let log = log.expect("few rows");
+    assert_eq!(
+        (log.time.len(), gaps(&log), log.holes.len()),
+        (2000, vec![(3, 32)], 1)
+    );
+    assert_eq!(
+        log.report[0].to_string(),
+        "32 rows count as missing, the first of them since monday.csv:302: `nan` in column `tau1` is not finite; remove or repair the row"
+    );
+    for (time, tau) in log.time.iter().zip(&log.tau[0]) {
+        assert!(
+            (tau - 5.0 * (3.0 * time).cos()).abs() < 0.03,
+            "{time}: {tau}"
+        );
+    }
+    let refused = |log: Result<Log, LogError>| log.expect_err("bad rows").to_string();
+    assert!(
+        refused(with(&|k| (k == 300).then_some("1.2.3")))
+            .contains("`1.2.3` in column `tau1` is not a number")
+    );
+    assert!(refused(with(&|k| (k % 16 == 3).then_some("nan"))).starts_with("monday.csv:5: `nan`"));
+    // Half a second of them is a gap, whose rows are in the file.
+    let long = |k: u32| (300..=560).contains(&k);
+    let row = |k: u32| {
+        format!(
+            "{:.3},0.5,{}",
+            regular(k),
+            if long(k) { "nan" } else { "1" }
+        )
+    };
+    let longer: Vec<String> = (0..6000).map(row).collect();
+    assert!(refused(read(&text("time,q1,tau1", &longer), 1)).starts_with("monday.csv:302: `nan`"));
+}
