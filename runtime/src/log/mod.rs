@@ -57,7 +57,8 @@ pub struct Log {
     pub extra: Vec<Channel>,
     /// What was changed or set aside in reading.
     pub report: Vec<Note>,
-    /// Where samples are made up, s since the start of the log: no row around them is fitted, and no error counts there.
+    /// Where samples are made up, or a position jumps and stays, s since the start of the log: no row around them is fitted, and no error
+    /// counts there.
     pub holes: Vec<Range<f64>>,
     /// Where a joint's torque stands at its largest or smallest value, s since the start of the log, `[joint]`: no row of that joint around
     /// them is fitted unless the model says what a limit takes. No joints where none were looked for, see [`Log::mended`].

@@ -1,9 +1,9 @@
 //! Faults of the data themselves: what a sensor or a recorder did, not the arm.
 //!
 //! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
-//! straight lines; around longer ones the log has a [hole](Log::holes), of which no row of identification knows. Where a position jumps and stays
-//! the log has a hole, too. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
-//! hardly any.
+//! straight lines; around longer ones, and where a position jumps and stays, the log has a [hole](Log::holes), of which no row of
+//! identification knows. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is
+//! told, and [where](Log::clipped). The thresholds are wide, so that sound logs have hardly any.
 
 mod bursts;
 mod clipped;
