@@ -1,6 +1,6 @@
 //! The data gate: what is wrong with logs, before anything may be wrong with the model.
 //!
-//! Spikes and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
+//! Spikes, bursts, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
 //! is traced, and both are told.
 
 use robot_model::identify::{Estimate, Identify, IdentifyError};
@@ -27,12 +27,12 @@ pub struct DataFault {
     pub delay: Option<(f64, f64)>,
 }
 
-/// Logs without spikes and held values; what was found is said.
+/// Logs without spikes, bursts, dropouts and held values; what was found is said.
 pub(crate) fn mend(logs: &[Log], progress: &Progress) -> Vec<Mended> {
     let mended = logs.iter().map(|log| log.clone().mended());
     let mended: Vec<Mended> = mended.collect();
     for one in &mended {
-        for fault in &one.faults {
+        for fault in one.faults.iter().filter(|fault| !fault.is_in_report()) {
             progress.note(&format!("note: {}: {fault}", one.log.source));
         }
     }
@@ -51,7 +51,16 @@ pub(crate) fn corrupt(
 ) -> Result<Option<DataFault>, IdentifyError> {
     let mut told = Vec::new();
     for (log, mended) in logged.iter().zip(mended) {
-        let is_sample = |fault: &&Fault| matches!(fault, Fault::Spikes { .. } | Fault::Held { .. });
+        let is_sample = |fault: &&Fault| {
+            matches!(
+                fault,
+                Fault::Spikes { .. }
+                    | Fault::Held { .. }
+                    | Fault::Dropouts { .. }
+                    | Fault::Bursts { .. }
+                    | Fault::Slips { .. }
+            )
+        };
         let faults: Vec<&Fault> = mended.faults.iter().filter(is_sample).collect();
         if faults.is_empty() {
             continue;

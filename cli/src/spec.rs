@@ -113,7 +113,7 @@ pub(crate) fn read_mended(
     let log = read_log(path, model, progress)?;
     let source = log.source.clone();
     let mended = log.mended();
-    for fault in &mended.faults {
+    for fault in mended.faults.iter().filter(|fault| !fault.is_in_report()) {
         progress.note(&format!("note: {source}: {fault}"));
     }
     Ok(mended)

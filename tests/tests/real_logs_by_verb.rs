@@ -51,14 +51,17 @@ fn tiago_has_late_velocities() {
         &["identify".into(), spec, log, "--partial".into()],
     );
     let faults = report["data_faults"].as_array().expect("a list");
-    assert_eq!(faults.len(), 8, "{faults:#?}");
-    for (joint, fault) in faults.iter().enumerate() {
+    assert_eq!(faults.len(), 9, "{faults:#?}");
+    assert_eq!(faults[0]["kind"], "jitter");
+    for (joint, fault) in faults[1..].iter().enumerate() {
         assert_eq!(fault["kind"], "velocity-late");
         assert_eq!(fault["channel"], format!("dq{}", joint + 1));
         let published = if joint == 1 { "0.15" } else { "0.18" };
         let says = fault["says"].as_str().expect("a sentence");
         let told = format!("is {published}");
         assert!(says.contains(&told) && says.contains(" s late"), "{says}");
+        let delay = fault["delay"]["value"].as_f64().expect("a number");
+        assert!(says.contains(&format!("is {delay:.4} s")), "{says}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! `robot-model identify`: parameters from measured logs.
 
+mod data_faults;
 mod doubts;
 mod drive_gains;
 pub(crate) mod fit;
@@ -241,7 +242,9 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
-        for (source, fault) in &faults {
+        // The reader has told what is in its report.
+        let unsaid = faults.iter().filter(|(_, fault)| !fault.is_in_report());
+        for (source, fault) in unsaid {
             progress.note(&format!("note: {source}: {fault}"));
         }
         for doubt in twice::doubts(&self.logs, self.validate.as_deref()) {

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
-use robot_model::log::{Fault, Log, Mended};
+use robot_model::log::{Fault, Log, Mended, Note};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -160,7 +160,17 @@ impl Streams<'_> {
             let blocks = |log: &Log| Ok(FactorBlock::of_log(arm, log, &bands)?);
             self.each(path, &bands, progress, blocks, |blocks, found| {
                 let source = path.display().to_string();
-                faults.extend(found.into_iter().map(|fault| (source.clone(), fault)));
+                for fault in found {
+                    // Stamps that jitter do so in every piece.
+                    let is_jitter = matches!(fault, Fault::Jitter { .. });
+                    let mut before = faults.iter();
+                    let same = |(log, told): &(String, Fault)| {
+                        *log == source && told.kind() == fault.kind()
+                    };
+                    if !(is_jitter && before.any(same)) {
+                        faults.push((source.clone(), fault));
+                    }
+                }
                 factor.extend(blocks);
             })?;
         }
@@ -189,10 +199,15 @@ impl Streams<'_> {
         let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
         let pieces = pieces.map(|(k, piece)| {
             let piece = piece?;
-            if k == 0 {
-                for note in &piece.report {
-                    progress.note(&format!("note: {}: {note}", path.display()));
-                }
+            // What is wrong with rows is of each piece; all else is alike.
+            let is_own = |note: &&Note| {
+                matches!(
+                    note,
+                    Note::Gaps { .. } | Note::Coincident { .. } | Note::LostRows { .. }
+                )
+            };
+            for note in piece.report.iter().filter(|note| k == 0 || is_own(note)) {
+                progress.note(&format!("note: {}: {note}", path.display()));
             }
             progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
             Ok(piece)

@@ -6,6 +6,8 @@ use robot_model::identify::{
 use robot_model::log::Fault;
 use serde::Serialize;
 
+use super::data_faults::{FaultReport, fault_reports};
+
 /// What `--json` writes; a contract.
 #[derive(Serialize)]
 pub(crate) struct Report<'a> {
@@ -49,24 +51,6 @@ pub(crate) struct Report<'a> {
     essential: Option<EssentialReport<'a>>,
     /// Faults of the logs, which were mended where that can be.
     data_faults: Vec<FaultReport<'a>>,
-}
-
-/// What a sensor or a recorder did.
-#[derive(Serialize)]
-pub(super) struct FaultReport<'a> {
-    log: &'a str,
-    kind: &'static str,
-    channel: &'a str,
-    says: String,
-    /// Of late torques only, s; below zero where they are early.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    delay: Option<Measured>,
-}
-
-#[derive(Serialize)]
-struct Measured {
-    value: f64,
-    std: f64,
 }
 
 /// Instrumental variables against least squares.
@@ -269,24 +253,6 @@ fn standard<'a>(estimate: &Estimate, possible: &'a Possible) -> Vec<StandardRepo
         value: *value,
         std: (*origin == Origin::Logs).then(|| std(name)).flatten(),
         from: origin.name(),
-    });
-    told.collect()
-}
-
-/// Faults with the logs that they are of.
-pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> {
-    let told = faults.iter().map(|(log, fault)| FaultReport {
-        log,
-        kind: fault.kind(),
-        channel: fault.channel(),
-        says: fault.to_string(),
-        delay: match fault {
-            Fault::TorqueLate { delay, std, .. } => Some(Measured {
-                value: *delay,
-                std: *std,
-            }),
-            _ => None,
-        },
     });
     told.collect()
 }

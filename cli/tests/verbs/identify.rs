@@ -322,8 +322,23 @@ fn faults_of_the_data_are_mended_counted_and_told() {
         .collect();
     assert_eq!(kinds, ["held", "spikes", "held"], "{out:#}");
     assert_eq!(faults[1]["channel"], "tau1");
+    assert_eq!(
+        (&faults[1]["samples"], &faults[1]["first"]),
+        (&4.into(), &2.495.into())
+    );
+    let held = &faults[0];
+    assert_eq!(
+        (&held["times"], &held["samples"]),
+        (&1.into(), &125.into()),
+        "{out:#}"
+    );
+    assert_eq!(
+        (&held["first"], &held["longest"]),
+        (&10.0.into(), &0.625.into())
+    );
+    assert_eq!(held["delay"], serde_json::Value::Null);
     assert!(
-        said.contains("note: worn.csv: q1 stands still 1 times while the arm moves on"),
+        said.contains("note: worn.csv: q1 stands still while the arm moves on, 1 times"),
         "{said}"
     );
     let (as_logged, out, _) = fit("worn.csv", &["--as-logged"]);

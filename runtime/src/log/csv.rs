@@ -1,4 +1,4 @@
-//! CSV text, plain or gzip, to columns of finite numbers.
+//! CSV text, plain or gzip, to columns of finite numbers; rows that lack some are left out.
 
 use std::io::{Cursor, Read};
 
@@ -80,6 +80,7 @@ impl<'a> CsvRows<'a> {
 
     /// Adds rows to a table until it has `most`; false where there are no more.
     pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
+        let mut row = Vec::with_capacity(self.names.len());
         while table.lines.len() < most {
             let (source, record) = (&self.source, &mut self.record);
             if !next(source, &mut self.reader, record, &mut self.line)? {
@@ -94,17 +95,31 @@ impl<'a> CsvRows<'a> {
                     expected,
                 });
             }
+            row.clear();
+            let mut lost = None;
             for (k, (field, name)) in record.iter().zip(&self.names).enumerate() {
+                let value = number(source, self.line, name, field);
                 if self.is_at_first && !table.is_needed[k] {
-                    table.is_number[k] = number(source, self.line, name, field).is_ok();
+                    table.is_number[k] = value.is_ok();
                 }
-                table.columns[k].push(if table.is_number[k] {
-                    number(source, self.line, name, field)?
-                } else {
-                    f64::NAN
+                row.push(match value {
+                    _ if !table.is_number[k] => f64::NAN,
+                    Ok(value) => value,
+                    Err(error) if is_missing(field, &error) => {
+                        lost.get_or_insert(error);
+                        f64::NAN
+                    }
+                    Err(error) => return Err(error),
                 });
             }
             self.is_at_first = false;
+            if let Some(error) = lost {
+                table.lost.push(error);
+                continue;
+            }
+            for (column, value) in table.columns.iter_mut().zip(&row) {
+                column.push(*value);
+            }
             table.lines.push(self.line);
         }
         Ok(true)
@@ -144,6 +159,11 @@ fn number(source: &str, line: u64, column: &str, field: &[u8]) -> Result<f64, Lo
             text,
         }),
     }
+}
+
+/// Whether a field has no value, which is no slip of whoever wrote it.
+fn is_missing(field: &[u8], error: &LogError) -> bool {
+    field.is_empty() || matches!(error, LogError::NotFinite { .. })
 }
 
 fn text_of<'a>(source: &str, line: u64, field: &'a [u8]) -> Result<&'a str, LogError> {

@@ -3,10 +3,12 @@
 //! In: CSV text, plain or gzip, or Parquet. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
+mod close;
 mod columns;
 mod csv;
 mod error;
 mod faults;
+mod gaps;
 mod header;
 mod note;
 #[cfg(feature = "parquet")]
@@ -21,7 +23,7 @@ use std::path::Path;
 
 pub use columns::{Column, Columns};
 pub use error::LogError;
-pub use faults::{Fault, Mended};
+pub use faults::{Fault, Mended, Stretches};
 pub use note::Note;
 pub use pieces::Pieces;
 
@@ -55,7 +57,8 @@ pub struct Log {
     pub extra: Vec<Channel>,
     /// What was changed or set aside in reading.
     pub report: Vec<Note>,
-    /// Where samples are made up, s since the start of the log: no row around them is fitted, and no error counts there.
+    /// Where samples are made up, or a position jumps and stays, s since the start of the log: no row around them is fitted, and no error
+    /// counts there.
     pub holes: Vec<Range<f64>>,
     /// Where a joint's torque stands at its largest or smallest value, s since the start of the log, `[joint]`: no row of that joint around
     /// them is fitted unless the model says what a limit takes. No joints where none were looked for, see [`Log::mended`].
@@ -75,12 +78,14 @@ impl Log {
     /// Reads a CSV file, plain or gzip, or with feature `parquet` a Parquet file (told by its first bytes, not by its name), of an arm with `dof` joints.
     ///
     /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
-    /// resampled to the median step by cubic interpolation, which [`Log::report`] tells.
+    /// resampled to the median step by cubic interpolation, short gaps are filled by straight lines, and the mean stands for
+    /// samples that nearly coincide, which [`Log::report`] tells.
     ///
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
-    /// field that is no finite number, a row of the wrong length, time that does not rise, a gap in time, too few samples, a
-    /// sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
+    /// field that is no number, a twentieth of the rows with fields that are empty or not finite (fewer count as missing), a
+    /// row of the wrong length, time that does not rise, a gap in time of more than half a second or a twentieth of the log,
+    /// too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
     ///
     /// # Examples
     /// ```
@@ -162,7 +167,12 @@ impl Log {
             .extra
             .iter()
             .partition(|(_, place)| table.is_number[place.column]);
+        let lost = table.lost.few(table.lines.len())?;
         let mut report = Vec::new();
+        if let Some((rows, first)) = &lost {
+            let first = first.to_string();
+            report.push(Note::LostRows { rows: *rows, first });
+        }
         if header.is_standard_instead {
             report.push(Note::StandardColumns);
         }
@@ -187,7 +197,12 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
         };
-        log.finish(Some(&table.lines))
+        let finished = log.finish(Some(&table.lines));
+        // A gap is none in the file where its rows hold no numbers.
+        finished.map_err(|error| match (error, lost) {
+            (LogError::Gap { .. }, Some((_, first))) => first,
+            (error, _) => error,
+        })
     }
 
     /// A log from samples in memory: `q` and `tau` are `[joint][sample]`, as long as `time`.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::Stretches;
 use super::error::list;
 
 /// Something about a log that its user should know, and that is no error.
@@ -20,6 +21,25 @@ pub enum Note {
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
+    /// Rows that hold no finite number somewhere: they count as missing.
+    LostRows {
+        /// How many.
+        rows: usize,
+        /// What is wrong with the first.
+        first: String,
+    },
+    /// Samples that nearly coincide in time with the one before: their mean stands for both.
+    Coincident {
+        /// How many.
+        samples: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
+    /// Samples are missing in time.
+    Gaps {
+        /// How often and how long.
+        at: Stretches,
+    },
     /// The time stamps were not uniform: all channels were interpolated onto a grid of the median step.
     Resampled {
         /// Samples as logged.
@@ -50,6 +70,17 @@ impl fmt::Display for Note {
                 f,
                 "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
             ),
+            Self::LostRows { rows, first } => {
+                write!(
+                    f,
+                    "{rows} rows count as missing, the first of them since {first}"
+                )
+            }
+            Self::Coincident { samples, first } => write!(
+                f,
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+            ),
+            Self::Gaps { at } => write!(f, "samples are missing, {at}"),
             Self::Resampled {
                 logged,
                 resampled,

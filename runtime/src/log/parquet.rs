@@ -77,6 +77,8 @@ impl ParquetRows {
     /// Rows of the group up to `end`.
     fn hand_on(&mut self, table: &mut Table, end: usize) -> Result<(), LogError> {
         let rows = self.next_row..end;
+        // Of each row the first column that has no number in it.
+        let mut bad: Vec<Option<usize>> = vec![None; rows.len()];
         for (k, column) in self.group.iter().enumerate() {
             let values = column.as_ref().map(|column| &column[rows.clone()]);
             let has_first =
@@ -85,21 +87,32 @@ impl ParquetRows {
                 table.is_number[k] = has_first;
             }
             if !table.is_number[k] {
-                table.columns[k].extend(rows.clone().map(|_| f64::NAN));
                 continue;
             }
             let Some(values) = values else {
                 return Err(self.no_number(k, 0, "no whole or real number"));
             };
-            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
-                return Err(self.no_number(k, row, "a null or no finite number"));
+            for (row, _) in values.iter().enumerate().filter(|(_, v)| !v.is_finite()) {
+                bad[row].get_or_insert(k);
             }
-            table.columns[k].extend_from_slice(values);
         }
-        for _ in rows {
-            self.rows += 1;
-            table.lines.push(self.rows);
+        for (k, column) in self.group.iter().enumerate() {
+            let sound = rows.clone().zip(&bad).filter(|(_, bad)| bad.is_none());
+            let value = |(row, _)| match column {
+                Some(values) if table.is_number[k] => values[row],
+                _ => f64::NAN,
+            };
+            table.columns[k].extend(sound.map(value));
         }
+        for (row, column) in bad.iter().enumerate() {
+            match column {
+                Some(k) => table
+                    .lost
+                    .push(self.no_number(*k, row, "a null or no finite number")),
+                None => table.lines.push(self.rows + row as u64 + 1),
+            }
+        }
+        self.rows += rows.len() as u64;
         self.next_row = end;
         Ok(())
     }

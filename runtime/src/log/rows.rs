@@ -29,6 +29,37 @@ pub(super) struct Table {
     pub is_number: Vec<bool>,
     /// Line of each row.
     pub lines: Vec<u64>,
+    /// Rows that are left out.
+    pub lost: Lost,
+}
+
+/// Rows with fields that are empty, NaN or infinite: they count as missing where they are few.
+#[derive(Debug, Default)]
+pub(super) struct Lost {
+    rows: usize,
+    /// What is wrong with the first.
+    first: Option<LogError>,
+}
+
+/// The share of all rows from which on they are too many.
+const MANY: f64 = 0.05;
+
+impl Lost {
+    pub fn push(&mut self, error: LogError) {
+        self.rows += 1;
+        self.first.get_or_insert(error);
+    }
+
+    /// How many there are and what is wrong with the first, beside so many sound rows.
+    ///
+    /// # Errors
+    /// That, where there are many.
+    pub fn few(self, sound: usize) -> Result<Option<(usize, LogError)>, LogError> {
+        match self.first {
+            Some(first) if self.rows as f64 >= MANY * (sound + self.rows) as f64 => Err(first),
+            first => Ok(first.map(|first| (self.rows, first))),
+        }
+    }
 }
 
 impl<'a> Rows<'a> {
@@ -94,6 +125,7 @@ impl<'a> Rows<'a> {
             is_needed,
             is_number: vec![true; count],
             lines: Vec::new(),
+            lost: Lost::default(),
         }
     }
 
@@ -142,6 +174,7 @@ impl Table {
             columns: self.columns.iter_mut().map(&mut first).collect(),
             is_needed: self.is_needed.clone(),
             is_number: self.is_number.clone(),
+            lost: std::mem::take(&mut self.lost),
             lines: {
                 let lines = self.lines[..count].to_vec();
                 self.lines.drain(..stays);

@@ -12,7 +12,9 @@ use flate2::write::GzEncoder;
 
 use super::*;
 
+mod close;
 mod columns;
+mod gaps;
 
 /// A log of one joint: rows of `time, q1, tau1` at 10 ms.
 fn rows(count: usize) -> Vec<String> {

@@ -1,15 +1,12 @@
 //! Time stamps as logged to a uniform grid.
 
-use super::{Log, LogError, Note};
+use super::{Log, LogError, Note, close, gaps};
 use crate::signal::resample;
-
-/// A step longer than this many median steps is a gap: what the arm did inside it is not known.
-const GAP_STEPS: f64 = 5.0;
 
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
 const UNIFORM_SHARE: f64 = 0.01;
 
-/// Refuses time that does not rise or has gaps, and moves all channels onto a uniform grid where they are not on one.
+/// Refuses time that does not rise or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), LogError> {
     let time = &log.time;
     let place = |sample: usize| log.place(sample, lines);
@@ -22,16 +19,11 @@ pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), L
         });
     }
     let median = median(&steps);
-    if let Some(k) = steps.iter().position(|&step| step > GAP_STEPS * median) {
-        let (previous, time) = (time[k], time[k + 1]);
-        return Err(LogError::Gap {
-            place: place(k + 1),
-            time,
-            previous,
-            steps: steps[k] / median,
-        });
-    }
-
+    let logged = log.time.len();
+    let lines = close::merge(log, lines, median);
+    let lines = gaps::fill(log, lines.as_deref(), median)?;
+    let time = &log.time;
+    let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let count = time.len();
     let mean = (time[count - 1] - time[0]) / (count - 1) as f64;
     let off_grid = |k: usize| (time[k] - time[0] - mean * k as f64).abs();
@@ -52,17 +44,17 @@ pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), L
     // A millionth of a step is what rounding may take from the last sample.
     let resampled = resample::whole_steps((time[count - 1] - time[0]) / median + 1e-6) + 1;
     log.report.push(Note::Resampled {
-        logged: count,
+        logged,
         resampled,
         step: median,
         jitter_rms: (sum_of_squares / steps.len() as f64).sqrt(),
         jitter_max: jitter(steps[worst]),
-        worst_line: lines.map(|lines| lines[worst + 1]),
+        worst_line: lines.as_ref().map(|lines| lines[worst + 1]),
     });
     let grid = resample::grid(time[0], median, resampled);
-    let logged = std::mem::replace(&mut log.time, grid.clone());
+    let stamps = std::mem::replace(&mut log.time, grid.clone());
     for channel in log.channels_mut() {
-        *channel = resample::cubic(&logged, channel, &grid);
+        *channel = resample::cubic(&stamps, channel, &grid);
     }
     Ok(())
 }

@@ -9,7 +9,8 @@ use robot_model_spec::model::Body;
 use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
-use super::super::report::{CombinationReport, FaultReport, Parameter, combination, fault_reports};
+use super::super::data_faults::{FaultReport, fault_reports};
+use super::super::report::{CombinationReport, Parameter, combination};
 use super::directions::{DirectionReport, RatioReport, direction, hanging, ratio};
 use super::{Judged, listed};
 

@@ -1,130 +1,31 @@
 //! Faults of the data themselves: what a sensor or a recorder did, not the arm.
 //!
-//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes and holds are replaced by straight lines;
-//! around longer holds the log has a [hole](Log::holes), of which no row of identification knows. Velocities are compared with the slopes
-//! of positions and used for nothing; a torque that stands at its limit is told, and [where](Log::clipped). The thresholds are wide, so that sound logs have
-//! hardly any.
+//! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
+//! straight lines; around longer ones, and where a position jumps and stays, the log has a [hole](Log::holes), of which no row of
+//! identification knows. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is
+//! told, and [where](Log::clipped). The thresholds are wide, so that sound logs have hardly any.
 
+mod bursts;
 mod clipped;
+mod dropouts;
+mod fault;
 mod held;
+mod slips;
 mod spikes;
 mod velocity;
 
-use std::fmt;
 use std::ops::Range;
+
+pub use fault::{Fault, Stretches};
 
 use super::Log;
 
-/// Holds up to this long are bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
-const BRIDGED_S: f64 = 0.01;
+/// What is replaced up to this long is bridged, s: a tenth of the fastest period that identification keeps as a rule. Longer ones are holes.
+pub(super) const BRIDGED_S: f64 = 0.01;
 
-/// What is wrong with the data of a log.
-#[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
-pub enum Fault {
-    /// Samples far from both their neighbors; they were replaced by a straight line.
-    Spikes {
-        /// Name of the channel, `q1` or `tau1`.
-        channel: String,
-        /// How many samples.
-        samples: usize,
-        /// Time of the first, s.
-        first: f64,
-    },
-    /// A value that stood still while the arm moved on; short holds were replaced by a straight line, at longer ones the log has a hole.
-    Held {
-        /// Name of the channel.
-        channel: String,
-        /// How often.
-        times: usize,
-        /// How many samples.
-        samples: usize,
-        /// Time of the first, s.
-        first: f64,
-        /// The longest, s.
-        longest: f64,
-    },
-    /// A torque that stands at its largest or smallest value.
-    Clipped {
-        /// Name of the channel.
-        channel: String,
-        /// That value, in the log's unit.
-        value: f64,
-        /// Share of the samples.
-        share: f64,
-    },
-    /// A logged velocity that is not the slope of the position at the same time.
-    VelocityLate {
-        /// Name of the channel.
-        channel: String,
-        /// By how much it is late, s; negative where it is early.
-        delay: f64,
-    },
-    /// A torque that is not of the time of the position, as an identification tells it; no log is mended of it.
-    TorqueLate {
-        /// Name of the channel.
-        channel: String,
-        /// Name of the joint.
-        joint: String,
-        /// By how much it is late, s; negative where it is early.
-        delay: f64,
-        /// Its standard deviation, s.
-        std: f64,
-        /// By which share the joint's error is less without it.
-        gain: f64,
-    },
-    /// A logged velocity in another unit than the position, or of the other sign.
-    VelocityScale {
-        /// Name of the channel.
-        channel: String,
-        /// Logged velocity over slope of the position.
-        factor: f64,
-    },
-    /// A joint that does not move.
-    Still {
-        /// Name of the channel.
-        channel: String,
-    },
-    /// A torque that is the same at all times.
-    Constant {
-        /// Name of the channel.
-        channel: String,
-        /// That value.
-        value: f64,
-    },
-}
-
-impl Fault {
-    /// Kebab-case name of its kind.
-    #[must_use]
-    pub const fn kind(&self) -> &'static str {
-        match self {
-            Self::Spikes { .. } => "spikes",
-            Self::Held { .. } => "held",
-            Self::Clipped { .. } => "clipped",
-            Self::VelocityLate { .. } => "velocity-late",
-            Self::TorqueLate { .. } => "late-torque",
-            Self::VelocityScale { .. } => "velocity-scale",
-            Self::Still { .. } => "still",
-            Self::Constant { .. } => "constant",
-        }
-    }
-
-    /// Name of the channel that has it.
-    #[must_use]
-    pub fn channel(&self) -> &str {
-        match self {
-            Self::Spikes { channel, .. }
-            | Self::Held { channel, .. }
-            | Self::Clipped { channel, .. }
-            | Self::VelocityLate { channel, .. }
-            | Self::TorqueLate { channel, .. }
-            | Self::VelocityScale { channel, .. }
-            | Self::Still { channel }
-            | Self::Constant { channel, .. } => channel,
-        }
-    }
-}
+/// Samples and steps beyond this share are faults' own, where there are any; a step is steep beyond so many times what others are below.
+const FEW: f64 = 0.9;
+const STEEP: f64 = 8.0;
 
 /// A log after its faults were looked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,61 +53,20 @@ impl Log {
     /// ```
     #[must_use]
     pub fn mended(mut self) -> Mended {
-        let mut faults = Vec::new();
-        let bridged = (BRIDGED_S * self.rate_hz()).max(1.0);
-        let (start, step) = (self.time[0], 1.0 / self.rate_hz());
-        let after = |sample: usize| step * sample as f64;
+        let mut faults: Vec<Fault> = self.report.iter().filter_map(Fault::of_note).collect();
         for joint in 0..self.dof() {
-            for family in ["q", "tau"] {
-                let is_position = family == "q";
-                let channel = format!("{family}{}", joint + 1);
-                let mut values = std::mem::take(if is_position {
-                    &mut self.q[joint]
-                } else {
-                    &mut self.tau[joint]
-                });
-                let found = spikes::find(&values);
-                if let Some(first) = found.first() {
-                    faults.push(Fault::Spikes {
-                        channel: channel.clone(),
-                        samples: found.iter().map(Range::len).sum(),
-                        first: start + after(first.start),
-                    });
-                }
-                for range in found {
-                    bridge(&mut values, range);
-                }
-                let found = if is_position {
-                    held::of_position(&values)
-                } else {
-                    held::of_torque(&values, &self.q[joint])
-                };
-                if let Some(first) = found.first() {
-                    let longest = found.iter().map(Range::len).max().unwrap_or(0);
-                    faults.push(Fault::Held {
-                        channel,
-                        times: found.len(),
-                        samples: found.iter().map(Range::len).sum(),
-                        first: start + after(first.start),
-                        longest: after(longest),
-                    });
-                }
-                for range in found {
-                    if range.len() as f64 > bridged {
-                        self.holes.push(after(range.start)..after(range.end));
-                    }
-                    bridge(&mut values, range);
-                }
-                if is_position {
-                    self.q[joint] = values;
-                } else {
-                    self.tau[joint] = values;
-                }
-            }
+            let mut q = std::mem::take(&mut self.q[joint]);
+            faults.extend(self.mend_position(joint, &mut q));
+            self.q[joint] = q;
+            let mut tau = std::mem::take(&mut self.tau[joint]);
+            faults.extend(self.mend_torque(joint, &mut tau));
+            self.tau[joint] = tau;
         }
         faults.extend(self.standing());
         let clipped = clipped::find(&self);
         faults.extend(clipped.faults);
+        let step = 1.0 / self.rate_hz();
+        let after = |sample: usize| step * sample as f64;
         let in_seconds = |samples: &Range<usize>| after(samples.start)..after(samples.end - 1);
         let spans = clipped.spans.iter();
         self.clipped = spans
@@ -214,6 +74,105 @@ impl Log {
             .collect();
         faults.extend(velocity::find(&self));
         Mended { log: self, faults }
+    }
+
+    /// A position without what was found in it.
+    fn mend_position(&mut self, joint: usize, q: &mut [f64]) -> Vec<Fault> {
+        let channel = || format!("q{}", joint + 1);
+        let at = self.cut_out(q, dropouts::of_position(q));
+        let dropouts = at.map(|at| Fault::Dropouts {
+            channel: channel(),
+            at,
+        });
+        let at = self.cut_out(q, bursts::of_position(q, self.rate_hz()));
+        let bursts = at.map(|at| Fault::Bursts {
+            channel: channel(),
+            at,
+        });
+        let spikes = self.replace_spikes(q, channel());
+        let at = self.cut_out(q, held::of_position(q));
+        let held = at.map(|at| Fault::Held {
+            channel: channel(),
+            at,
+        });
+        let slips = self.mask_slips(q, channel());
+        let found = [dropouts, bursts, spikes, held, slips];
+        found.into_iter().flatten().collect()
+    }
+
+    /// A torque without what was found in it.
+    fn mend_torque(&mut self, joint: usize, tau: &mut [f64]) -> Vec<Fault> {
+        let channel = || format!("tau{}", joint + 1);
+        let at = self.cut_out(tau, dropouts::of_torque(tau));
+        let dropouts = at.map(|at| Fault::Dropouts {
+            channel: channel(),
+            at,
+        });
+        let at = self.cut_out(tau, bursts::of_torque(tau, &self.q[joint], self.rate_hz()));
+        let bursts = at.map(|at| Fault::Bursts {
+            channel: channel(),
+            at,
+        });
+        let spikes = self.replace_spikes(tau, channel());
+        let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
+        let held = at.map(|at| Fault::Held {
+            channel: channel(),
+            at,
+        });
+        let found = [dropouts, bursts, spikes, held];
+        found.into_iter().flatten().collect()
+    }
+
+    fn replace_spikes(&self, values: &mut [f64], channel: String) -> Option<Fault> {
+        let found = spikes::find(values);
+        let first = found.first()?.start;
+        let samples = found.iter().map(Range::len).sum();
+        for range in found {
+            bridge(values, range);
+        }
+        Some(Fault::Spikes {
+            channel,
+            samples,
+            first: self.time[first],
+        })
+    }
+
+    /// Holes over jumps that stay.
+    fn mask_slips(&mut self, values: &[f64], channel: String) -> Option<Fault> {
+        let found = slips::find(values);
+        let first = *found.first()?;
+        let size = |k: usize| values[k + 1] - values[k];
+        let larger = |a: &&usize, b: &&usize| size(**a).abs().total_cmp(&size(**b).abs());
+        let largest = size(*found.iter().max_by(larger)?);
+        let after = |sample: usize| sample as f64 / self.rate_hz();
+        let holes: Vec<Range<f64>> = found.iter().map(|&k| after(k)..after(k + 1)).collect();
+        self.holes.extend(holes);
+        Some(Fault::Slips {
+            channel,
+            times: found.len(),
+            first: self.time[first + 1],
+            largest,
+        })
+    }
+
+    /// Straight lines in place of ranges, and holes where they are long; says how much that was, where there are any.
+    fn cut_out(&mut self, values: &mut [f64], ranges: Vec<Range<usize>>) -> Option<Stretches> {
+        let rate_hz = self.rate_hz();
+        let bridged = (BRIDGED_S * rate_hz).max(1.0);
+        let after = |sample: usize| sample as f64 / rate_hz;
+        let at = Stretches {
+            times: ranges.len(),
+            samples: ranges.iter().map(Range::len).sum(),
+            first: self.time[ranges.first()?.start],
+            longest: after(ranges.iter().map(Range::len).max()?),
+        };
+        for range in ranges {
+            if range.len() as f64 > bridged {
+                self.holes.push(after(range.start)..after(range.end));
+            }
+            bridge(values, range);
+        }
+        Some(at)
     }
 
     /// Channels that say the same at all times.
@@ -261,10 +220,11 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
-/// Sizes of the steps from sample to sample.
-fn steps(values: &[f64]) -> Vec<f64> {
-    let pairs = values.windows(2);
-    pairs.map(|pair| (pair[1] - pair[0]).abs()).collect()
+/// Whether that is the largest or the smallest value of all.
+fn is_limit(values: &[f64], value: f64) -> bool {
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    value >= high || value <= low
 }
 
 /// Those that are not zero.
@@ -276,84 +236,34 @@ fn moved(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// What the sensor resolves: one of the smallest steps that are not zero, as rounding makes smaller ones here and there.
-fn quantum(steps: &[f64]) -> f64 {
-    quantile(moved(steps), 0.1)
+/// Steps from sample to sample of a channel.
+struct Steps {
+    /// Their sizes.
+    sizes: Vec<f64>,
+    /// What the sensor resolves: one of the smallest that are not zero, as rounding makes smaller ones here and there.
+    quantum: f64,
+    /// The middle one of those that are not zero.
+    typical: f64,
+    /// What all but a few of these are below.
+    usual: f64,
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Spikes {
-                channel,
-                samples,
-                first,
-            } => write!(
-                f,
-                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
-            ),
-            Self::Held {
-                channel,
-                times,
-                samples,
-                first,
-                longest,
-            } => write!(
-                f,
-                "{channel} stands still {times} times while the arm moves on, {samples} samples in all, {longest:.3} s at most, the first at \
-                 {first:.3} s; they were replaced by straight lines, and nothing is fitted around those of more than 10 ms"
-            ),
-            Self::Clipped {
-                channel,
-                value,
-                share,
-            } => write!(
-                f,
-                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
-                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
-                100.0 * share
-            ),
-            Self::VelocityLate { channel, delay } => {
-                let word = if *delay > 0.0 { "late" } else { "early" };
-                write!(
-                    f,
-                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
-                    delay.abs()
-                )
-            }
-            Self::TorqueLate {
-                channel,
-                joint,
-                delay,
-                std,
-                gain,
-            } => {
-                let word = if *delay > 0.0 { "late" } else { "early" };
-                write!(
-                    f,
-                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {word} against the position, and friction and inertia are found with it; \
-                     its error is {:.0} % less without that: `time_delay;` among the effects finds one delay of all joints, up to 0.03 s, \
-                     longer ones are to be taken out of the log",
-                    delay.abs(),
-                    100.0 * gain
-                )
-            }
-            Self::VelocityScale { channel, factor } => {
-                write!(
-                    f,
-                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
-                    velocity::unit(*factor)
-                )
-            }
-            Self::Still { channel } => write!(
-                f,
-                "{channel} is the same at all times: the joint does not move"
-            ),
-            Self::Constant { channel, value } => write!(
-                f,
-                "{channel} is {value} at all times: nothing was logged, or the drive was off"
-            ),
+impl Steps {
+    fn of(values: &[f64]) -> Self {
+        let pairs = values.windows(2);
+        let sizes: Vec<f64> = pairs.map(|pair| (pair[1] - pair[0]).abs()).collect();
+        let moved = moved(&sizes);
+        Self {
+            quantum: quantile(moved.clone(), 0.1),
+            typical: quantile(moved.clone(), 0.5),
+            usual: quantile(moved, FEW),
+            sizes,
         }
+    }
+
+    /// From here on a step is none of the arm's own.
+    fn steep(&self) -> f64 {
+        STEEP * self.usual.max(self.quantum)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{moved, quantile, quantum, steps};
+use super::{FEW, Steps, moved, quantile};
 
 /// Samples that the median is taken of, to either side.
 const REACH: usize = 5;
@@ -10,13 +10,8 @@ const REACH: usize = 5;
 /// Most samples of one spike.
 const WIDEST: usize = 3;
 
-/// How far a spike is from the median, in units of what nine of ten samples and steps are below, and of what the sensor
-/// resolves.
+/// How far a spike is from the median, in units of what nine of ten samples are below; no less than a steep step.
 const FAR: f64 = 12.0;
-const STEEP: f64 = 8.0;
-
-/// Samples and steps beyond this share are spikes' own, where there are any.
-const FEW: f64 = 0.9;
 
 /// Ranges of samples.
 pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
@@ -24,12 +19,11 @@ pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
         .map(|k| values[k] - median(values, k))
         .collect();
     let sizes: Vec<f64> = distance.iter().map(|x| x.abs()).collect();
-    let steps = steps(values);
-    let quantum = quantum(&steps);
-    if quantum == 0.0 {
+    let steps = Steps::of(values);
+    if steps.quantum == 0.0 {
         return Vec::new();
     }
-    let steep = STEEP * quantile(moved(&steps), FEW).max(quantum);
+    let steep = steps.steep();
     // Where a smooth position is its own median nearly everywhere, most distances that are not zero are of spikes: beyond what steps
     // allow they do not say how far is usual.
     let mut usual = moved(&sizes);

@@ -6,6 +6,9 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::*;
 
+mod away;
+mod clipped;
+
 const RATE: f64 = 500.0;
 
 /// Ten seconds of one joint with dry friction, noise of the torque and an encoder of finite steps, that rests for a second in the middle.
@@ -90,12 +93,7 @@ fn holds_are_bridged_and_long_ones_cut_out() {
         .faults
         .iter()
         .filter_map(|fault| match fault {
-            Fault::Held {
-                channel,
-                times,
-                samples,
-                ..
-            } => Some((channel.as_str(), *times, *samples)),
+            Fault::Held { channel, at } => Some((channel.as_str(), at.times, at.samples)),
             _ => None,
         })
         .collect();

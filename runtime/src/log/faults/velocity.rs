@@ -1,6 +1,6 @@
 //! Logged velocities against the slopes of positions.
 
-use super::{Fault, quantum, steps};
+use super::{Fault, Steps};
 use crate::log::Log;
 use crate::signal::resample::whole_steps;
 
@@ -47,7 +47,7 @@ pub(super) fn find(log: &Log) -> Vec<Fault> {
         let mean: Vec<f64> = (0..blocks).map(mean).collect();
         let high = q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = q.iter().copied().fold(f64::INFINITY, f64::min);
-        if high - low <= MOVES * quantum(&steps(q)) {
+        if high - low <= MOVES * Steps::of(q).quantum {
             continue;
         }
         let most = whole_steps((LONGEST / step).min(blocks as f64 / 4.0));

@@ -1,0 +1,147 @@
+//! Faults of logs as JSON has them: what is said, and the numbers in it.
+
+use robot_model::log::{Fault, Stretches};
+use serde::Serialize;
+
+/// What a sensor or a recorder did.
+#[derive(Serialize)]
+pub(super) struct FaultReport<'a> {
+    log: &'a str,
+    kind: &'static str,
+    channel: &'a str,
+    says: String,
+    #[serde(flatten)]
+    numbers: Numbers,
+}
+
+/// Those that a kind of faults has.
+#[derive(Serialize, Default)]
+struct Numbers {
+    /// How often.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<usize>,
+    /// How many samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samples: Option<usize>,
+    /// Time of the first, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    first: Option<f64>,
+    /// The longest, s.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    longest: Option<f64>,
+    /// The largest jump of a position, rad or m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest: Option<f64>,
+    /// At which a torque stands, N m or N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    value: Option<f64>,
+    /// Of the samples.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    share: Option<f64>,
+    /// By how much a channel is late, s; below zero where it is early.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    delay: Option<Measured>,
+    /// Logged over computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    factor: Option<f64>,
+    /// Median step of time, s, and how far others are from it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jitter_rms: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    jitter_max: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Measured {
+    value: f64,
+    /// Where it is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    std: Option<f64>,
+}
+
+impl Numbers {
+    fn of(fault: &Fault) -> Self {
+        let none = Self::default();
+        match *fault {
+            Fault::Spikes { samples, first, .. } | Fault::Coincident { samples, first } => Self {
+                samples: Some(samples),
+                first: Some(first),
+                ..none
+            },
+            Fault::Held { at, .. }
+            | Fault::Dropouts { at, .. }
+            | Fault::Bursts { at, .. }
+            | Fault::Gaps { at } => Self::of_stretches(at),
+            Fault::Slips {
+                times,
+                first,
+                largest,
+                ..
+            } => Self {
+                times: Some(times),
+                first: Some(first),
+                largest: Some(largest),
+                ..none
+            },
+            Fault::Clipped { value, share, .. } => Self {
+                value: Some(value),
+                share: Some(share),
+                ..none
+            },
+            Fault::VelocityLate { delay, .. } => Self {
+                delay: Some(Measured {
+                    value: delay,
+                    std: None,
+                }),
+                ..none
+            },
+            Fault::TorqueLate { delay, std, .. } => Self {
+                delay: Some(Measured {
+                    value: delay,
+                    std: Some(std),
+                }),
+                ..none
+            },
+            Fault::VelocityScale { factor, .. } => Self {
+                factor: Some(factor),
+                ..none
+            },
+            Fault::Constant { value, .. } => Self {
+                value: Some(value),
+                ..none
+            },
+            Fault::Jitter { step, rms, largest } => Self {
+                step: Some(step),
+                jitter_rms: Some(rms),
+                jitter_max: Some(largest),
+                ..none
+            },
+            // A joint that stands has no number.
+            _ => none,
+        }
+    }
+
+    fn of_stretches(at: Stretches) -> Self {
+        Self {
+            times: Some(at.times),
+            samples: Some(at.samples),
+            first: Some(at.first),
+            longest: Some(at.longest),
+            ..Self::default()
+        }
+    }
+}
+
+/// Faults with the logs that they are of.
+pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> {
+    let told = faults.iter().map(|(log, fault)| FaultReport {
+        log,
+        kind: fault.kind(),
+        channel: fault.channel(),
+        says: fault.to_string(),
+        numbers: Numbers::of(fault),
+    });
+    told.collect()
+}
