@@ -1,6 +1,6 @@
 //! `robot-model merge`: one estimate from what many machines' logs tell.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use robot_model::identify::{Factor, Method};
@@ -12,7 +12,7 @@ use crate::identify::report::report;
 use crate::identify::table::table;
 use crate::identify::told_apart;
 use crate::interpreted::InterpretedArm;
-use crate::output::{self, Files};
+use crate::output::{self, Files, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
@@ -62,9 +62,17 @@ impl Merge {
         let arm = &form.0;
         let progress = Progress::new();
         let mut all: Option<Factor> = None;
+        let mut read: Vec<(&PathBuf, Factor)> = Vec::new();
         for path in &self.factors {
             progress.step(&format!("reading {}", path.display()));
             let factor = reduced::read(path, arm)?;
+            for doubt in twice(path, &factor, &read) {
+                progress.note(&format!("note: {doubt}"));
+            }
+            // Without its rows a factor is known again all the same.
+            let mut known = factor.clone();
+            known.blocks.iter_mut().for_each(|block| block.rows.clear());
+            read.push((path, known));
             match &mut all {
                 None => all = Some(factor),
                 Some(all) => all
@@ -116,4 +124,21 @@ impl Merge {
             fitted.join(", ")
         ))
     }
+}
+
+/// Factors that have blocks of a log which one before them has, too.
+fn twice(path: &Path, factor: &Factor, before: &[(&PathBuf, Factor)]) -> Vec<String> {
+    let told = before.iter().filter_map(|(first, other)| {
+        let common = factor.common_blocks(other);
+        (common > 0).then(|| {
+            format!(
+                "{} has {common} of its {} in {}, too: the same log is in both, what it says counts twice, and deviations come out too \
+                 small; give it once",
+                path.display(),
+                counted(factor.blocks.len(), "block"),
+                first.display()
+            )
+        })
+    });
+    told.collect()
 }

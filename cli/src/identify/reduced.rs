@@ -25,6 +25,8 @@ struct File {
     factor: u32,
     unknowns: Vec<String>,
     joints: Vec<String>,
+    /// What the columns are made of, see [`Factor::equations`].
+    equations: Vec<[f64; 2]>,
     bands_hz: [f64; 3],
     blocks: Vec<Block>,
 }
@@ -32,21 +34,21 @@ struct File {
 #[derive(Serialize, Deserialize)]
 struct Block {
     samples: usize,
-    /// Rows of each joint that say something; in files without it all of them do.
-    #[serde(default)]
-    counts: Option<Vec<usize>>,
+    /// Rows of each joint that say something.
+    counts: Vec<usize>,
     torque_squares: Vec<f64>,
     /// `[joint][row][column]`: columns are the unknowns, then the torque.
     rows: Vec<Vec<Vec<f64>>>,
 }
 
-const FORM: u32 = 1;
+/// The first did not say what its columns are made of.
+const FORM: u32 = 2;
 
 /// The text of a factor's file.
 pub(crate) fn text(factor: &Factor) -> String {
     let blocks = factor.blocks.iter().map(|block| Block {
         samples: block.samples,
-        counts: Some(block.counts.clone()),
+        counts: block.counts.clone(),
         torque_squares: block.torque_squares.clone(),
         rows: block.rows.clone(),
     });
@@ -55,6 +57,7 @@ pub(crate) fn text(factor: &Factor) -> String {
         factor: FORM,
         unknowns: factor.unknowns.clone(),
         joints: factor.joints.clone(),
+        equations: factor.equations.clone(),
         bands_hz: [bands.shared_hz, bands.smooth_hz, bands.wide_hz],
         blocks: blocks.collect(),
     };
@@ -67,29 +70,36 @@ pub(crate) fn text(factor: &Factor) -> String {
 pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
     let value: Value = json::read(path)?;
-    let file: File = serde_json::from_value(value)
-        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
-    if file.factor != FORM {
+    if let Some(form) = value["factor"]
+        .as_u64()
+        .filter(|form| *form != u64::from(FORM))
+    {
         return Err(refuse(&format!(
-            "it is a factor of form {}, this program reads form {FORM}; write it anew with `identify --factor`",
-            file.factor
+            "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
         )));
     }
+    let file: File = serde_json::from_value(value)
+        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     let fits = |block: &Block| {
         let rows = block.rows.iter().flatten();
-        let counts = block.counts.iter().flatten();
-        let some = block.counts.iter();
         block.rows.len() == joints
             && block.torque_squares.len() == joints
-            && some.into_iter().all(|counts| counts.len() == joints)
-            && counts.into_iter().all(|count| *count <= block.samples)
+            && block.counts.len() == joints
+            && block.counts.iter().all(|count| *count <= block.samples)
             && block.samples > 0
             && rows.into_iter().all(|row| row.len() == width)
     };
     if let Some(k) = file.blocks.iter().position(|block| !fits(block)) {
         return Err(refuse(&format!(
             "block {} has not one list of rows per joint with {width} numbers each; write it anew with `identify --factor`",
+            k + 1
+        )));
+    }
+    let is_negative = |block: &Block| block.torque_squares.iter().any(|sum| *sum < 0.0);
+    if let Some(k) = file.blocks.iter().position(is_negative) {
+        return Err(refuse(&format!(
+            "block {} has a sum of squares below zero; write it anew with `identify --factor`",
             k + 1
         )));
     }
@@ -102,12 +112,13 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let mut factor = Factor::new(arm, bands)?;
     factor.joints = file.joints;
     factor.unknowns = file.unknowns;
+    factor.equations = file.equations;
     factor.blocks = file
         .blocks
         .into_iter()
         .map(|block| FactorBlock {
             samples: block.samples,
-            counts: block.counts.unwrap_or(vec![block.samples; joints]),
+            counts: block.counts,
             rows: block.rows,
             torque_squares: block.torque_squares,
         })

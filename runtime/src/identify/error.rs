@@ -185,7 +185,7 @@ pub enum IdentifyError {
         "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`"
     )]
     OtherFactor {
-        /// Joints, unknowns or filters.
+        /// Joints, unknowns, equations or filters.
         what: &'static str,
     },
     /// The signals cannot be filtered.

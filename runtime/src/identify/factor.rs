@@ -20,6 +20,8 @@ use crate::log::Log;
 use crate::signal::Bands;
 use crate::signal::resample::whole_steps;
 
+mod equations;
+
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
 
@@ -29,6 +31,9 @@ const PARTS: usize = 16;
 /// A parameter that moves so many times further without a block than beside it is told by that block alone.
 const MOST_WITHOUT_BLOCK: f64 = 10.0;
 
+/// Sums of torque that differ by no more than this share are the same, read and written again.
+const SAME: f64 = 1e-12;
+
 /// What some logs tell of an arm's unknowns.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -37,6 +42,8 @@ pub struct Factor {
     pub unknowns: Vec<String>,
     /// Names of the joints.
     pub joints: Vec<String>,
+    /// What the columns are made of, as sums along a motion that is always the same: they tell arms with unknowns of the same names apart.
+    pub equations: Vec<[f64; 2]>,
     /// Filters of the rows.
     pub bands: Bands,
     /// Blocks of the logs, in their order.
@@ -87,6 +94,15 @@ impl FactorBlock {
                 .collect(),
         }
     }
+
+    /// Whether another block is of the same samples: no two logs have the same sums of squared torque.
+    fn is_same(&self, other: &Self) -> bool {
+        let mut sums = self.torque_squares.iter().zip(&other.torque_squares);
+        self.samples == other.samples
+            && self.counts == other.counts
+            && self.torque_squares.iter().any(|sum| *sum > 0.0)
+            && sums.all(|(one, other)| (one - other).abs() <= SAME * one.max(*other))
+    }
 }
 
 impl Factor {
@@ -109,6 +125,7 @@ impl Factor {
         Ok(Self {
             unknowns: unknowns.map(|unknown| unknown.name.clone()).collect(),
             joints: arm.joints().to_vec(),
+            equations: equations::of(arm),
             bands,
             blocks: Vec::new(),
         })
@@ -139,12 +156,14 @@ impl Factor {
     /// Adds what other logs tell of the same arm.
     ///
     /// # Errors
-    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints or filters.
+    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations or filters.
     pub fn merge(&mut self, other: Self) -> Result<(), IdentifyError> {
         let what = if other.joints != self.joints {
             Some("joints")
         } else if other.unknowns != self.unknowns {
             Some("unknowns")
+        } else if !equations::are_alike(&other.equations, &self.equations) {
+            Some("equations (kinematics, gravity, gains, effects or values that a spec fixes)")
         } else if other.bands != self.bands {
             Some("filters")
         } else {
@@ -156,6 +175,13 @@ impl Factor {
         self.blocks.extend(other.blocks);
         self.shorten();
         Ok(())
+    }
+
+    /// Blocks that another factor has, too: what they say would count twice.
+    #[must_use]
+    pub fn common_blocks(&self, other: &Self) -> usize {
+        let is_there = |block: &&FactorBlock| other.blocks.iter().any(|other| block.is_same(other));
+        self.blocks.iter().filter(is_there).count()
     }
 
     /// Samples per joint.

@@ -63,6 +63,7 @@ fn empty() -> Factor {
     Factor {
         unknowns: ["a", "b", "c"].map(str::to_owned).to_vec(),
         joints: ["one", "two"].map(str::to_owned).to_vec(),
+        equations: vec![[1.0, 2.0], [-3.0, 5.0]],
         bands: Bands::DEFAULT,
         blocks: Vec::new(),
     }
@@ -117,6 +118,43 @@ fn merged_factors_are_those_of_all_logs() {
     narrow.bands.shared_hz = 5.0;
     let refused = one.merge(narrow);
     assert_eq!(refused, Err(IdentifyError::OtherFactor { what: "filters" }));
+}
+
+#[test]
+fn other_equations_are_refused_and_rounding_is_none() {
+    let change = |change: [f64; 2]| {
+        let mut other = empty();
+        other.equations[1][0] += change[0];
+        other.equations[1][1] += change[1];
+        empty().merge(other)
+    };
+    assert_eq!(change([1e-12, -1e-12]), Ok(()));
+    for other in [[1e-6, 0.0], [0.0, 1e-6], [6.0, 0.0]] {
+        let refused = change(other).expect_err("another arm");
+        assert!(refused.to_string().contains("other equations"), "{refused}");
+    }
+    let mut short = empty();
+    short.equations.pop();
+    assert!(empty().merge(short).is_err());
+}
+
+#[test]
+fn blocks_of_the_same_samples_are_known_again() {
+    let factor = |seeds: &[u64]| {
+        let mut factor = empty();
+        for seed in seeds {
+            factor.push_rows(&stack(*seed, 0, 500));
+        }
+        factor
+    };
+    let one = factor(&[1, 2]);
+    assert_eq!(one.common_blocks(&factor(&[3, 4])), 0);
+    let mut again = factor(&[3, 2]);
+    assert_eq!(one.common_blocks(&again), 1);
+    for sum in &mut again.blocks[1].torque_squares {
+        *sum *= 1.0 + 2.0 * f64::EPSILON;
+    }
+    assert_eq!(one.common_blocks(&again), 1);
 }
 
 #[test]
