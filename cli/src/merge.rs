@@ -33,6 +33,9 @@ pub(crate) struct Merge {
     /// Write the factor of all.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
+    /// Leave out rows where joints with dry friction turn, as `identify` does. Without it their effect is in deviations.
+    #[arg(long)]
+    leave_out_turns: bool,
     /// Take what can be had where the factors do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
@@ -71,7 +74,10 @@ impl Merge {
             }
             // Without its rows a factor is known again all the same.
             let mut known = factor.clone();
-            known.blocks.iter_mut().for_each(|block| block.rows.clear());
+            for block in &mut known.blocks {
+                block.away.rows.clear();
+                block.at_turns.rows.clear();
+            }
             read.push((path, known));
             match &mut all {
                 None => all = Some(factor),
@@ -85,7 +91,7 @@ impl Merge {
             MethodArgument::Ls => Method::Ls,
             MethodArgument::Wls => Method::Wls,
         };
-        let estimate = factor.estimate(arm, method)?;
+        let estimate = factor.estimate(arm, method, self.leave_out_turns)?;
         if !self.partial {
             told_apart(&estimate)?;
         }

@@ -230,7 +230,7 @@ impl IdentifyArguments {
         };
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(&form.0, method)?;
+        let estimate = reduced.estimate(&form.0, method, self.rows.leave_out_turns)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
+use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, FactorRows, Identify};
 use robot_model::log::{Fault, Log, Mended};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
@@ -34,6 +34,14 @@ struct File {
 #[derive(Serialize, Deserialize)]
 struct Block {
     samples: usize,
+    away: Rows,
+    /// Rows at turns of joints with dry friction, where there are some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    at_turns: Option<Rows>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Rows {
     /// Rows of each joint that say something.
     counts: Vec<usize>,
     torque_squares: Vec<f64>,
@@ -41,16 +49,66 @@ struct Block {
     rows: Vec<Vec<Vec<f64>>>,
 }
 
-/// The first did not say what its columns are made of.
+impl Rows {
+    fn of(rows: &FactorRows) -> Self {
+        Self {
+            counts: rows.counts.clone(),
+            torque_squares: rows.torque_squares.clone(),
+            rows: rows.rows.clone(),
+        }
+    }
+
+    fn into_rows(self) -> FactorRows {
+        FactorRows {
+            counts: self.counts,
+            rows: self.rows,
+            torque_squares: self.torque_squares,
+        }
+    }
+
+    /// What is wrong with rows of so many joints and columns.
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let lists = [
+            self.rows.len(),
+            self.torque_squares.len(),
+            self.counts.len(),
+        ];
+        let mut rows = self.rows.iter().flatten();
+        if lists != [joints; 3] || !rows.all(|row| row.len() == width) {
+            return Some(format!(
+                "has not one list of rows per joint with {width} numbers each"
+            ));
+        }
+        let is_negative = self.torque_squares.iter().any(|sum| *sum < 0.0);
+        is_negative.then(|| "has a sum of squares below zero".to_owned())
+    }
+}
+
+impl Block {
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let parts = std::iter::once(&self.away).chain(&self.at_turns);
+        let faults = parts.clone().map(|rows| rows.fault(joints, width));
+        if let Some(fault) = faults.flatten().next() {
+            return Some(fault);
+        }
+        let count = |joint: usize| -> usize { parts.clone().map(|rows| rows.counts[joint]).sum() };
+        let is_more = self.samples == 0 || (0..joints).any(|joint| count(joint) > self.samples);
+        is_more.then(|| "has no samples, or less than rows".to_owned())
+    }
+}
+
+/// The first did not say what its columns are made of, nor which rows are at turns.
 const FORM: u32 = 2;
 
 /// The text of a factor's file.
 pub(crate) fn text(factor: &Factor) -> String {
-    let blocks = factor.blocks.iter().map(|block| Block {
-        samples: block.samples,
-        counts: block.counts.clone(),
-        torque_squares: block.torque_squares.clone(),
-        rows: block.rows.clone(),
+    let blocks = factor.blocks.iter().map(|block| {
+        let has_turns = block.at_turns.rows.iter().any(|rows| !rows.is_empty());
+        Block {
+            samples: block.samples,
+            away: Rows::of(&block.away),
+            at_turns: has_turns.then(|| Rows::of(&block.at_turns)),
+        }
     });
     let bands = factor.bands;
     let file = File {
@@ -81,27 +139,13 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let file: File = serde_json::from_value(value)
         .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
-    let fits = |block: &Block| {
-        let rows = block.rows.iter().flatten();
-        block.rows.len() == joints
-            && block.torque_squares.len() == joints
-            && block.counts.len() == joints
-            && block.counts.iter().all(|count| *count <= block.samples)
-            && block.samples > 0
-            && rows.into_iter().all(|row| row.len() == width)
-    };
-    if let Some(k) = file.blocks.iter().position(|block| !fits(block)) {
-        return Err(refuse(&format!(
-            "block {} has not one list of rows per joint with {width} numbers each; write it anew with `identify --factor`",
-            k + 1
-        )));
-    }
-    let is_negative = |block: &Block| block.torque_squares.iter().any(|sum| *sum < 0.0);
-    if let Some(k) = file.blocks.iter().position(is_negative) {
-        return Err(refuse(&format!(
-            "block {} has a sum of squares below zero; write it anew with `identify --factor`",
-            k + 1
-        )));
+    for (k, block) in file.blocks.iter().enumerate() {
+        if let Some(fault) = block.fault(joints, width) {
+            return Err(refuse(&format!(
+                "block {} {fault}; write it anew with `identify --factor`",
+                k + 1
+            )));
+        }
     }
     let [shared_hz, smooth_hz, wide_hz] = file.bands_hz;
     let bands = Bands {
@@ -118,9 +162,10 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
         .into_iter()
         .map(|block| FactorBlock {
             samples: block.samples,
-            counts: block.counts,
-            rows: block.rows,
-            torque_squares: block.torque_squares,
+            away: block.away.into_rows(),
+            at_turns: block
+                .at_turns
+                .map_or_else(|| FactorRows::none(joints), Rows::into_rows),
         })
         .collect();
     // Of this arm, and of none that is alike.
@@ -277,7 +322,9 @@ mod tests {
             let mut faults = Vec::new();
             let factor = streams.reduce(&identify, &mut faults, &progress);
             let factor = factor.expect("a sound log");
-            let estimate = factor.estimate(&form.0, Method::Wls).expect("excited");
+            let estimate = factor
+                .estimate(&form.0, Method::Wls, false)
+                .expect("excited");
             let errors = streams.errors(&estimate, &progress).expect("a sound log");
             (text(&factor), errors)
         };

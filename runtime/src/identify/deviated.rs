@@ -91,7 +91,8 @@ impl Identify {
         let weights = self.row_weights(stack, solution);
         let mut std = deviations(stack, solution, &weights);
         if !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty()) {
-            turns::widen(stack, solution, &weights, &mut std);
+            let [all, away] = turns::with_and_without(stack, &weights);
+            turns::widen(&all, &away, &solution.scale, &mut std);
         }
         std
     }

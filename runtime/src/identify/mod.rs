@@ -52,7 +52,7 @@ pub use errors::Errors;
 pub use essential::Essential;
 use estimate::Fitted;
 pub use estimate::{Estimate, Form, Identified};
-pub use factor::{Factor, FactorBlock};
+pub use factor::{Factor, FactorBlock, FactorRows};
 pub(crate) use hac::long_run_sum;
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
