@@ -3,6 +3,7 @@
 mod doubts;
 mod drive_gains;
 pub(crate) mod fit;
+mod likeness;
 mod nominal;
 mod options;
 mod output_error;
@@ -196,6 +197,8 @@ impl IdentifyArguments {
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
         doubts.extend(units::degrees(form, &identify, &logs, &estimate));
+        let motions = self.instruments.iter().zip(&identify.instruments);
+        doubts.extend(likeness::doubts(form.model(), &logs, motions));
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
