@@ -318,7 +318,10 @@ impl IdentifyArguments {
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         let resting = doubts::resting(form.model(), logs);
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
-        all.extend(apart.or_else(|| untold::doubt(estimate, form.compiled(), &resting)));
+        match apart {
+            Some(apart) => all.push(apart),
+            None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),
+        }
         all
     }
 
