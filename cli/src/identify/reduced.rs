@@ -34,14 +34,14 @@ struct File {
 #[derive(Serialize, Deserialize)]
 struct Block {
     samples: usize,
-    away: Rows,
+    away: Part,
     /// Rows at turns of joints with dry friction, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    at_turns: Option<Rows>,
+    at_turns: Option<Part>,
 }
 
 #[derive(Serialize, Deserialize)]
-struct Rows {
+struct Part {
     /// Rows of each joint that say something.
     counts: Vec<usize>,
     torque_squares: Vec<f64>,
@@ -49,7 +49,7 @@ struct Rows {
     rows: Vec<Vec<Vec<f64>>>,
 }
 
-impl Rows {
+impl Part {
     fn of(rows: &FactorRows) -> Self {
         Self {
             counts: rows.counts.clone(),
@@ -106,8 +106,8 @@ pub(crate) fn text(factor: &Factor) -> String {
         let has_turns = block.at_turns.rows.iter().any(|rows| !rows.is_empty());
         Block {
             samples: block.samples,
-            away: Rows::of(&block.away),
-            at_turns: has_turns.then(|| Rows::of(&block.at_turns)),
+            away: Part::of(&block.away),
+            at_turns: has_turns.then(|| Part::of(&block.at_turns)),
         }
     });
     let bands = factor.bands;
@@ -165,7 +165,7 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
             away: block.away.into_rows(),
             at_turns: block
                 .at_turns
-                .map_or_else(|| FactorRows::none(joints), Rows::into_rows),
+                .map_or_else(|| FactorRows::none(joints), Part::into_rows),
         })
         .collect();
     // Of this arm, and of none that is alike.
@@ -250,7 +250,7 @@ impl Streams<'_> {
                     progress.note(&format!("note: {}: {note}", path.display()));
                 }
             }
-            progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
+            progress.often(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
             Ok(piece)
         });
         let mend = |piece: Log| {

@@ -103,12 +103,14 @@ pub(super) fn doubts(estimate: &Estimate, compiled: &Compiled, resting: &[&str])
         )
     };
     let by_misfit = (!misfit.is_empty()).then(|| {
-        let joints = estimate.joints.iter().zip(percents);
-        let ill = joints.filter(|(_, percent)| **percent > MISFIT);
-        let ill = ill.map(|(joint, percent)| format!("`{joint}` {percent:.0} %"));
+        let unknowns = (0..found.len()).filter(|k| misfit.contains(&found[*k].0));
+        let shown: Vec<usize> = unknowns.flat_map(|k| joints_of(compiled, k)).collect();
+        let joints = estimate.joints.iter().zip(percents).enumerate();
+        let ill = joints.filter(|(k, (_, percent))| **percent > MISFIT && shown.contains(k));
+        let ill = ill.map(|(_, (joint, percent))| format!("`{joint}` {percent:.0} %"));
         format!(
-            "{}; the motion would tell them, but the model does not fit, as is left of the torque: {}; see first what else is noted here, whether \
-             signs, order, units and time of the columns are right, and what `trace` finds",
+            "{}; the motion would tell them if {FITS:.0} % of the torque were left, but the model does not fit and leaves {}; see first what else \
+             is noted here, whether signs, order, units and time of the columns are right, and what `trace` finds",
             hardly(&misfit),
             ill.collect::<Vec<_>>().join(", ")
         )

@@ -101,7 +101,9 @@ fn a_misfit_is_not_told_as_a_want_of_motion() {
     folder.write("burst.csv", &text);
     let said = notes(&folder, &["true.robot", "burst.csv"]);
     assert!(
-        said.contains("`upper.viscous_friction.fv`; the motion would tell them, but the model does not fit, as is left of the torque: `upper` "),
+        said.contains(
+            "`upper.viscous_friction.fv`; the motion would tell them if 2 % of the torque were left"
+        ) && said.contains("the model does not fit and leaves `upper` "),
         "{said}"
     );
     assert!(!said.contains("further and faster"), "{said}");

@@ -115,8 +115,8 @@ fn pieces_of_a_long_log_are_the_whole() {
     assert!(blocks.len() <= 32 && blocks.len() > 16, "{}", blocks.len());
 }
 
-#[test]
-fn what_is_no_factor_of_the_arm_is_refused() {
+/// Factors and specs that do not belong together, and files that are no factor.
+fn strangers() -> Folder {
     let folder = folder();
     let reduce = ["identify", "cart.robot", "one.csv", "--factor", "one.json"];
     folder.succeed(&[&reduce[..], &BANDS].concat());
@@ -161,6 +161,12 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         &text.replacen("\"rows\":[[[", "\"rows\":[[[1.0,", 1),
     );
     folder.write("plain.json", "{\"cart.m\": 3}");
+    folder
+}
+
+#[test]
+fn what_is_no_factor_of_the_arm_is_refused() {
+    let folder = strangers();
     for (arguments, reason) in [
         (
             &["merge", "more.robot", "one.json"][..],

@@ -216,6 +216,10 @@ fn options_of_other_methods_are_refused() {
         ),
         (&["--method", "iv"], "0 motions for 1 log"),
         (
+            &["--method", "ridge", "--prior", "-1"],
+            "give a share above 0",
+        ),
+        (
             &["--method", "ridge", "--prior", "0"],
             "give a share above 0",
         ),
@@ -261,7 +265,11 @@ fn a_joint_that_stands_says_nothing() {
     folder.write("values.json", values);
     measure(&folder, &|_| 0.4, &[]);
     for method in ["wls", "ls", "robust", "ridge"] {
-        let (fit, _) = identify(&folder, "arm.robot", &["--method", method, "--partial"]);
+        let (fit, said) = identify(&folder, "arm.robot", &["--method", method, "--partial"]);
+        // Of no row that counts there is no share.
+        let row = said.lines().rfind(|line| line.starts_with("lo "));
+        let row: Vec<&str> = row.expect("a row").split_whitespace().collect();
+        assert_eq!(row[3], "-", "{said}");
         let parameters = fit["parameters"].as_array().expect("a list");
         let value = |name: &str| {
             let found = parameters

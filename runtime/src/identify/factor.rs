@@ -285,7 +285,7 @@ impl Factor {
                 let columns =
                     Mat::from_fn(rows.len(), size, |row, k| rows[row][excited[k]] / scale);
                 let rest = Mat::from_fn(rows.len(), 1, |row, _| {
-                    residual(&rows[row], &solution.estimate) / scale
+                    residual(rows[row], &solution.estimate) / scale
                 });
                 score += columns.transpose() * rest;
                 information += columns.transpose() * &columns;

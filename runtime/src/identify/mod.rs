@@ -65,6 +65,7 @@ pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors, with_slopes};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
+pub use table::relative_deviation;
 
 use crate::columns::{Arm, Nominal};
 use crate::log::Log;

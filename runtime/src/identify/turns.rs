@@ -44,7 +44,9 @@ pub(super) fn leave_out(stack: &mut Stack) {
 pub(super) fn are_at(stack: &Stack) -> Vec<Vec<bool>> {
     let mut are_at = vec![vec![false; stack.samples()]; stack.dof()];
     for (are_at, turns) in are_at.iter_mut().zip(&stack.turns) {
-        turns.iter().for_each(|&row| are_at[row] = true);
+        for &row in turns {
+            are_at[row] = true;
+        }
     }
     are_at
 }
