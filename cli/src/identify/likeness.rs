@@ -9,6 +9,9 @@ use robot_model_spec::Model;
 /// Least correlation of positions of one motion: a controller that follows badly leaves more.
 const ALIKE: f64 = 0.9;
 
+/// Mean square of positions, rad^2 or m^2, below which a joint stands.
+const STILL: f64 = 1e-18;
+
 /// Sentences about motions that hardly resemble the log that they are given for.
 pub(super) fn doubts<'a>(
     model: &Model,
@@ -56,7 +59,8 @@ fn correlation(one: &[f64], other: &[f64]) -> f64 {
         let (x, y) = (x - a, y - b);
         [aa + x * x, ab + x * y, bb + y * y]
     });
-    if aa * bb > 0.0 {
+    let moves = |squares: f64| squares > STILL * one.len() as f64;
+    if moves(aa) && moves(bb) {
         ab / (aa * bb).sqrt()
     } else {
         1.0
