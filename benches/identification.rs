@@ -139,7 +139,7 @@ fn ours(arm: &InterpretedArm, count: usize, pieces: Pieces<'_>) -> (f64, f64) {
     for factor in factors {
         whole.merge(factor).expect("one arm");
     }
-    let estimate = whole.estimate(arm, Method::Wls).expect("excited");
+    let estimate = whole.estimate(arm, Method::Wls, false).expect("excited");
     let seconds = start.elapsed().as_secs_f64();
     let values = estimate.values();
     let errors = values.iter().enumerate();

@@ -1,6 +1,6 @@
 //! `robot-model merge`: one estimate from what many machines' logs tell.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use robot_model::identify::{Factor, Method};
@@ -12,7 +12,7 @@ use crate::identify::report::report;
 use crate::identify::table::table;
 use crate::identify::told_apart;
 use crate::interpreted::InterpretedArm;
-use crate::output::{self, Files};
+use crate::output::{self, Files, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
@@ -33,6 +33,9 @@ pub(crate) struct Merge {
     /// Write the factor of all.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
+    /// Leave out rows where joints with dry friction turn, as `identify` does. Without it their effect is in deviations.
+    #[arg(long)]
+    leave_out_turns: bool,
     /// Take what can be had where the factors do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
@@ -62,9 +65,20 @@ impl Merge {
         let arm = &form.0;
         let progress = Progress::new();
         let mut all: Option<Factor> = None;
+        let mut read: Vec<(&PathBuf, Factor)> = Vec::new();
         for path in &self.factors {
             progress.step(&format!("reading {}", path.display()));
             let factor = reduced::read(path, arm)?;
+            for doubt in twice(path, &factor, &read) {
+                progress.note(&format!("note: {doubt}"));
+            }
+            // Without its rows a factor is known again all the same.
+            let mut known = factor.clone();
+            for block in &mut known.blocks {
+                block.away.rows.clear();
+                block.at_turns.rows.clear();
+            }
+            read.push((path, known));
             match &mut all {
                 None => all = Some(factor),
                 Some(all) => all
@@ -77,7 +91,7 @@ impl Merge {
             MethodArgument::Ls => Method::Ls,
             MethodArgument::Wls => Method::Wls,
         };
-        let estimate = factor.estimate(arm, method)?;
+        let estimate = factor.estimate(arm, method, self.leave_out_turns)?;
         if !self.partial {
             told_apart(&estimate)?;
         }
@@ -116,4 +130,21 @@ impl Merge {
             fitted.join(", ")
         ))
     }
+}
+
+/// Factors that have blocks of a log which one before them has, too.
+fn twice(path: &Path, factor: &Factor, before: &[(&PathBuf, Factor)]) -> Vec<String> {
+    let told = before.iter().filter_map(|(first, other)| {
+        let common = factor.common_blocks(other);
+        (common > 0).then(|| {
+            format!(
+                "{} has {common} of its {} in {}, too: the same log is in both, what it says counts twice, and deviations come out too \
+                 small; give it once",
+                path.display(),
+                counted(factor.blocks.len(), "block"),
+                first.display()
+            )
+        })
+    });
+    told.collect()
 }

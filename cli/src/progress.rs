@@ -1,17 +1,23 @@
 //! Progress of long work, on standard error.
 
 use std::io::IsTerminal;
-use std::time::Duration;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::output;
+
+/// Where steps follow each other fast, one plain line in so long.
+const SELDOM: Duration = Duration::from_secs(10);
 
 /// A line that says what is being done: a spinner on a terminal, one plain line a step elsewhere.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
     is_silent: bool,
+    /// When one of many steps was said last.
+    said: Mutex<Option<Instant>>,
 }
 
 impl Progress {
@@ -27,6 +33,7 @@ impl Progress {
         Self {
             bar,
             is_silent: false,
+            said: Mutex::new(None),
         }
     }
 
@@ -36,6 +43,7 @@ impl Progress {
         Self {
             bar: None,
             is_silent: true,
+            said: Mutex::new(None),
         }
     }
 
@@ -46,6 +54,20 @@ impl Progress {
             None if self.is_silent => {}
             None => output::say(what),
         }
+    }
+
+    /// Says one of many steps; elsewhere than on a terminal only now and then.
+    pub(crate) fn often(&self, what: &str) {
+        if self.bar.is_none() {
+            let Ok(mut said) = self.said.lock() else {
+                return;
+            };
+            if said.is_some_and(|last| last.elapsed() < SELDOM) {
+                return;
+            }
+            *said = Some(Instant::now());
+        }
+        self.step(what);
     }
 
     /// Says something that stays.

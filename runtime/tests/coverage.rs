@@ -30,7 +30,7 @@ fn intervals_of_merged_factors_do() {
     cover("merge", &[0.005, 0.2], &|arm, log| {
         let mut factor = Factor::new(arm, Bands::DEFAULT).expect("bands");
         factor.push(arm, &log).expect("the log is sound");
-        factor.estimate(arm, Method::Wls).expect("excited")
+        factor.estimate(arm, Method::Wls, false).expect("excited")
     });
 }
 

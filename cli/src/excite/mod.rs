@@ -67,10 +67,20 @@ pub(crate) struct Excite {
     )]
     columns: Option<Vec<String>>,
     /// Time after which the motion repeats, s.
-    #[arg(long, value_name = "S", default_value_t = 10.0)]
+    #[arg(
+        long,
+        value_name = "S",
+        allow_negative_numbers = true,
+        default_value_t = 10.0
+    )]
     period: f64,
     /// Waves a joint.
-    #[arg(long, value_name = "N", default_value_t = 5)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 5
+    )]
     harmonics: usize,
     /// How the motion begins and ends.
     #[arg(long, value_enum, default_value_t)]
@@ -89,10 +99,20 @@ pub(crate) struct Excite {
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
     /// Standard deviation of each joint's torque noise, N m or N; in proportion to the torque limits where all joints have one, else 1.
-    #[arg(long, value_name = "S1,..", value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "S1,..",
+        allow_hyphen_values = true,
+        value_delimiter = ','
+    )]
     noise: Option<Vec<f64>>,
     /// Limits of accelerations, for joints whose spec gives none, rad/s^2 or m/s^2: one for all, or one a joint.
-    #[arg(long, value_name = "A1,..", value_delimiter = ',')]
+    #[arg(
+        long,
+        value_name = "A1,..",
+        allow_hyphen_values = true,
+        value_delimiter = ','
+    )]
     acceleration: Option<Vec<f64>>,
     /// Balls on links, planes and the distance between balls, which the arm keeps.
     #[arg(long, value_name = "ROOM.json")]
@@ -104,16 +124,26 @@ pub(crate) struct Excite {
     #[arg(long, value_name = "EFFECT", requires = "separate")]
     from: Option<String>,
     /// Random motions to start from.
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
     starts: u32,
     /// Of the random motions.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(
+        long,
+        value_name = "N",
+        allow_negative_numbers = true,
+        default_value_t = 1
+    )]
     seed: u64,
     /// Stop after so many seconds with the best motion so far.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     budget: Option<f64>,
     /// Rate of the CSV file, Hz.
-    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    #[arg(
+        long,
+        value_name = "HZ",
+        allow_negative_numbers = true,
+        default_value_t = 1000.0
+    )]
     rate: f64,
     /// The coefficients of the harmonics.
     #[arg(long, value_name = "FILE.json")]

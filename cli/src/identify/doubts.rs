@@ -97,7 +97,7 @@ fn little(
 }
 
 /// What is left by least squares, which is asked beside instruments.
-fn left(estimate: &Estimate) -> &[f64] {
+pub(super) fn left(estimate: &Estimate) -> &[f64] {
     let hausman = estimate.hausman.as_ref();
     hausman.map_or(&estimate.relative_percent, |both| {
         &both.least_squares_percent

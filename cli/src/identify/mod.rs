@@ -4,6 +4,7 @@ mod data_faults;
 mod doubts;
 mod drive_gains;
 pub(crate) mod fit;
+mod likeness;
 mod nominal;
 mod options;
 mod output_error;
@@ -54,7 +55,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(long, value_enum, default_value_t)]
     weights: WeightsArgument,
     /// Of `ridge`: by which share of a body's own size the spec's nominal values are off (one standard deviation); 0.3 without it.
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
     prior: Option<f64>,
     /// Of `iv`: a motion without noise for each log, in their order, `time,q1..qn`: the wanted one, or that of `simulate`.
     #[arg(long, value_name = "MOTION", num_args = 1..)]
@@ -63,11 +64,11 @@ pub(crate) struct IdentifyArguments {
     #[arg(long, value_enum, default_value_t)]
     form: FormArgument,
     /// Corner of the filter `L(s) = w / (s + w)` of the filtered form, rad/s; without it the end of the shared band.
-    #[arg(long, value_name = "W", value_parser = parse_corner)]
+    #[arg(long, value_name = "W", allow_hyphen_values = true, value_parser = parse_corner)]
     corner: Option<f64>,
     /// Cutoffs of the zero-phase filters, Hz: shared by torque and columns, of rigid-body kinematics, of effects'
     /// kinematics; without it they are chosen from the logs.
-    #[arg(long, value_name = "SHARED,SMOOTH,WIDE", value_parser = parse_bands)]
+    #[arg(long, value_name = "SHARED,SMOOTH,WIDE", allow_hyphen_values = true, value_parser = parse_bands)]
     bands: Option<Bands>,
     /// Logs of the arm with a payload, which is identified from all logs together.
     #[arg(long, value_name = "LOG", num_args = 1..)]
@@ -85,7 +86,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(long)]
     partial: bool,
     /// Draw blocks of the logs so often, for intervals that need no formula; of `ls`, `wls`, `robust`.
-    #[arg(long, value_name = "DRAWS", value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    #[arg(long, value_name = "DRAWS", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(100..=100_000))]
     bootstrap: Option<u32>,
     /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
     #[arg(long)]
@@ -197,6 +198,8 @@ impl IdentifyArguments {
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
         doubts.extend(units::degrees(form, &identify, &logs, &estimate));
+        let motions = self.instruments.iter().zip(&identify.instruments);
+        doubts.extend(likeness::doubts(form.model(), &logs, motions));
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
@@ -231,7 +234,7 @@ impl IdentifyArguments {
         };
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(&form.0, method)?;
+        let estimate = reduced.estimate(&form.0, method, self.rows.leave_out_turns)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?
@@ -318,7 +321,10 @@ impl IdentifyArguments {
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         let resting = doubts::resting(form.model(), logs);
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
-        all.extend(apart.or_else(|| untold::doubt(estimate, form.compiled(), &resting)));
+        match apart {
+            Some(apart) => all.push(apart),
+            None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),
+        }
         all
     }
 

@@ -151,9 +151,6 @@ impl IdentifyArguments {
             }
         }
         if self.factor.is_some() {
-            if self.rows.leave_out_turns {
-                return refuse("`--leave-out-turns` wants the logs themselves, not a factor");
-            }
             if self.form == FormArgument::Filtered {
                 return refuse("`--factor` is of `--form acceleration`");
             }

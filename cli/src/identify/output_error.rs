@@ -47,6 +47,33 @@ struct Judged {
     torque: Option<Errors>,
 }
 
+impl Beginning {
+    /// What is odd about what was found from it.
+    fn doubts(&self, form: &ByAcceleration, logs: &[Log], found: &OutputEstimate) -> Vec<String> {
+        // What its sign holds is as least squares would have it.
+        let free = |name: &String| {
+            let linear = self.linear.iter().flat_map(|linear| &linear.parameters);
+            let mut linear = linear.filter(|parameter| parameter.name == *name);
+            linear.next().map(|found| (found.value, found.std))
+        };
+        let told = self.names.iter().zip(&found.values).zip(&found.std);
+        let told = told.filter_map(|((name, value), std)| {
+            let found = std.map_or_else(|| free(name), |std| Some((*value, std)));
+            found.map(|(value, std)| (name.as_str(), value, std))
+        });
+        let unknowns = form.unknowns();
+        let told = told.filter_map(|told| {
+            let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
+            Some((told, unknown))
+        });
+        let doubts = [
+            doubts::below_zero(told),
+            doubts::beyond_noise(form.model(), logs, &rmse(found)),
+        ];
+        doubts.into_iter().flatten().collect()
+    }
+}
+
 impl IdentifyArguments {
     /// Output error on all logs.
     pub(super) fn by_simulation(&self, compiled: Compiled) -> Result<(), Error> {
@@ -100,31 +127,12 @@ impl IdentifyArguments {
             ));
             settings.window = found.window;
         }
-        // What its sign holds is as least squares would have it.
-        let free = |name: &String| {
-            let linear = beginning
-                .linear
-                .iter()
-                .flat_map(|linear| &linear.parameters);
-            let mut linear = linear.filter(|parameter| parameter.name == *name);
-            linear.next().map(|found| (found.value, found.std))
-        };
-        let told = beginning.names.iter().zip(&found.values).zip(&found.std);
-        let told = told.filter_map(|((name, value), std)| {
-            let found = std.map_or_else(|| free(name), |std| Some((*value, std)));
-            found.map(|(value, std)| (name.as_str(), value, std))
-        });
-        let unknowns = form.unknowns();
-        let told = told.filter_map(|told| {
-            let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
-            Some((told, unknown))
-        });
-        let doubts = [
-            doubts::below_zero(told),
-            doubts::beyond_noise(&compiled.model, &logs, &rmse(&found)),
-        ];
         let same = twice::doubts(&self.logs, self.validate.as_deref());
-        for doubt in doubts.into_iter().flatten().chain(same) {
+        for doubt in beginning
+            .doubts(&form, &logs, &found)
+            .into_iter()
+            .chain(same)
+        {
             progress.note(&format!("note: {doubt}"));
         }
         let linear = beginning.linear.as_ref();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
+use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, FactorRows, Identify};
 use robot_model::log::{Fault, Log, Mended, Note};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
@@ -25,6 +25,8 @@ struct File {
     factor: u32,
     unknowns: Vec<String>,
     joints: Vec<String>,
+    /// What the columns are made of, see [`Factor::equations`].
+    equations: Vec<[f64; 2]>,
     bands_hz: [f64; 3],
     blocks: Vec<Block>,
 }
@@ -32,29 +34,88 @@ struct File {
 #[derive(Serialize, Deserialize)]
 struct Block {
     samples: usize,
-    /// Rows of each joint that say something; in files without it all of them do.
-    #[serde(default)]
-    counts: Option<Vec<usize>>,
+    away: Part,
+    /// Rows at turns of joints with dry friction, where there are some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    at_turns: Option<Part>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Part {
+    /// Rows of each joint that say something.
+    counts: Vec<usize>,
     torque_squares: Vec<f64>,
     /// `[joint][row][column]`: columns are the unknowns, then the torque.
     rows: Vec<Vec<Vec<f64>>>,
 }
 
-const FORM: u32 = 1;
+impl Part {
+    fn of(rows: &FactorRows) -> Self {
+        Self {
+            counts: rows.counts.clone(),
+            torque_squares: rows.torque_squares.clone(),
+            rows: rows.rows.clone(),
+        }
+    }
+
+    fn into_rows(self) -> FactorRows {
+        FactorRows {
+            counts: self.counts,
+            rows: self.rows,
+            torque_squares: self.torque_squares,
+        }
+    }
+
+    /// What is wrong with rows of so many joints and columns.
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let lists = [
+            self.rows.len(),
+            self.torque_squares.len(),
+            self.counts.len(),
+        ];
+        let mut rows = self.rows.iter().flatten();
+        if lists != [joints; 3] || !rows.all(|row| row.len() == width) {
+            return Some(format!(
+                "has not one list of rows per joint with {width} numbers each"
+            ));
+        }
+        let is_negative = self.torque_squares.iter().any(|sum| *sum < 0.0);
+        is_negative.then(|| "has a sum of squares below zero".to_owned())
+    }
+}
+
+impl Block {
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let parts = std::iter::once(&self.away).chain(&self.at_turns);
+        let faults = parts.clone().map(|rows| rows.fault(joints, width));
+        if let Some(fault) = faults.flatten().next() {
+            return Some(fault);
+        }
+        let count = |joint: usize| -> usize { parts.clone().map(|rows| rows.counts[joint]).sum() };
+        let is_more = self.samples == 0 || (0..joints).any(|joint| count(joint) > self.samples);
+        is_more.then(|| "has no samples, or less than rows".to_owned())
+    }
+}
+
+/// The first did not say what its columns are made of, nor which rows are at turns.
+const FORM: u32 = 2;
 
 /// The text of a factor's file.
 pub(crate) fn text(factor: &Factor) -> String {
-    let blocks = factor.blocks.iter().map(|block| Block {
-        samples: block.samples,
-        counts: Some(block.counts.clone()),
-        torque_squares: block.torque_squares.clone(),
-        rows: block.rows.clone(),
+    let blocks = factor.blocks.iter().map(|block| {
+        let has_turns = block.at_turns.rows.iter().any(|rows| !rows.is_empty());
+        Block {
+            samples: block.samples,
+            away: Part::of(&block.away),
+            at_turns: has_turns.then(|| Part::of(&block.at_turns)),
+        }
     });
     let bands = factor.bands;
     let file = File {
         factor: FORM,
         unknowns: factor.unknowns.clone(),
         joints: factor.joints.clone(),
+        equations: factor.equations.clone(),
         bands_hz: [bands.shared_hz, bands.smooth_hz, bands.wide_hz],
         blocks: blocks.collect(),
     };
@@ -67,31 +128,24 @@ pub(crate) fn text(factor: &Factor) -> String {
 pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
     let value: Value = json::read(path)?;
-    let file: File = serde_json::from_value(value)
-        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
-    if file.factor != FORM {
+    if let Some(form) = value["factor"]
+        .as_u64()
+        .filter(|form| *form != u64::from(FORM))
+    {
         return Err(refuse(&format!(
-            "it is a factor of form {}, this program reads form {FORM}; write it anew with `identify --factor`",
-            file.factor
+            "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
         )));
     }
+    let file: File = serde_json::from_value(value)
+        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
-    let fits = |block: &Block| {
-        let rows = block.rows.iter().flatten();
-        let counts = block.counts.iter().flatten();
-        let some = block.counts.iter();
-        block.rows.len() == joints
-            && block.torque_squares.len() == joints
-            && some.into_iter().all(|counts| counts.len() == joints)
-            && counts.into_iter().all(|count| *count <= block.samples)
-            && block.samples > 0
-            && rows.into_iter().all(|row| row.len() == width)
-    };
-    if let Some(k) = file.blocks.iter().position(|block| !fits(block)) {
-        return Err(refuse(&format!(
-            "block {} has not one list of rows per joint with {width} numbers each; write it anew with `identify --factor`",
-            k + 1
-        )));
+    for (k, block) in file.blocks.iter().enumerate() {
+        if let Some(fault) = block.fault(joints, width) {
+            return Err(refuse(&format!(
+                "block {} {fault}; write it anew with `identify --factor`",
+                k + 1
+            )));
+        }
     }
     let [shared_hz, smooth_hz, wide_hz] = file.bands_hz;
     let bands = Bands {
@@ -102,14 +156,16 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let mut factor = Factor::new(arm, bands)?;
     factor.joints = file.joints;
     factor.unknowns = file.unknowns;
+    factor.equations = file.equations;
     factor.blocks = file
         .blocks
         .into_iter()
         .map(|block| FactorBlock {
             samples: block.samples,
-            counts: block.counts.unwrap_or(vec![block.samples; joints]),
-            rows: block.rows,
-            torque_squares: block.torque_squares,
+            away: block.away.into_rows(),
+            at_turns: block
+                .at_turns
+                .map_or_else(|| FactorRows::none(joints), Part::into_rows),
         })
         .collect();
     // Of this arm, and of none that is alike.
@@ -209,7 +265,7 @@ impl Streams<'_> {
             for note in piece.report.iter().filter(|note| k == 0 || is_own(note)) {
                 progress.note(&format!("note: {}: {note}", path.display()));
             }
-            progress.step(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
+            progress.often(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
             Ok(piece)
         });
         let mend = |piece: Log| {
@@ -281,7 +337,9 @@ mod tests {
             let mut faults = Vec::new();
             let factor = streams.reduce(&identify, &mut faults, &progress);
             let factor = factor.expect("a sound log");
-            let estimate = factor.estimate(&form.0, Method::Wls).expect("excited");
+            let estimate = factor
+                .estimate(&form.0, Method::Wls, false)
+                .expect("excited");
             let errors = streams.errors(&estimate, &progress).expect("a sound log");
             (text(&factor), errors)
         };

@@ -90,7 +90,7 @@ pub(super) struct Parameter<'a> {
     pub name: &'a str,
     /// None where the logs do not separate the parameter from others.
     pub value: Option<f64>,
-    /// None for shape parameters of methods that do not tell, too.
+    /// None for shape parameters of methods that do not tell, and for what `physical` holds on the border, too.
     pub std: Option<f64>,
     /// With 95 % of the draws of a bootstrap, where there was one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -164,7 +164,7 @@ pub(crate) fn report<'a>(
     let linear = estimate.parameters.iter().map(|parameter| Parameter {
         name: &parameter.name,
         value: measured(parameter).then_some(parameter.value),
-        std: measured(parameter).then_some(parameter.std),
+        std: (measured(parameter) && !estimate.is_held(&parameter.name)).then_some(parameter.std),
         interval: None,
     });
     let interval = |k: usize| {
@@ -245,7 +245,7 @@ pub(crate) fn report<'a>(
 fn standard<'a>(estimate: &Estimate, possible: &'a Possible) -> Vec<StandardReport<'a>> {
     let std = |name: &String| {
         let found = estimate.parameters.iter().find(|p| p.name == *name)?;
-        Some(found.std)
+        (!estimate.is_held(name)).then_some(found.std)
     };
     let values = possible.standard.iter().zip(&possible.origins);
     let told = values.map(|((name, value), origin)| StandardReport {

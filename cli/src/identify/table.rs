@@ -42,10 +42,13 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
         for (_, errors) in columns {
             let fit = errors.nrmse_fit()[joint];
             let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
+            // A joint without a row that counts has no share of nothing.
+            let share = Some(errors.relative_percent[joint]).filter(|percent| *percent > 0.0);
+            let share = share.map_or("-".to_owned(), |percent| format!("{percent:.2} %"));
             write!(
                 text,
-                "  {:>10.4}  {:>10.4}  {:>8.2} %  {fit:>10}",
-                errors.rmse[joint], errors.mae[joint], errors.relative_percent[joint]
+                "  {:>10.4}  {:>10.4}  {share:>10}  {fit:>10}",
+                errors.rmse[joint], errors.mae[joint]
             )
             .expect("a string takes all");
         }

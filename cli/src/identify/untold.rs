@@ -1,9 +1,10 @@
-//! Parameters that the logs hardly tell, though they tell them apart.
+//! Parameters that the logs hardly tell, though they tell them apart: for want of motion, or because the model does not fit.
 
 use robot_model::identify::Estimate;
 use robot_model_codegen::Compiled;
 use robot_model_spec::parameter::Owner;
 
+use super::doubts::left;
 use crate::output::{counted, names};
 
 /// A deviation above this share of the largest of its kind that is known leaves a parameter anywhere.
@@ -14,6 +15,10 @@ const KNOWN: f64 = 3.0;
 
 /// One parameter in so many may be untold in any log.
 const FEW: usize = 10;
+
+/// What is left of a joint's torque, percent: where a model fits, and from where on it does not.
+const FITS: f64 = 2.0;
+const MISFIT: f64 = 10.0;
 
 /// What parameters are compared with: first moments with first moments, a friction with those of the same law. An arm's small ones are
 /// often within a deviation of zero, which is no fault of the log; only beside others does it show that a motion says nothing.
@@ -41,32 +46,87 @@ fn kinds(compiled: &Compiled) -> Vec<Option<Kind>> {
     compiled.base.kept.iter().map(kind).collect()
 }
 
-/// Where they are more than a few. `resting` are joints that hardly move.
-pub(super) fn doubt(estimate: &Estimate, compiled: &Compiled, resting: &[&str]) -> Option<String> {
-    let found: Vec<(&str, f64, f64)> = estimate
-        .parameters
-        .iter()
-        .map(|found| (found.name.as_str(), found.value, found.std))
-        .collect();
-    let untold: Vec<&str> = untold(&found, &kinds(compiled))
-        .into_iter()
-        .filter(|name| estimate.is_separated(name))
-        .collect();
-    if untold.is_empty() || FEW * untold.len() < estimate.parameters.len() {
-        return None;
+/// Joints in whose torque a parameter shows: that of an effect, and those that carry a link.
+fn joints_of(compiled: &Compiled, unknown: usize) -> std::ops::Range<usize> {
+    let joints = &compiled.model.joints;
+    let standard = &compiled.standard[compiled.base.kept[unknown]];
+    match standard.owner {
+        Owner::Link { link, .. } => 0..(link + 1).min(joints.len()),
+        Owner::Effect { .. } => {
+            let owner = standard.name.split('.').next();
+            let own = joints
+                .iter()
+                .position(|joint| Some(joint.name.as_str()) == owner);
+            own.map_or(0..joints.len(), |own| own..own + 1)
+        }
+        Owner::Monomial(_) => 0..joints.len(),
     }
-    let who = match resting {
-        [] => String::new(),
-        [one] => format!("; joint `{one}` hardly moves in them"),
-        all => format!("; joints {} hardly move in them", names(all)),
+}
+
+/// Where they are more than a few. `resting` are joints that hardly move.
+pub(super) fn doubts(estimate: &Estimate, compiled: &Compiled, resting: &[&str]) -> Vec<String> {
+    let percents = left(estimate);
+    let most = |unknown: usize| {
+        let joints = joints_of(compiled, unknown);
+        let percents = percents[joints].iter();
+        percents.fold(0.0, |most: f64, percent| most.max(*percent))
     };
-    Some(format!(
-        "the logs hardly tell {} of {}, whose deviations are of the size of such parameters themselves: {}{who}; move all joints further \
-         and faster, `excite` makes a motion that tells them",
-        untold.len(),
-        counted(estimate.parameters.len(), "parameter"),
-        names(&untold)
-    ))
+    let parameters = estimate.parameters.iter().enumerate();
+    let (found, fitting): (Vec<_>, Vec<_>) = parameters
+        .map(|(k, found)| {
+            let percent = most(k);
+            let share = if percent > MISFIT {
+                FITS / percent
+            } else {
+                1.0
+            };
+            let (name, value, std) = (found.name.as_str(), found.value, found.std);
+            ((name, value, std), (name, value, share * std))
+        })
+        .unzip();
+    let kinds = kinds(compiled);
+    let mut all = untold(&found, &kinds);
+    all.retain(|name| estimate.is_separated(name));
+    if all.is_empty() || FEW * all.len() < estimate.parameters.len() {
+        return Vec::new();
+    }
+    // Of errors as where a model fits, deviations would be less in proportion.
+    let fitting = untold(&fitting, &kinds);
+    let (moved, misfit): (Vec<&str>, Vec<&str>) =
+        all.iter().partition(|name| fitting.contains(name));
+    let hardly = |names_of: &[&str]| {
+        format!(
+            "the logs hardly tell {} of {}, whose deviations are of the size of such parameters themselves: {}",
+            names_of.len(),
+            counted(estimate.parameters.len(), "parameter"),
+            names(names_of)
+        )
+    };
+    let by_misfit = (!misfit.is_empty()).then(|| {
+        let unknowns = (0..found.len()).filter(|k| misfit.contains(&found[*k].0));
+        let shown: Vec<usize> = unknowns.flat_map(|k| joints_of(compiled, k)).collect();
+        let joints = estimate.joints.iter().zip(percents).enumerate();
+        let ill = joints.filter(|(k, (_, percent))| **percent > MISFIT && shown.contains(k));
+        let ill = ill.map(|(_, (joint, percent))| format!("`{joint}` {percent:.0} %"));
+        format!(
+            "{}; the motion would tell them if {FITS:.0} % of the torque were left, but the model does not fit and leaves {}; see first what else \
+             is noted here, whether signs, order, units and time of the columns are right, and what `trace` finds",
+            hardly(&misfit),
+            ill.collect::<Vec<_>>().join(", ")
+        )
+    });
+    let by_motion = (!moved.is_empty()).then(|| {
+        let who = match resting {
+            [] => String::new(),
+            [one] => format!("; joint `{one}` hardly moves in them"),
+            all => format!("; joints {} hardly move in them", names(all)),
+        };
+        format!(
+            "{}{who}; move all joints further and faster, `excite` makes a motion that tells them",
+            hardly(&moved)
+        )
+    });
+    by_misfit.into_iter().chain(by_motion).collect()
 }
 
 /// Names, of names, values and deviations.

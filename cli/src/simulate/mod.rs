@@ -44,35 +44,65 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "FILE.csv", conflicts_with = "controller")]
     torque: Option<PathBuf>,
     /// Natural frequency of the controller's error, rad/s.
-    #[arg(long, value_name = "W", default_value_t = 60.0)]
+    #[arg(
+        long,
+        value_name = "W",
+        allow_negative_numbers = true,
+        default_value_t = 60.0
+    )]
     frequency: f64,
     /// Damping of the controller's error.
-    #[arg(long, value_name = "D", default_value_t = 1.0)]
+    #[arg(
+        long,
+        value_name = "D",
+        allow_negative_numbers = true,
+        default_value_t = 1.0
+    )]
     damping: f64,
     /// The controller's own parameter values; without it those of the arm.
     #[arg(long, value_name = "FILE.json")]
     control_parameters: Option<PathBuf>,
     /// Samples of the controller, Hz; its torque is held between them.
-    #[arg(long, value_name = "HZ", default_value_t = 1000.0)]
+    #[arg(
+        long,
+        value_name = "HZ",
+        allow_negative_numbers = true,
+        default_value_t = 1000.0
+    )]
     rate: f64,
     /// Samples of the log, Hz; without it those of the controller.
-    #[arg(long, value_name = "HZ")]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     log_rate: Option<f64>,
     /// Samples of the controller that pass before its torque acts; its first one acts until then.
-    #[arg(long, value_name = "SAMPLES", default_value_t = 0)]
+    #[arg(
+        long,
+        value_name = "SAMPLES",
+        allow_negative_numbers = true,
+        default_value_t = 0
+    )]
     delay: u16,
     /// How long, s; without it as long as the trajectory, whose end is held beyond.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     duration: Option<f64>,
     /// Encoders of 2^BITS steps a turn (prismatic joints: a meter); without it positions are exact.
-    #[arg(long, value_name = "BITS", value_parser = clap::value_parser!(u8).range(4..=40))]
+    #[arg(long, value_name = "BITS", allow_negative_numbers = true, value_parser = clap::value_parser!(u8).range(4..=40))]
     encoder_bits: Option<u8>,
     /// Standard deviation of the noise of positions, rad or m.
-    #[arg(long, value_name = "SIGMA", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "SIGMA",
+        allow_negative_numbers = true,
+        default_value_t = 0.0
+    )]
     position_noise: f64,
     /// Standard deviation of the noise of logged torques, as a share of each joint's root mean square; half white, half correlated
     /// over 4 ms.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "SHARE",
+        allow_negative_numbers = true,
+        default_value_t = 0.0
+    )]
     torque_noise: f64,
     /// Of all noise: the same seed, the same log.
     #[arg(long, default_value_t = 1)]

@@ -80,6 +80,35 @@ fn joints_that_hardly_move_leave_parameters_untold() {
     assert!(said.contains("`excite`"), "{said}");
 }
 
+/// The same motion, with a torque that turns round in the middle: what is hardly told is so for what does not fit.
+#[test]
+fn a_misfit_is_not_told_as_a_want_of_motion() {
+    let folder = folder(1.0);
+    let log = folder.read("log.csv");
+    let count = log.lines().count();
+    let header = log.lines().next().expect("a header");
+    let place = header.split(',').position(|name| name == "tau1");
+    let place = place.expect("a torque");
+    let mut text = format!("{header}\n");
+    for (k, line) in log.lines().enumerate().skip(1) {
+        let mut fields: Vec<String> = line.split(',').map(str::to_owned).collect();
+        if (2 * count / 5..count / 2).contains(&k) {
+            let value: f64 = fields[place].parse().expect("a number");
+            fields[place] = (-value).to_string();
+        }
+        writeln!(text, "{}", fields.join(",")).expect("a string takes all");
+    }
+    folder.write("burst.csv", &text);
+    let said = notes(&folder, &["true.robot", "burst.csv"]);
+    assert!(
+        said.contains(
+            "`upper.viscous_friction.fv`; the motion would tell them if 2 % of the torque were left"
+        ) && said.contains("the model does not fit and leaves `upper` "),
+        "{said}"
+    );
+    assert!(!said.contains("further and faster"), "{said}");
+}
+
 #[test]
 fn a_shape_at_the_end_of_its_range_is_noted() {
     let folder = Folder::new();

@@ -115,8 +115,8 @@ fn pieces_of_a_long_log_are_the_whole() {
     assert!(blocks.len() <= 32 && blocks.len() > 16, "{}", blocks.len());
 }
 
-#[test]
-fn what_is_no_factor_of_the_arm_is_refused() {
+/// Factors and specs that do not belong together, and files that are no factor.
+fn strangers() -> Folder {
     let folder = folder();
     let reduce = ["identify", "cart.robot", "one.csv", "--factor", "one.json"];
     folder.succeed(&[&reduce[..], &BANDS].concat());
@@ -146,13 +146,27 @@ fn what_is_no_factor_of_the_arm_is_refused() {
     folder.write("cut.json", &text[..text.len() / 2]);
     folder.write(
         "form.json",
-        &text.replacen("\"factor\":1", "\"factor\":9", 1),
+        &text.replacen("\"factor\":2", "\"factor\":9", 1),
     );
+    folder.write("old.json", "{\"factor\":1,\"unknowns\":[]}");
+    folder.write(
+        "negative.json",
+        &text.replacen("\"torque_squares\":[", "\"torque_squares\":[-", 1),
+    );
+    let geared = CART.replace("link = cart;", "link = cart; actuator_gain = 7;");
+    assert_ne!(geared, CART);
+    folder.write("geared.robot", &geared);
     folder.write(
         "rows.json",
         &text.replacen("\"rows\":[[[", "\"rows\":[[[1.0,", 1),
     );
     folder.write("plain.json", "{\"cart.m\": 3}");
+    folder
+}
+
+#[test]
+fn what_is_no_factor_of_the_arm_is_refused() {
+    let folder = strangers();
     for (arguments, reason) in [
         (
             &["merge", "more.robot", "one.json"][..],
@@ -162,8 +176,23 @@ fn what_is_no_factor_of_the_arm_is_refused() {
             &["merge", "cart.robot", "one.json", "narrow.json"],
             "other filters than the arm",
         ),
+        (
+            &["merge", "geared.robot", "one.json"],
+            "one.json: the factor has other equations",
+        ),
         (&["merge", "cart.robot", "cut.json"], "cut.json"),
-        (&["merge", "cart.robot", "form.json"], "a factor of form 9"),
+        (
+            &["merge", "cart.robot", "form.json"],
+            "a factor of form 9, this program reads form 2; write it anew with `identify --factor`",
+        ),
+        (
+            &["merge", "cart.robot", "old.json"],
+            "a factor of form 1, this program reads form 2",
+        ),
+        (
+            &["merge", "cart.robot", "negative.json"],
+            "negative.json: block 1 has a sum of squares below zero",
+        ),
         (
             &["merge", "cart.robot", "rows.json"],
             "block 1 has not one list of rows per joint",
@@ -207,5 +236,71 @@ fn what_is_no_factor_of_the_arm_is_refused() {
     ] {
         let said = folder.refuse(arguments);
         assert!(said.contains(reason), "{arguments:?}: {said}");
+    }
+}
+
+/// Two joints whose names and unknowns stay as they are whatever the numbers of the spec.
+fn arm(gravity: &str, length: &str, note: &str) -> String {
+    format!(
+        "{note}robot Arm {{ gravity = [0, {gravity}, 0]; convention = standard_dh; \
+         joint a: revolute {{ a = {length}; alpha = 0; d = 0; }} joint b: revolute {{ a = 0.4; alpha = 0; d = 0; }} \
+         link b {{ mass = {}; com = [-0.2, 0, 0]; inertia = [0.01, 0, 0, 0.01, 0, 0.01]; }} effects {{ viscous_friction on all; }} }}\n",
+        if note.is_empty() { "2" } else { "3" }
+    )
+}
+
+#[test]
+fn numbers_of_the_spec_are_a_factor_s_and_nominal_values_and_comments_are_not() {
+    use std::fmt::Write;
+
+    let folder = Folder::new();
+    let mut log = String::from("time,q1,q2,tau1,tau2\n");
+    for k in 0..4000 {
+        let t = 0.005 * f64::from(k);
+        let (one, other) = ((1.3 * t).sin(), 0.7 * (2.1 * t).sin());
+        let taus = [9.0 * one.cos() + (3.0 * t).sin(), 2.0 * (one + other).cos()];
+        let row = format!("{t},{one},{other},{},{}", taus[0], taus[1]);
+        writeln!(log, "{row}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    folder.write("arm.robot", &arm("-9.81", "0.5", ""));
+    folder.write("moon.robot", &arm("-1.62", "0.5", ""));
+    folder.write("long.robot", &arm("-9.81", "0.501", ""));
+    folder.write("noted.robot", &arm("-9.81", "0.5", "// Of CAD.\n"));
+    let reduce = ["identify", "arm.robot", "log.csv", "--factor", "log.json"];
+    folder.succeed(&reduce);
+    for other in ["moon.robot", "long.robot"] {
+        let said = folder.refuse(&["merge", other, "log.json"]);
+        assert!(
+            said.contains("log.json: the factor has other equations"),
+            "{said}"
+        );
+    }
+    let merged = folder.succeed(&["merge", "arm.robot", "log.json"]);
+    assert_eq!(
+        folder.succeed(&["merge", "noted.robot", "log.json"]),
+        merged
+    );
+}
+
+#[test]
+fn a_log_that_is_in_two_factors_is_noted() {
+    let folder = folder();
+    for (log, factor) in [("one.csv", "one.json"), ("other.csv", "other.json")] {
+        let reduce = ["identify", "cart.robot", log, "--factor", factor];
+        folder.succeed(&[&reduce[..], &BANDS].concat());
+    }
+    let both = ["merge", "cart.robot", "one.json", "other.json"];
+    let apart = folder.run(&[&both[..], &["--factor", "both.json"]].concat());
+    assert!(!apart.stderr.contains("counts twice"), "{}", apart.stderr);
+    for again in ["one.json", "both.json"] {
+        let run = folder.run(&["merge", "cart.robot", "one.json", again]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let told = format!("note: {again} has ");
+        assert!(
+            run.stderr.contains(&told) && run.stderr.contains("in one.json, too"),
+            "{}",
+            run.stderr
+        );
     }
 }

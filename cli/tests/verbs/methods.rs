@@ -142,6 +142,35 @@ fn instruments_may_be_of_a_simulation() {
     }
 }
 
+/// The motion of another log, as a whole and from another time on.
+#[test]
+fn instruments_of_another_motion_are_noted() {
+    let folder = folder();
+    let wanted = folder.read("wanted.csv");
+    let mut lines = wanted.lines();
+    let header = lines.next().expect("a header");
+    let turned: Vec<String> = lines
+        .map(|line| {
+            let fields: Vec<&str> = line.split(',').collect();
+            format!("{},{},{}", fields[0], fields[2], fields[1])
+        })
+        .collect();
+    folder.write("turned.csv", &format!("{header}\n{}\n", turned.join("\n")));
+    let notes = |motion: &str| {
+        let identify = ["identify", "arm.robot", "log.csv", "--method", "iv"];
+        let run = folder.run(&[&identify[..], &["--instruments", motion]].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    let said = notes("turned.csv");
+    assert!(
+        said.contains("note: turned.csv hardly resembles the motion of log.csv"),
+        "{said}"
+    );
+    let said = notes("wanted.csv");
+    assert!(!said.contains("hardly resembles"), "{said}");
+}
+
 #[test]
 fn the_other_methods_agree_where_noise_is_small() {
     let folder = folder();
@@ -187,6 +216,10 @@ fn options_of_other_methods_are_refused() {
         ),
         (&["--method", "iv"], "0 motions for 1 log"),
         (
+            &["--method", "ridge", "--prior", "-1"],
+            "give a share above 0",
+        ),
+        (
             &["--method", "ridge", "--prior", "0"],
             "give a share above 0",
         ),
@@ -198,7 +231,20 @@ fn options_of_other_methods_are_refused() {
             &["--method", "iv", "--instruments", "one.csv"],
             "has no column `q2`",
         ),
+        (
+            &["--method", "iv", "--instruments", "log.csv"],
+            "log.csv: the motion without noise is the log's own",
+        ),
+        (
+            &["--method", "iv", "--instruments", "holed.csv"],
+            "has a hole from 2.",
+        ),
     ] {
+        let wanted = folder.read("wanted.csv");
+        let lines = wanted.lines().enumerate();
+        let kept = lines.filter(|(_, line)| !line.starts_with("2.5"));
+        let kept: Vec<&str> = kept.map(|(_, line)| line).collect();
+        folder.write("holed.csv", &(kept.join("\n") + "\n"));
         folder.write("one.csv", "time,q1\n0,0\n1,0\n2,0\n3,0\n");
         folder.write("short.csv", "time,q1,q2\n0,0,0\n1,0,0\n1.5,0,0\n2,0,0\n");
         let said = folder.refuse(&[&["identify", "arm.robot", "log.csv"], options].concat());
@@ -219,7 +265,11 @@ fn a_joint_that_stands_says_nothing() {
     folder.write("values.json", values);
     measure(&folder, &|_| 0.4, &[]);
     for method in ["wls", "ls", "robust", "ridge"] {
-        let (fit, _) = identify(&folder, "arm.robot", &["--method", method, "--partial"]);
+        let (fit, said) = identify(&folder, "arm.robot", &["--method", method, "--partial"]);
+        // Of no row that counts there is no share.
+        let row = said.lines().rfind(|line| line.starts_with("lo "));
+        let row: Vec<&str> = row.expect("a row").split_whitespace().collect();
+        assert_eq!(row[3], "-", "{said}");
         let parameters = fit["parameters"].as_array().expect("a list");
         let value = |name: &str| {
             let found = parameters

@@ -92,6 +92,17 @@ fn noise_makes_no_impossible_arm() {
         "{said}"
     );
     assert!(said.contains("found by Newton's method with log-determinant barriers in "));
+    // What is held has no deviation: not in the table, not in the file.
+    let held = said
+        .lines()
+        .find(|line| line.starts_with("lower.viscous_friction.fv"));
+    let held: Vec<&str> = held.expect("a row").split_whitespace().skip(2).collect();
+    assert_eq!(held, ["-", "-"]);
+    let parameters = out["parameters"].as_array().expect("a list");
+    for parameter in parameters {
+        let is_held = parameter["name"] == "lower.viscous_friction.fv";
+        assert_eq!(parameter["std"].is_null(), is_held, "{parameter}");
+    }
     let possible = &out["possible"];
     let standard = &possible["standard"];
     for link in ["upper", "lower"] {

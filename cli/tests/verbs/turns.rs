@@ -1,6 +1,8 @@
 //! Rows around the turns of joints with dry friction: what they move estimates by is in deviations, or they are left out, and intervals
 //! hold the truth of arms that move under a controller.
 
+use serde_json::Value;
+
 use crate::common::{Folder, json};
 use crate::payload::folder;
 
@@ -20,17 +22,19 @@ pub(crate) const TRUTH: [(&str, f64); 10] = [
 
 const RUNS: usize = 32;
 
-/// Errors over their deviations, as in [`TRUTH`], of a log with encoders of 14 bits and its own noise.
-fn errors(folder: &Folder, run: usize, more: &[&str]) -> Vec<f64> {
-    let (log, fit, seed) = (
-        format!("log{run}.csv"),
-        format!("fit{run}.json"),
-        format!("{}", 100 + run),
-    );
+/// A log with encoders of 14 bits and noise of its own.
+fn log_of(folder: &Folder, run: usize) -> String {
+    let (log, seed) = (format!("log{run}.csv"), format!("{}", 100 + run));
     let motion = ["--trajectory", "wanted.csv", "--parameters", "empty.json"];
     let noise = ["--encoder-bits", "14", "--torque-noise", "0.02"];
     let out = ["--seed", seed.as_str(), "--out", log.as_str()];
     folder.succeed(&[&["simulate", "arm.robot"][..], &motion, &noise, &out].concat());
+    log
+}
+
+/// Errors over their deviations, as in [`TRUTH`], of such a log.
+fn errors(folder: &Folder, run: usize, more: &[&str]) -> Vec<f64> {
+    let (log, fit) = (log_of(folder, run), format!("fit{run}.json"));
     let identify = ["identify", "arm.robot", &log, "--json", &fit];
     let said = folder.succeed(&[&identify[..], more].concat());
     let fit = json(&folder.read(&fit));
@@ -99,4 +103,47 @@ fn dry_friction_alone_does_not_set_instruments_against_least_squares() {
     let chances = chances(&folder);
     let apart = chances.iter().filter(|chance| **chance < 0.05).count();
     assert!(apart <= RUNS / 10, "{apart}: {chances:?}");
+}
+
+/// What a log tells by its factor, and by the factors of two logs, is what it tells itself.
+#[test]
+fn factors_know_what_rows_at_turns_move_estimates_by() {
+    let folder = folder("");
+    let bands = ["--bands", "10,30,90"];
+    let logs = [0, 1].map(|run| log_of(&folder, run));
+    let factors = ["f0.json", "f1.json"];
+    for (log, factor) in logs.iter().zip(factors) {
+        let identify = ["identify", "arm.robot", log, "--factor", factor];
+        folder.succeed(&[&identify[..], &bands].concat());
+    }
+    let report = |arguments: &[&str]| {
+        folder.succeed(&[arguments, &["--json", "fit.json"]].concat());
+        json(&folder.read("fit.json"))
+    };
+    for more in [&[][..], &["--leave-out-turns"]] {
+        for count in [1, 2] {
+            let logs: Vec<&str> = logs[..count].iter().map(String::as_str).collect();
+            let identify = [&["identify", "arm.robot"][..], &logs, &bands, more].concat();
+            let direct = report(&identify);
+            let merge = [&["merge", "arm.robot"], &factors[..count], more].concat();
+            let merged = report(&merge);
+            assert_eq!(direct["samples_at_turns"], merged["samples_at_turns"]);
+            for (k, (name, _)) in TRUTH.iter().enumerate() {
+                let of = |fit: &Value, key: &str| fit["parameters"][k][key].as_f64().expect("told");
+                let value = of(&direct, "value");
+                let apart = (of(&merged, "value") - value).abs();
+                assert!(apart < 1e-9 + 1e-7 * value.abs(), "{name}: {apart}");
+                let ratio = of(&merged, "std") / of(&direct, "std");
+                assert!(
+                    (0.5..2.0).contains(&ratio),
+                    "{more:?}, {count}, {name}: {ratio}"
+                );
+                // Most of these is what rows at turns move them by.
+                let is_moved =
+                    more.is_empty() && name.starts_with("lo.") && name.contains("friction");
+                let is_close = (0.8..1.2).contains(&ratio);
+                assert!(!is_moved || is_close, "{count}, {name}: {ratio}");
+            }
+        }
+    }
 }

@@ -91,7 +91,8 @@ impl Identify {
         let weights = self.row_weights(stack, solution);
         let mut std = deviations(stack, solution, &weights);
         if self.has_turns(stack) {
-            turns::widen(stack, solution, &weights, &mut std);
+            let [all, away] = turns::with_and_without(stack, &weights);
+            turns::widen(&all, &away, &solution.scale, &mut std);
         }
         std
     }
@@ -136,7 +137,8 @@ impl Identify {
         if self.has_turns(stack) {
             let noise = hac::deviations(stack, solution, &weights);
             let mut widened = noise.clone();
-            turns::widen(stack, solution, &weights, &mut widened);
+            let [all, away] = turns::with_and_without(stack, &weights);
+            turns::widen(&all, &away, &solution.scale, &mut widened);
             for (k, ends) in found.intervals.iter_mut().enumerate() {
                 let center = solution.estimate[k];
                 let wider = widened[k] / noise[k].max(f64::MIN_POSITIVE);

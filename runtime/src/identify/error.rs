@@ -174,6 +174,27 @@ pub enum IdentifyError {
         /// Length of the motion, s.
         reference: f64,
     },
+    /// A motion without noise that lacks samples.
+    #[error(
+        "{source_name}: the motion without noise has a hole from {from:.3} s to {to:.3} s, where nothing says how it moved; give all samples"
+    )]
+    HoleInReference {
+        /// Name of the log.
+        source_name: String,
+        /// Time of the sample before it.
+        from: f64,
+        /// Time of the sample behind it.
+        to: f64,
+    },
+    /// Positions of the log itself in place of a motion without noise.
+    #[error(
+        "{source_name}: the motion without noise is the log's own, whatever noise that has: instruments would agree with least squares, and say \
+         nothing of it; give the wanted motion, or the log that `simulate` makes of it with the parameters of `--method wls`"
+    )]
+    OwnReference {
+        /// Name of the log.
+        source_name: String,
+    },
     /// Rows that cannot be reduced to a factor.
     #[error("a factor does not hold what is wanted: {why}; identify from the logs themselves")]
     NotReduced {
@@ -185,7 +206,7 @@ pub enum IdentifyError {
         "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`"
     )]
     OtherFactor {
-        /// Joints, unknowns or filters.
+        /// Joints, unknowns, equations or filters.
         what: &'static str,
     },
     /// The signals cannot be filtered.

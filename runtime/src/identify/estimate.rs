@@ -202,6 +202,15 @@ impl Estimate {
         }
     }
 
+    /// Whether [`Method::Physical`] holds a parameter where no arm has it: its deviation, of the logs alone, says nothing of such a value.
+    #[must_use]
+    pub fn is_held(&self, name: &str) -> bool {
+        let border = self.possible.iter().flat_map(|possible| &possible.border);
+        border
+            .into_iter()
+            .any(|held| held.trim_matches('`') == name)
+    }
+
     /// Values of the unknowns, in the arm's order.
     #[must_use]
     pub fn values(&self) -> Vec<f64> {

@@ -3,7 +3,8 @@
 //! Rows `[W_j tau_j]` of each joint are reduced to a factor `R_j` with `R_j'R_j = [W_j tau_j]'[W_j tau_j]`, block after block of a log; two factors
 //! below each other are reduced to that of both (TSQR). Least squares and weights need no more. A factor keeps 16 to 32 blocks apart: their
 //! own equations, `s_b = sum_j W_bj'(tau_bj - W_bj beta) / sigma_j^2`, say how far an estimate is off, as far as noise is not correlated
-//! beyond a block.
+//! beyond a block. Rows around turns of joints with dry friction have factors of their own beside the others, so that it is known what
+//! they move an estimate by.
 //!
 //! Sources: Golub, Van Loan, Matrix Computations, on updating; Demmel, Grigori, Hoemmen, Langou 2012, Communication-optimal parallel and
 //! sequential QR; MacKinnon, Nielsen, Webb 2023 for deviations from blocks.
@@ -14,17 +15,19 @@ use faer::linalg::solvers::Solve;
 use super::estimate::{Estimate, Fitted, Form};
 use super::least_squares::{Factors, Solution};
 use super::stack::{Stack, percent};
-use super::{Identify, IdentifyError, Method, check_logs, clipped, prepare_all};
+use super::{Identify, IdentifyError, Method, turns};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
-use crate::signal::resample::whole_steps;
+
+mod block;
+mod equations;
+
+use block::reduced;
+pub use block::{FactorBlock, FactorRows};
 
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
-
-/// Blocks that a log or a piece of one is cut into, at most.
-const PARTS: usize = 16;
 
 /// A parameter that moves so many times further without a block than beside it is told by that block alone.
 const MOST_WITHOUT_BLOCK: f64 = 10.0;
@@ -37,56 +40,12 @@ pub struct Factor {
     pub unknowns: Vec<String>,
     /// Names of the joints.
     pub joints: Vec<String>,
+    /// What the columns are made of, as sums along a motion that is always the same: they tell arms with unknowns of the same names apart.
+    pub equations: Vec<[f64; 2]>,
     /// Filters of the rows.
     pub bands: Bands,
     /// Blocks of the logs, in their order.
     pub blocks: Vec<FactorBlock>,
-}
-
-/// The rows of a part of a log, reduced.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FactorBlock {
-    /// Samples per joint.
-    pub samples: usize,
-    /// Of these, rows of each joint that say something: a joint that stands says nothing.
-    pub counts: Vec<usize>,
-    /// `[joint][row][column]`: columns are the unknowns, then the torque less that of known parameters.
-    pub rows: Vec<Vec<Vec<f64>>>,
-    /// Sum of the squared torque, one a joint.
-    pub torque_squares: Vec<f64>,
-}
-
-impl FactorBlock {
-    /// A log, or a piece of one, as blocks of a second or more. Pieces can be reduced in threads, and [added](Factor::extend) in their order.
-    ///
-    /// # Errors
-    /// Those of [`Identify::fit`] for a log that does not fit the arm or the filters.
-    pub fn of_log(arm: &dyn Arm, log: &Log, bands: &Bands) -> Result<Vec<Self>, IdentifyError> {
-        check_logs(arm, std::slice::from_ref(log))?;
-        let prepared = prepare_all(std::slice::from_ref(log), bands)?;
-        let mut stack = Stack::new(arm, &prepared, &[]);
-        clipped::leave_out(&mut stack, arm, &prepared);
-        let samples = stack.samples();
-        let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
-        let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
-        let part = |part: usize| part * samples / count..(part + 1) * samples / count;
-        let parts = (0..count).map(|k| Self::of_rows(&stack.part(part(k))));
-        Ok(parts.collect())
-    }
-
-    /// Rows as one block.
-    #[must_use]
-    pub fn of_rows(stack: &Stack) -> Self {
-        let joints = stack.joints.iter();
-        Self {
-            samples: stack.samples(),
-            counts: stack.counts(),
-            rows: Factors::new(stack).joints().iter().map(rows_of).collect(),
-            torque_squares: joints
-                .map(|rows| rows.tau.iter().map(|tau| tau * tau).sum())
-                .collect(),
-        }
-    }
 }
 
 impl Factor {
@@ -109,6 +68,7 @@ impl Factor {
         Ok(Self {
             unknowns: unknowns.map(|unknown| unknown.name.clone()).collect(),
             joints: arm.joints().to_vec(),
+            equations: equations::of(arm),
             bands,
             blocks: Vec::new(),
         })
@@ -139,12 +99,14 @@ impl Factor {
     /// Adds what other logs tell of the same arm.
     ///
     /// # Errors
-    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints or filters.
+    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations or filters.
     pub fn merge(&mut self, other: Self) -> Result<(), IdentifyError> {
         let what = if other.joints != self.joints {
             Some("joints")
         } else if other.unknowns != self.unknowns {
             Some("unknowns")
+        } else if !equations::are_alike(&other.equations, &self.equations) {
+            Some("equations (kinematics, gravity, gains, effects or values that a spec fixes)")
         } else if other.bands != self.bands {
             Some("filters")
         } else {
@@ -158,6 +120,13 @@ impl Factor {
         Ok(())
     }
 
+    /// Blocks that another factor has, too: what they say would count twice.
+    #[must_use]
+    pub fn common_blocks(&self, other: &Self) -> usize {
+        let is_there = |block: &&FactorBlock| other.blocks.iter().any(|other| block.is_same(other));
+        self.blocks.iter().filter(is_there).count()
+    }
+
     /// Samples per joint.
     #[must_use]
     pub fn samples(&self) -> usize {
@@ -167,7 +136,7 @@ impl Factor {
     /// Rows of each joint that say something.
     #[must_use]
     pub fn counts(&self) -> Vec<usize> {
-        let joint = |joint: usize| self.blocks.iter().map(|block| block.counts[joint]).sum();
+        let joint = |joint: usize| self.blocks.iter().map(|block| block.count(joint)).sum();
         (0..self.joints.len()).map(joint).collect()
     }
 
@@ -178,45 +147,63 @@ impl Factor {
             let shortest = pairs.min_by_key(|(_, pair)| pair[0].samples + pair[1].samples);
             let Some((k, _)) = shortest else { return };
             let other = self.blocks.remove(k + 1);
-            let block = &mut self.blocks[k];
-            block.samples += other.samples;
-            for (count, more) in block.counts.iter_mut().zip(other.counts) {
-                *count += more;
-            }
-            for (sum, more) in block.torque_squares.iter_mut().zip(other.torque_squares) {
-                *sum += more;
-            }
-            for (rows, more) in block.rows.iter_mut().zip(other.rows) {
-                rows.extend(more);
-                *rows = rows_of(&reduced(rows, self.unknowns.len() + 1));
-            }
+            self.blocks[k].add(other);
         }
     }
 
     /// The factor of all blocks, joint by joint.
     fn whole(&self) -> Factors {
-        let width = self.unknowns.len() + 1;
         let joints = (0..self.joints.len()).map(|joint| {
             let blocks = self.blocks.iter();
-            let rows: Vec<Vec<f64>> = blocks.flat_map(|block| block.rows[joint].clone()).collect();
-            reduced(&rows, width)
+            let rows: Vec<Vec<f64>> = blocks
+                .flat_map(|block| block.rows(joint))
+                .cloned()
+                .collect();
+            reduced(&rows)
         });
         Factors::from_joints(self.unknowns.len(), self.counts(), joints.collect())
     }
 
-    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`].
+    /// The same without rows at turns.
+    fn without_turns(&self) -> Self {
+        let blocks = self.blocks.iter().map(FactorBlock::without_turns);
+        Self {
+            unknowns: self.unknowns.clone(),
+            joints: self.joints.clone(),
+            equations: self.equations.clone(),
+            bands: self.bands,
+            blocks: blocks.collect(),
+        }
+    }
+
+    /// Rows of each joint at its turns.
+    fn turns(&self) -> Vec<usize> {
+        let blocks = || self.blocks.iter();
+        let joint = |joint: usize| blocks().map(|block| block.at_turns.counts[joint]).sum();
+        (0..self.joints.len()).map(joint).collect()
+    }
+
+    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`]. By how much rows at turns move the estimate is in its
+    /// deviations, or they are left out, as by [`Identify::leave_out_turns`].
     ///
     /// # Errors
     /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for a method that needs the rows themselves,
     /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
-    pub fn estimate(&self, arm: &dyn Arm, method: Method) -> Result<Estimate, IdentifyError> {
+    pub fn estimate(
+        &self,
+        arm: &dyn Arm,
+        method: Method,
+        leave_out_turns: bool,
+    ) -> Result<Estimate, IdentifyError> {
         Self::new(arm, self.bands)?.merge(self.clone())?;
-        let factors = self.whole();
+        let away = self.without_turns();
+        let used = if leave_out_turns { &away } else { self };
+        let factors = used.whole();
         let ones = vec![1.0; self.joints.len()];
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
-        Identify::check_counts(&self.counts(), self.unknowns.len())?;
+        Identify::check_counts(&used.counts(), self.unknowns.len())?;
         let mut solution = match method {
             Method::Ls => factors.ordinary(&ones),
             Method::Wls => factors.weighted(&ones),
@@ -226,11 +213,15 @@ impl Factor {
             }
         };
         Identify::check_excited(&solution)?;
-        self.deviations(&mut solution);
+        used.deviations(&mut solution);
+        let at_turns = self.turns();
+        if !leave_out_turns && at_turns.iter().any(|count| *count > 0) {
+            turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
+        }
         let fitted = Fitted {
-            relative_percent: self.relative_percent(&solution.estimate),
+            relative_percent: used.relative_percent(&solution.estimate),
             samples: self.samples(),
-            turns: Vec::new(),
+            turns: at_turns,
             clipped: Vec::new(),
             effective_samples: None,
             names: self.unknowns.clone(),
@@ -248,7 +239,7 @@ impl Factor {
 
     /// Sum of squared residuals of a joint.
     fn squares(&self, joint: usize, estimate: &[f64]) -> f64 {
-        let rows = self.blocks.iter().flat_map(|block| &block.rows[joint]);
+        let rows = self.blocks.iter().flat_map(|block| block.rows(joint));
         rows.map(|row| residual(row, estimate).powi(2)).sum()
     }
 
@@ -265,11 +256,8 @@ impl Factor {
     fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {
         let joints = 0..self.joints.len();
         let of = |joint: usize| {
-            let torque: f64 = self
-                .blocks
-                .iter()
-                .map(|block| block.torque_squares[joint])
-                .sum();
+            let blocks = self.blocks.iter();
+            let torque: f64 = blocks.map(|block| block.torque_squares(joint)).sum();
             percent(self.squares(joint, estimate).sqrt(), torque.sqrt())
         };
         joints.map(of).collect()
@@ -292,11 +280,12 @@ impl Factor {
         let own = |block: &FactorBlock| {
             let mut information = Mat::<f64>::zeros(size, size);
             let mut score = Mat::<f64>::zeros(size, 1);
-            for (rows, scale) in block.rows.iter().zip(&solution.scale) {
+            for (joint, scale) in solution.scale.iter().enumerate() {
+                let rows: Vec<&Vec<f64>> = block.rows(joint).collect();
                 let columns =
                     Mat::from_fn(rows.len(), size, |row, k| rows[row][excited[k]] / scale);
                 let rest = Mat::from_fn(rows.len(), 1, |row, _| {
-                    residual(&rows[row], &solution.estimate) / scale
+                    residual(rows[row], &solution.estimate) / scale
                 });
                 score += columns.transpose() * rest;
                 information += columns.transpose() * &columns;
@@ -336,21 +325,6 @@ impl Factor {
 fn residual(row: &[f64], estimate: &[f64]) -> f64 {
     let fitted: f64 = row.iter().zip(estimate).map(|(x, beta)| x * beta).sum();
     row[estimate.len()] - fitted
-}
-
-fn rows_of(matrix: &Mat<f64>) -> Vec<Vec<f64>> {
-    let rows = 0..matrix.nrows();
-    rows.map(|row| matrix.row(row).iter().copied().collect())
-        .collect()
-}
-
-/// The triangular factor of rows.
-fn reduced(rows: &[Vec<f64>], width: usize) -> Mat<f64> {
-    let all = Mat::from_fn(rows.len(), width, |row, column| rows[row][column]);
-    if all.nrows() <= width {
-        return all;
-    }
-    all.qr().thin_R().to_owned()
 }
 
 #[cfg(test)]

@@ -80,7 +80,13 @@ impl Factors {
             .enumerate()
             .map(|(joint, rows)| {
                 let active = rows.columns.len();
-                let block = Mat::from_fn(rows.target.len(), active + 1, |k, c| {
+                let all = 0..rows.target.len();
+                let counting: Vec<usize> = all.filter(|&k| factor(joint, k) != 0.0).collect();
+                if counting.is_empty() {
+                    return Mat::zeros(0, unknowns + 1);
+                }
+                let block = Mat::from_fn(counting.len(), active + 1, |row, c| {
+                    let k = counting[row];
                     let value = if c < active {
                         rows.columns[c].1[k]
                     } else {
@@ -123,6 +129,11 @@ impl Factors {
     /// The factors, one a joint.
     pub(super) fn joints(&self) -> &[Mat<f64>] {
         &self.joints
+    }
+
+    /// Rows of each joint that say something.
+    pub(super) fn counts(&self) -> &[usize] {
+        &self.counts
     }
 
     /// Ordinary least squares: every joint has the same weight.

@@ -55,7 +55,7 @@ pub use errors::Errors;
 pub use essential::Essential;
 use estimate::Fitted;
 pub use estimate::{Estimate, Form, Identified};
-pub use factor::{Factor, FactorBlock};
+pub use factor::{Factor, FactorBlock, FactorRows};
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
 pub use late::{TorqueDelay, is_delay};
@@ -67,6 +67,7 @@ pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors, with_slopes};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
+pub use table::relative_deviation;
 
 use crate::columns::{Arm, Nominal};
 use crate::log::Log;

@@ -344,7 +344,7 @@ impl fmt::Display for Possible {
         if !self.border.is_empty() {
             writeln!(
                 f,
-                "on the border of what is possible: {}",
+                "on the border of what is possible: {}; deviations are those of the logs without the constraint, and say nothing of what it holds",
                 self.border.join(", ")
             )?;
         }

@@ -200,9 +200,14 @@ impl Stack {
                 .map(|(column, values)| (*column, values[range.clone()].to_vec()))
                 .collect(),
         });
+        let turns = self.turns.iter().map(|rows| {
+            let rows = rows.iter().filter(|row| range.contains(row));
+            rows.map(|row| row - range.start).collect()
+        });
         Self {
             unknowns: self.unknowns.clone(),
             joints: joints.collect(),
+            turns: turns.collect(),
             ..Self::default()
         }
     }

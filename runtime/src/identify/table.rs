@@ -59,12 +59,30 @@ impl fmt::Display for Estimate {
     }
 }
 
-/// Deviation in percent of a value.
-fn percent(value: f64, std: f64) -> f64 {
-    if value == 0.0 {
-        f64::INFINITY
+/// Deviations above so many percent of their value are not told in digits, nor where a value is so small a share of its deviation.
+const MOST: f64 = 999.0;
+const LEAST: f64 = 1e-3;
+
+/// A deviation in percent of its value, as tables have it: beyond 999 % the number says no more, and beside a value that is nothing
+/// there is none.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::relative_deviation;
+///
+/// assert_eq!(relative_deviation(-2.0, 0.1), "5.00");
+/// assert_eq!(relative_deviation(0.002, 0.1), ">999");
+/// assert_eq!(relative_deviation(1e-9, 0.1), "-");
+/// ```
+#[must_use]
+pub fn relative_deviation(value: f64, std: f64) -> String {
+    let percent = 100.0 * (std / value).abs();
+    if value == 0.0 || value.abs() < LEAST * std {
+        "-".to_owned()
+    } else if percent > MOST {
+        format!(">{MOST:.0}")
     } else {
-        100.0 * (std / value).abs()
+        format!("{percent:.2}")
     }
 }
 
@@ -84,14 +102,20 @@ impl Estimate {
                 writeln!(f, "{:width$}  {:>12}", p.name, "not separable")?;
                 continue;
             }
-            write!(
-                f,
-                "{:width$}  {:>12.5}  {:>10.2e}  {:>7.2}",
-                p.name,
-                p.value,
-                p.std,
-                percent(p.value, p.std)
-            )?;
+            if self.is_held(&p.name) {
+                write!(
+                    f,
+                    "{:width$}  {:>12.5}  {:>10}  {:>7}",
+                    p.name, p.value, "-", "-"
+                )?;
+            } else {
+                let relative = relative_deviation(p.value, p.std);
+                write!(
+                    f,
+                    "{:width$}  {:>12.5}  {:>10.2e}  {relative:>7}",
+                    p.name, p.value, p.std
+                )?;
+            }
             let intervals = self.bootstrap.as_ref().map(|found| &found.intervals);
             match intervals.and_then(|intervals| intervals[k]) {
                 Some([low, high]) => writeln!(f, "  {low:>10.5} .. {high:<10.5}")?,
@@ -105,10 +129,10 @@ impl Estimate {
         for ((name, value), std) in self.shapes.iter().zip(&self.shape_std) {
             match std {
                 Some(std) => {
-                    let relative = percent(*value, *std);
+                    let relative = relative_deviation(*value, *std);
                     writeln!(
                         f,
-                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}  (shape)"
+                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7}  (shape)"
                     )?;
                 }
                 None => writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?,
@@ -194,10 +218,10 @@ impl Estimate {
         let names = essential.parameters.iter().map(|p| p.name.len());
         let width = names.max().unwrap_or(0);
         for p in &essential.parameters {
-            let relative = percent(p.value, p.std);
+            let relative = relative_deviation(p.value, p.std);
             writeln!(
                 f,
-                "  {:width$}  {:>12.5}  {:>10.2e}  {relative:>7.2}",
+                "  {:width$}  {:>12.5}  {:>10.2e}  {relative:>7}",
                 p.name, p.value, p.std
             )?;
         }

@@ -50,24 +50,41 @@ pub(super) fn leave_out(stack: &mut Stack) {
     clear_rows(&mut stack.joints, &stack.turns);
 }
 
-/// Deviations with what rows at turns move a solution of least squares by, unknown by unknown, where they are left out and others have
-/// the same weights. Of the difference `d`, whose variance is that of the solution without them less that with them, `d^2` less that
-/// variance counts. Unknowns that other rows do not tell keep their deviations.
-pub(super) fn widen(stack: &Stack, solution: &Solution, weights: &[Vec<f64>], std: &mut [f64]) {
-    let solved = |is_left_out: bool| {
-        let mut roots: Vec<Vec<f64>> = weights.to_vec();
-        for (joint, turns) in roots.iter_mut().zip(&stack.turns) {
-            for weight in joint.iter_mut() {
-                *weight = weight.sqrt();
-            }
-            for &row in turns.iter().filter(|_| is_left_out) {
-                joint[row] = 0.0;
-            }
+/// Whether rows of a stack are at turns, `[joint][row]`.
+pub(super) fn are_at(stack: &Stack) -> Vec<Vec<bool>> {
+    let mut are_at = vec![vec![false; stack.samples()]; stack.dof()];
+    for (are_at, turns) in are_at.iter_mut().zip(&stack.turns) {
+        for &row in turns {
+            are_at[row] = true;
         }
-        let factors = Factors::of_rows(stack, &|joint, row| roots[joint][row]);
-        factors.solve(&solution.scale, &vec![1.0; stack.dof()])
+    }
+    are_at
+}
+
+/// Factors of the rows of a stack, which have weights, and of those of them that are not at turns.
+pub(super) fn with_and_without(stack: &Stack, weights: &[Vec<f64>]) -> [Factors; 2] {
+    let are_at = are_at(stack);
+    let root = |joint: usize, row: usize| weights[joint][row].sqrt();
+    let away = |joint: usize, row: usize| {
+        if are_at[joint][row] {
+            0.0
+        } else {
+            root(joint, row)
+        }
     };
-    widen_between(&solved(false), &solved(true), std);
+    [
+        Factors::of_rows(stack, &root),
+        Factors::of_rows(stack, &away),
+    ]
+}
+
+/// Deviations with what rows at turns move a solution of least squares by, unknown by unknown: factors of all rows and of those away
+/// from turns are solved with the same `scale` of each joint. Of the difference `d`, whose variance is that of the solution without
+/// them less that with them, `d^2` less that variance counts. Unknowns that other rows do not tell keep their deviations.
+pub(super) fn widen(all: &Factors, away: &Factors, scale: &[f64], std: &mut [f64]) {
+    let ones = vec![1.0; scale.len()];
+    let [with, without] = [all, away].map(|factors| factors.solve(scale, &ones));
+    widen_between(&with, &without, std);
 }
 
 /// The same of two solutions by one method, with all rows and without those at turns.

@@ -3,6 +3,9 @@
 use super::error::SimulateError;
 use crate::log::Channel;
 
+/// A step in time of more than so many median ones is a hole.
+const HOLE: f64 = 5.0;
+
 /// A wanted motion through samples: positions, and velocities and accelerations where they are given; between samples polynomials
 /// with continuous accelerations.
 ///
@@ -94,6 +97,17 @@ impl Trajectory {
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time[self.time.len() - 1] - self.time[0]
+    }
+
+    /// Where samples are missing: the first step in time of more than five median ones, from when to when.
+    #[must_use]
+    pub fn hole(&self) -> Option<[f64; 2]> {
+        let pairs = || self.time.windows(2);
+        let mut steps: Vec<f64> = pairs().map(|pair| pair[1] - pair[0]).collect();
+        steps.sort_unstable_by(f64::total_cmp);
+        let longest = HOLE * steps[steps.len() / 2];
+        let hole = pairs().find(|pair| pair[1] - pair[0] > longest)?;
+        Some([hole[0], hole[1]])
     }
 
     /// Number of joints.

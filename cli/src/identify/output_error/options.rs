@@ -20,7 +20,7 @@ pub(crate) struct Options {
     pub bounds: Option<PathBuf>,
     /// Cut logs into windows of so many seconds, each with a start of its own, its effects' memories at zero; without it 1 s, and whole
     /// logs with `--controller` or where effects remember.
-    #[arg(long, value_name = "S")]
+    #[arg(long, value_name = "S", allow_negative_numbers = true)]
     pub(super) window: Option<f64>,
     /// The controller of the experiment, which is simulated too; without it the logged torque drives the arm.
     #[arg(long, value_name = "FILE.json")]

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::identify::output_error::{Comparison, Distance, Ending, Hold, OutputEstimate};
+use robot_model::identify::relative_deviation;
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Body;
@@ -210,10 +211,10 @@ impl OutputReport<'_> {
             match std {
                 None if self.has_value(k) => writeln!(text, "{name:width$}  {value:>12.5}{shape}")?,
                 Some(std) => {
-                    let relative = 100.0 * (std / value).abs();
+                    let relative = relative_deviation(*value, *std);
                     writeln!(
                         text,
-                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7.2}{shape}"
+                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7}{shape}"
                     )?;
                 }
                 None => writeln!(text, "{name:width$}  {:>12}{shape}", "not separable")?,

@@ -63,6 +63,7 @@ fn empty() -> Factor {
     Factor {
         unknowns: ["a", "b", "c"].map(str::to_owned).to_vec(),
         joints: ["one", "two"].map(str::to_owned).to_vec(),
+        equations: vec![[1.0, 2.0], [-3.0, 5.0]],
         bands: Bands::DEFAULT,
         blocks: Vec::new(),
     }
@@ -120,6 +121,43 @@ fn merged_factors_are_those_of_all_logs() {
 }
 
 #[test]
+fn other_equations_are_refused_and_rounding_is_none() {
+    let change = |change: [f64; 2]| {
+        let mut other = empty();
+        other.equations[1][0] += change[0];
+        other.equations[1][1] += change[1];
+        empty().merge(other)
+    };
+    assert_eq!(change([1e-12, -1e-12]), Ok(()));
+    for other in [[1e-6, 0.0], [0.0, 1e-6], [6.0, 0.0]] {
+        let refused = change(other).expect_err("another arm");
+        assert!(refused.to_string().contains("other equations"), "{refused}");
+    }
+    let mut short = empty();
+    short.equations.pop();
+    assert!(empty().merge(short).is_err());
+}
+
+#[test]
+fn blocks_of_the_same_samples_are_known_again() {
+    let factor = |seeds: &[u64]| {
+        let mut factor = empty();
+        for seed in seeds {
+            factor.push_rows(&stack(*seed, 0, 500));
+        }
+        factor
+    };
+    let one = factor(&[1, 2]);
+    assert_eq!(one.common_blocks(&factor(&[3, 4])), 0);
+    let mut again = factor(&[3, 2]);
+    assert_eq!(one.common_blocks(&again), 1);
+    for sum in &mut again.blocks[1].away.torque_squares {
+        *sum *= 1.0 + 2.0 * f64::EPSILON;
+    }
+    assert_eq!(one.common_blocks(&again), 1);
+}
+
+#[test]
 fn deviations_from_blocks_are_the_spread_of_the_estimates() {
     const DRAWS: u32 = 300;
     let (mut errors, mut told) = ([0.0; 3], [0.0; 3]);
@@ -138,5 +176,95 @@ fn deviations_from_blocks_are_the_spread_of_the_estimates() {
     for c in 0..3 {
         let ratio = (told[c] / errors[c]).sqrt();
         assert!((ratio - 1.0).abs() < 0.15, "{c}: {ratio}");
+    }
+}
+
+/// Rows around turns of the first joint, among which another friction holds.
+fn sticky(seed: u64, count: usize) -> Stack {
+    let mut whole = stack(seed, 0, count);
+    whole.turns = vec![
+        (0..count).filter(|row| row % 185 < 25).collect(),
+        Vec::new(),
+    ];
+    for &row in &whole.turns[0] {
+        whole.joints[0].target[row] += 0.2 * whole.joints[0].columns[1].1[row];
+    }
+    whole
+}
+
+#[test]
+fn rows_at_turns_move_an_estimate_of_factors_as_that_of_the_rows() {
+    let whole = sticky(3, 6000);
+    let mut factor = empty();
+    for part in parts(&whole, 60) {
+        factor.push_rows(&part);
+    }
+    let at_turns = [whole.turns[0].len(), 0];
+    assert_eq!(factor.turns(), at_turns);
+    assert_eq!(factor.counts(), [6000, 6000]);
+    let away = factor.without_turns();
+    let solved = |factor: &Factor| factor.whole().weighted(&[1.0, 1.0]);
+    let mut left_out = whole.clone();
+    turns::leave_out(&mut left_out);
+    for (factor, stack) in [(&factor, &whole), (&away, &left_out)] {
+        let direct = Identify::default().solve_stack(stack).expect("samples");
+        for (found, direct) in solved(factor).estimate.iter().zip(&direct.estimate) {
+            assert!((found - direct).abs() < 1e-10, "{found} {direct}");
+        }
+        let expected = stack.relative_percent(&direct.estimate);
+        let percent = factor.relative_percent(&direct.estimate);
+        assert!((percent[0] - expected[0]).abs() < 1e-9);
+    }
+    let solution = solved(&factor);
+    let mut by_factors = [1e-4; 3];
+    turns::widen(
+        &factor.whole(),
+        &away.whole(),
+        &solution.scale,
+        &mut by_factors,
+    );
+    let ones = vec![vec![1.0; 6000]; 2];
+    let [all, rest] = turns::with_and_without(&whole, &ones);
+    let mut by_rows = [1e-4; 3];
+    turns::widen(&all, &rest, &solution.scale, &mut by_rows);
+    for (one, other) in by_factors.iter().zip(by_rows) {
+        assert!((one / other - 1.0).abs() < 1e-9, "{one} {other}");
+    }
+    assert!(by_rows[2] > 0.01, "{by_rows:?}");
+}
+
+#[test]
+fn it_is_all_the_same_which_factors_are_merged_first() {
+    let factor = |seed: u64| {
+        let mut factor = empty();
+        for part in parts(&sticky(seed, 3000), 10) {
+            factor.push_rows(&part);
+        }
+        factor
+    };
+    let merged = |one: &Factor, other: &Factor| {
+        let mut both = one.clone();
+        both.merge(other.clone()).expect("the same arm");
+        both
+    };
+    let [a, b, c] = [1, 2, 3].map(factor);
+    let found = [
+        merged(&merged(&a, &b), &c),
+        merged(&a, &merged(&b, &c)),
+        merged(&c, &merged(&a, &b)),
+    ]
+    .map(|factor| {
+        let (all, away) = (factor.whole(), factor.without_turns().whole());
+        let mut solution = all.weighted(&[1.0, 1.0]);
+        factor.deviations(&mut solution);
+        turns::widen(&all, &away, &solution.scale, &mut solution.std);
+        solution
+    });
+    for other in &found[1..] {
+        for c in 0..3 {
+            assert!((found[0].estimate[c] - other.estimate[c]).abs() < 1e-12);
+            let ratio = found[0].std[c] / other.std[c];
+            assert!((ratio - 1.0).abs() < 1e-9, "{c}: {ratio}");
+        }
     }
 }

@@ -1,0 +1,177 @@
+//! Rows of a part of a log, reduced; those around turns of joints with dry friction apart from the others, so that estimates with and
+//! without them can be had of many logs, too.
+
+use faer::Mat;
+
+use super::super::least_squares::Factors;
+use super::super::stack::Stack;
+use super::super::{IdentifyError, check_logs, clipped, prepare_all, turns};
+use crate::columns::Arm;
+use crate::log::Log;
+use crate::signal::Bands;
+use crate::signal::resample::whole_steps;
+
+/// Blocks that a log or a piece of one is cut into, at most.
+const PARTS: usize = 16;
+
+/// Sums of torque that differ by no more than this share are the same, read and written again.
+const SAME: f64 = 1e-12;
+
+/// A part of a log.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FactorBlock {
+    /// Samples per joint.
+    pub samples: usize,
+    /// Rows away from turns, of a joint without dry friction all.
+    pub away: FactorRows,
+    /// Rows around turns.
+    pub at_turns: FactorRows,
+}
+
+/// Rows, reduced joint by joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FactorRows {
+    /// Rows of each joint that say something: a joint that stands says nothing.
+    pub counts: Vec<usize>,
+    /// `[joint][row][column]`: columns are the unknowns, then the torque less that of known parameters.
+    pub rows: Vec<Vec<Vec<f64>>>,
+    /// Sum of the squared torque, one a joint.
+    pub torque_squares: Vec<f64>,
+}
+
+impl FactorRows {
+    /// Those of so many joints where there are none.
+    #[must_use]
+    pub fn none(joints: usize) -> Self {
+        Self {
+            counts: vec![0; joints],
+            rows: vec![Vec::new(); joints],
+            torque_squares: vec![0.0; joints],
+        }
+    }
+
+    /// The rows of a stack for which that is so.
+    fn of(stack: &Stack, is_so: &dyn Fn(usize, usize) -> bool) -> Self {
+        let factors = Factors::of_rows(stack, &|joint, row| f64::from(is_so(joint, row)));
+        let squares = stack.joints.iter().enumerate().map(|(joint, rows)| {
+            let rows = rows.tau.iter().enumerate();
+            let rows = rows.filter(|(row, _)| is_so(joint, *row));
+            rows.map(|(_, tau)| tau * tau).sum()
+        });
+        Self {
+            counts: factors.counts().to_vec(),
+            rows: factors.joints().iter().map(rows_of).collect(),
+            torque_squares: squares.collect(),
+        }
+    }
+
+    fn add(&mut self, other: Self) {
+        for (count, more) in self.counts.iter_mut().zip(other.counts) {
+            *count += more;
+        }
+        for (sum, more) in self.torque_squares.iter_mut().zip(other.torque_squares) {
+            *sum += more;
+        }
+        for (rows, more) in self.rows.iter_mut().zip(other.rows) {
+            rows.extend(more);
+            *rows = rows_of(&reduced(rows));
+        }
+    }
+
+    /// Whether they are of the same samples: no two logs have the same sums of squared torque.
+    fn is_same(&self, other: &Self) -> bool {
+        let mut sums = self.torque_squares.iter().zip(&other.torque_squares);
+        self.counts == other.counts
+            && sums.all(|(one, other)| (one - other).abs() <= SAME * one.max(*other))
+    }
+}
+
+impl FactorBlock {
+    /// A log, or a piece of one, as blocks of a second or more. Pieces can be reduced in threads, and [added](super::Factor::extend) in
+    /// their order.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit`](super::super::Identify::fit) for a log that does not fit the arm or the filters.
+    pub fn of_log(arm: &dyn Arm, log: &Log, bands: &Bands) -> Result<Vec<Self>, IdentifyError> {
+        check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare_all(std::slice::from_ref(log), bands)?;
+        let mut stack = Stack::new(arm, &prepared, &[]);
+        clipped::leave_out(&mut stack, arm, &prepared);
+        turns::find(&mut stack, arm, &prepared);
+        let samples = stack.samples();
+        let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
+        let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
+        let part = |part: usize| part * samples / count..(part + 1) * samples / count;
+        let parts = (0..count).map(|k| Self::of_rows(&stack.part(part(k))));
+        Ok(parts.collect())
+    }
+
+    /// Rows as one block.
+    #[must_use]
+    pub fn of_rows(stack: &Stack) -> Self {
+        let at_turns = turns::are_at(stack);
+        let is_at = |joint: usize, row: usize| at_turns[joint][row];
+        Self {
+            samples: stack.samples(),
+            away: FactorRows::of(stack, &|joint, row| !is_at(joint, row)),
+            at_turns: FactorRows::of(stack, &is_at),
+        }
+    }
+
+    /// All rows of a joint.
+    pub(super) fn rows(&self, joint: usize) -> impl Iterator<Item = &Vec<f64>> {
+        self.away.rows[joint]
+            .iter()
+            .chain(&self.at_turns.rows[joint])
+    }
+
+    /// All rows of a joint that say something.
+    pub(super) fn count(&self, joint: usize) -> usize {
+        self.away.counts[joint] + self.at_turns.counts[joint]
+    }
+
+    /// Sum of the squared torque of a joint.
+    pub(super) fn torque_squares(&self, joint: usize) -> f64 {
+        self.away.torque_squares[joint] + self.at_turns.torque_squares[joint]
+    }
+
+    /// The same without rows at turns.
+    pub(super) fn without_turns(&self) -> Self {
+        Self {
+            samples: self.samples,
+            away: self.away.clone(),
+            at_turns: FactorRows::none(self.away.counts.len()),
+        }
+    }
+
+    /// What follows becomes a part of this one.
+    pub(super) fn add(&mut self, other: Self) {
+        self.samples += other.samples;
+        self.away.add(other.away);
+        self.at_turns.add(other.at_turns);
+    }
+
+    /// Whether another is of the same samples. Of blocks without any torque that is not known.
+    pub(super) fn is_same(&self, other: &Self) -> bool {
+        self.samples == other.samples
+            && self.away.torque_squares.iter().any(|sum| *sum > 0.0)
+            && self.away.is_same(&other.away)
+            && self.at_turns.is_same(&other.at_turns)
+    }
+}
+
+fn rows_of(matrix: &Mat<f64>) -> Vec<Vec<f64>> {
+    let rows = 0..matrix.nrows();
+    rows.map(|row| matrix.row(row).iter().copied().collect())
+        .collect()
+}
+
+/// The triangular factor of rows.
+pub(super) fn reduced(rows: &[Vec<f64>]) -> Mat<f64> {
+    let width = rows.first().map_or(0, Vec::len);
+    let all = Mat::from_fn(rows.len(), width, |row, column| rows[row][column]);
+    if all.nrows() <= width {
+        return all;
+    }
+    all.qr().thin_R().to_owned()
+}
