@@ -6,7 +6,8 @@ use crate::signal::resample;
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
 const UNIFORM_SHARE: f64 = 0.01;
 
-/// Refuses time that does not rise or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels onto a uniform grid where they are not on one.
+/// Refuses time that does not rise or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels
+/// onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), LogError> {
     let time = &log.time;
     let place = |sample: usize| log.place(sample, lines);
