@@ -127,12 +127,10 @@ impl IdentifyArguments {
             ));
             settings.window = found.window;
         }
-        let same = twice::doubts(&self.logs, self.validate.as_deref());
-        for doubt in beginning
-            .doubts(&form, &logs, &found)
-            .into_iter()
-            .chain(same)
-        {
+        let mut said = beginning.doubts(&form, &logs, &found);
+        said.extend(mended_torques(&settings, &faults));
+        said.extend(twice::doubts(&self.logs, self.validate.as_deref()));
+        for doubt in said {
             progress.note(&format!("note: {doubt}"));
         }
         let linear = beginning.linear.as_ref();
@@ -296,6 +294,22 @@ impl IdentifyArguments {
             )?,
         })
     }
+}
+
+/// Says so where torques that drive the simulation were replaced.
+fn mended_torques(settings: &OutputError, faults: &[(String, Fault)]) -> Option<String> {
+    let is_mended = |fault: &Fault| match fault {
+        Fault::Spikes { channel, .. }
+        | Fault::Held { channel, .. }
+        | Fault::Dropouts { channel, .. }
+        | Fault::Bursts { channel, .. } => channel.starts_with("tau"),
+        _ => false,
+    };
+    let is_told = settings.law.is_none() && faults.iter().any(|(_, fault)| is_mended(fault));
+    is_told.then(|| {
+        "torques drive the simulation, and some were replaced as faults of the log: if the drive did give them, `--as-logged` leaves them"
+            .to_owned()
+    })
 }
 
 /// Root mean square of the errors of each joint's position.
