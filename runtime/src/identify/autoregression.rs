@@ -32,6 +32,12 @@ pub(super) struct Autoregression {
 }
 
 impl Autoregression {
+    /// Highest order through so many samples.
+    pub fn orders(samples: usize) -> f64 {
+        let n = samples as f64;
+        (ORDERS * n.log10()).min(n / SAMPLES_AN_ORDER).max(0.0)
+    }
+
     /// The one that fits a series best, by Burg's recursion with the order of least AIC.
     pub fn through(series: &[f64]) -> Self {
         let n = series.len() as f64;
@@ -44,7 +50,7 @@ impl Autoregression {
         if error == 0.0 {
             return best;
         }
-        let orders = (ORDERS * n.log10()).min(n / SAMPLES_AN_ORDER);
+        let orders = Self::orders(series.len());
         // Prediction errors forward and backward.
         let (mut forward, mut backward) = (series.to_vec(), series.to_vec());
         let mut least = n * error.ln();

@@ -18,7 +18,7 @@ use faer::linalg::solvers::Solve;
 
 use super::autoregression::long_run_sum;
 use super::least_squares::Solution;
-use super::short::{Noise, shortfalls};
+use super::short::{Noise, shortfalls, variances};
 use super::stack::Stack;
 
 /// Columns that have a value in a solution: rows over their joint's scale, columns over their length.
@@ -107,8 +107,7 @@ impl Rows {
         let noise: Vec<Noise> = joints
             .map(|((rows, columns), residuals)| Noise::new(&(rows * &inverse), columns, residuals))
             .collect();
-        let variance = |k| noise.iter().map(|noise| noise.variance(k)).sum::<f64>();
-        let variances: Vec<f64> = (0..self.excited.len()).map(variance).collect();
+        let variances = variances(&noise, self.excited.len());
         Steady {
             shortfalls: shortfalls(&noise, &variances),
             variances,

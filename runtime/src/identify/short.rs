@@ -10,93 +10,112 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::autoregression::Autoregression;
+use crate::signal::resample::whole_steps;
 
-/// Draws of noise.
-const DRAWS: usize = 16;
+/// Draws of noise, at least and at most, and operations that they may take together.
+const DRAWS: [usize; 2] = [4, 16];
+const WORK: f64 = 1e9;
 
 /// Logs with more independent samples of each joint for a parameter lack nothing.
 const ENOUGH: f64 = 100.0;
 
-/// The noise of a joint: rows that count, one after the other.
-pub(super) struct Noise {
-    /// What a unit of noise moves the estimate by, parameter by parameter.
+/// The noise of a joint.
+pub(super) struct Noise<'a> {
+    /// Rows that say something: those that are left out have no residual.
+    there: Vec<usize>,
+    /// What a unit of noise moves the estimate by: what is there, parameter by parameter, none where nothing is.
     weights: Vec<Vec<f64>>,
-    /// What the estimate takes of it.
-    columns: Mat<f64>,
+    /// What the estimate takes of it, all rows.
+    columns: &'a Mat<f64>,
     law: Autoregression,
     /// Independent samples.
     independent: f64,
 }
 
-impl Noise {
-    /// Of residuals; rows that are left out have none.
-    pub fn new(weights: &Mat<f64>, columns: &Mat<f64>, residuals: &[f64]) -> Self {
+impl<'a> Noise<'a> {
+    /// Of residuals.
+    pub fn new(weights: &Mat<f64>, columns: &'a Mat<f64>, residuals: &[f64]) -> Self {
         let there = (0..residuals.len()).filter(|&k| residuals[k] != 0.0);
         let there: Vec<usize> = there.collect();
         let rest: Vec<f64> = there.iter().map(|&k| residuals[k]).collect();
         let law = Autoregression::through(&rest);
-        let weights =
-            (0..weights.ncols()).map(|c| there.iter().map(|&k| weights[(k, c)]).collect());
-        let ones = vec![1.0; there.len()];
+        let weights = weights.col_iter().map(|column| {
+            let is_nothing = column.iter().all(|weight| *weight == 0.0);
+            let rows = there.iter().filter(|_| !is_nothing);
+            rows.map(|&k| column[k]).collect()
+        });
+        let weights = weights.collect();
         let power: f64 = rest.iter().map(|r| r * r).sum();
+        let sum = law.variance_of_sum(&vec![1.0; there.len()]);
         Self {
-            weights: weights.collect(),
-            columns: Mat::from_fn(there.len(), columns.ncols(), |k, c| columns[(there[k], c)]),
-            independent: there.len() as f64 * power
-                / law.variance_of_sum(&ones).max(f64::MIN_POSITIVE),
+            weights,
+            columns,
+            independent: there.len() as f64 * power / sum.max(f64::MIN_POSITIVE),
+            there,
             law,
         }
     }
 
-    /// Of a parameter, as far as this noise makes it.
-    pub fn variance(&self, parameter: usize) -> f64 {
-        self.law.variance_of_sum(&self.weights[parameter])
+    /// Of a parameter, as far as noise of a law makes it.
+    fn variance(&self, parameter: usize, law: &Autoregression) -> f64 {
+        law.variance_of_sum(&self.weights[parameter])
     }
 }
 
-/// By how much more variances are than what noise says of them, parameter by parameter; 1 where logs are long.
-/// `so` are variances of that noise.
+/// Variances of what noise makes of an estimate, parameter by parameter.
+pub(super) fn variances(noise: &[Noise], parameters: usize) -> Vec<f64> {
+    let variance = |k| {
+        let joints = noise.iter();
+        joints.map(|noise| noise.variance(k, &noise.law)).sum()
+    };
+    (0..parameters).map(variance).collect()
+}
+
+/// By how much more variances are than what noise says of them, parameter by parameter; 1 where logs are long. `so` are those of that
+/// noise.
 pub(super) fn shortfalls(noise: &[Noise], so: &[f64]) -> Vec<f64> {
     let count = so.len();
-    let mut lack = vec![0.0; count];
-    let joints = noise.iter().filter(|noise| noise.columns.nrows() > 0);
+    let joints = noise.iter().filter(|noise| !noise.there.is_empty());
     let few = joints.fold(f64::INFINITY, |few: f64, noise| few.min(noise.independent));
     if few * noise.len() as f64 > ENOUGH * count as f64 {
         return vec![1.0; count];
     }
+    let work = |noise: &Noise| {
+        let weights: usize = noise.weights.iter().map(Vec::len).sum();
+        weights as f64 * Autoregression::orders(noise.there.len())
+    };
+    let work: f64 = noise.iter().map(work).sum();
+    let draws = whole_steps((WORK / work.max(1.0)).min(DRAWS[1] as f64)).max(DRAWS[0]);
     let mut random = ChaCha8Rng::seed_from_u64(0);
-    for _ in 0..DRAWS {
-        let draws: Vec<Vec<f64>> = noise
+    let mut lack = vec![0.0; count];
+    for _ in 0..draws {
+        let drawn: Vec<Vec<f64>> = noise
             .iter()
-            .map(|noise| noise.law.drawn(noise.columns.nrows(), &mut random))
+            .map(|noise| noise.law.drawn(noise.there.len(), &mut random))
             .collect();
         let step = Mat::from_fn(count, 1, |k, _| {
-            let joints = noise.iter().zip(&draws);
-            let sum = |(noise, drawn): (&Noise, &Vec<f64>)| -> f64 {
-                noise.weights[k].iter().zip(drawn).map(|(w, x)| w * x).sum()
-            };
-            joints.map(sum).sum::<f64>()
+            let joints = noise.iter().zip(&drawn);
+            let products = joints.flat_map(|(noise, drawn)| noise.weights[k].iter().zip(drawn));
+            products.map(|(weight, x)| weight * x).sum::<f64>()
         });
-        let rest: Vec<Autoregression> = noise
+        let told: Vec<Autoregression> = noise
             .iter()
-            .zip(&draws)
+            .zip(&drawn)
             .map(|(noise, drawn)| {
-                let taken = &noise.columns * &step;
-                let rest = drawn.iter().enumerate().map(|(k, x)| x - taken[(k, 0)]);
-                Autoregression::through(&rest.collect::<Vec<f64>>())
+                let taken = noise.columns * &step;
+                let rest = noise.there.iter().zip(drawn);
+                let rest: Vec<f64> = rest.map(|(&row, x)| x - taken[(row, 0)]).collect();
+                Autoregression::through(&rest)
             })
             .collect();
         for (k, lack) in lack.iter_mut().enumerate() {
-            let joints = noise.iter().zip(&rest);
-            let told: f64 = joints
-                .map(|(noise, law)| law.variance_of_sum(&noise.weights[k]))
-                .sum();
+            let joints = noise.iter().zip(&told);
+            let told: f64 = joints.map(|(noise, law)| noise.variance(k, law)).sum();
             *lack += if told > 0.0 { so[k] / told } else { 1.0 };
         }
     }
-    lack.into_iter()
-        .map(|sum| f64::max(sum / DRAWS as f64, 1.0))
-        .collect()
+    let mean = |sum: f64| f64::max(sum / draws as f64, 1.0);
+    lack.into_iter().map(mean).collect()
 }
 
 #[cfg(test)]

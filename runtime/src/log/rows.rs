@@ -139,7 +139,8 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// What a Parquet file is read from.
+/// What a Parquet file is read from; without the feature it is refused unread.
+#[cfg_attr(not(feature = "parquet"), allow(dead_code))]
 enum Input {
     File(File),
     Memory(Vec<u8>),
