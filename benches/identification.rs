@@ -103,6 +103,7 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
     Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
+        held: Vec::new(),
         unknowns: arm.unknowns().to_vec(),
         joints,
         segments: vec![Segment {

@@ -56,10 +56,11 @@ impl Beginning {
             let mut linear = linear.filter(|parameter| parameter.name == *name);
             linear.next().map(|found| (found.value, found.std))
         };
-        let told = self.names.iter().zip(&found.values).zip(&found.std);
-        let told = told.filter_map(|((name, value), std)| {
-            let found = std.map_or_else(|| free(name), |std| Some((*value, std)));
-            found.map(|(value, std)| (name.as_str(), value, std))
+        let told = self.names.iter().enumerate().filter_map(|(k, name)| {
+            let own = found.std[k].map(|std| (found.values[k], std));
+            let at_bound = || found.bound.contains(&k).then(|| free(name)).flatten();
+            let (value, std) = own.or_else(at_bound)?;
+            Some((name.as_str(), value, std))
         });
         let unknowns = form.unknowns();
         let told = told.filter_map(|told| {
@@ -119,14 +120,15 @@ impl IdentifyArguments {
         )
         .map_err(|error| refused(&error))?;
         settings.hold = found.hold;
-        if settings.window != found.window {
+        if let (Some(asked), Some(taken)) = (settings.window, found.window)
+            && taken < asked
+        {
             progress.note(&format!(
-                "note: the simulated arm runs away from its logs in {}, so windows have {} s: what moves slowly shows little in them",
-                settings.window.map_or("whole logs".to_owned(), |window| format!("windows of {window} s")),
-                found.window.unwrap_or_default()
+                "note: the simulated arm runs away from its logs in windows of {asked} s, so they have {taken} s: what moves slowly shows \
+                 little in them"
             ));
-            settings.window = found.window;
         }
+        settings.window = found.window;
         let mut said = beginning.doubts(&form, &logs, &found);
         said.extend(mended_torques(&settings, &faults));
         said.extend(twice::doubts(&self.logs, self.validate.as_deref()));

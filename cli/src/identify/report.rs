@@ -37,6 +37,7 @@ pub(crate) struct Report<'a> {
     samples_at_turns: &'a [usize],
     /// Samples per joint that are left out because its torque stands at its limit; empty where none were looked for.
     samples_clipped: &'a [usize],
+    samples_held: &'a [usize],
     /// Independent samples per joint; null where samples were not at hand.
     effective_samples: Option<&'a [f64]>,
     bands_hz: [f64; 3],
@@ -204,6 +205,7 @@ pub(crate) fn report<'a>(
         combinations: estimate.combinations.iter().map(combination).collect(),
         samples_at_turns: &estimate.turns,
         samples_clipped: &estimate.clipped,
+        samples_held: &estimate.held,
         effective_samples: estimate.effective_samples.as_deref(),
         bands_hz: [
             estimate.bands.shared_hz,

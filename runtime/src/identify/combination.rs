@@ -182,6 +182,7 @@ mod tests {
         Stack {
             turns: Vec::new(),
             clipped: Vec::new(),
+            held: Vec::new(),
             unknowns: (0..truth.len()).map(unknown).collect(),
             joints: vec![JointRows {
                 tau: target.clone(),

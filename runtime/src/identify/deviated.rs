@@ -104,13 +104,16 @@ impl Identify {
         stack: &Stack,
         make: &dyn Fn(&mut Solution, &Stack) -> Result<(), IdentifyError>,
     ) -> Result<(), IdentifyError> {
-        let mut without = solution.clone();
         make(solution, stack)?;
         if self.has_turns(stack) {
             let mut rest = stack.clone();
             turns::leave_out(&mut rest);
             // Where other rows do not tell, deviations stay as they are.
-            if make(&mut without, &rest).is_ok() {
+            let without = self.solve_stack(&rest).and_then(|mut without| {
+                make(&mut without, &rest)?;
+                Ok(without)
+            });
+            if let Ok(without) = without {
                 let with = solution.clone();
                 turns::widen_between(&with, &without, &mut solution.std);
             }
@@ -141,7 +144,11 @@ impl Identify {
             turns::widen(&all, &away, &solution.scale, &mut widened);
             for (k, ends) in found.intervals.iter_mut().enumerate() {
                 let center = solution.estimate[k];
-                let wider = widened[k] / noise[k].max(f64::MIN_POSITIVE);
+                let wider = if noise[k] > 0.0 {
+                    widened[k] / noise[k]
+                } else {
+                    1.0
+                };
                 *ends = ends.map(|ends| ends.map(|end| center + wider * (end - center)));
             }
         }

@@ -89,6 +89,8 @@ pub struct Estimate {
     pub hausman: Option<Hausman>,
     /// Rows per joint where it turns, see [`Arm::dry_joints`]; they are left out with [`Identify::leave_out_turns`](super::Identify::leave_out_turns).
     pub turns: Vec<usize>,
+    /// Rows per joint that are left out because dry friction holds it nearly all the time.
+    pub held: Vec<usize>,
     /// Rows per joint that are left out because its torque stands at a [limit](Log::clipped).
     pub clipped: Vec<usize>,
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
@@ -112,6 +114,8 @@ pub(super) struct Fitted {
     pub turns: Vec<usize>,
     /// Of these, left out because torque stands at a limit.
     pub clipped: Vec<usize>,
+    /// Of these, left out because dry friction holds the joint.
+    pub held: Vec<usize>,
     /// Of these, independent ones per joint.
     pub effective_samples: Option<Vec<f64>>,
     /// Names of the unknowns.
@@ -130,6 +134,7 @@ impl Fitted {
             samples: stack.samples(),
             turns: stack.turns.iter().map(Vec::len).collect(),
             clipped: stack.clipped.iter().map(Vec::len).collect(),
+            held: stack.held.iter().map(Vec::len).collect(),
             effective_samples: Some(effective.collect()),
             names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
         }
@@ -195,6 +200,7 @@ impl Estimate {
             hausman: None,
             turns: fitted.turns,
             clipped: fitted.clipped,
+            held: fitted.held,
             effective_samples: fitted.effective_samples,
             bootstrap: None,
             essential: None,

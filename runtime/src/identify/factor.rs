@@ -223,6 +223,7 @@ impl Factor {
             samples: self.samples(),
             turns: at_turns,
             clipped: Vec::new(),
+            held: Vec::new(),
             effective_samples: None,
             names: self.unknowns.clone(),
         };

@@ -109,7 +109,7 @@ impl Rows {
             .collect();
         let variances = variances(&noise, self.excited.len());
         Steady {
-            shortfalls: shortfalls(&noise, &variances),
+            shortfalls: shortfalls(&noise, &variances, columns.freedom()),
             variances,
         }
     }
@@ -128,10 +128,15 @@ impl Rows {
         self.roots(&variances)
     }
 
+    /// Rows over what is left of them beside the unknowns.
+    fn freedom(&self) -> f64 {
+        let rows = self.count as f64;
+        rows / (rows - self.excited.len() as f64).max(1.0)
+    }
+
     /// Square roots of variances of excited unknowns, one an unknown. The unknowns have taken their share of the residuals.
     fn roots(&self, variances: &[f64]) -> Vec<f64> {
-        let freedom = self.count as f64;
-        let correction = freedom / (freedom - variances.len() as f64).max(1.0);
+        let correction = self.freedom();
         let mut std = vec![0.0; self.unknowns];
         for ((variance, length), &c) in variances.iter().zip(&self.length).zip(&self.excited) {
             std[c] = (correction * variance).max(0.0).sqrt() / length;

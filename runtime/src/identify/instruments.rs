@@ -183,7 +183,7 @@ pub(super) fn make(
         Weights::TorqueNorm | Weights::MaxTorque => 1,
     };
     let mut influence = None;
-    for _ in 0..rounds {
+    for round in 1..=rounds {
         let scale = &solution.scale;
         let clean = Factors::new(instruments).stacked(scale);
         let n = stack.unknowns.len();
@@ -209,15 +209,17 @@ pub(super) fn make(
         for (k, &c) in w.excited.iter().enumerate() {
             solution.estimate[c] = found[k] / w.length[k];
         }
-        let residuals = weighed(stack.residuals(&solution.estimate), scale, &ones);
-        // In units of the columns' lengths, as the deviations of least squares are.
-        let bread = z.product(&w);
-        let series = z.influence(&residuals, &bread);
-        let steady = z.steady(&w, &residuals, &bread);
-        solution.std = w.deviations(&series, Some(&steady));
         solution.unexcited = silent;
         solution.sigma = factors.sigma(&solution.estimate, w.excited.len());
-        influence = Some((series, w));
+        if round == rounds {
+            let residuals = weighed(stack.residuals(&solution.estimate), scale, &ones);
+            // In units of the columns' lengths, as the deviations of least squares are.
+            let bread = z.product(&w);
+            let series = z.influence(&residuals, &bread);
+            let steady = z.steady(&w, &residuals, &bread);
+            solution.std = w.deviations(&series, Some(&steady));
+            influence = Some((series, w));
+        }
         if weights == Weights::Residual {
             solution.scale.clone_from(&solution.sigma);
         }

@@ -99,6 +99,7 @@ mod tests {
         Stack {
             turns: Vec::new(),
             clipped: Vec::new(),
+            held: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

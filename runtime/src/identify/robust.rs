@@ -121,6 +121,7 @@ mod tests {
         Stack {
             turns: Vec::new(),
             clipped: Vec::new(),
+            held: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

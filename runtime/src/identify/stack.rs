@@ -40,6 +40,8 @@ pub struct Stack {
     pub turns: Vec<Vec<usize>>,
     /// Rows of each joint that are left out because its torque stands at a limit; no joints where none were looked for.
     pub clipped: Vec<Vec<usize>>,
+    /// Rows of each joint that are left out because dry friction holds it nearly all the time; no joints where none were looked for.
+    pub held: Vec<Vec<usize>>,
 }
 
 /// One log's share of the rows.

@@ -33,6 +33,14 @@ impl fmt::Display for Estimate {
             let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
             writeln!(f, "of these where joints turn: {}", a_joint(&counts))?;
         }
+        if self.held.iter().any(|count| *count > 0) {
+            let counts: Vec<String> = self.held.iter().map(usize::to_string).collect();
+            let counts = a_joint(&counts);
+            writeln!(
+                f,
+                "left out, where dry friction holds a joint that stands nearly all the time: {counts}"
+            )?;
+        }
         if self.clipped.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.clipped.iter().map(usize::to_string).collect();
             let counts = a_joint(&counts);

@@ -40,14 +40,16 @@ pub(super) fn make(
         Weights::Residual => REWEIGHTINGS,
         Weights::TorqueNorm | Weights::MaxTorque => 1,
     };
-    for _ in 0..rounds {
+    for round in 1..=rounds {
         let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
         let total = Total::new(&factors, &rows, &solution.scale)?;
         for (k, &c) in rows.excited.iter().enumerate() {
             solution.estimate[c] = total.scaled[k] * total.target / rows.length[k];
         }
-        solution.std = total.deviations(rows, stack, solution);
         solution.sigma = factors.sigma(&solution.estimate, total.scaled.len());
+        if round == rounds {
+            solution.std = total.deviations(rows, stack, solution);
+        }
         if weights == Weights::Residual {
             solution.scale.clone_from(&solution.sigma);
         }
@@ -174,6 +176,7 @@ mod tests {
         Stack {
             turns: Vec::new(),
             clipped: Vec::new(),
+            held: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

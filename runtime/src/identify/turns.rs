@@ -30,19 +30,21 @@ const SPREAD: f64 = 0.75;
 /// dry friction holds it with a torque that nobody knows, and steps of its encoder are no motion.
 pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     stack.turns = vec![Vec::new(); stack.dof()];
-    let mut held = stack.turns.clone();
+    stack.held = stack.turns.clone();
     for (number, log) in logs.iter().enumerate() {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
             let motion = Motion::new(log, joint);
             let rows = rows_at(start, log, &motion.near_turns(log.shared.border() as f64));
-            if motion.standing() > HELD {
-                held[joint].extend(&rows);
-            }
-            stack.turns[joint].extend(rows);
+            let place = if motion.standing() > HELD {
+                &mut stack.held
+            } else {
+                &mut stack.turns
+            };
+            place[joint].extend(rows);
         }
     }
-    clear_rows(&mut stack.joints, &held);
+    clear_rows(&mut stack.joints, &stack.held);
 }
 
 /// Makes the rows zero that turns reach.

@@ -254,6 +254,7 @@ mod tests {
         Stack {
             turns: Vec::new(),
             clipped: Vec::new(),
+            held: Vec::new(),
             unknowns: vec![unknown("a"), unknown("b"), unknown("c")],
             joints: vec![rows(0, 0.3), rows(1, 1.1)],
             segments: vec![Segment {

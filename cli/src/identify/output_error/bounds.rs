@@ -49,9 +49,16 @@ pub(super) fn bounds(
         compiled,
         given: &given,
     };
-    for (base, bounds) in compiled.base.combinations.iter().zip(&mut bounds) {
+    let bases = compiled.base.combinations.iter().zip(names);
+    for ((base, name), bounds) in bases.zip(&mut bounds) {
         let [low, high] = parts.sum(base);
         *bounds = [low.max(bounds[0]), high.min(bounds[1])];
+        if bounds[0] > bounds[1] {
+            return Err(Error::json(
+                path,
+                &format!("`{name}` would be within {low} .. {high}, and is never below zero"),
+            ));
+        }
     }
     for (name, range) in &given {
         if let Some(place) = names.iter().position(|other| other == name) {

@@ -50,6 +50,7 @@ fn stack(seed: u64, first: usize, count: usize) -> Stack {
     Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
+        held: Vec::new(),
         unknowns: ["a", "b", "c"].map(unknown).to_vec(),
         joints: joints.to_vec(),
         segments: vec![Segment {

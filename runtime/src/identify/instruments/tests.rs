@@ -26,6 +26,7 @@ fn stacks(seed: u64, share: f64) -> [Stack; 2] {
     [worn, clean].map(|column| Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
+        held: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,

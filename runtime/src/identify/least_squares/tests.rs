@@ -18,6 +18,7 @@ fn stack(joints: &[&[f64]]) -> Stack {
     Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
+        held: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,

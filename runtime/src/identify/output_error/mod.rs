@@ -38,6 +38,9 @@ use estimate::{comparison, result};
 use parts::Parts;
 use window::{Rows, Run, Window};
 
+/// By how much the sum of the logarithms of errors has to be less where torque is held between samples, for that to be told from means.
+const FITS_BETTER: f64 = 1e-3;
+
 /// Of the window that is asked for, for the first part of a search.
 const FIRST_SHARE: f64 = 0.25;
 
@@ -237,12 +240,13 @@ impl OutputError {
             (Err(_), Some(first)) => first,
             (whole, _) => whole?,
         };
-        if self.is_hold_open(recordings) {
+        // A search that has not come to its end would only be given more time.
+        if part.found.1 == search::Ending::Converged && self.is_hold_open(recordings) {
             let window = part.window;
             let other = parts.search(problem(window, Hold::Sample)?, window, &part.place.values);
             // An arm that runs away was not driven so.
             part = match other {
-                Ok(other) if other.error() < part.error() => other,
+                Ok(other) if other.error() < part.error() - FITS_BETTER => other,
                 _ => part,
             };
         }
