@@ -279,11 +279,22 @@ pub(super) struct Excited {
 impl Excited {
     /// Among the first `n` columns of a factor.
     pub fn new(r: &Mat<f64>, n: usize) -> Self {
-        Self::beyond(r, n, RANK_TOLERANCE)
+        Self::chosen(r, n, &|pivots| {
+            pivots.take_while(|pivot| *pivot > RANK_TOLERANCE).count()
+        })
     }
 
-    /// The same with another least pivot.
-    pub fn beyond(r: &Mat<f64>, n: usize, least: f64) -> Self {
+    /// So many of them, those that are told apart best.
+    pub fn of_rank(r: &Mat<f64>, n: usize, rank: usize) -> Self {
+        Self::chosen(r, n, &|pivots| pivots.take(rank).count())
+    }
+
+    /// `rank` says how many, of pivots that fall.
+    fn chosen(
+        r: &Mat<f64>,
+        n: usize,
+        rank: &dyn Fn(&mut dyn Iterator<Item = f64>) -> usize,
+    ) -> Self {
         let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
         let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
             if norms[c] > 0.0 {
@@ -295,9 +306,8 @@ impl Excited {
         let pivoted = scaled.col_piv_qr();
         let diagonal = pivoted.thin_R();
         let order = pivoted.P().arrays().0;
-        let rank = (0..n.min(diagonal.nrows()))
-            .take_while(|&k| diagonal[(k, k)].abs() > least)
-            .count();
+        let mut pivots = (0..n.min(diagonal.nrows())).map(|k| diagonal[(k, k)].abs());
+        let rank = rank(&mut pivots);
         let mut columns: Vec<usize> = order[..rank].to_vec();
         columns.sort_unstable();
         let kept = Mat::from_fn(r.nrows(), rank, |row, k| scaled[(row, columns[k])]);

@@ -154,7 +154,9 @@ impl FactorBlock {
     /// Whether another is of the same samples. Of blocks without any torque that is not known.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         self.samples == other.samples
-            && self.away.torque_squares.iter().any(|sum| *sum > 0.0)
+            && [&self.away, &self.at_turns]
+                .iter()
+                .any(|rows| rows.torque_squares.iter().any(|sum| *sum > 0.0))
             && self.away.is_same(&other.away)
             && self.at_turns.is_same(&other.at_turns)
     }

@@ -19,8 +19,8 @@ const STEP: f64 = 0.01;
 /// Sums that differ by no more than this share of their size are alike: machines round sines in their own ways.
 const ALIKE: f64 = 1e-9;
 
-/// A sum that is smaller is what rounding leaves of nothing.
-const NOTHING: f64 = 1e-9;
+/// A sum that is a smaller share of the largest size is what rounding leaves of nothing.
+const NOTHING: f64 = 1e-13;
 
 /// A weighed sum of a column over joints and samples, and the sum of the sizes of its parts.
 pub type Sum = [f64; 2];
@@ -42,10 +42,11 @@ pub(super) fn of(arm: &dyn Arm) -> Vec<Sum> {
 
 /// Whether both are of the same equations.
 pub(super) fn are_alike(one: &[Sum], other: &[Sum]) -> bool {
+    let largest = one.iter().map(|sum| sum[1]).fold(0.0, f64::max);
     let is_alike = |(one, other): (&Sum, &Sum)| {
         let size = one[1].max(other[1]);
         let mut pairs = one.iter().zip(other);
-        pairs.all(|(one, other)| (one - other).abs() <= ALIKE * size + NOTHING)
+        pairs.all(|(one, other)| (one - other).abs() <= ALIKE * size + NOTHING * largest)
     };
     one.len() == other.len() && one.iter().zip(other).all(is_alike)
 }

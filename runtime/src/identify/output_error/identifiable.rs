@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::triangle;
 
 /// Of the largest singular value: below, outputs do not change at all; below, they change so little that noise decides.
-pub(super) const SILENT: f64 = 1e-5;
+const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
 /// The same of shares of values: below, what a model lacks moves parameters by more than it moves others, however small deviations are.
@@ -227,6 +227,11 @@ impl Identifiability {
     #[must_use]
     pub fn is_identified(&self, parameter: usize) -> bool {
         self.identified.get(parameter).copied().unwrap_or(false)
+    }
+
+    /// Whether outputs change with a parameter at all.
+    pub(super) fn is_audible(&self, parameter: usize) -> bool {
+        self.lengths[parameter] > 0.0
     }
 
     /// `(R'R)^-1`, without directions that change nothing.

@@ -4,7 +4,6 @@ use faer::Mat;
 use nalgebra::DMatrix;
 
 use super::Identifiability;
-use super::identifiable::SILENT;
 use crate::identify::combination::{Shared, shared};
 use crate::identify::least_squares::Excited;
 
@@ -28,8 +27,14 @@ pub(super) fn sums(
     let asked: Vec<usize> = (0..names.len())
         .filter(|&k| !is_scaled(&names[k]))
         .collect();
-    let factor = Mat::from_fn(r.nrows(), asked.len(), |row, k| r[(row, asked[k])]);
-    let excited = Excited::beyond(&factor, asked.len(), SILENT);
+    let factor = Mat::from_fn(r.nrows(), asked.len(), |row, k| {
+        if identifiability.is_audible(asked[k]) {
+            r[(row, asked[k])]
+        } else {
+            0.0
+        }
+    });
+    let excited = Excited::of_rank(&factor, asked.len(), asked.len() - others.len());
     let unexcited = (0..asked.len()).filter(|k| excited.columns.binary_search(k).is_err());
     let unexcited: Vec<usize> = unexcited.collect();
     let found = shared(&factor, &excited, &unexcited).into_iter();
