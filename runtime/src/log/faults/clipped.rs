@@ -52,7 +52,9 @@ pub(super) fn find(log: &Log) -> Found {
         let high = tau.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = tau.iter().copied().fold(f64::INFINITY, f64::min);
         let range = high - low;
-        let ends = [high, low].into_iter().filter(|_| range > 0.0);
+        // A torque that has one sign has a limit on that side alone.
+        let ends = [high.max(0.0), low.min(0.0)].into_iter();
+        let ends = ends.filter(|end| *end != 0.0 && range > 0.0 && !has_few_levels(tau));
         let limits = ends.filter_map(|end| {
             let exact = standing(tau, end, ALIKE * range);
             exact.or_else(|| plateau(tau, &log.q[joint], end, range))
@@ -90,9 +92,6 @@ fn runs(values: &[f64], is_so: impl Fn(&f64) -> bool) -> Vec<Range<usize>> {
 
 /// Where a torque stands towards one of its ends, and for how many samples; rest without torque is no limit.
 fn standing(tau: &[f64], end: f64, alike: f64) -> Option<Limit> {
-    if end == 0.0 {
-        return None;
-    }
     let is_near = |value: f64| value * end.signum() > NEAR * end.abs();
     let runs = tau.chunk_by(|x, y| (x - y).abs() <= alike);
     let longest = runs

@@ -227,6 +227,22 @@ fn is_limit(values: &[f64], value: f64) -> bool {
     value >= high || value <= low
 }
 
+/// Most values of a channel that is a command of a few levels, as a square wave or a random binary one.
+const LEVELS: usize = 16;
+
+/// Whether a channel has a few values alone: what stands and jumps there is a command.
+fn has_few_levels(values: &[f64]) -> bool {
+    let mut levels: Vec<u64> = Vec::new();
+    values.iter().all(|value| {
+        let bits = value.to_bits();
+        let is_new = !levels.contains(&bits);
+        if is_new {
+            levels.push(bits);
+        }
+        levels.len() <= LEVELS
+    })
+}
+
 /// Those that are not zero.
 fn moved(values: &[f64]) -> Vec<f64> {
     values
