@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{FEW, Fault, Steps, moved, quantile};
+use super::{FEW, Fault, Steps, has_few_levels, moved, quantile};
 use crate::log::Log;
 
 /// Fewest samples in a row, and share of the log, that stand at a limit.

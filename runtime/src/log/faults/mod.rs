@@ -10,6 +10,7 @@ mod clipped;
 mod dropouts;
 mod fault;
 mod held;
+mod pushes;
 mod slips;
 mod spikes;
 mod velocity;
@@ -89,12 +90,12 @@ impl Log {
             channel: channel(),
             at,
         });
-        let at = self.cut_out(q, bursts::of_position(q, self.rate_hz()));
+        let at = self.cut_out(q, bursts::find(q, self.rate_hz()));
         let bursts = at.map(|at| Fault::Bursts {
             channel: channel(),
             at,
         });
-        let spikes = self.replace_spikes(q, channel());
+        let spikes = self.replace_spikes(q, spikes::find(q), channel());
         let jumps = slips::find(q);
         let at = self.cut_out(q, held::of_position(q));
         let held = at.map(|at| Fault::Held {
@@ -120,12 +121,14 @@ impl Log {
             channel: channel(),
             at,
         });
-        let at = self.cut_out(tau, bursts::of_torque(tau, &self.q[joint], self.rate_hz()));
+        let found = bursts::find(tau, self.rate_hz());
+        let at = self.cut_out(tau, pushes::without(found, &self.q[joint]));
         let bursts = at.map(|at| Fault::Bursts {
             channel: channel(),
             at,
         });
-        let spikes = self.replace_spikes(tau, channel());
+        let found = pushes::without(spikes::find(tau), &self.q[joint]);
+        let spikes = self.replace_spikes(tau, found, channel());
         let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
         let held = at.map(|at| Fault::Held {
             channel: channel(),
@@ -135,8 +138,12 @@ impl Log {
         found.into_iter().flatten().collect()
     }
 
-    fn replace_spikes(&self, values: &mut [f64], channel: String) -> Option<Fault> {
-        let found = spikes::find(values);
+    fn replace_spikes(
+        &self,
+        values: &mut [f64],
+        found: Vec<Range<usize>>,
+        channel: String,
+    ) -> Option<Fault> {
         let first = found.first()?.start;
         let samples = found.iter().map(Range::len).sum();
         for range in found {

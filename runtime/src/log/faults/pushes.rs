@@ -1,0 +1,56 @@
+//! Whether a torque that is far from what is around it for a moment was the drive's: then the joint is faster or slower behind it.
+
+use std::ops::Range;
+
+use super::{Steps, quantile};
+
+/// Fewest samples that a speed is taken of.
+const REACH: usize = 10;
+
+/// How many times the changes of speed around one is that a push makes, where that is so of most; and where it is so of a single one.
+const PUSHED: f64 = 6.0;
+const PUSHED_ALONE: f64 = 20.0;
+
+/// Changes of speed that are looked at on either side.
+const AROUND: usize = 8;
+
+/// Ranges of a torque without those of which the joint's position knows; none where it knows of most.
+pub(super) fn without(mut found: Vec<Range<usize>>, position: &[f64]) -> Vec<Range<usize>> {
+    if found.is_empty() {
+        return found;
+    }
+    let quantum = Steps::of(position).quantum;
+    let pushes: Vec<Option<f64>> = found
+        .iter()
+        .map(|range| push(position, quantum, range))
+        .collect();
+    let known: Vec<f64> = pushes.iter().copied().flatten().collect();
+    if known.is_empty() || quantile(known, 0.5) > PUSHED {
+        return Vec::new();
+    }
+    let mut pushes = pushes.into_iter();
+    found.retain(|_| {
+        let push = pushes.next().flatten();
+        push.is_none_or(|push| push <= PUSHED_ALONE)
+    });
+    found
+}
+
+/// By how many times as much the speed changes across samples as it does before and behind; none near the ends.
+fn push(position: &[f64], quantum: f64, range: &Range<usize>) -> Option<f64> {
+    let count = range.len();
+    let reach = count.max(REACH);
+    let lasts = count + reach;
+    let is_known = |k: usize| k >= lasts + reach && k + 2 * lasts < position.len();
+    let speed = |k: usize| position[k + reach] - position[k];
+    let change = |k: usize| speed(k + count) - speed(k - reach);
+    // What the change is beside those before and behind: a joint that is being accelerated all the time is not pushed.
+    let bend = |k: usize| (change(k) - 0.5 * (change(k - lasts) + change(k + lasts))).abs();
+    if !is_known(range.start) {
+        return None;
+    }
+    let away = (4..4 + AROUND).map(|n| n * lasts / 2);
+    let places = away.flat_map(|away| [range.start.checked_sub(away), Some(range.start + away)]);
+    let around = places.flatten().filter(|k| is_known(*k)).map(bend);
+    Some(bend(range.start) / quantile(around.collect(), 0.5).max(quantum))
+}
