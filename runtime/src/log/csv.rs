@@ -114,7 +114,7 @@ impl<'a> CsvRows<'a> {
             }
             self.is_at_first = false;
             if let Some(error) = lost {
-                table.lost.push(error);
+                table.lost.push(self.line, error);
                 continue;
             }
             for (column, value) in table.columns.iter_mut().zip(&row) {

@@ -1,7 +1,7 @@
 //! Samples that a recorder lost.
 
 use super::faults::BRIDGED_S;
-use super::{Log, LogError, Note, Stretches};
+use super::{Log, LogError, Lost, Note, Stretches};
 use crate::signal::resample::whole_steps;
 
 /// A step longer than this many median steps is a gap, however time stamps jitter.
@@ -28,6 +28,7 @@ struct Gap {
 pub(super) fn fill(
     log: &mut Log,
     lines: Option<&[u64]>,
+    lost: &Lost,
     median: f64,
 ) -> Result<Option<Vec<u64>>, LogError> {
     let start = log.time[0];
@@ -44,8 +45,8 @@ pub(super) fn fill(
         gaps.collect::<Vec<Gap>>()
     };
     let is_short = |gaps: &[Gap]| {
-        let lost: f64 = gaps.iter().map(|gap| gap.seconds).sum();
-        lost <= SHARE * all && gaps.iter().all(|gap| gap.seconds <= LONGEST_S)
+        let missing: f64 = gaps.iter().map(|gap| gap.seconds).sum();
+        missing <= SHARE * all && gaps.iter().all(|gap| gap.seconds <= LONGEST_S)
     };
     let odd = |step: &&f64| (*step / median - (*step / median).round()).abs() > WHOLE;
     let is_regular = steps.iter().filter(odd).count() as f64 <= FEW * steps.len() as f64;
@@ -57,6 +58,11 @@ pub(super) fn fill(
     };
     if !is_short(&gaps) {
         let last = longest.last;
+        // A gap is none in the file where its rows hold no numbers.
+        let without = lines.and_then(|lines| lost.between(lines[last], lines[last + 1]));
+        if let Some(error) = without {
+            return Err(error.clone());
+        }
         return Err(LogError::Gap {
             place: log.place(last + 1, lines),
             time: log.time[last + 1],

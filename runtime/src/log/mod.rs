@@ -28,7 +28,7 @@ pub use note::Note;
 pub use pieces::Pieces;
 
 use header::{Header, Place};
-use rows::{Rows, Table};
+use rows::{Lost, Rows, Table};
 
 /// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
 const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
@@ -169,9 +169,9 @@ impl Log {
             .partition(|(_, place)| table.is_number[place.column]);
         let lost = table.lost.few(table.lines.len())?;
         let mut report = Vec::new();
-        if let Some((rows, first)) = &lost {
+        if let Some((rows, first)) = lost {
             let first = first.to_string();
-            report.push(Note::LostRows { rows: *rows, first });
+            report.push(Note::LostRows { rows, first });
         }
         if header.is_standard_instead {
             report.push(Note::StandardColumns);
@@ -197,12 +197,7 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
         };
-        let finished = log.finish(Some(&table.lines));
-        // A gap is none in the file where its rows hold no numbers.
-        finished.map_err(|error| match (error, lost) {
-            (LogError::Gap { .. }, Some((_, first))) => first,
-            (error, _) => error,
-        })
+        log.finish(Some(&table.lines), &table.lost)
     }
 
     /// A log from samples in memory: `q` and `tau` are `[joint][sample]`, as long as `time`.
@@ -254,7 +249,7 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
         }
-        .finish(None)
+        .finish(None, &Lost::default())
     }
 
     /// Number of joints.
@@ -286,8 +281,8 @@ impl Log {
             .chain(extra)
     }
 
-    /// Checks the time stamps and makes them uniform; `lines` has one line number a sample.
-    fn finish(mut self, lines: Option<&[u64]>) -> Result<Self, LogError> {
+    /// Checks the time stamps and makes them uniform; `lines` has one line number a sample, and `lost` what is between them.
+    fn finish(mut self, lines: Option<&[u64]>, lost: &Lost) -> Result<Self, LogError> {
         if self.time.len() < FEWEST_SAMPLES {
             let found = self.time.len();
             return Err(LogError::TooFewSamples {
@@ -305,7 +300,7 @@ impl Log {
             self.report.push(Note::ExtraChannels { names });
         }
         self.check_plausible(lines)?;
-        uniform::make_uniform(&mut self, lines)?;
+        uniform::make_uniform(&mut self, lines, lost)?;
         let rate_hz = self.rate_hz();
         if !RATES_HZ.contains(&rate_hz) {
             return Err(LogError::Rate {

@@ -105,11 +105,13 @@ impl ParquetRows {
             table.columns[k].extend(sound.map(value));
         }
         for (row, column) in bad.iter().enumerate() {
+            let line = self.rows + row as u64 + 1;
             match column {
-                Some(k) => table
-                    .lost
-                    .push(self.no_number(*k, row, "a null or no finite number")),
-                None => table.lines.push(self.rows + row as u64 + 1),
+                Some(k) => {
+                    let error = self.no_number(*k, row, "a null or no finite number");
+                    table.lost.push(line, error);
+                }
+                None => table.lines.push(line),
             }
         }
         self.rows += rows.len() as u64;

@@ -37,28 +37,44 @@ pub(super) struct Table {
 #[derive(Debug, Default)]
 pub(super) struct Lost {
     rows: usize,
-    /// What is wrong with the first.
-    first: Option<LogError>,
+    /// Line of the last.
+    last: u64,
+    /// Line of the first of those that follow one another, and what is wrong with it.
+    runs: Vec<(u64, LogError)>,
 }
 
 /// The share of all rows from which on they are too many.
 const MANY: f64 = 0.05;
 
 impl Lost {
-    pub fn push(&mut self, error: LogError) {
+    /// Adds the row in a line behind all others.
+    pub fn push(&mut self, line: u64, error: LogError) {
+        let goes_on = self.rows > 0 && line == self.last + 1;
+        if !goes_on {
+            self.runs.push((line, error));
+        }
         self.rows += 1;
-        self.first.get_or_insert(error);
+        self.last = line;
     }
 
     /// How many there are and what is wrong with the first, beside so many sound rows.
     ///
     /// # Errors
     /// That, where there are many.
-    pub fn few(self, sound: usize) -> Result<Option<(usize, LogError)>, LogError> {
-        match self.first {
-            Some(first) if self.rows as f64 >= MANY * (sound + self.rows) as f64 => Err(first),
-            first => Ok(first.map(|first| (self.rows, first))),
+    pub fn few(&self, sound: usize) -> Result<Option<(usize, &LogError)>, LogError> {
+        match self.runs.first() {
+            Some((_, first)) if self.rows as f64 >= MANY * (sound + self.rows) as f64 => {
+                Err(first.clone())
+            }
+            first => Ok(first.map(|(_, first)| (self.rows, first))),
         }
+    }
+
+    /// What is wrong with the first between two lines of sound rows that follow one another.
+    pub fn between(&self, before: u64, behind: u64) -> Option<&LogError> {
+        let mut runs = self.runs.iter();
+        let inside = runs.find(|(line, _)| (before..behind).contains(line));
+        inside.map(|(_, error)| error)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Time stamps as logged to a uniform grid.
 
-use super::{Log, LogError, Note, close, gaps};
+use super::{Log, LogError, Lost, Note, close, gaps};
 use crate::signal::resample;
 
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
@@ -8,7 +8,11 @@ const UNIFORM_SHARE: f64 = 0.01;
 
 /// Refuses time that does not rise or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels
 /// onto a uniform grid where they are not on one.
-pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), LogError> {
+pub(super) fn make_uniform(
+    log: &mut Log,
+    lines: Option<&[u64]>,
+    lost: &Lost,
+) -> Result<(), LogError> {
     let time = &log.time;
     let place = |sample: usize| log.place(sample, lines);
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -22,7 +26,7 @@ pub(super) fn make_uniform(log: &mut Log, lines: Option<&[u64]>) -> Result<(), L
     let median = median(&steps);
     let logged = log.time.len();
     let lines = close::merge(log, lines, median);
-    let lines = gaps::fill(log, lines.as_deref(), median)?;
+    let lines = gaps::fill(log, lines.as_deref(), lost, median)?;
     let time = &log.time;
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let count = time.len();

@@ -2,6 +2,7 @@
 //!
 //! Dry friction that turns round jumps once, and stays. A drive may push for so short a time, but then the joint is faster behind it.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::{Steps, quantile};
@@ -49,9 +50,13 @@ pub(super) fn of_position(values: &[f64], rate_hz: f64) -> Vec<Range<usize>> {
 /// Ranges of samples of a torque of which the joint's position knows nothing.
 pub(super) fn of_torque(values: &[f64], position: &[f64], rate_hz: f64) -> Vec<Range<usize>> {
     let found = of_position(values, rate_hz);
-    let pushes = found.iter().map(|range| push(position, range));
+    if found.is_empty() {
+        return found;
+    }
+    let mut pushes = Pushes::of(position);
+    let pushes = found.iter().map(|range| pushes.across(range)).collect();
     // As one all of them are the drive's, or none is: now and then a joint turns round beside a burst.
-    if quantile(pushes.collect(), 0.5) > PUSHED {
+    if quantile(pushes, 0.5) > PUSHED {
         return Vec::new();
     }
     found
@@ -71,18 +76,38 @@ fn is_away(values: &[f64], range: &Range<usize>) -> bool {
     beyond(1.0) || beyond(-1.0)
 }
 
-/// By how many times the usual change the speed changes across samples, beside what it changes by before and behind; so many that it is a
-/// push where that is not known.
-fn push(position: &[f64], range: &Range<usize>) -> f64 {
-    let reach = range.len().max(REACH);
-    let lasts = range.len() + reach;
-    let speed = |k: usize| position[k + reach] - position[k];
-    let change = |k: usize| speed(k + range.len()) - speed(k - reach);
-    let bend = |k: usize| (change(k) - 0.5 * (change(k - lasts) + change(k + lasts))).abs();
-    let known = lasts + reach..position.len().saturating_sub(2 * lasts);
-    if !known.contains(&range.start) {
-        return f64::INFINITY;
+/// Changes of a joint's speed across samples. What is taken over the whole log is taken once for each length, as there may be bursts all over it.
+struct Pushes<'a> {
+    position: &'a [f64],
+    quantum: f64,
+    /// The usual change across so many samples.
+    usual: BTreeMap<usize, f64>,
+}
+
+impl<'a> Pushes<'a> {
+    fn of(position: &'a [f64]) -> Self {
+        Self {
+            position,
+            quantum: Steps::of(position).quantum,
+            usual: BTreeMap::new(),
+        }
     }
-    let usual = quantile(known.map(bend).collect(), 0.5);
-    bend(range.start) / usual.max(Steps::of(position).quantum)
+
+    /// By how many times the usual change the speed changes across samples, beside what it changes by before and behind; so many that it is a
+    /// push where that is not known.
+    fn across(&mut self, range: &Range<usize>) -> f64 {
+        let (position, count) = (self.position, range.len());
+        let reach = count.max(REACH);
+        let lasts = count + reach;
+        let speed = |k: usize| position[k + reach] - position[k];
+        let change = |k: usize| speed(k + count) - speed(k - reach);
+        let bend = |k: usize| (change(k) - 0.5 * (change(k - lasts) + change(k + lasts))).abs();
+        let known = lasts + reach..position.len().saturating_sub(2 * lasts);
+        if !known.contains(&range.start) {
+            return f64::INFINITY;
+        }
+        let usual = self.usual.entry(count);
+        let usual = usual.or_insert_with(|| quantile(known.map(bend).collect(), 0.5));
+        bend(range.start) / usual.max(self.quantum)
+    }
 }

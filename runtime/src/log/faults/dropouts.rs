@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use super::Steps;
 use super::held::{JUMP, MOVES, NEAR, RESOLVED, by_chance, mean};
-use super::{Steps, is_limit};
 
 /// Fewest samples of a dropout: shorter ones are spikes.
 const FEWEST: usize = 4;
@@ -11,28 +11,40 @@ const FEWEST: usize = 4;
 /// A jump is so many times the largest step before and behind.
 const BEYOND: f64 = 2.0;
 
+/// No brake closes, and opens again, within this time, s: for so long a torque may drop out at rest, and for longer only while its joint moves.
+const BRAKE_S: f64 = 0.1;
+
 /// Ranges of samples of a position. Where a joint rests, its position jumps no less than that of a spike.
 pub(super) fn of_position(values: &[f64]) -> Vec<Range<usize>> {
     let steps = Steps::of(values);
     let is_fault = |one: &Excursion| {
         let is_far = one.jump > steps.steep();
-        is_far || one.moves && !is_limit(values, one.value)
+        is_far || one.moves && !steps.is_limit(one.value)
     };
     find(values, &steps, FEWEST, is_fault)
 }
 
 /// Ranges of samples of a torque: more than chance repeats of it, among samples that change. A square wave has no such, and at its largest
-/// value a torque is at a limit, unless that is zero.
-pub(super) fn of_torque(values: &[f64]) -> Vec<Range<usize>> {
+/// value a torque is at a limit, unless that is zero. A drive that is switched off between moves has no torque while a brake holds the joint.
+pub(super) fn of_torque(values: &[f64], position: &[f64], rate_hz: f64) -> Vec<Range<usize>> {
     let steps = Steps::of(values);
-    let is_fault =
-        |one: &Excursion| one.moves && (one.value == 0.0 || !is_limit(values, one.value));
-    find(
-        values,
-        &steps,
-        FEWEST.max(by_chance(&steps.sizes)),
-        is_fault,
-    )
+    let is_fault = |one: &Excursion| one.moves && (one.value == 0.0 || !steps.is_limit(one.value));
+    let fewest = FEWEST.max(by_chance(&steps.sizes));
+    let mut found = find(values, &steps, fewest, is_fault);
+    let travels = Steps::of(position);
+    found.retain(|range| {
+        range.len() as f64 <= BRAKE_S * rate_hz || moves_on(position, &travels, range)
+    });
+    found
+}
+
+/// Whether a joint moves within samples, wherever it is behind them.
+fn moves_on(position: &[f64], travels: &Steps, range: &Range<usize>) -> bool {
+    let within = &position[range.start - 1..=range.end];
+    let high = within.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = within.iter().copied().fold(f64::INFINITY, f64::min);
+    let usual = MOVES * travels.typical * range.len() as f64;
+    high - low > usual.max(RESOLVED * travels.quantum)
 }
 
 /// Samples that stand still between two jumps.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Steps, is_limit};
+use super::Steps;
 use crate::signal::resample::whole_steps;
 
 /// Fewest samples of a hold: shorter ones are within what filters smooth.
@@ -71,7 +71,7 @@ fn find(values: &[f64], steps: &Steps, fewest: usize) -> Vec<Range<usize>> {
         // Samples `start + 1 ..= k` repeat sample `start`; step `k` leads away from them.
         let held = start + 1..k + 1;
         let is_inside = start >= NEAR && k + NEAR < sizes.len();
-        if held.len() < fewest || !is_inside || is_limit(values, values[start]) {
+        if held.len() < fewest || !is_inside || steps.is_limit(values[start]) {
             continue;
         }
         let around = mean(&sizes[start - NEAR..start]).max(mean(&sizes[k + 1..k + 1 + NEAR]));

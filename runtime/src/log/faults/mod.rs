@@ -77,6 +77,11 @@ impl Log {
     }
 
     /// A position without what was found in it.
+    ///
+    /// The order matters: what jumps away and back has two steps of a slip, and holds come before slips. A position that is updated slower than
+    /// the log stands for some samples and then steps by what the joint moved in all of them; where it mostly rests slips alone would take each
+    /// such step for a jump that stays, and once holds are bridged they are slopes. Yet where it is slow holds are none and its steps stay,
+    /// steep beside those slopes: so a slip has to be one before holds are bridged, too.
     fn mend_position(&mut self, joint: usize, q: &mut [f64]) -> Vec<Fault> {
         let channel = || format!("q{}", joint + 1);
         let at = self.cut_out(q, dropouts::of_position(q));
@@ -90,12 +95,15 @@ impl Log {
             at,
         });
         let spikes = self.replace_spikes(q, channel());
+        let jumps = slips::find(q);
         let at = self.cut_out(q, held::of_position(q));
         let held = at.map(|at| Fault::Held {
             channel: channel(),
             at,
         });
-        let slips = self.mask_slips(q, channel());
+        let mut slips = slips::find(q);
+        slips.retain(|slip| jumps.binary_search(slip).is_ok());
+        let slips = self.mask_slips(q, &slips, channel());
         let found = [dropouts, bursts, spikes, held, slips];
         found.into_iter().flatten().collect()
     }
@@ -103,7 +111,8 @@ impl Log {
     /// A torque without what was found in it.
     fn mend_torque(&mut self, joint: usize, tau: &mut [f64]) -> Vec<Fault> {
         let channel = || format!("tau{}", joint + 1);
-        let at = self.cut_out(tau, dropouts::of_torque(tau));
+        let found = dropouts::of_torque(tau, &self.q[joint], self.rate_hz());
+        let at = self.cut_out(tau, found);
         let dropouts = at.map(|at| Fault::Dropouts {
             channel: channel(),
             at,
@@ -138,8 +147,7 @@ impl Log {
     }
 
     /// Holes over jumps that stay.
-    fn mask_slips(&mut self, values: &[f64], channel: String) -> Option<Fault> {
-        let found = slips::find(values);
+    fn mask_slips(&mut self, values: &[f64], found: &[usize], channel: String) -> Option<Fault> {
         let first = *found.first()?;
         let size = |k: usize| values[k + 1] - values[k];
         let larger = |a: &&usize, b: &&usize| size(**a).abs().total_cmp(&size(**b).abs());
@@ -220,13 +228,6 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
-/// Whether that is the largest or the smallest value of all.
-fn is_limit(values: &[f64], value: f64) -> bool {
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    value >= high || value <= low
-}
-
 /// Those that are not zero.
 fn moved(values: &[f64]) -> Vec<f64> {
     values
@@ -236,7 +237,7 @@ fn moved(values: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Steps from sample to sample of a channel.
+/// Steps from sample to sample of a channel and what all of them say, taken once: it is asked for at every place where something may be.
 struct Steps {
     /// Their sizes.
     sizes: Vec<f64>,
@@ -246,6 +247,9 @@ struct Steps {
     typical: f64,
     /// What all but a few of these are below.
     usual: f64,
+    /// The smallest and the largest value of the channel.
+    least: f64,
+    most: f64,
 }
 
 impl Steps {
@@ -257,8 +261,15 @@ impl Steps {
             quantum: quantile(moved.clone(), 0.1),
             typical: quantile(moved.clone(), 0.5),
             usual: quantile(moved, FEW),
+            least: values.iter().copied().fold(f64::INFINITY, f64::min),
+            most: values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             sizes,
         }
+    }
+
+    /// Whether that is the largest or the smallest value of all.
+    fn is_limit(&self, value: f64) -> bool {
+        value >= self.most || value <= self.least
     }
 
     /// From here on a step is none of the arm's own.

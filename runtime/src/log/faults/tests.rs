@@ -8,18 +8,25 @@ use super::*;
 
 mod away;
 mod clipped;
+mod slow;
 
 const RATE: f64 = 500.0;
 
 /// Ten seconds of one joint with dry friction, noise of the torque and an encoder of finite steps, that rests for a second in the middle.
 fn clean(seed: u64) -> Log {
+    resting(seed, 1.0).0
+}
+
+/// That, of a joint that rests for so long, and at which samples it does.
+fn resting(seed: u64, seconds: f64) -> (Log, Range<usize>) {
+    let end = 4.5 + seconds;
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
     let time: Vec<f64> = (0..5000).map(|k| f64::from(k) / RATE).collect();
     // What moves is time itself, which stands still in the middle.
-    let clock = |t: f64| if t < 4.5 { t } else { 4.5 + (t - 5.5).max(0.0) };
+    let clock = |t: f64| if t < 4.5 { t } else { 4.5 + (t - end).max(0.0) };
     let motion = |t: f64| 0.8 * (1.3 * clock(t)).sin() + 0.2 * (5.1 * clock(t)).cos();
-    let rests = |t: f64| (4.5..5.5).contains(&t);
+    let rests = |t: f64| (4.5..end).contains(&t);
     let speed = |t: f64| 0.8 * 1.3 * (1.3 * clock(t)).cos() - 0.2 * 5.1 * (5.1 * clock(t)).sin();
     let q = time
         .iter()
@@ -32,7 +39,8 @@ fn clean(seed: u64) -> Log {
     let mut log = Log::from_samples("a plant", time.clone(), vec![q], vec![tau]).expect("sound");
     let logged = |&t: &f64| if rests(t) { 0.0 } else { speed(t) };
     log.dq = vec![time.iter().map(logged).collect()];
-    log
+    let before = |t: f64| time.partition_point(|time| *time < t - 1e-9);
+    (log, before(4.5)..before(end))
 }
 
 #[test]

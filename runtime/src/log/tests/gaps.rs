@@ -172,3 +172,37 @@ fn rows_without_numbers_are_missing() {
     let longer: Vec<String> = (0..6000).map(row).collect();
     assert!(refused(read(&text("time,q1,tau1", &longer), 1)).starts_with("monday.csv:302: `nan`"));
 }
+
+/// A row without numbers has nothing to do with a gap elsewhere; of several the one inside the gap is named.
+#[test]
+fn gaps_are_told_where_they_are() {
+    let with = |bad: &dyn Fn(u32) -> bool, is_there: &dyn Fn(u32) -> bool| {
+        let row = |k: u32| {
+            let tau = if bad(k) { "nan" } else { "1" };
+            format!("{:.3},0.5,{tau}", 0.002 * f64::from(k))
+        };
+        let rows: Vec<String> = (0..60_000).filter(|k| is_there(*k)).map(row).collect();
+        let refused = read(&text("time,q1,tau1", &rows), 1);
+        refused.expect_err("a long gap").to_string()
+    };
+    let long = |k: u32| (50_000..51_000).contains(&k);
+    let told = with(&|k| k == 8, &|k| !long(k));
+    assert!(
+        told.starts_with("monday.csv:50002: gap in time from 99.998 s to 102 s"),
+        "{told}"
+    );
+    for bad in [51_000, 51_003] {
+        let told = with(&|k| k == 49_990 || k == bad, &|k| !long(k));
+        let gap = if bad == 51_000 {
+            "`nan`"
+        } else {
+            "gap in time"
+        };
+        assert!(
+            told.starts_with(&format!("monday.csv:50002: {gap}")),
+            "{told}"
+        );
+    }
+    let told = with(&|k| k == 8 || long(k), &|_| true);
+    assert!(told.starts_with("monday.csv:50002: `nan`"), "{told}");
+}

@@ -71,6 +71,30 @@ fn dropouts_are_found_at_rest_and_at_the_ends_of_what_is_measured() {
     assert_mended(&piece.tau[0], &log.tau[0], |k| is_in(&lost, k), 1.0);
 }
 
+/// A drive that is switched off between moves, a brake in its place, and torques that a recorder loses while the joint moves on.
+#[test]
+fn a_drive_that_is_switched_off_has_no_dropout() {
+    for seconds in [0.2, 0.4, 0.6, 2.0] {
+        let (log, rest) = resting(21, seconds);
+        let mut worn = log.clone();
+        worn.tau[0][rest.clone()].fill(0.0);
+        let clean = worn.clone();
+        let Mended { log: piece, faults } = worn.mended();
+        assert_eq!(faults, [], "{seconds} s");
+        assert_eq!(piece.tau, clean.tau);
+        assert_eq!(piece.holes, []);
+    }
+    for (start, count) in [(700, 10), (700, 60), (1500, 300), (400, 400)] {
+        let log = clean(22);
+        let mut worn = log.clone();
+        worn.dq.clear();
+        worn.tau[0][start..start + count].fill(0.0);
+        let faults = worn.mended().faults;
+        assert_eq!(dropouts(&faults), [("tau1", 1, count)], "{faults:?}");
+        assert_eq!(faults.len(), 1, "{faults:?}");
+    }
+}
+
 fn bursts(faults: &[Fault]) -> Vec<(&str, usize, usize)> {
     let told = faults.iter().filter_map(|fault| match fault {
         Fault::Bursts { channel, at } => Some((channel.as_str(), at.times, at.samples)),
