@@ -23,6 +23,10 @@ const SHARES: [f64; 2] = [0.005, 0.1];
 /// Of a log: a joint that may stand for more of it is held by its friction.
 const HELD: f64 = 0.85;
 
+/// The largest velocity is no more than so many times what this share is below.
+const SLIPS: f64 = 3.0;
+const FAST: f64 = 0.99;
+
 /// What the shared filter spreads a turn over, on either side, in periods of its cutoff.
 const SPREAD: f64 = 0.75;
 
@@ -150,7 +154,14 @@ fn standing(wide: &[f64], smooth: &[f64]) -> f64 {
     let noise = rest
         .get(rest.len() / 2)
         .map_or(0.0, |x| x / MEDIAN_OF_NORMAL);
-    let most = smooth.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let mut sizes: Vec<f64> = smooth.iter().map(|x| x.abs()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    let share = |share: f64| {
+        let place = whole_steps(share * sizes.len().saturating_sub(1) as f64);
+        sizes.get(place).copied().unwrap_or_default()
+    };
+    // An encoder that slips is not the speed of its joint.
+    let most = share(1.0).min(SLIPS * share(FAST));
     let [least, largest] = SHARES.map(|share| share * most);
     (NOISE * noise).clamp(least, largest)
 }

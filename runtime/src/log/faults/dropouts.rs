@@ -32,8 +32,10 @@ pub(super) fn of_torque(values: &[f64], position: &[f64], rate_hz: f64) -> Vec<R
     let fewest = FEWEST.max(by_chance(&steps.sizes));
     let mut found = find(values, &steps, fewest, is_fault);
     let travels = Steps::of(position);
+    // A torque that holds a joint at rest may be as constant as it likes.
     found.retain(|range| {
-        range.len() as f64 <= BRAKE_S * rate_hz || moves_on(position, &travels, range)
+        let is_off = values[range.start] == 0.0 && range.len() as f64 <= BRAKE_S * rate_hz;
+        is_off || moves_on(position, &travels, range)
     });
     found
 }

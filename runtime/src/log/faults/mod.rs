@@ -116,18 +116,18 @@ impl Log {
         }
         let channel = || format!("tau{}", joint + 1);
         let found = dropouts::of_torque(tau, &self.q[joint], self.rate_hz());
-        let at = self.cut_out(tau, found);
+        let at = self.cut_out(tau, pushes::without(found, &self.q));
         let dropouts = at.map(|at| Fault::Dropouts {
             channel: channel(),
             at,
         });
         let found = bursts::find(tau, self.rate_hz());
-        let at = self.cut_out(tau, pushes::without(found, &self.q[joint]));
+        let at = self.cut_out(tau, pushes::without(found, &self.q));
         let bursts = at.map(|at| Fault::Bursts {
             channel: channel(),
             at,
         });
-        let found = pushes::without(spikes::find(tau), &self.q[joint]);
+        let found = pushes::without(spikes::find(tau), &self.q);
         let spikes = self.replace_spikes(tau, found, channel());
         let at = self.cut_out(tau, held::of_torque(tau, &self.q[joint]));
         let held = at.map(|at| Fault::Held {

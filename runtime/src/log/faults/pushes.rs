@@ -1,4 +1,5 @@
-//! Whether a torque that is far from what is around it for a moment was the drive's: then the joint is faster or slower behind it.
+//! Whether a torque that is far from what is around it for a moment was the drive's: then its joint, or one whose acceleration it carries, is
+//! faster or slower behind it.
 
 use std::ops::Range;
 
@@ -14,18 +15,21 @@ const PUSHED_ALONE: f64 = 20.0;
 /// Changes of speed that are looked at on either side.
 const AROUND: usize = 8;
 
-/// Ranges of a torque without those of which the joint's position knows; none where it knows of most.
-pub(super) fn without(mut found: Vec<Range<usize>>, position: &[f64]) -> Vec<Range<usize>> {
+/// Ranges of a torque without those of which a position of the arm knows; none where they know of most.
+pub(super) fn without(mut found: Vec<Range<usize>>, positions: &[Vec<f64>]) -> Vec<Range<usize>> {
     if found.is_empty() {
         return found;
     }
-    let quantum = Steps::of(position).quantum;
-    let pushes: Vec<Option<f64>> = found
-        .iter()
-        .map(|range| push(position, quantum, range))
-        .collect();
+    let quanta = positions.iter().map(|position| Steps::of(position).quantum);
+    let quanta: Vec<f64> = quanta.collect();
+    let strongest = |range: &Range<usize>| -> Option<f64> {
+        let joints = positions.iter().zip(&quanta);
+        let pushes = joints.filter_map(|(position, quantum)| push(position, *quantum, range));
+        pushes.reduce(f64::max)
+    };
+    let pushes: Vec<Option<f64>> = found.iter().map(strongest).collect();
     let known: Vec<f64> = pushes.iter().copied().flatten().collect();
-    if known.is_empty() || quantile(known, 0.5) > PUSHED {
+    if quantile(known, 0.5) > PUSHED {
         return Vec::new();
     }
     let mut pushes = pushes.into_iter();
@@ -52,5 +56,7 @@ fn push(position: &[f64], quantum: f64, range: &Range<usize>) -> Option<f64> {
     let away = (4..4 + AROUND).map(|n| n * lasts / 2);
     let places = away.flat_map(|away| [range.start.checked_sub(away), Some(range.start + away)]);
     let around = places.flatten().filter(|k| is_known(*k)).map(bend);
-    Some(bend(range.start) / quantile(around.collect(), 0.5).max(quantum))
+    // A joint that stands has no quantum.
+    let usual = quantile(around.collect(), 0.5).max(quantum);
+    Some(bend(range.start) / usual.max(f64::MIN_POSITIVE))
 }

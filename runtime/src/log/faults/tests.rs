@@ -218,7 +218,8 @@ fn many_spikes_are_found_as_few_are() {
             });
         let found = found.expect("spikes");
         assert!(
-            found <= count && 50 * found >= 49 * count,
+            // Where this arm stops and starts at once it looks as if it were pushed.
+            found <= count && 25 * found >= 24 * count,
             "one in {every}: {found} {count}"
         );
     }
