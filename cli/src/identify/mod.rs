@@ -265,10 +265,13 @@ impl IdentifyArguments {
 
 /// That all parameters have values, or the ways out.
 pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
-    let pairs = estimate.joints.iter().zip(&estimate.turns);
+    let rows = |of: &[usize], joint: usize| of.get(joint).copied().unwrap_or_default();
+    let joints = estimate.joints.iter().enumerate();
     // Nearly all of its rows, so that what is left is its way from here to there.
-    let standing = pairs.filter(|(_, turns)| 10 * **turns > 9 * estimate.samples);
-    let standing: Vec<String> = standing.map(|(joint, _)| format!("`{joint}`")).collect();
+    let standing = joints.filter(|(k, _)| {
+        10 * (rows(&estimate.turns, *k) + rows(&estimate.held, *k)) > 9 * estimate.samples
+    });
+    let standing: Vec<String> = standing.map(|(_, joint)| format!("`{joint}`")).collect();
     let standing = match standing.len() {
         0 => String::new(),
         _ => format!(

@@ -63,6 +63,36 @@ fn torque_that_is_late_is_told_with_its_delay() {
     }
 }
 
+/// Slopes lead to what is near; where dry friction turns round far away ones are found as well.
+#[test]
+fn torque_that_is_late_by_far_is_told_with_its_delay() {
+    let folder = crate::payload::folder("");
+    let log = folder.read("empty.csv");
+    let time = |row: usize| -> f64 {
+        let line = log.lines().nth(row).expect("a row");
+        let field = line.split(',').next().expect("a column");
+        field.parse().expect("a number")
+    };
+    let period = time(2) - time(1);
+    for delay in [0.03, 0.05, 0.2] {
+        let samples = (1..1000).find(|k| f64::from(*k) * period > delay - 0.5 * period);
+        let samples: i32 = samples.expect("so many");
+        let delay = f64::from(samples) * period;
+        let samples = isize::try_from(samples).expect("small");
+        folder.write("late.csv", &late(&log, samples));
+        folder.succeed(&["identify", "arm.robot", "late.csv", "--json", "out.json"]);
+        let faults = json(&folder.read("out.json"))["data_faults"].clone();
+        let faults = faults.as_array().expect("a list");
+        assert_eq!(faults.len(), 2, "{delay}: {faults:?}");
+        for fault in faults {
+            assert_eq!(fault["kind"], "late-torque");
+            let number = |key: &str| fault["delay"][key].as_f64().expect("a number");
+            let (found, std) = (number("value"), number("std"));
+            assert!((found - delay).abs() < 4.0 * std && std < 5e-3, "{fault}");
+        }
+    }
+}
+
 /// Of the logs without what is carried.
 #[test]
 fn torque_that_is_late_is_told_beside_a_payload() {

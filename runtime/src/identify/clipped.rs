@@ -22,7 +22,8 @@ pub(super) fn leave_out(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     clear_again(stack);
 }
 
-/// The same rows once more, of a stack that has got columns since.
+/// The same rows once more, and those of joints that friction holds, of a stack that has got columns since.
 pub(super) fn clear_again(stack: &mut Stack) {
     clear_rows(&mut stack.joints, &stack.clipped);
+    clear_rows(&mut stack.joints, &stack.held);
 }

@@ -30,6 +30,9 @@ const SHARE: f64 = 0.25;
 const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
 
+/// Delays that are tried first, s.
+const STARTS: [f64; 8] = [-0.04, -0.02, 0.02, 0.04, 0.07, 0.11, 0.17, 0.25];
+
 /// A joint whose torque is not of the time of its position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -122,7 +125,7 @@ impl Identify {
     fn delays_of(&self, rows: &Rows<'_>) -> Option<Vec<TorqueDelay>> {
         let dof = rows.arm.dof();
         let period = longest_period(rows.logs);
-        let mut delays = vec![0.0; dof];
+        let mut delays = vec![self.nearest(rows)?; dof];
         for _ in 0..ROUNDS {
             let found = self.further(&rows.shifted(&delays))?;
             for (delay, step) in delays.iter_mut().zip(&found.step) {
@@ -142,6 +145,27 @@ impl Identify {
             }
         }
         None
+    }
+
+    /// Of some delays of all torques the one that leaves least; a slope alone does not lead to what is far away.
+    fn nearest(&self, rows: &Rows<'_>) -> Option<f64> {
+        let left = |delay: f64| -> Option<f64> {
+            let mut stack = rows.shifted(&vec![delay; rows.arm.dof()]);
+            stack.truncate(rows.stack.unknowns.len());
+            let solution = self.solve_stack(&stack).ok()?;
+            let residuals = stack.residuals(&solution.estimate);
+            let sizes = residuals.iter().map(|r| norm(r)).filter(|size| *size > 0.0);
+            Some(sizes.map(f64::ln).sum())
+        };
+        let mut best = (left(0.0)?, 0.0);
+        for delay in STARTS {
+            if let Some(left) = left(delay)
+                && left < best.0
+            {
+                best = (left, delay);
+            }
+        }
+        Some(best.1)
     }
 
     /// Of delays that are far from nothing those that matter.
