@@ -58,9 +58,15 @@ impl FactorRows {
             let rows = rows.filter(|(row, _)| is_so(joint, *row));
             rows.map(|(_, tau)| tau * tau).sum()
         });
+        // Where no row counts there is nothing to keep.
+        let rows = factors.joints().iter().zip(factors.counts());
+        let rows = rows.map(|(rows, count)| match count {
+            0 => Vec::new(),
+            _ => rows_of(rows),
+        });
         Self {
             counts: factors.counts().to_vec(),
-            rows: factors.joints().iter().map(rows_of).collect(),
+            rows: rows.collect(),
             torque_squares: squares.collect(),
         }
     }
@@ -114,7 +120,11 @@ impl FactorBlock {
         Self {
             samples: stack.samples(),
             away: FactorRows::of(stack, &|joint, row| !is_at(joint, row)),
-            at_turns: FactorRows::of(stack, &is_at),
+            at_turns: if stack.turns.iter().all(Vec::is_empty) {
+                FactorRows::none(stack.dof())
+            } else {
+                FactorRows::of(stack, &is_at)
+            },
         }
     }
 
