@@ -101,6 +101,14 @@ impl Factor {
     /// # Errors
     /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations or filters.
     pub fn merge(&mut self, other: Self) -> Result<(), IdentifyError> {
+        self.check(&other)?;
+        self.blocks.extend(other.blocks);
+        self.shorten();
+        Ok(())
+    }
+
+    /// That another factor is of the same arm and filters.
+    fn check(&self, other: &Self) -> Result<(), IdentifyError> {
         let what = if other.joints != self.joints {
             Some("joints")
         } else if other.unknowns != self.unknowns {
@@ -112,12 +120,10 @@ impl Factor {
         } else {
             None
         };
-        if let Some(what) = what {
-            return Err(IdentifyError::OtherFactor { what });
+        match what {
+            Some(what) => Err(IdentifyError::OtherFactor { what }),
+            None => Ok(()),
         }
-        self.blocks.extend(other.blocks);
-        self.shorten();
-        Ok(())
     }
 
     /// Blocks that another factor has, too: what they say would count twice.
@@ -195,9 +201,11 @@ impl Factor {
         method: Method,
         leave_out_turns: bool,
     ) -> Result<Estimate, IdentifyError> {
-        Self::new(arm, self.bands)?.merge(self.clone())?;
-        let away = self.without_turns();
-        let used = if leave_out_turns { &away } else { self };
+        Self::new(arm, self.bands)?.check(self)?;
+        let at_turns = self.turns();
+        let has_turns = at_turns.iter().any(|count| *count > 0);
+        let away = has_turns.then(|| self.without_turns());
+        let used = away.as_ref().filter(|_| leave_out_turns).unwrap_or(self);
         let factors = used.whole();
         let ones = vec![1.0; self.joints.len()];
         if self.blocks.is_empty() {
@@ -214,8 +222,7 @@ impl Factor {
         };
         Identify::check_excited(&solution)?;
         used.deviations(&mut solution);
-        let at_turns = self.turns();
-        if !leave_out_turns && at_turns.iter().any(|count| *count > 0) {
+        if let (Some(away), false) = (&away, leave_out_turns) {
             turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
         }
         let fitted = Fitted {
