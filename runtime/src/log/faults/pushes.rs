@@ -60,3 +60,37 @@ fn push(position: &[f64], quantum: f64, range: &Range<usize>) -> Option<f64> {
     let usual = quantile(around.collect(), 0.5).max(quantum);
     Some(bend(range.start) / usual.max(f64::MIN_POSITIVE))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two joints at a constant speed; the second one is faster behind sample 500, as a push of eight samples makes it.
+    fn positions() -> Vec<Vec<f64>> {
+        let steady = |k: usize| 1e-3 * k as f64;
+        let faster = |k: usize| steady(k) + 4e-3 * k.saturating_sub(504) as f64;
+        let rounded = |f: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            (0..1000).map(|k| (f(k) / 1e-5).round() * 1e-5).collect()
+        };
+        vec![rounded(&steady), rounded(&faster)]
+    }
+
+    #[test]
+    fn what_any_joint_is_faster_behind_is_a_push() {
+        let (push, fault) = (500..508, 250..258);
+        assert_eq!(
+            without(vec![fault.clone()], &positions()),
+            vec![fault.clone()]
+        );
+        assert_eq!(without(vec![push.clone()], &positions()), Vec::new());
+        // The first joint alone knows nothing of it.
+        assert_eq!(
+            without(vec![push.clone()], &positions()[..1]),
+            vec![push.clone()]
+        );
+        // One push among faults is left out alone.
+        let faults = vec![fault, 700..708, 800..808];
+        let all = [&faults[..], &[push]].concat();
+        assert_eq!(without(all, &positions()), faults);
+    }
+}
