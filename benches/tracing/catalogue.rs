@@ -26,6 +26,8 @@ pub struct Injection {
     pub is_of_known_links: bool,
     /// What part of the wanted size it has.
     pub part: f64,
+    /// The effect of the language, where that has another name.
+    pub effect: Option<&'static str>,
     /// Its law, where the library does not have it.
     pub law: Option<&'static str>,
 }
@@ -58,6 +60,7 @@ const NONE: Injection = Injection {
     replaces: None,
     is_of_known_links: false,
     part: 1.0,
+    effect: None,
     law: None,
 };
 
@@ -283,6 +286,14 @@ pub const ALL: &[Injection] = &[
         ..NONE
     },
     Injection {
+        kind: "external-force",
+        effect: Some("recurring_force"),
+        place: Place::Last,
+        linear: &[("fx", 0.4), ("fy", 0.5), ("fz", 1.0)],
+        shapes: &[("start", 0.55), ("end", 0.75)],
+        ..NONE
+    },
+    Injection {
         kind: "torque-saturation",
         linear: &[("share", 1.0)],
         scaled: &[("limit", |x| 1.0 / x)],
@@ -324,7 +335,8 @@ impl Injection {
 
     /// Its name in the language.
     pub fn effect(&self) -> String {
-        self.kind.replace('-', "_")
+        self.effect
+            .map_or_else(|| self.kind.replace('-', "_"), str::to_owned)
     }
 
     /// Whether something is there that `trace` may name.

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
-use robot_model::log::Log;
+use robot_model::log::{Log, MOTION_PHASE};
 use robot_model::simulate::{ComputedTorque, Gains, Loop, Sensors};
 use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_codegen::base::shape_values;
@@ -16,7 +16,7 @@ use robot_model_spec::parameter::Status;
 
 use crate::arms::{Arm, DECLARED};
 use crate::catalogue::{Injection, Place};
-use crate::motion::Waves;
+use crate::motion::{CHANNELS, Waves};
 
 /// Lengths of the logs, s, and their rate, Hz.
 const SECONDS: [f64; 2] = [20.0, 15.0];
@@ -101,6 +101,9 @@ impl Case {
         });
         let [identify, validate] = motions;
         let (identify, validate) = (identify?, validate?);
+        if self.injection.effect() == "recurring_force" && !identify.repeats {
+            return Ok(None);
+        }
         let Some(size) = self.size(&declared, &joints, &identify)? else {
             return Ok(None);
         };
@@ -236,6 +239,7 @@ impl Case {
         let standard = self.standard(&compiled, size);
         let shapes = shape_values(&compiled.model);
         let trajectory = waves.trajectory().map_err(said)?;
+        let place = |input: &String| CHANNELS.iter().position(|name| name == input);
         let setting = Loop {
             log_rate: RATE_HZ,
             duration: SECONDS[usize::from(part == 1)],
@@ -250,7 +254,7 @@ impl Case {
             } else {
                 0.0
             },
-            inputs: vec![0; compiled.model.inputs().len()],
+            inputs: compiled.model.inputs().iter().filter_map(place).collect(),
             ..Loop::default()
         };
         let plant =
@@ -268,7 +272,8 @@ impl Case {
         }
         let name = ["identification", "validation"][usize::from(part == 1)];
         let mut log = Log::from_samples(name, record.time, record.q, tau).map_err(said)?;
-        log.extra = record.extra;
+        let logged = record.extra.into_iter();
+        log.extra = logged.filter(|one| one.name != MOTION_PHASE).collect();
         Ok(log)
     }
 

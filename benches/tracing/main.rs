@@ -167,7 +167,7 @@ fn run(options: &Options) -> Vec<Row> {
             let label = format!(
                 "{} {} {} % seed {}",
                 case.arm.name,
-                case.injection.kind,
+                case.injection.effect(),
                 100.0 * case.share,
                 case.seed
             );

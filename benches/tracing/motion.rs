@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use robot_model::log::Channel;
+use robot_model::log::{Channel, MOTION_PHASE};
 use robot_model::motion::{Kinematics, Motion};
 use robot_model::simulate::{SimulateError, Trajectory};
 use robot_model_spec::Model;
@@ -29,6 +29,8 @@ type Wave = (f64, f64, f64);
 pub struct Waves {
     joints: Vec<(f64, Vec<Wave>)>,
     seconds: f64,
+    /// Whether it comes back every `1 / LOWEST_HZ` seconds.
+    pub repeats: bool,
 }
 
 impl Waves {
@@ -62,6 +64,7 @@ impl Waves {
         Self {
             joints: joints.collect(),
             seconds,
+            repeats,
         }
     }
 
@@ -82,15 +85,15 @@ impl Waves {
         }
     }
 
-    /// The same as a wanted motion, with the temperature of a gear that warms up beside it.
+    /// The same as a wanted motion, with its channels.
     ///
     /// # Errors
     /// Those of [`Trajectory::new`].
     pub fn trajectory(&self) -> Result<Trajectory, SimulateError> {
         let time = times(self.seconds, RATE_HZ);
         let Kinematics { q, dq, ddq } = self.kinematics(&time);
-        let channel = temperature(&time);
-        Trajectory::new(time, q, dq, ddq, vec![channel])
+        let channels = channels(&time);
+        Trajectory::new(time, q, dq, ddq, channels)
     }
 
     /// The same as an exact motion at this rate, Hz.
@@ -98,7 +101,7 @@ impl Waves {
         let time = times(self.seconds, rate_hz);
         let kinematics = self.kinematics(&time);
         Motion {
-            extra: vec![temperature(&time)],
+            extra: channels(&time),
             time,
             smooth: kinematics.clone(),
             wide: kinematics,
@@ -129,13 +132,17 @@ fn times(seconds: f64, rate_hz: f64) -> Vec<f64> {
     samples.take_while(|t| *t <= seconds).collect()
 }
 
-/// From 22 to 42 degrees Celsius, most of it within ten seconds.
-fn temperature(time: &[f64]) -> Channel {
-    Channel {
-        name: "temperature".to_owned(),
-        values: time
-            .iter()
-            .map(|t| 42.0 - 20.0 * (-t / 10.0).exp())
-            .collect(),
-    }
+/// Names of what is beside a motion: a temperature, which logs have, and the part of the period of a motion that repeats, which they have not.
+pub const CHANNELS: [&str; 2] = ["temperature", MOTION_PHASE];
+
+/// From 22 to 42 degrees Celsius, most of it within ten seconds; from 0 to 1 in every period.
+fn channels(time: &[f64]) -> Vec<Channel> {
+    let channel = |name: &str, of: &dyn Fn(&f64) -> f64| Channel {
+        name: name.to_owned(),
+        values: time.iter().map(of).collect(),
+    };
+    vec![
+        channel(CHANNELS[0], &|t| 42.0 - 20.0 * (-t / 10.0).exp()),
+        channel(CHANNELS[1], &|t| (t * LOWEST_HZ).fract()),
+    ]
 }

@@ -36,6 +36,8 @@ pub struct Loop {
     pub faults: Vec<DataFault>,
     /// The logs without it, which were traced.
     pub traced: Vec<Log>,
+    /// The log that was not fitted, with all that effects may read of it.
+    pub unseen: Option<Log>,
     /// What the tracer says of the logs without their faults.
     pub verdict: Verdict,
     /// The spec with the findings declared, in their order; the text as it was where there are none. Leads stay out: what
@@ -75,7 +77,13 @@ pub fn close(
     progress: &Progress,
 ) -> Result<Loop, Error> {
     progress.step("identifying the declared model");
-    let mended = data_gate::mend(logs, progress);
+    let mut mended = data_gate::mend(logs, progress);
+    for one in &mut mended {
+        one.log = one.log.clone().with_motion_phase(None);
+    }
+    let period = mended.iter().find_map(|one| one.log.period());
+    let unseen = validate.map(|log| log.clone().with_motion_phase(period));
+    let validate = unseen.as_ref();
     let mut on_time: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let sound = on_time.clone();
     let declared = compiled(source_name, text)?;
@@ -118,6 +126,7 @@ pub fn close(
         before,
         faults,
         traced: on_time,
+        unseen,
         verdict,
         amended,
         changed,
@@ -185,7 +194,7 @@ fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
         .iter()
         .filter(|parameter| parameter.shape);
     Amendment {
-        effect: finding.kind.replace('-', "_"),
+        effect: finding.effect.clone(),
         joints: finding
             .joints
             .iter()

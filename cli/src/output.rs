@@ -242,6 +242,21 @@ pub(crate) fn json(value: &impl Serialize) -> String {
     text
 }
 
+/// A number with so many digits.
+pub(crate) fn significant(number: f64, digits: usize) -> String {
+    let decimals = decimals(number, digits);
+    format!("{number:.decimals$}")
+}
+
+/// Decimals that show so many digits of a number.
+pub(crate) fn decimals(number: f64, digits: usize) -> usize {
+    let ahead = digits.saturating_sub(1);
+    let text = format!("{number:.ahead$e}");
+    let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
+    let behind = i64::try_from(ahead).unwrap_or(0) - exponent.unwrap_or(0_i64);
+    usize::try_from(behind).unwrap_or(0)
+}
+
 /// "1 joint", "2 joints".
 pub(crate) fn counted(count: usize, what: &str) -> String {
     if count == 1 {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use robot_model::log::{Column, Columns, Log, Mended};
+use robot_model::log::{Column, Columns, Log, MOTION_PHASE, Mended};
 use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
@@ -104,6 +104,15 @@ pub(crate) fn log_columns(model: &Model) -> Columns {
     columns
 }
 
+/// Whether an effect of a robot is of a part of its motion's period.
+fn reads_phase(model: &Model) -> bool {
+    let mut effects = model.effects.iter();
+    effects.any(|effect| {
+        let mut inputs = effect.definition.inputs.iter();
+        inputs.any(|input| input.name == MOTION_PHASE)
+    })
+}
+
 /// Reads a log to identify from: without spikes, with holes where it stood still, and says what is wrong with it.
 pub(crate) fn read_mended(
     path: &Path,
@@ -122,7 +131,10 @@ pub(crate) fn read_mended(
 /// Reads a log of a robot, and says what is remarkable about it.
 pub(crate) fn read_log(path: &Path, model: &Model, progress: &Progress) -> Result<Log, Error> {
     progress.step(&format!("reading {}", path.display()));
-    let log = Log::read_as(path, &log_columns(model))?;
+    let mut log = Log::read_as(path, &log_columns(model))?;
+    if reads_phase(model) {
+        log = log.with_motion_phase(None);
+    }
     for note in &log.report {
         progress.note(&format!("note: {}: {note}", log.source));
     }

@@ -60,7 +60,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
             .iter()
             .filter(|parameter| parameter.shape);
         amendments.push(Amendment {
-            effect: finding.kind.replace('-', "_"),
+            effect: finding.effect.clone(),
             joints,
             shapes: shapes
                 .map(|shape| (shape.name.clone(), shape.value))

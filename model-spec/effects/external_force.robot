@@ -2,7 +2,7 @@
 ///
 /// The force is on the origin of the link of joint `j`, as a rule the last one, constant in the axes of the base from `start` to `end` of the
 /// log; the motors hold against it with `-J^T F`. Identifiable where the arm moves on while it is touched, in other poses too: in one pose
-/// a force is an offset of the torques. What comes back in every period needs an effect of its own, with `time` cut to the period.
+/// a force is an offset of the torques. What comes back in every period of the motion is `recurring_force`.
 effect external_force(j) {
     /// Force along the axes of the base, N.
     linear fx, fy, fz;

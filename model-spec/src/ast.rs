@@ -202,6 +202,8 @@ pub struct Effect {
     pub name: Ident,
     /// Formal joints.
     pub joints: Vec<Ident>,
+    /// `kind name;`
+    pub kind: Option<Ident>,
     /// `linear ..;`
     pub linear: Vec<Linear>,
     /// `shape ..;`

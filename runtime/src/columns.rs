@@ -169,8 +169,13 @@ pub trait MomentumArm: Arm {
 
 /// An effect that the spec does not declare, tried on given joints.
 pub trait Candidate: Columns {
-    /// Kebab-case name of the effect.
+    /// Kebab-case name of what it is, in reports.
     fn kind(&self) -> &str;
+
+    /// Name in the language of what a spec declares: that of the kind, unless it is one of several laws of this kind.
+    fn effect(&self) -> String {
+        self.kind().replace('-', "_")
+    }
 
     /// The joints it is tried on, from 0; none where it is of the arm as a whole.
     fn joints(&self) -> &[usize];

@@ -11,7 +11,8 @@ use crate::output::{self, Files, counted};
 
 use super::figure;
 use super::table::Table;
-use super::words::{measured, significant};
+use super::words::measured;
+use crate::output::significant;
 
 /// Correlation of current and velocity from which on they are called hardly apart.
 const ALIKE: f64 = 0.98;

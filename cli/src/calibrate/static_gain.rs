@@ -11,7 +11,8 @@ use crate::output::{self, Files, counted};
 
 use super::figure;
 use super::table::Table;
-use super::words::{measured, rounded, significant};
+use super::words::{measured, rounded};
+use crate::output::significant;
 
 /// The gain from current to torque, from a blocked arm at a sequence of currents.
 ///

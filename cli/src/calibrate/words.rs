@@ -2,6 +2,8 @@
 
 use robot_model::calibrate::Measured;
 
+use crate::output::{decimals, significant};
+
 /// Digits of a standard deviation.
 const OF_STD: usize = 2;
 
@@ -33,21 +35,6 @@ fn decimals_of(found: &Measured) -> usize {
         // An error below rounding has no digits to show.
         decimals(found.std, OF_STD).min(decimals(found.value, 12).max(of_value))
     }
-}
-
-/// A number with so many digits.
-pub(super) fn significant(number: f64, digits: usize) -> String {
-    let decimals = decimals(number, digits);
-    format!("{number:.decimals$}")
-}
-
-/// Decimals that show so many digits of a number.
-fn decimals(number: f64, digits: usize) -> usize {
-    let ahead = digits.saturating_sub(1);
-    let text = format!("{number:.ahead$e}");
-    let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
-    let behind = i64::try_from(ahead).unwrap_or(0) - exponent.unwrap_or(0_i64);
-    usize::try_from(behind).unwrap_or(0)
 }
 
 #[cfg(test)]

@@ -17,6 +17,7 @@ use crate::in_order::each;
 #[derive(Debug, Clone)]
 pub struct InterpretedBody {
     kind: String,
+    effect: String,
     joints: Vec<usize>,
     /// The arm with the body.
     arm: InterpretedArm,
@@ -95,7 +96,8 @@ impl InterpretedBody {
             return None;
         }
         Some(Self {
-            kind: definition.name.replace('_', "-"),
+            kind: definition.kind.replace('_', "-"),
+            effect: definition.name.clone(),
             joints: vec![joint],
             unknowns: new.iter().map(|&k| with.unknowns[k].clone()).collect(),
             new,
@@ -137,6 +139,10 @@ impl Columns for InterpretedBody {
 impl Candidate for InterpretedBody {
     fn kind(&self) -> &str {
         &self.kind
+    }
+
+    fn effect(&self) -> String {
+        self.effect.clone()
     }
 
     fn joints(&self) -> &[usize] {

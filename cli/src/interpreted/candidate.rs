@@ -85,6 +85,7 @@ fn may_be_tried(definition: &EffectDefinition, model: &Model) -> bool {
 #[derive(Debug, Clone)]
 pub struct InterpretedCandidate {
     kind: String,
+    effect: String,
     joints: Vec<usize>,
     unknowns: Vec<Unknown>,
     shapes: Vec<Shape>,
@@ -109,7 +110,8 @@ impl InterpretedCandidate {
         });
         let columns = effect_columns(definition, joints, model);
         Self {
-            kind: definition.name.replace('_', "-"),
+            kind: definition.kind.replace('_', "-"),
+            effect: definition.name.clone(),
             joints: joints.to_vec(),
             unknowns: unknowns.collect(),
             shapes: shapes.collect(),
@@ -221,6 +223,10 @@ impl Columns for InterpretedCandidate {
 impl Candidate for InterpretedCandidate {
     fn kind(&self) -> &str {
         &self.kind
+    }
+
+    fn effect(&self) -> String {
+        self.effect.clone()
     }
 
     fn follows_torque(&self) -> bool {

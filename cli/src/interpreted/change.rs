@@ -16,6 +16,7 @@ use crate::in_order::each;
 #[derive(Debug, Clone)]
 pub struct InterpretedChange {
     kind: String,
+    effect: String,
     joints: Vec<usize>,
     /// The shapes of the effect, as what is unknown of it.
     shapes: Vec<Unknown>,
@@ -100,7 +101,8 @@ impl InterpretedChange {
             return None;
         }
         let mut change = Self {
-            kind: definition.name.replace('_', "-"),
+            kind: definition.kind.replace('_', "-"),
+            effect: definition.name.clone(),
             joints,
             shapes: definition
                 .shapes
@@ -195,6 +197,10 @@ impl Columns for InterpretedChange {
 impl Candidate for InterpretedChange {
     fn kind(&self) -> &str {
         &self.kind
+    }
+
+    fn effect(&self) -> String {
+        self.effect.clone()
     }
 
     fn joints(&self) -> &[usize] {

@@ -5,7 +5,6 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Alternative, Finding};
 use robot_model_spec::model::EffectLeaf;
-use robot_model_spec::standard_effects;
 
 use super::report::effect;
 use crate::close_the_loop::Loop;
@@ -49,7 +48,10 @@ fn experiment(
     place: usize,
     rival: &Alternative,
 ) -> Option<String> {
-    let (own, other) = (name(&finding.kind)?, name(&rival.kind)?);
+    let (own, other) = (
+        of_motion(closed, &finding.effect)?,
+        of_motion(closed, &rival.effect)?,
+    );
     let values = effect(finding, closed, place).parameters;
     let said = |names: &[String]| -> Vec<String> {
         let found = names
@@ -89,12 +91,10 @@ struct OfMotion {
     shapes: Vec<String>,
 }
 
-/// An effect of the language whose torque is one of the motion, by its name in reports.
-fn name(kind: &str) -> Option<OfMotion> {
-    let effects = standard_effects();
-    let effect = effects
-        .iter()
-        .find(|effect| effect.name.replace('_', "-") == kind)?;
+/// An effect of the library or of the spec whose torque is one of the motion.
+fn of_motion(closed: &Loop, effect: &str) -> Option<OfMotion> {
+    let definitions = &closed.before.arm.compiled().model.definitions;
+    let effect = definitions.iter().find(|one| one.name == effect)?;
     let is_more = |leaf: &EffectLeaf| matches!(leaf, EffectLeaf::Time | EffectLeaf::Input(_));
     let rates = effect
         .states

@@ -71,7 +71,8 @@ impl TraceArguments {
         drop(progress);
 
         // All contents are ready before the first file appears.
-        let prediction = validate
+        let prediction = closed
+            .unseen
             .as_ref()
             .map(|log| prediction(&closed, log))
             .transpose()?;

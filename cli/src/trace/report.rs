@@ -22,7 +22,11 @@ pub(crate) struct Report<'a> {
     relative_percent_train_before: &'a [f64],
     relative_percent_train_after: &'a [f64],
     alternatives: Vec<AlternativeReport<'a>>,
-    noise_floor: &'a [f64],
+    /// The least error that a model can have on the identification logs, of raw samples, per joint.
+    noise_floor: Vec<f64>,
+    noise_floor_std: Vec<f64>,
+    /// Per joint: periods or curves.
+    noise_floor_from: Vec<&'static str>,
     /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
     structure_before: Vec<f64>,
     structure_after: Vec<f64>,
@@ -69,6 +73,8 @@ struct TriedReport<'a> {
 #[derive(Serialize)]
 pub(super) struct EffectReport<'a> {
     kind: &'a str,
+    /// What the amended spec declares; none for a fault of the logs that it does not.
+    effect: Option<&'a str>,
     #[serde(flatten)]
     joints: Joints,
     pub(super) parameters: Vec<ParameterReport<'a>>,
@@ -97,8 +103,23 @@ enum Joints {
 pub(super) struct ParameterReport<'a> {
     pub(super) name: &'a str,
     pub(super) value: f64,
-    /// None for shape parameters, which the amended spec fixes.
-    std: Option<f64>,
+    /// Beside all other unknowns, shapes among them; none where another unknown does the same.
+    pub(super) std: Option<f64>,
+    /// Ends of the interval that holds the value with 95 %.
+    pub(super) interval: Option<[f64; 2]>,
+}
+
+impl<'a> ParameterReport<'a> {
+    fn new(name: &'a str, value: f64, std: Option<f64>) -> Self {
+        /// Deviations to either side, of a normal distribution.
+        const WIDTH: f64 = 1.96;
+        Self {
+            name,
+            value,
+            std,
+            interval: std.map(|std| [value - WIDTH * std, value + WIDTH * std]),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -144,7 +165,13 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|one| alternative(one, closed.faults.len()))
                 .collect(),
-            noise_floor: &verdict.noise_floor,
+            noise_floor: verdict.noise_floor.iter().map(|floor| floor.rms).collect(),
+            noise_floor_std: verdict.noise_floor.iter().map(|floor| floor.std).collect(),
+            noise_floor_from: verdict
+                .noise_floor
+                .iter()
+                .map(|floor| floor.from.name())
+                .collect(),
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
@@ -174,14 +201,16 @@ impl Joints {
 pub(super) fn effect<'a>(finding: &'a Finding, closed: &'a Loop, place: usize) -> EffectReport<'a> {
     let parameters = finding.parameters.iter().map(|parameter| {
         let identified = identified(closed, place, &parameter.name);
-        ParameterReport {
-            name: &parameter.name,
-            value: identified.map_or(parameter.value, |(value, _)| value),
-            std: identified.map(|(_, std)| std),
-        }
+        // The amended spec fixes shapes, so that deviations with it know nothing of theirs.
+        let std = parameter
+            .std
+            .map(|traced| identified.map_or(traced, |(_, std)| std.max(traced)));
+        let value = identified.map_or(parameter.value, |(value, _)| value);
+        ParameterReport::new(&parameter.name, value, std)
     });
     EffectReport {
         kind: &finding.kind,
+        effect: Some(&finding.effect),
         joints: Joints::new(&finding.joints),
         parameters: parameters.collect(),
         evidence: Some(evidence(&finding.evidence)),
@@ -227,13 +256,11 @@ fn tried(tried: &Tried) -> TriedReport<'_> {
 
 /// A fault of the logs among the effects.
 fn fault(fault: &DataFault) -> EffectReport<'_> {
-    let delay = fault.delay.iter().map(|&(value, std)| ParameterReport {
-        name: "delay",
-        value,
-        std: Some(std),
-    });
+    let delay = fault.delay.iter();
+    let delay = delay.map(|&(value, std)| ParameterReport::new("delay", value, Some(std)));
     EffectReport {
         kind: fault.kind,
+        effect: None,
         joints: Joints::new(&[]),
         parameters: delay.collect(),
         evidence: None,

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Finding, MOST_EFFECTS, Outcome};
+use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
 use super::doubt::{doubt, on_joints};
 use super::report::effect;
@@ -11,7 +11,7 @@ use super::tried::tried;
 use super::whereabouts::whereabouts;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
-use crate::output;
+use crate::output::{self, significant};
 
 /// The result for people, of the spec at a path: outcome, effects, the spec's change, errors before and after.
 pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
@@ -39,7 +39,13 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         let parameters: Vec<String> = effect
             .parameters
             .iter()
-            .map(|parameter| format!("{} = {:.4}", parameter.name, parameter.value))
+            .map(|parameter| {
+                let value = format!("{} = {:.4}", parameter.name, parameter.value);
+                let std = parameter
+                    .std
+                    .map(|std| format!(" +- {}", significant(std, 2)));
+                value + &std.unwrap_or_default()
+            })
             .collect();
         writeln!(
             out,
@@ -134,7 +140,27 @@ fn table(closed: &Loop) -> String {
     for (joint, name) in joints.iter().enumerate() {
         line(name, each(&|column| column.row(joint)));
     }
+    out.push_str(&floor(closed));
     out
+}
+
+/// The least errors that any model can have on the logs that were fitted.
+fn floor(closed: &Loop) -> String {
+    let floors = closed.verdict.noise_floor.iter();
+    let floors = floors.map(|floor| {
+        let (rms, std) = (significant(floor.rms, 3), significant(floor.std, 1));
+        format!("{rms} +- {std}")
+    });
+    let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
+    let how = match from {
+        Some(FloorFrom::Periods) => "what differs from period to period of the motion",
+        _ => "what curves in the motion's quantities leave of data they were not fitted on",
+    };
+    let floors: Vec<String> = floors.collect();
+    format!(
+        "noise floor of the fitted logs, RMSE per joint ({how}): {}\n",
+        floors.join(", ")
+    )
 }
 
 /// One kind of error, before and after.
@@ -198,6 +224,7 @@ mod tests {
         // Another law that would do as well asks for another experiment.
         closed.verdict.alternatives = vec![Alternative {
             kind: "stribeck".to_owned(),
+            effect: "stribeck".to_owned(),
             joints: vec![0],
             instead_of: 0,
             worse_percent: 0.4,
@@ -218,10 +245,10 @@ mod tests {
         // No motion tells a channel or time; it tells a memory.
         for (kind, is_told) in [
             ("dahl", true),
-            ("temperature-viscous", false),
-            ("parameter-drift", false),
+            ("temperature_viscous", false),
+            ("parameter_drift", false),
         ] {
-            kind.clone_into(&mut closed.verdict.alternatives[0].kind);
+            kind.clone_into(&mut closed.verdict.alternatives[0].effect);
             let told = summary("cart.robot", &closed, CART).contains("robot-model excite");
             assert_eq!(told, is_told, "{kind}");
         }

@@ -78,3 +78,66 @@ fn torque_that_is_a_few_samples_late_is_a_delay() {
     assert_eq!(out["effects"][0]["joint"], Value::Null);
     close(value(&out, "delay"), 0.0025, 0.0003);
 }
+
+/// A press that is touched once in every five seconds, from 3.9 to 4.8 s, by a law of time that no library has.
+#[test]
+fn a_contact_that_comes_back_is_named_with_its_part_of_the_period() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    let press = "effect press(j) { linear fy, fz; \
+        let touched = if cos(0.4 * pi * (time - 4.35)) > 0.84432792550 { 1 } else { 0 }; \
+        force(j) = [0, fy * touched, fz * touched]; }\n";
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3, "lo.press.fy": 1.5, "lo.press.fz": -1.0}"#;
+    let repeated = |t: f64| {
+        let w = 0.4 * std::f64::consts::PI * t;
+        [
+            -1.57 + 0.6 * w.sin() + 0.4 * (3.0 * w + 0.4).sin(),
+            0.7 * (2.0 * w + 1.0).sin() + 0.2 * (5.0 * w).cos(),
+        ]
+    };
+    moved(
+        &folder,
+        &format!("{press}{}", spec("press on lo;")),
+        values,
+        repeated,
+    );
+    let arguments = ["--amend", "amended.robot", "--json", "out.json"];
+    let validate = ["--validate", "log.csv"];
+    let told = folder.succeed(
+        &[
+            &["trace", "arm.robot", "log.csv"],
+            &arguments[..],
+            &validate,
+        ]
+        .concat(),
+    );
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["outcome"], "explained", "{told}");
+    assert_eq!(out["effects"][0]["kind"], "external-force", "{told}");
+    close(value(&out, "start"), 0.78, 0.01);
+    close(value(&out, "end"), 0.96, 0.01);
+    close(value(&out, "fx"), 0.0, 0.05);
+    close(value(&out, "fy"), 1.5, 0.05);
+    close(value(&out, "fz"), -1.0, 0.05);
+    let amended = folder.read("amended.robot");
+    assert!(amended.contains("recurring_force(start = "), "{amended}");
+
+    // The amended spec reads the same log by itself; a motion that does not repeat has no phase.
+    folder.succeed(&["identify", "amended.robot", "log.csv"]);
+    let astray = |t: f64| {
+        [
+            -1.57 + 0.3 * (1.3 * t).sin() + 0.02 * t,
+            0.4 * (2.1 * t).sin(),
+        ]
+    };
+    moved(
+        &folder,
+        &spec(""),
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5,
+        "up.coulomb_friction.fc": 0.5, "lo.coulomb_friction.fc": 0.3}"#,
+        astray,
+    );
+    let told = folder.refuse(&["identify", "amended.robot", "log.csv"]);
+    assert!(told.contains("motions that repeat"), "{told}");
+}

@@ -22,6 +22,9 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
     let before = errors.len();
     check_names(effect, errors);
     check_effect_name(&effect.name, errors);
+    if let Some(kind) = &effect.kind {
+        check_effect_name(kind, errors);
+    }
     let parts = binding::in_order(effect, errors);
     let scope = Scope {
         joints: effect.joints.iter().map(Ident::to_string).collect(),
@@ -54,6 +57,7 @@ pub(crate) fn check_definition(effect: &Effect, errors: &mut Errors) -> Option<E
     }
     let definition = EffectDefinition {
         name: effect.name.to_string(),
+        kind: effect.kind.as_ref().unwrap_or(&effect.name).to_string(),
         doc: effect.doc.clone(),
         linear: effect
             .linear

@@ -25,8 +25,10 @@ pub struct Effect {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct EffectDefinition {
-    /// Snake case, as in specs; JSON shows it in kebab case.
+    /// Snake case, as in specs.
     pub name: String,
+    /// The effect that it is a case of, its own name where it is none: what reports call it, in kebab case.
+    pub kind: String,
     /// The `///` comment in front of the definition.
     pub doc: String,
     /// Formal joints: `effect gear_coupling(j, k)`. None where it acts on the arm as a whole.

@@ -1,7 +1,7 @@
 //! `effect name(j, k) { linear ..; shape ..; input ..; state ..; let ..; dot(z) = ..; torque(j) = ..; }`, and the acts that
 //! are no torques.
 
-use proc_macro2::TokenTree;
+use proc_macro2::{Span, TokenTree};
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
@@ -32,6 +32,7 @@ pub(super) fn effect(input: ParseStream, doc: String, errors: &mut Sink) -> syn:
         doc,
         name,
         joints,
+        kind: None,
         linear: vec![],
         shapes: vec![],
         inputs: vec![],
@@ -49,6 +50,7 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
     let doc = doc_comment(input)?;
     let keyword = word(input, "`linear`, `shape` or `torque`")?;
     match keyword.to_string().as_str() {
+        "kind" => kind(input, keyword.span(), &mut effect.kind)?,
         "linear" => linear(input, &doc, &mut effect.linear)?,
         "shape" => effect.shapes.push(shape(input, doc)?),
         "input" => effect.inputs.push(read_input(input, doc)?),
@@ -67,7 +69,7 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
                     keyword.span(),
                     &format!("an effect has no `{keyword}`"),
                     Some(
-                        "write `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
+                        "write `kind name;`, `linear name;`, `shape name in low .. high;`, `input name;`, `state z;`, `let name = ..;`, \
                          `dot(z) = ..;`, `torque(j) = ..;`, `force(j) = [..];`, `position(j) = ..;`, `body(j) = [..];`, \
                          `tilt = [..];` or `delay = ..;`",
                     ),
@@ -76,6 +78,20 @@ fn statement(input: ParseStream, effect: &mut Effect) -> syn::Result<()> {
         },
     }
     semicolon(input)
+}
+
+/// `name`, once.
+fn kind(input: ParseStream, keyword: Span, kind: &mut Option<Ident>) -> syn::Result<()> {
+    let name = word(input, "the effect that it is a case of")?;
+    if kind.is_some() {
+        return Err(syn_error(
+            keyword,
+            "an effect is of one kind",
+            Some("keep one `kind`, under which reports and JSON have the effect"),
+        ));
+    }
+    *kind = Some(name);
+    Ok(())
 }
 
 /// `a, b >= 0, c`

@@ -40,36 +40,39 @@ impl Identify {
             stack,
             &solution.estimate,
         );
-        // Shapes stay where they were found; which of them, and of the others, the logs separate is seen with all columns.
-        let joint = Factors::new(&whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
-        let mut with_shapes = solution.clone();
-        with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
-        with_shapes.unexcited = joint.unexcited;
-        let mut is_known = vec![true; whole.unknowns.len()];
-        for &k in &with_shapes.unexcited {
-            is_known[k] = false;
-        }
-        let lost = (0..linear).any(|k| !is_known[k] && !solution.unexcited.contains(&k));
+        let told = self.beside_slopes(&whole, &solution);
         let mut stack = whole;
+        stack.truncate(linear);
+        let lost = (0..linear).any(|k| told[k].is_none() && !solution.unexcited.contains(&k));
         let shape_std = if lost {
             // A shape does what a linear unknown does: beside it nothing is known of either.
+            solution.std = self.deviations(&stack, &solution);
             vec![None; shapes.len()]
         } else {
-            let std = self.deviations(&stack, &with_shapes);
-            solution.std = std[..linear].to_vec();
-            let told = (linear..std.len()).map(|k| is_known[k].then_some(std[k]));
-            told.collect()
+            let std = told[..linear].iter();
+            solution.std = std.map(|std| std.unwrap_or(0.0)).collect();
+            told[linear..].to_vec()
         };
-        stack.truncate(linear);
-        if lost {
-            solution.std = self.deviations(&stack, &solution);
-        }
         Solved {
             solution,
             shapes,
             shape_std,
             stack,
         }
+    }
+
+    /// Standard deviations of a solution with further columns, slopes of its torque by shapes, beside its own; none of what the logs do not
+    /// tell from others with all of them. Shapes stay where they were found.
+    pub(crate) fn beside_slopes(&self, whole: &Stack, solution: &Solution) -> Vec<Option<f64>> {
+        let joint = Factors::new(whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
+        let mut with_shapes = solution.clone();
+        with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
+        with_shapes.unexcited = joint.unexcited;
+        let std = self.deviations(whole, &with_shapes);
+        let is_told = |k: &usize| !with_shapes.unexcited.contains(k);
+        (0..std.len())
+            .map(|k| is_told(&k).then_some(std[k]))
+            .collect()
     }
 
     /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.

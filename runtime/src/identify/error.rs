@@ -1,5 +1,6 @@
 //! Why an identification was refused.
 
+use crate::log::MOTION_PHASE;
 use crate::signal::SignalError;
 
 /// Why an identification was refused.
@@ -20,7 +21,8 @@ pub enum IdentifyError {
     },
     /// A log lacks a channel that a declared effect reads.
     #[error(
-        "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; log it, or take the effect out of the spec"
+        "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; {}, or take the effect out of the spec",
+        way_to(channel)
     )]
     NoChannel {
         /// Name of the log.
@@ -212,4 +214,13 @@ pub enum IdentifyError {
     /// The signals cannot be filtered.
     #[error(transparent)]
     Signal(#[from] SignalError),
+}
+
+/// How a log comes to a channel.
+fn way_to(channel: &str) -> &'static str {
+    if channel == MOTION_PHASE {
+        "it is found in motions that repeat, twice at least, which this one does not"
+    } else {
+        "log it"
+    }
 }

@@ -13,6 +13,7 @@ mod header;
 mod note;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod phase;
 mod pieces;
 mod rows;
 mod uniform;
@@ -25,6 +26,7 @@ pub use columns::{Column, Columns};
 pub use error::LogError;
 pub use faults::{Fault, Mended, Stretches};
 pub use note::Note;
+pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
 
 use header::{Header, Place};

@@ -27,6 +27,8 @@ const FACTOR: f64 = 3.0;
 pub(super) struct Changed {
     /// Values of its own shapes.
     pub(super) shapes: Vec<f64>,
+    /// Their standard deviations, each beside all other unknowns.
+    pub(super) std: Vec<Option<f64>>,
     /// Rows of the arm with it and with the effects that were accepted before; the last columns are slopes by its shapes.
     pub(super) stack: Stack,
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
@@ -134,8 +136,10 @@ impl Search<'_> {
                     .map(|log| raw_residuals(arm, &shapes, &plain.estimate, &state.accepted, log));
                 let raw: Vec<_> = raw.collect();
                 let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
-                return Ok(is_inside.then_some(Changed {
+                let std = self.identify.beside_slopes(&stack, &plain);
+                return Ok(is_inside.then(|| Changed {
                     shapes: own,
+                    std: std[unknowns..].to_vec(),
                     stack,
                     noise_power,
                     follows_torque,

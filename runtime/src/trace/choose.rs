@@ -1,7 +1,7 @@
 //! Of candidates that pass, the one that is named.
 
 use super::gate::{self, Judged, MATERIAL_PERCENT};
-use super::search::Accepted;
+use super::search::{Accepted, OwnShapes};
 use super::verdict::Alternative;
 
 /// The best candidate and those that are as good within the size that matters; of these the simplest is taken that none encompasses.
@@ -31,13 +31,17 @@ pub(super) fn choose<'a>(
         .into_iter()
         .map(|rival| Alternative {
             kind: rival.trial.candidate.kind().to_owned(),
+            effect: rival.trial.candidate.effect(),
             joints: rival.trial.candidate.joints().to_vec(),
             instead_of: 0,
             worse_percent: gate::worse_percent(&rival.raw_power, &chosen.raw_power),
         })
         .collect();
     Some(Accepted {
-        changed: chosen.changed.map(|changed| changed.shapes),
+        changed: chosen.changed.map(|changed| OwnShapes {
+            values: changed.shapes,
+            std: changed.std,
+        }),
         is_small: false,
         evidence: chosen.evidence,
         trial: chosen.trial,

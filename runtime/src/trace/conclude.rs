@@ -1,5 +1,6 @@
 //! From accepted effects and what they leave to a verdict.
 
+use super::floor::Floor;
 use super::search::{Accepted, State};
 use super::structure::Structure;
 use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdict};
@@ -7,15 +8,23 @@ use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdi
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
 
+/// What is told of the last model beside what it is made of.
+pub(super) struct Told {
+    /// Deviations of the accepted effects' parameters.
+    pub(super) std: Vec<Vec<Option<f64>>>,
+    /// The floor of every joint.
+    pub(super) floor: Vec<Floor>,
+}
+
 /// The verdict on a finished search.
 pub(super) fn verdict(
     state: &State,
     before: Vec<Structure>,
     after: Vec<Structure>,
-    noise_power: &[f64],
+    values: &Told,
     tried: Vec<Tried>,
 ) -> Verdict {
-    let found = findings(state);
+    let found = findings(state, &values.std);
     let left = unsettled(&before, &after, state);
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
@@ -36,29 +45,34 @@ pub(super) fn verdict(
         before,
         after,
         left: Vec::new(),
-        noise_floor: noise_power.iter().map(|p| p.sqrt()).collect(),
+        noise_floor: values.floor.clone(),
         goes_on: false,
     }
 }
 
 /// The verdict on a search that found a change of the arm, which is its last effect: what it leaves is not known yet.
-pub(super) fn changed(state: &State, before: Vec<Structure>, tried: Vec<Tried>) -> Verdict {
+pub(super) fn changed(
+    state: &State,
+    before: Vec<Structure>,
+    values: &Told,
+    tried: Vec<Tried>,
+) -> Verdict {
     Verdict {
         outcome: Outcome::Explained,
-        findings: findings(state),
+        findings: findings(state, &values.std),
         leads: Vec::new(),
         alternatives: alternatives(state),
         tried,
         after: before.clone(),
         before,
         left: Vec::new(),
-        noise_floor: state.solution.sigma.clone(),
+        noise_floor: values.floor.clone(),
         goes_on: true,
     }
 }
 
 /// Accepted effects with their values.
-fn findings(state: &State) -> Vec<Finding> {
+fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
     let torques = state
         .accepted
         .iter()
@@ -66,16 +80,18 @@ fn findings(state: &State) -> Vec<Finding> {
     let mut first =
         state.stack.unknowns.len() - torques.map(|effect| effect.trial.count()).sum::<usize>();
     let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
-    let found = state.accepted.iter().filter_map(|effect| {
+    let found = state.accepted.iter().zip(std).filter_map(|(effect, std)| {
         let candidate = effect.trial.candidate;
         let mut parameters = Vec::new();
         if effect.changed.is_none() {
             let values = &state.solution.estimate[first..first + effect.trial.count()];
             first += effect.trial.count();
             let linear = candidate.unknowns().iter().zip(values);
-            parameters.extend(linear.map(|(unknown, value)| FoundParameter {
+            let linear = linear.zip(std);
+            parameters.extend(linear.map(|((unknown, value), std)| FoundParameter {
                 name: last_part(&unknown.name),
                 value: *value,
+                std: *std,
                 shape: false,
             }));
         }
@@ -88,19 +104,20 @@ fn findings(state: &State) -> Vec<Finding> {
                 .collect(),
             None => candidate.shapes().iter().map(|s| s.name.as_str()).collect(),
         };
-        let shapes = effect.changed.as_ref().unwrap_or(&effect.trial.shapes);
-        parameters.extend(
-            names
-                .iter()
-                .zip(shapes)
-                .map(|(name, value)| FoundParameter {
-                    name: last_part(name),
-                    value: *value,
-                    shape: true,
-                }),
-        );
+        let (shapes, std) = match &effect.changed {
+            Some(own) => (&own.values, own.std.as_slice()),
+            None => (&effect.trial.shapes, &std[effect.trial.count()..]),
+        };
+        let shapes = names.iter().zip(shapes).zip(std);
+        parameters.extend(shapes.map(|((name, value), std)| FoundParameter {
+            name: last_part(name),
+            value: *value,
+            std: *std,
+            shape: true,
+        }));
         (!effect.is_small).then(|| Finding {
             kind: candidate.kind().to_owned(),
+            effect: candidate.effect(),
             joints: candidate.joints().to_vec(),
             parameters,
             evidence: effect.evidence.clone(),

@@ -49,10 +49,15 @@ pub(super) struct Judged<'a> {
 }
 
 impl Search<'_> {
-    /// The present model as that which `tried` candidates and shapes are judged against.
-    pub(super) fn baseline<'a>(&'a self, state: &'a State, tried: usize) -> Baseline<'a> {
+    /// The present model as that which `tried` candidates and shapes are judged against, on these folds.
+    pub(super) fn baseline<'a>(
+        &'a self,
+        state: &'a State,
+        tried: usize,
+        folds: &[Fold],
+    ) -> Baseline<'a> {
         let (stack, sigma) = (&state.stack, &state.solution.sigma);
-        let gram = Gram::new(stack, &self.folds);
+        let gram = Gram::new(stack, folds);
         Baseline {
             present: Present::new(stack, &gram, sigma, &state.residuals),
             held_out: gram.held_out(sigma),

@@ -36,6 +36,7 @@ mod change;
 mod choose;
 mod conclude;
 mod encompass;
+mod floor;
 mod folds;
 mod gate;
 mod gram;
@@ -47,10 +48,12 @@ mod round;
 mod score;
 mod search;
 mod structure;
+mod sure;
 mod trial;
 mod verdict;
 mod whereabouts;
 
+pub use floor::{Floor, FloorFrom};
 pub use search::{MOST_EFFECTS, Trace};
 pub use structure::Structure;
 pub use verdict::{

@@ -106,7 +106,7 @@ pub(super) fn above(raw: &[Vec<Vec<f64>>], beyond: &[f64], filtered: &[Vec<f64>]
     joints.map(of_joint).collect()
 }
 
-fn mean_square<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+pub(super) fn mean_square<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
     let sums = values.into_iter().fold((0.0, 0.0), |(sum, count), value| {
         (sum + value * value, count + 1.0)
     });

@@ -19,20 +19,6 @@ impl Search<'_> {
         )
     }
 
-    /// Mean square of the raw residual per joint over all logs, what decimation took off the torque with it; the logs are those of
-    /// [`Self::raw_residuals`].
-    fn raw_power(&self, logs: &[Vec<Vec<f64>>]) -> Vec<f64> {
-        let of_joint = |j: usize| {
-            let count: usize = logs.iter().map(|log| log[j].len()).sum();
-            let square = logs.iter().zip(&self.prepared).map(|(log, prepared)| {
-                let beyond = log[j].len() as f64 * self.beyond(prepared, j);
-                log[j].iter().map(|r| r * r).sum::<f64>() + beyond
-            });
-            square.sum::<f64>() / count.max(1) as f64
-        };
-        (0..self.arm.dof()).map(of_joint).collect()
-    }
-
     /// Mean square of a joint's torque that decimation took off.
     fn beyond(&self, log: &Prepared, joint: usize) -> f64 {
         self.arm.actuator_gain()[joint].powi(2) * log.tau_beyond[joint]
@@ -49,8 +35,8 @@ impl Search<'_> {
         (0..self.arm.dof()).map(of_joint).collect()
     }
 
-    /// Structure per joint, and the power of what is not structure.
-    pub(super) fn structure(&self, state: &State) -> (Vec<Structure>, Vec<f64>) {
+    /// Structure per joint.
+    pub(super) fn structure(&self, state: &State) -> Vec<Structure> {
         let raw: Vec<_> = self
             .prepared
             .iter()
@@ -75,14 +61,7 @@ impl Search<'_> {
                 .collect();
             structure::of(&logs)
         };
-        let found: Vec<Structure> = (0..self.arm.dof()).map(of_joint).collect();
-        let power = self.raw_power(&raw);
-        let noise = power
-            .iter()
-            .zip(&found)
-            .map(|(p, s)| (p - s.power).max(0.0))
-            .collect();
-        (found, noise)
+        (0..self.arm.dof()).map(of_joint).collect()
     }
 }
 

@@ -50,7 +50,8 @@ impl Search<'_> {
 
     /// The candidates that explain most, judged.
     fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
-        let baseline = self.baseline(state, grids.iter().map(Grid::len).sum());
+        let points = grids.iter().map(Grid::len).sum();
+        let baseline = self.baseline(state, points, &self.folds);
         let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
         let mut best: Vec<(f64, Trial)> = grids
             .iter()
@@ -65,7 +66,12 @@ impl Search<'_> {
                 let sweeps = if place < FINELY { 2 } else { 1 };
                 let trial = trial.refined(&baseline.present, &self.prepared, sweeps);
                 let projected = trial.project(&baseline.present)?;
-                let mut judged = baseline.judge(trial, &projected);
+                let folds = self.folds_of(trial.candidate);
+                let mut judged = if folds == self.folds {
+                    baseline.judge(trial, &projected)
+                } else {
+                    self.baseline(state, points, folds).judge(trial, &projected)
+                };
                 let Some(change) = judged.trial.candidate.change() else {
                     let follows_torque = judged.trial.candidate.follows_torque();
                     if follows_torque && !self.is_of_structure(state, &judged) {
@@ -102,7 +108,7 @@ impl Search<'_> {
         if follows_torque && !self.is_of_structure(state, &judged) {
             judged.refusals.push(Refusal::Noise);
         }
-        if !counts {
+        if !counts && !judged.refusals.contains(&Refusal::Small) {
             judged.refusals.push(Refusal::Small);
         }
         judged
@@ -110,7 +116,7 @@ impl Search<'_> {
 
     /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
     fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
-        let (structure, _) = self.structure(state);
+        let structure = self.structure(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
         joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)
     }

@@ -7,10 +7,10 @@ use crate::identify::{
     Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
     prepare_all, slowest_bands,
 };
-use crate::log::Log;
-use crate::signal::Prepared;
+use crate::log::{Log, MOTION_PHASE};
+use crate::signal::{Prepared, period};
 
-use super::conclude::{changed, verdict};
+use super::conclude::{Told, changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::MATERIAL_PERCENT;
 use super::grid::Grid;
@@ -33,9 +33,15 @@ pub(super) struct Accepted<'a> {
     pub(super) evidence: Evidence,
     pub(super) rivals: Vec<Alternative>,
     /// Own shapes of an effect that changes the arm; it ends the trace.
-    pub(super) changed: Option<Vec<f64>>,
+    pub(super) changed: Option<OwnShapes>,
     /// Whether it is too small to be named.
     pub(super) is_small: bool,
+}
+
+/// Shapes of an effect that changes the arm.
+pub(super) struct OwnShapes {
+    pub(super) values: Vec<f64>,
+    pub(super) std: Vec<Option<f64>>,
 }
 
 /// Everything that changes when an effect is accepted.
@@ -94,13 +100,15 @@ impl<'a> Trace<'a> {
             prepared,
             periods: Vec::new(),
             folds: Vec::new(),
+            folds_of_time: Vec::new(),
         };
         search.periods = search
             .prepared
             .iter()
-            .map(|log| folds::period(&log.motion, log.rate_hz))
+            .map(|log| period(&log.motion.wide.q, log.rate_hz))
             .collect();
         search.folds = folds::cut(&stack.segments, &search.periods);
+        search.folds_of_time = folds::cut(&stack.segments, &vec![None; logs.len()]);
         let residuals = stack.residuals(&solution.estimate);
         let mut state = State {
             stack,
@@ -109,7 +117,7 @@ impl<'a> Trace<'a> {
             accepted: Vec::new(),
         };
         search.update_rigid_torque(&state);
-        let (before, _) = search.structure(&state);
+        let before = search.structure(&state);
 
         progress("forming candidate columns");
         // What a log does not hold cannot be judged.
@@ -142,7 +150,7 @@ impl<'a> Trace<'a> {
             state.accepted.push(found);
             if is_change {
                 // What else is missing is asked of the arm with it.
-                return Ok(changed(&state, before, tried));
+                return Ok(changed(&state, before, &search.told(&state), tried));
             }
             state = search.refit(state)?;
             let fresh = search.grids(&state, &candidates, |candidate| {
@@ -155,7 +163,7 @@ impl<'a> Trace<'a> {
             }
         }
         let mut state = search.prune(state)?;
-        let (mut after, mut noise_power) = search.structure(&state);
+        let mut after = search.structure(&state);
         // What is too small to be named may be structure, and is none that is unknown.
         while after.iter().any(Structure::is_material) && state.accepted.len() < MOST_EFFECTS {
             let Some(small) = search.small(&state, &grids) else {
@@ -163,11 +171,11 @@ impl<'a> Trace<'a> {
             };
             state.accepted.push(small);
             state = search.refit(state)?;
-            (after, noise_power) = search.structure(&state);
+            after = search.structure(&state);
         }
         let before = self.since.clone().unwrap_or(before);
         let left = search.whereabouts(&state, &after);
-        let verdict = verdict(&state, before, after, &noise_power, tried);
+        let verdict = verdict(&state, before, after, &search.told(&state), tried);
         Ok(Verdict { left, ..verdict })
     }
 }
@@ -184,9 +192,28 @@ pub(super) struct Search<'s> {
     pub(super) prepared: Vec<Prepared>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
+    /// Blocks of time although motions repeat: for laws of the part of a period, of which others have to be seen.
+    folds_of_time: Vec<Fold>,
 }
 
 impl Search<'_> {
+    /// The folds that a candidate is judged on.
+    pub(super) fn folds_of(&self, candidate: &dyn Candidate) -> &[Fold] {
+        if candidate.inputs().iter().any(|name| name == MOTION_PHASE) {
+            &self.folds_of_time
+        } else {
+            &self.folds
+        }
+    }
+
+    /// What is told of a model beside what it is made of.
+    fn told(&self, state: &State) -> Told {
+        Told {
+            std: self.deviations(state),
+            floor: self.floor(state),
+        }
+    }
+
     /// Trials of the candidates that are wanted, formed on all cores; an empty list for the others.
     fn grids<'a>(
         &self,
@@ -281,7 +308,7 @@ impl Search<'_> {
 
     /// Whether a model without an effect is worse by as much as matters on one of its joints.
     fn is_needed(&self, state: &State, trial: &Trial) -> bool {
-        let baseline = self.baseline(state, 1);
+        let baseline = self.baseline(state, 1, self.folds_of(trial.candidate));
         trial.project(&baseline.present).is_some_and(|projected| {
             let judged = baseline.judge(trial.clone(), &projected);
             let mut joints = trial.candidate.joints().iter();

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::floor::Floor;
 use super::gate::MATERIAL_PERCENT;
 use super::structure::Structure;
 use super::whereabouts::Whereabouts;
@@ -28,6 +29,8 @@ pub struct FoundParameter {
     pub name: String,
     /// Estimate, SI.
     pub value: f64,
+    /// Standard deviation beside all other unknowns, shapes among them; none where another unknown does the same.
+    pub std: Option<f64>,
     /// Whether it is a shape parameter.
     pub shape: bool,
 }
@@ -37,6 +40,8 @@ pub struct FoundParameter {
 pub struct Finding {
     /// Kebab-case name.
     pub kind: String,
+    /// Name in the language of what a spec declares for it.
+    pub effect: String,
     /// Joints, from 0.
     pub joints: Vec<usize>,
     /// Parameters as found by the trace, linear ones first.
@@ -121,6 +126,8 @@ pub struct Tried {
 pub struct Alternative {
     /// Kebab-case name.
     pub kind: String,
+    /// Name in the language of what a spec declares for it.
+    pub effect: String,
     /// Joints, from 0.
     pub joints: Vec<usize>,
     /// Place of the effect that it could stand for among the findings (or leads), from 0.
@@ -178,8 +185,8 @@ pub struct Verdict {
     pub after: Vec<Structure>,
     /// Of what the structure with the findings or leads is a function, for every joint where it matters.
     pub left: Vec<Whereabouts>,
-    /// Standard deviation per joint of the residual's part without structure, N m or N.
-    pub noise_floor: Vec<f64>,
+    /// The least error that a model can have on the logs, per joint.
+    pub noise_floor: Vec<Floor>,
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).
     pub goes_on: bool,

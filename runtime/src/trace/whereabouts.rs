@@ -180,7 +180,7 @@ impl Search<'_> {
     }
 
     /// What a joint's residual is asked for.
-    fn quantities(&self, joint: usize) -> impl Iterator<Item = Quantity> {
+    pub(super) fn quantities(&self, joint: usize) -> impl Iterator<Item = Quantity> {
         let own = [
             Quantity::Position(joint),
             Quantity::Velocity(joint),
@@ -195,7 +195,7 @@ impl Search<'_> {
     }
 
     /// Columns of a curve in a quantity, filtered: each is 1 at one knot and falls to 0 at its neighbors. None of a quantity that stands.
-    fn curve(&self, of: Quantity) -> Option<Vec<Vec<f64>>> {
+    pub(super) fn curve(&self, of: Quantity) -> Option<Vec<Vec<f64>>> {
         let axes = of.axes();
         let most = if axes.len() > 1 { FEW_KNOTS } else { KNOTS };
         let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));

@@ -1,0 +1,226 @@
+//! How small a joint's error can get: what no model of its motion takes away.
+//!
+//! Where a motion repeats, what does not come back with it is noise, whatever the model. Elsewhere curves in quantities of the motion, of
+//! any form, are fitted to the residual one after the other, each judged on folds that it was not fitted on: what they leave is noise.
+
+use faer::Mat;
+
+use super::raw::mean_square;
+use super::search::{Search, State};
+use super::whereabouts::Quantity;
+use crate::signal::resample::whole_steps;
+
+/// Most curves that are fitted one after the other.
+const MOST_CURVES: usize = 4;
+
+/// A curve counts where it takes at least this share off the squared error of folds that it was not fitted on.
+const LEAST_SHARE: f64 = 0.02;
+
+/// Added to the diagonal of a curve's normal equations, relative to its mean: knots that a fold hardly sees stay near zero.
+const RIDGE: f64 = 1e-3;
+
+/// From what a floor is known.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum FloorFrom {
+    /// What differs from period to period of the motion.
+    Periods,
+    /// What curves in quantities of the motion leave of folds that they were not fitted on.
+    Curves,
+}
+
+impl FloorFrom {
+    /// Name in JSON.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Periods => "periods",
+            Self::Curves => "curves",
+        }
+    }
+}
+
+/// The least error that a model of a joint's motion can have on the identification logs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Floor {
+    /// Root mean square of raw samples, N m or N.
+    pub rms: f64,
+    /// Its standard deviation, from how periods or folds differ.
+    pub std: f64,
+    /// From what it is known.
+    pub from: FloorFrom,
+}
+
+impl Floor {
+    /// From mean squares of parts that are independent of each other.
+    fn of_parts(parts: &[f64], from: FloorFrom) -> Self {
+        let count = parts.len() as f64;
+        let mean = parts.iter().sum::<f64>() / count;
+        let spread = parts.iter().map(|part| (part - mean).powi(2)).sum::<f64>();
+        let variance = spread / (count * (count - 1.0)).max(1.0);
+        let rms = mean.max(0.0).sqrt();
+        Self {
+            rms,
+            std: 0.5 * variance.sqrt() / rms.max(f64::MIN_POSITIVE),
+            from,
+        }
+    }
+}
+
+impl Search<'_> {
+    /// The floor of every joint, in the residual of a model.
+    pub(super) fn floor(&self, state: &State) -> Vec<Floor> {
+        let logs = self.prepared.iter();
+        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
+        let beyond = self.beyond_all(&raw);
+        let periodic = self.periods.iter().copied().collect::<Option<Vec<f64>>>();
+        let of_joint = |joint: usize| match &periodic {
+            Some(periods) => {
+                let logs = raw.iter().zip(&self.prepared).zip(periods);
+                let parts = logs.flat_map(|((log, prepared), period)| {
+                    changing(&log[joint], period * prepared.rate_hz)
+                });
+                let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
+                Floor::of_parts(&parts, FloorFrom::Periods)
+            }
+            None => {
+                let filtered = mean_square(&state.residuals[joint]);
+                let samples = raw.iter().flat_map(|log| &log[joint]);
+                let above = (mean_square(samples) + beyond[joint] - filtered).max(0.0);
+                let parts = self.left_by_curves(&state.residuals[joint], joint);
+                let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
+                Floor::of_parts(&parts, FloorFrom::Curves)
+            }
+        };
+        (0..self.arm.dof()).map(of_joint).collect()
+    }
+
+    /// Mean square per fold of what curves leave of a residual, each sample without the curves of its own fold.
+    fn left_by_curves(&self, residual: &[f64], joint: usize) -> Vec<f64> {
+        let mut left = residual.to_vec();
+        let quantities = self.quantities(joint).filter(|of| *of != Quantity::Time);
+        let mut curves: Vec<Vec<Vec<f64>>> = quantities.filter_map(|of| self.curve(of)).collect();
+        for _ in 0..MOST_CURVES {
+            let least = (1.0 - LEAST_SHARE) * mean_square(&left);
+            let judged = curves.iter().enumerate();
+            let judged = judged.map(|(k, curve)| (k, self.out_of_fold(curve, &left)));
+            let judged = judged.map(|(k, rest)| (mean_square(&rest), k, rest));
+            let best = judged.min_by(|a, b| a.0.total_cmp(&b.0));
+            let Some((_, k, rest)) = best.filter(|(power, ..)| *power < least) else {
+                break;
+            };
+            left = rest;
+            curves.swap_remove(k);
+        }
+        let of_fold = |rows: &Vec<usize>| {
+            let squares = rows.iter().map(|&k| left[k] * left[k]);
+            squares.sum::<f64>() / rows.len().max(1) as f64
+        };
+        self.folds.iter().map(|fold| of_fold(&fold.test)).collect()
+    }
+
+    /// What a curve, fitted to the rows of every fold that it may see, leaves of the others.
+    fn out_of_fold(&self, curve: &[Vec<f64>], values: &[f64]) -> Vec<f64> {
+        let mut left = values.to_vec();
+        for fold in &self.folds {
+            let gain = fitted(curve, values, &fold.train);
+            for &row in &fold.test {
+                let terms = gain
+                    .iter()
+                    .zip(curve)
+                    .map(|(gain, column)| gain * column[row]);
+                left[row] -= terms.sum::<f64>();
+            }
+        }
+        left
+    }
+}
+
+/// Least squares of columns on values over some rows, with a little ridge.
+fn fitted(columns: &[Vec<f64>], values: &[f64], rows: &[usize]) -> Vec<f64> {
+    use faer::linalg::solvers::Solve;
+
+    let count = columns.len();
+    let dot = |a: &[f64], b: &[f64]| rows.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+    let mut products = Mat::<f64>::zeros(count, count);
+    for a in 0..count {
+        for b in 0..=a {
+            let product = dot(&columns[a], &columns[b]);
+            products[(a, b)] = product;
+            products[(b, a)] = product;
+        }
+    }
+    let mean = (0..count).map(|c| products[(c, c)]).sum::<f64>() / count.max(1) as f64;
+    for c in 0..count {
+        products[(c, c)] += RIDGE * mean.max(f64::MIN_POSITIVE);
+    }
+    let right = Mat::from_fn(count, 1, |c, _| dot(&columns[c], values));
+    let solved = products.partial_piv_lu().solve(&right);
+    (0..count).map(|c| solved[(c, 0)]).collect()
+}
+
+/// Mean square of every whole period of what differs from the mean of all, as it would be about the mean of endlessly many; none where
+/// there are fewer than two.
+fn changing(values: &[f64], length: f64) -> Vec<f64> {
+    let bins = whole_steps(length);
+    let periods = whole_steps(values.len() as f64 / length.max(1.0));
+    if periods < 2 || bins < 2 {
+        return vec![mean_square(values)];
+    }
+    let at = |p: usize, k: usize| {
+        let row = whole_steps((p as f64 * length).round() + k as f64);
+        values[row.min(values.len() - 1)]
+    };
+    let mean = |k: usize| (0..periods).map(|p| at(p, k)).sum::<f64>() / periods as f64;
+    let means: Vec<f64> = (0..bins).map(mean).collect();
+    let fewer = periods as f64 / (periods - 1) as f64;
+    let of_period = |p: usize| {
+        let squares = means.iter().enumerate();
+        let squares = squares.map(|(k, mean)| (at(p, k) - mean).powi(2));
+        fewer * squares.sum::<f64>() / bins as f64
+    };
+    (0..periods).map(of_period).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Numbers without order, from -0.5 to 0.5.
+    fn noise(k: usize) -> f64 {
+        (12.9898 * (k as f64 + 1.0))
+            .sin()
+            .mul_add(43_758.545_3, 0.0)
+            .rem_euclid(1.0)
+            - 0.5
+    }
+
+    #[test]
+    fn what_comes_back_is_not_in_the_floor() {
+        let length = 250.5;
+        let values: Vec<f64> = (0..2000)
+            .map(|k| (std::f64::consts::TAU * k as f64 / length).sin() + 0.2 * noise(k))
+            .collect();
+        let floor = Floor::of_parts(&changing(&values, length), FloorFrom::Periods);
+        let truth = 0.2 / 12.0_f64.sqrt();
+        assert!((floor.rms - truth).abs() < 0.05 * truth, "{floor:?}");
+        assert!((0.001..0.1).contains(&(floor.std / truth)), "{floor:?}");
+    }
+
+    #[test]
+    fn a_curve_is_fitted_to_the_rows_that_it_may_see() {
+        let rows: Vec<usize> = (0..100).filter(|k| k % 3 != 0).collect();
+        let columns = vec![vec![1.0; 100], (0..100).map(f64::from).collect()];
+        let values: Vec<f64> = (0..100)
+            .map(|k| {
+                if k % 3 == 0 {
+                    1e6
+                } else {
+                    2.0 - 0.5 * f64::from(k)
+                }
+            })
+            .collect();
+        let gain = fitted(&columns, &values, &rows);
+        assert!((gain[1] + 0.5).abs() < 0.01, "{gain:?}");
+    }
+}
