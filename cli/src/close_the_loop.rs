@@ -177,7 +177,7 @@ impl Stage {
         validate: Option<&Log>,
         identify: &Identify,
     ) -> Result<Self, Error> {
-        let estimate = identify.fit(&arm, logs)?;
+        let estimate = identify.fit(&arm, logs)?.with_best_motion(&arm, logs)?;
         let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {
             arm,

@@ -194,6 +194,19 @@ const ACTS: [(&str, Acts); 8] = [
     ("joint_elasticity", |at| vec![-at.load[0] / at.s[0]]),
     ("link_inertial_error", |at| at.p.to_vec()),
     ("payload", |at| at.p.to_vec()),
+    ("recurring_force", |at| {
+        let [start, end, _] = at.s;
+        let phase = at.input[0];
+        let touched = if start <= end {
+            start <= phase && phase < end
+        } else {
+            start <= phase || phase < end
+        };
+        at.p[..3]
+            .iter()
+            .map(|f| if touched { *f } else { 0.0 })
+            .collect()
+    }),
     ("time_delay", |at| vec![at.s[0]]),
 ];
 

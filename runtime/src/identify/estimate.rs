@@ -58,8 +58,11 @@ pub struct Estimate {
     pub method: Method,
     /// Which equations were used.
     pub form: Form,
-    /// Bands of the filters.
+    /// Bands of the filters of the fit.
     pub bands: Bands,
+    /// Bands of the motion whose torque is predicted, and compared with raw samples: those of the fit, or of
+    /// [`Self::with_best_motion`].
+    pub motion_bands: Bands,
     /// The identified parameters, in the arm's order.
     pub parameters: Vec<Identified>,
     /// Identified shape parameters: name and value.
@@ -180,6 +183,7 @@ impl Estimate {
             method,
             form,
             bands,
+            motion_bands: bands,
             parameters,
             shapes: arm
                 .shapes()
@@ -225,7 +229,7 @@ impl Estimate {
 
     /// Torque that the model predicts at every time stamp of a log, `[joint][sample]`, N m or N.
     ///
-    /// The motion is filtered as for identification; nothing is fitted on the log.
+    /// The motion is filtered by [`Self::motion_bands`]; nothing is fitted on the log.
     ///
     /// # Errors
     /// [`IdentifyError`] where the log is of another arm or cannot be filtered.
@@ -244,7 +248,7 @@ impl Estimate {
     /// ```
     pub fn predict(&self, arm: &dyn Arm, log: &Log) -> Result<Vec<Vec<f64>>, IdentifyError> {
         super::check_logs(arm, std::slice::from_ref(log))?;
-        let prepared = prepare(log, &self.bands)?;
+        let prepared = prepare(log, &self.motion_bands)?;
         let torque = self.torque(arm, &prepared);
         let stride = prepared.stride;
         Ok(torque
@@ -272,8 +276,23 @@ impl Estimate {
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     pub fn errors(&self, arm: &dyn Arm, log: &Log) -> Result<Errors, IdentifyError> {
-        super::check_logs(arm, std::slice::from_ref(log))?;
+        let raw = self.raw_errors(arm, log)?;
+        if self.motion_bands == self.bands {
+            return Ok(raw);
+        }
         let prepared = prepare(log, &self.bands)?;
+        Ok(Errors {
+            relative_percent: self
+                .errors_of(arm, &prepared, &log.tau, prepared.stride)
+                .relative_percent,
+            ..raw
+        })
+    }
+
+    /// Errors of raw samples; relative ones are of the bands of the motion.
+    pub(super) fn raw_errors(&self, arm: &dyn Arm, log: &Log) -> Result<Errors, IdentifyError> {
+        super::check_logs(arm, std::slice::from_ref(log))?;
+        let prepared = prepare(log, &self.motion_bands)?;
         Ok(self.errors_of(arm, &prepared, &log.tau, prepared.stride))
     }
 

@@ -34,6 +34,7 @@ mod late;
 mod least_squares;
 mod logs;
 mod method;
+mod motion;
 pub mod output_error;
 mod payload;
 mod possible;

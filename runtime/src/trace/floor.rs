@@ -210,17 +210,12 @@ mod tests {
     #[test]
     fn a_curve_is_fitted_to_the_rows_that_it_may_see() {
         let rows: Vec<usize> = (0..100).filter(|k| k % 3 != 0).collect();
-        let columns = vec![vec![1.0; 100], (0..100).map(f64::from).collect()];
-        let values: Vec<f64> = (0..100)
-            .map(|k| {
-                if k % 3 == 0 {
-                    1e6
-                } else {
-                    2.0 - 0.5 * f64::from(k)
-                }
-            })
-            .collect();
+        let place = |k: i32| 0.02 * f64::from(k) - 1.0;
+        let columns = vec![vec![1.0; 100], (0..100).map(place).collect()];
+        let unseen = |k: i32| if k % 3 == 0 { 1e6 } else { 0.0 };
+        let values: Vec<f64> = (0..100).map(|k| 2.0 - 0.5 * place(k) + unseen(k)).collect();
         let gain = fitted(&columns, &values, &rows);
+        assert!((gain[0] - 2.0).abs() < 0.01, "{gain:?}");
         assert!((gain[1] + 0.5).abs() < 0.01, "{gain:?}");
     }
 }

@@ -146,12 +146,14 @@ impl<'a> Trace<'a> {
                 state.accepted.len() + 1,
                 found.trial.candidate.kind()
             ));
-            let is_change = found.changed.is_some();
-            state.accepted.push(found);
-            if is_change {
-                // What else is missing is asked of the arm with it.
-                return Ok(changed(&state, before, &search.told(&state), tried));
+            if found.changed.is_some() {
+                // What else is missing is asked of the arm with it, and of that what is told of all.
+                let mut told = search.told(&state);
+                told.std.push(Vec::new());
+                state.accepted.push(found);
+                return Ok(changed(&state, before, &told, tried));
             }
+            state.accepted.push(found);
             state = search.refit(state)?;
             let fresh = search.grids(&state, &candidates, |candidate| {
                 candidate.uses_rigid_torque()
