@@ -233,16 +233,17 @@ fn true_errors(
     let said = |error: &dyn std::fmt::Display| error.to_string();
     let model = load(name, truth).map_err(|error| said(&error))?;
     let arm = InterpretedArm::new(compile_model(&model));
-    let [identify, validate] = &experiment.logs;
+    let logs = experiment.logs.clone();
+    let [identify, validate] = logs.map(|log| log.with_motion_phase(None));
     let same_band = Identify {
         bands: Some(closed.before.estimate.bands),
         ..Identify::default()
     };
     let estimate = same_band
-        .fit(&arm, std::slice::from_ref(identify))
+        .fit(&arm, std::slice::from_ref(&identify))
         .map_err(|error| said(&error))?;
     Ok(estimate
-        .errors(&arm, validate)
+        .errors(&arm, &validate)
         .map_err(|error| said(&error))?
         .rmse)
 }

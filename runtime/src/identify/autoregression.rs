@@ -24,7 +24,7 @@ pub(crate) fn long_run_sum(series: &[f64]) -> f64 {
 }
 
 /// `x_k - phi_1 x_(k-1) - .. = e_k`.
-pub(super) struct Autoregression {
+pub(crate) struct Autoregression {
     /// `1, -phi_1, ..`
     filter: Vec<f64>,
     /// Mean square of `e`.
@@ -32,6 +32,16 @@ pub(super) struct Autoregression {
 }
 
 impl Autoregression {
+    /// What a series adds to what it had before, `x_k - phi_1 x_(k-1) - ..`: of a series like that which was fitted a white one.
+    pub fn whitened(&self, series: &[f64]) -> Vec<f64> {
+        let order = self.filter.len() - 1;
+        let terms = |window: &[f64]| -> f64 {
+            let latest = window.iter().rev();
+            self.filter.iter().zip(latest).map(|(phi, x)| phi * x).sum()
+        };
+        series.windows(order + 1).map(terms).collect()
+    }
+
     /// Highest order through so many samples.
     pub fn orders(samples: usize) -> f64 {
         let n = samples as f64;

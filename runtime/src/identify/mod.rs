@@ -47,6 +47,7 @@ mod table;
 mod total;
 mod turns;
 
+pub(crate) use autoregression::Autoregression;
 pub(crate) use autoregression::long_run_sum;
 pub use bootstrap::Bootstrap;
 pub use combination::{Combination, Shared};

@@ -35,6 +35,23 @@ impl Search<'_> {
         (0..self.arm.dof()).map(of_joint).collect()
     }
 
+    /// Mean square, over all rows, of what comes back in every period of the motion in a joint's residual.
+    pub(super) fn repeated_power(&self, state: &State, residual: &[f64]) -> f64 {
+        let logs = state
+            .stack
+            .segments
+            .iter()
+            .zip(&self.prepared)
+            .zip(&self.periods);
+        let power = logs.map(|((segment, log), period)| {
+            let rows = &residual[segment.start..segment.start + segment.time.len()];
+            let rate_hz = log.rate_hz / log.shared.stride() as f64;
+            let power = |period: &f64| structure::repeated_power(rows, period * rate_hz);
+            rows.len() as f64 * period.as_ref().map_or(0.0, power)
+        });
+        power.sum::<f64>() / residual.len().max(1) as f64
+    }
+
     /// Structure per joint.
     pub(super) fn structure(&self, state: &State) -> Vec<Structure> {
         let raw: Vec<_> = self

@@ -7,7 +7,7 @@ use crate::motion::Motion;
 use super::choose::choose;
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::grid::{self, Grid};
-use super::search::{Accepted, Search, State};
+use super::search::{Accepted, Search, State, is_of_phase};
 use super::trial::Trial;
 use super::verdict::{Refusal, Tried};
 
@@ -16,6 +16,9 @@ const FINALISTS: usize = 16;
 
 /// Candidates whose shapes are refined twice: what a shape is off by stays in the residual, and looks like another effect.
 const FINELY: usize = 3;
+
+/// Share of what comes back in every period that a law of the part of a period may leave.
+const LEFT_OF_PERIOD: f64 = 0.15;
 
 /// Changes of the arm that are tried as what they are in a round.
 const CHANGES: usize = 3;
@@ -66,11 +69,16 @@ impl Search<'_> {
                 let sweeps = if place < FINELY { 2 } else { 1 };
                 let trial = trial.refined(&baseline.present, &self.prepared, sweeps);
                 let projected = trial.project(&baseline.present)?;
-                let folds = self.folds_of(trial.candidate);
-                let mut judged = if folds == self.folds {
-                    baseline.judge(trial, &projected)
+                let mut judged = if is_of_phase(trial.candidate) {
+                    let baseline = self.baseline(state, points, self.folds_of(trial.candidate));
+                    let rest = baseline.present.rest(&trial.entries, &projected);
+                    let mut judged = baseline.judge(trial, &projected);
+                    if self.comes_back(state, &rest) {
+                        judged.refusals.push(Refusal::ComesBack);
+                    }
+                    judged
                 } else {
-                    self.baseline(state, points, folds).judge(trial, &projected)
+                    baseline.judge(trial, &projected)
                 };
                 let Some(change) = judged.trial.candidate.change() else {
                     let follows_torque = judged.trial.candidate.follows_torque();
@@ -112,6 +120,18 @@ impl Search<'_> {
             judged.refusals.push(Refusal::Small);
         }
         judged
+    }
+
+    /// Whether a law of the part of a period leaves too much of what comes back in every period, which any such law could have a share of:
+    /// a force that is the whole of it is one.
+    fn comes_back(&self, state: &State, rest: &[Vec<f64>]) -> bool {
+        let power = |residuals: &[Vec<f64>]| -> f64 {
+            let weighed = residuals.iter().zip(&state.solution.sigma);
+            let weighed =
+                weighed.map(|(values, sigma)| self.repeated_power(state, values) / (sigma * sigma));
+            weighed.sum()
+        };
+        power(rest) >= LEFT_OF_PERIOD * power(&state.residuals)
     }
 
     /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.

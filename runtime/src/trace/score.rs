@@ -143,16 +143,7 @@ impl<'a> Present<'a> {
     pub(super) fn score(&self, entries: &[Entry], projected: &Projected) -> Score {
         let count = projected.gain.len();
         let columns = self.projected_columns(entries, projected);
-        let residuals = columns.iter().zip(self.residuals);
-        let rest: Vec<Vec<f64>> = residuals
-            .map(|(columns, residual)| {
-                let mut rest = residual.clone();
-                for (column, gain) in columns.iter().zip(&projected.gain) {
-                    add(&mut rest, -gain, column);
-                }
-                rest
-            })
-            .collect();
+        let rest = self.without(&columns, projected);
         let touched = entries
             .iter()
             .map(|entry| correlation_time(&rest[entry.joint]));
@@ -188,6 +179,23 @@ impl<'a> Present<'a> {
         let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
         Score { f, p_value, rest }
+    }
+
+    /// What a candidate leaves of the residual, `[joint][sample]`.
+    pub(super) fn rest(&self, entries: &[Entry], projected: &Projected) -> Vec<Vec<f64>> {
+        self.without(&self.projected_columns(entries, projected), projected)
+    }
+
+    fn without(&self, columns: &[Vec<Vec<f64>>], projected: &Projected) -> Vec<Vec<f64>> {
+        let residuals = columns.iter().zip(self.residuals);
+        let without = |(columns, residual): (&Vec<Vec<f64>>, &Vec<f64>)| {
+            let mut rest = residual.clone();
+            for (column, gain) in columns.iter().zip(&projected.gain) {
+                add(&mut rest, -gain, column);
+            }
+            rest
+        };
+        residuals.map(without).collect()
     }
 
     /// The candidate's columns less the model's, `[joint][column][sample]`.

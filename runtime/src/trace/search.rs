@@ -182,6 +182,11 @@ impl<'a> Trace<'a> {
     }
 }
 
+/// Whether a candidate is a law of the part of the motion's period.
+pub(super) fn is_of_phase(candidate: &dyn Candidate) -> bool {
+    candidate.inputs().iter().any(|name| name == MOTION_PHASE)
+}
+
 /// What stays the same through a search, but for the rigid-body torque in the motions.
 pub(super) struct Search<'s> {
     pub(super) arm: &'s dyn Arm,
@@ -201,7 +206,7 @@ pub(super) struct Search<'s> {
 impl Search<'_> {
     /// The folds that a candidate is judged on.
     pub(super) fn folds_of(&self, candidate: &dyn Candidate) -> &[Fold] {
-        if candidate.inputs().iter().any(|name| name == MOTION_PHASE) {
+        if is_of_phase(candidate) {
             &self.folds_of_time
         } else {
             &self.folds

@@ -70,6 +70,8 @@ pub enum Refusal {
     Unsolved,
     /// It reads the logged torque, whose noise explains itself, and there is no structure.
     Noise,
+    /// It is a law of the part of the motion's period, and leaves of what comes back in every period.
+    ComesBack,
 }
 
 impl Refusal {
@@ -85,6 +87,7 @@ impl Refusal {
             Self::Small => "small",
             Self::Unsolved => "unsolved",
             Self::Noise => "noise",
+            Self::ComesBack => "comes-back",
         }
     }
 }
@@ -100,6 +103,7 @@ impl fmt::Display for Refusal {
             Self::Small => write!(f, "under {MATERIAL_PERCENT} % of the error"),
             Self::Unsolved => write!(f, "no solution in its ranges"),
             Self::Noise => write!(f, "noise of the torque itself"),
+            Self::ComesBack => write!(f, "leaves what comes back"),
         }
     }
 }
