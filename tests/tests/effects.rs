@@ -180,7 +180,7 @@ fn every_standard_effect_follows_its_law() {
 type Acts = fn(&At) -> Vec<f64>;
 
 /// What the others change: position of the link less that of the joint, force, inertial parameters, angles of the base, seconds.
-const ACTS: [(&str, Acts); 8] = [
+const ACTS: [(&str, Acts); 9] = [
     ("backlash", |at| vec![-at.s[0] * at.load[0].signum()]),
     ("base_tilt", |at| vec![at.s[0], at.s[1]]),
     ("encoder_offset", |at| vec![-at.s[0]]),

@@ -74,23 +74,21 @@ impl Search<'_> {
         let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
         let beyond = self.beyond_all(&raw);
         let periodic = self.periods.iter().copied().collect::<Option<Vec<f64>>>();
-        let of_joint = |joint: usize| match &periodic {
-            Some(periods) => {
+        let of_joint = |joint: usize| {
+            if let Some(periods) = &periodic {
                 let logs = raw.iter().zip(&self.prepared).zip(periods);
                 let parts = logs.flat_map(|((log, prepared), period)| {
                     changing(&log[joint], period * prepared.rate_hz)
                 });
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
-                Floor::of_parts(&parts, FloorFrom::Periods)
+                return Floor::of_parts(&parts, FloorFrom::Periods);
             }
-            None => {
-                let filtered = mean_square(&state.residuals[joint]);
-                let samples = raw.iter().flat_map(|log| &log[joint]);
-                let above = (mean_square(samples) + beyond[joint] - filtered).max(0.0);
-                let parts = self.left_by_curves(&state.residuals[joint], joint);
-                let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
-                Floor::of_parts(&parts, FloorFrom::Curves)
-            }
+            let filtered = mean_square(&state.residuals[joint]);
+            let samples = raw.iter().flat_map(|log| &log[joint]);
+            let above = (mean_square(samples) + beyond[joint] - filtered).max(0.0);
+            let parts = self.left_by_curves(&state.residuals[joint], joint);
+            let parts: Vec<f64> = parts.into_iter().map(|part| part + above).collect();
+            Floor::of_parts(&parts, FloorFrom::Curves)
         };
         (0..self.arm.dof()).map(of_joint).collect()
     }
