@@ -21,6 +21,9 @@ const HARDLY: f64 = 1e-3;
 const THERE: f64 = 0.01;
 const RARELY: f64 = 0.4;
 
+/// A law that comes and goes is away for at least this share of the samples.
+const LEAST_AWAY: f64 = 0.1;
+
 /// How far the second sweep goes, as a share of the way to the neighbors on the grid.
 const NEARBY: f64 = 0.1;
 
@@ -32,6 +35,8 @@ pub(super) struct Trial<'a> {
     pub(super) entries: Vec<Entry>,
     /// Which shapes change what it explains; none were asked before it was refined.
     is_felt: Vec<bool>,
+    /// Whether it comes and goes, but is there nearly all the time.
+    is_ever: bool,
 }
 
 /// Every point of a candidate's grid.
@@ -65,6 +70,20 @@ pub(super) fn project(
     present.project(entries, candidate.unknowns().len())
 }
 
+/// Whether a law that is nothing at all somewhere, as a contact is before it begins, is that in a small part of the logs only: an end that
+/// is next to that of a log is none.
+fn is_ever(candidate: &dyn Candidate, shapes: &[f64], logs: &[Prepared]) -> bool {
+    let (mut nothing, mut all) = (0, 0);
+    for log in logs {
+        let entries = candidate.entries(&log.motion, shapes);
+        let samples = log.motion.time.len();
+        let is_nothing = |k: &usize| entries.iter().all(|entry| entry.values[*k] == 0.0);
+        nothing += (0..samples).filter(is_nothing).count();
+        all += samples;
+    }
+    nothing > 0 && (nothing as f64) < LEAST_AWAY * all as f64
+}
+
 /// Whether every column is next to nothing in most rows.
 fn is_rare(entries: &[Entry]) -> bool {
     entries.iter().all(|entry| {
@@ -86,6 +105,7 @@ impl<'a> Trial<'a> {
             shapes,
             entries,
             is_felt: Vec::new(),
+            is_ever: false,
         }
     }
 
@@ -96,6 +116,7 @@ impl<'a> Trial<'a> {
             shapes: Vec::new(),
             entries,
             is_felt: Vec::new(),
+            is_ever: false,
         }
     }
 
@@ -109,9 +130,13 @@ impl<'a> Trial<'a> {
         self.count() + self.shapes.len()
     }
 
-    /// Whether every shape is inside its range: an optimum at the end of a range is that of another law. Nothing lies beyond a range
+    /// Whether every shape is inside its range, and what comes and goes is away for a while: an optimum at the end of a range is that of
+    /// another law. Nothing lies beyond a range
     /// that begins at zero, so that zero is inside.
     pub(super) fn is_inside(&self) -> bool {
+        if self.is_ever {
+            return false;
+        }
         let numbers = 0..self.shapes.len();
         let is_felt = |number: usize| self.is_felt.get(number).copied().unwrap_or(true);
         let is_own = |number: usize| self.is_within(number) && is_felt(number);
@@ -175,6 +200,7 @@ impl<'a> Trial<'a> {
         }
         let mut best = best.away_from_ends(&drop, logs);
         if best.shapes.len() > 1 {
+            best.is_ever = is_ever(best.candidate, &best.shapes, logs);
             let numbers = 0..best.shapes.len();
             best.is_felt = numbers
                 .map(|number| best.feels(number, &drop, logs))
