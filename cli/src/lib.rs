@@ -27,6 +27,7 @@ pub mod interpreted;
 mod output;
 mod parameters;
 mod progress;
+mod report;
 mod show;
 mod simulate;
 mod spec;

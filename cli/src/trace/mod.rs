@@ -1,6 +1,7 @@
 //! `robot-model trace`: what the model lacks, written into the spec.
 
 mod doubt;
+mod page;
 mod report;
 mod summary;
 mod tried;
@@ -17,6 +18,7 @@ use crate::Error;
 use crate::close_the_loop::{self, Loop};
 use crate::output::{self, Files};
 use crate::progress::Progress;
+use crate::report::ReportFolder;
 use crate::spec::{load, read_log, read_mended, read_text};
 
 pub(crate) use report::Report;
@@ -43,6 +45,9 @@ pub(crate) struct TraceArguments {
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write the result as a page with figures, `index.html` in a folder there.
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
 }
 
 impl TraceArguments {
@@ -56,6 +61,7 @@ impl TraceArguments {
         let amend = files.claim_if(self.amend.as_deref())?;
         let predict = files.claim_if(self.predict.as_deref())?;
         let json = files.claim_if(self.json.as_deref())?;
+        let report = ReportFolder::claim_if(&mut files, self.report.as_deref())?;
 
         let progress = Progress::new();
         let logs = self
@@ -68,6 +74,8 @@ impl TraceArguments {
         let validate = validate.map(|mended| mended.log);
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
+        let page = report.as_ref().map(|_| page::page(&name, &closed, &text));
+        let page = page.transpose()?;
         drop(progress);
 
         // All contents are ready before the first file appears.
@@ -97,6 +105,10 @@ impl TraceArguments {
                 file.commit(content.as_bytes())?;
                 writeln!(told, "wrote {path}: {what}").expect("a string takes all");
             }
+        }
+        if let (Some(report), Some(page)) = (report, page) {
+            let path = report.commit(&page)?;
+            writeln!(told, "wrote {path}: the report").expect("a string takes all");
         }
         output::print(&told)
     }

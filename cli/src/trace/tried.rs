@@ -12,24 +12,27 @@ const MOST: usize = 5;
 
 const PUT: &str = "a string takes all";
 
+/// Round, effect, score, fall of the errors and outcome of so many a round that count.
+pub(super) fn rows(
+    closed: &Loop,
+    most: usize,
+    counts: &dyn Fn(&Tried) -> bool,
+) -> Vec<[String; 6]> {
+    let all = &closed.verdict.tried;
+    let rounds = all.iter().map(|one| one.round + 1).max().unwrap_or(0);
+    let of_round = |round: usize| {
+        let of_round = all.iter().filter(move |one| one.round == round);
+        of_round.filter(|one| counts(one)).take(most)
+    };
+    let told = (0..rounds).flat_map(of_round);
+    told.map(|one| row(closed, one)).collect()
+}
+
 /// A table of what explained more than chance, round by round; nothing where none did.
 pub(super) fn tried(closed: &Loop) -> String {
-    let all = &closed.verdict.tried;
-    let rounds = all
-        .iter()
-        .map(|one| one.round)
-        .max()
-        .map_or(0, |last| last + 1);
-    let mut rows: Vec<[String; 6]> = Vec::new();
-    for round in 0..rounds {
-        let counts = |one: &&Tried| one.round == round && !one.refusals.contains(&Refusal::Chance);
-        rows.extend(
-            all.iter()
-                .filter(counts)
-                .take(MOST)
-                .map(|one| row(closed, one)),
-        );
-    }
+    let mut rows = rows(closed, MOST, &|one| {
+        !one.refusals.contains(&Refusal::Chance)
+    });
     if rows.is_empty() {
         return String::new();
     }

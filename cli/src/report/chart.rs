@@ -1,0 +1,255 @@
+//! Figures of a report: dots and lines between axes, in the colors of the page.
+
+use std::fmt::Write;
+use std::ops::Range;
+
+use plotters::prelude::*;
+
+use super::page::escaped;
+use crate::output::significant;
+
+const SIZE: (u32, u32) = (420, 270);
+
+/// A string takes whatever is drawn on it.
+const DRAWN: &str = "drawing on a string does not fail";
+
+/// Stand-ins for colors that the style of the page has.
+const GRID: RGBColor = RGBColor(1, 2, 3);
+const INK: RGBColor = RGBColor(4, 5, 6);
+
+/// What is drawn in which color.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ink {
+    Measured,
+    Before,
+    After,
+}
+
+impl Ink {
+    const ALL: [Self; 3] = [Self::Measured, Self::Before, Self::After];
+
+    const fn stand_in(self) -> RGBColor {
+        match self {
+            Self::Measured => RGBColor(7, 8, 9),
+            Self::Before => RGBColor(10, 11, 12),
+            Self::After => RGBColor(13, 14, 15),
+        }
+    }
+
+    const fn style(self) -> &'static str {
+        match self {
+            Self::Measured => "var(--soft)",
+            Self::Before => "var(--before)",
+            Self::After => "var(--after)",
+        }
+    }
+}
+
+/// Points that belong together.
+#[derive(Debug)]
+pub(crate) struct Series {
+    pub(super) color: Ink,
+    pub(super) is_line: bool,
+    pub(super) points: Vec<(f64, f64)>,
+}
+
+/// One drawing.
+#[derive(Debug)]
+pub(crate) struct Chart<'a> {
+    /// What it says, for those who do not see it.
+    pub(super) label: &'a str,
+    pub(super) x: &'a str,
+    pub(super) y: &'a str,
+    /// Whether both axes are those of powers of ten; points are then positive.
+    pub(super) is_logarithmic: bool,
+    pub(super) series: Vec<Series>,
+}
+
+impl Chart<'_> {
+    /// The drawing as SVG inside a page.
+    pub(super) fn svg(&self) -> String {
+        let place = |value: f64| {
+            if self.is_logarithmic {
+                value.log10()
+            } else {
+                value
+            }
+        };
+        let points = || {
+            let all = self.series.iter().flat_map(|series| &series.points);
+            all.map(|(x, y)| (place(*x), place(*y)))
+        };
+        let (x, y) = (roomy(points().map(|p| p.0)), roomy(points().map(|p| p.1)));
+        let mut text = String::new();
+        {
+            let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+            let mut chart = ChartBuilder::on(&root)
+                .margin(6)
+                .x_label_area_size(34)
+                .y_label_area_size(52)
+                .build_cartesian_2d(x, y)
+                .expect(DRAWN);
+            let tick = |value: &f64| {
+                if self.is_logarithmic {
+                    significant(10.0_f64.powf(*value), 1)
+                } else {
+                    tick(*value)
+                }
+            };
+            chart
+                .configure_mesh()
+                .light_line_style(TRANSPARENT)
+                .bold_line_style(GRID)
+                .axis_style(INK)
+                .x_labels(6)
+                .y_labels(6)
+                .x_label_formatter(&tick)
+                .y_label_formatter(&tick)
+                .x_desc(self.x)
+                .y_desc(self.y)
+                .label_style(("sans-serif", 11).into_font().color(&INK))
+                .draw()
+                .expect(DRAWN);
+            for series in &self.series {
+                let color = series.color.stand_in();
+                let points = series.points.iter().map(|(x, y)| (place(*x), place(*y)));
+                if series.is_line {
+                    let line = LineSeries::new(points, color.stroke_width(1));
+                    chart.draw_series(line).expect(DRAWN);
+                } else {
+                    let dots = points.map(|point| Circle::new(point, 1, color.filled()));
+                    chart.draw_series(dots).expect(DRAWN);
+                }
+            }
+            root.present().expect(DRAWN);
+        }
+        self.on_page(&text)
+    }
+
+    /// The same in the page's colors, with a label; dots of one color are one path, which is a tenth as long.
+    fn on_page(&self, svg: &str) -> String {
+        let mut out = String::with_capacity(svg.len() / 4);
+        let mut dots: Option<(&str, String)> = None;
+        for line in svg.lines() {
+            let dot = line.starts_with("<circle").then(|| dot(line)).flatten();
+            if let Some((color, at)) = dot {
+                match &mut dots {
+                    Some((same, path)) if *same == color => path.push_str(&at),
+                    other => {
+                        out.push_str(&path_of(other.take()));
+                        *other = Some((color, at));
+                    }
+                }
+                continue;
+            }
+            out.push_str(&path_of(dots.take()));
+            if line.starts_with("<svg") {
+                let (width, height) = SIZE;
+                writeln!(
+                    out,
+                    "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\">",
+                    escaped(self.label)
+                )
+                .expect("a string takes all");
+            } else {
+                out.push_str(line);
+                out.push('\n');
+            }
+        }
+        out.push_str(&path_of(dots.take()));
+        let hex = |color: RGBColor| format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2);
+        let mut out = out
+            .replace(&hex(GRID), "var(--grid)")
+            .replace(&hex(INK), "currentColor");
+        for color in Ink::ALL {
+            out = out.replace(&hex(color.stand_in()), color.style());
+        }
+        out
+    }
+}
+
+/// Color and path of a dot.
+fn dot(line: &str) -> Option<(&str, String)> {
+    let attribute = |name: &str| {
+        let start = line.find(&format!(" {name}=\""))? + name.len() + 3;
+        let length = line[start..].find('"')?;
+        Some(&line[start..start + length])
+    };
+    let (x, y) = (attribute("cx")?, attribute("cy")?);
+    Some((attribute("fill")?, format!("M{x} {y}h0")))
+}
+
+fn path_of(dots: Option<(&str, String)>) -> String {
+    dots.map_or_else(String::new, |(color, path)| {
+        format!(
+            "<path d=\"{path}\" stroke=\"{color}\" stroke-width=\"2.4\" stroke-linecap=\"round\" stroke-opacity=\"0.6\" fill=\"none\"/>\n"
+        )
+    })
+}
+
+/// A number at an axis.
+fn tick(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if value != 0.0 && (value.abs() < 1e-4 || value.abs() >= 1e6) {
+        format!("{value:.1e}")
+    } else if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The values with some room.
+fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    if low > high {
+        return 0.0..1.0;
+    }
+    let room = (0.05 * (high - low)).max(1e-9 * high.abs().max(1.0));
+    low - room..high + room
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dots_of_a_color_are_one_path_in_the_pages_colors() {
+        let series = |color, is_line| Series {
+            color,
+            is_line,
+            points: (0..50).map(|k| (f64::from(k), f64::from(k * k))).collect(),
+        };
+        let chart = Chart {
+            label: "a \"law\"",
+            x: "x",
+            y: "y",
+            is_logarithmic: false,
+            series: vec![series(Ink::Before, false), series(Ink::After, true)],
+        };
+        let svg = chart.svg();
+        assert_eq!(svg.matches("<path").count(), 1, "{svg}");
+        assert_eq!(svg.matches("h0").count(), 50);
+        assert!(svg.contains("var(--before)") && svg.contains("var(--after)"));
+        assert!(svg.contains("aria-label=\"a &quot;law&quot;\""));
+        assert!(
+            !svg.contains("http") && !svg.contains("<circle") && !svg.contains("#0"),
+            "{svg}"
+        );
+    }
+
+    #[test]
+    fn a_chart_of_nothing_is_empty_axes() {
+        let chart = Chart {
+            label: "nothing",
+            x: "x",
+            y: "y",
+            is_logarithmic: false,
+            series: Vec::new(),
+        };
+        assert!(chart.svg().contains("</svg>"));
+    }
+}

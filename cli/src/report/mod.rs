@@ -1,0 +1,16 @@
+//! Reports for people who look: one page of HTML with everything in it, figures and style included.
+//!
+//! [`Page`] knows how a page is written and nothing of robots, `chart` draws, [`Drawn`] has what is drawn of models on a log, and `sections`
+//! what several verbs say. What stands in the report of a verb is the verb's own.
+
+mod chart;
+mod folder;
+mod page;
+mod sections;
+mod series;
+
+pub(crate) use chart::Ink;
+pub(crate) use folder::ReportFolder;
+pub(crate) use page::Page;
+pub(crate) use sections::{base_parameters, figures, invocation, parameters};
+pub(crate) use series::{Drawn, Shown};

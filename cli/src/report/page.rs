@@ -1,0 +1,225 @@
+//! A page of HTML: headings, tables that sort, figures, and a style for screens, phones and paper, in light and dark.
+
+use std::fmt::Write;
+
+const STYLE: &str = include_str!("page.css");
+const SCRIPT: &str = include_str!("page.js");
+
+const PUT: &str = "a string takes all";
+
+/// A page that grows from its head to its end.
+#[derive(Debug)]
+pub(crate) struct Page {
+    title: String,
+    contents: Vec<(String, String)>,
+    body: String,
+    figures: usize,
+}
+
+impl Page {
+    /// A page with its title and the line below it.
+    pub(crate) fn new(title: &str, lead: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            contents: Vec::new(),
+            body: format!("<p class=\"lead\">{}</p>\n", escaped(lead)),
+            figures: 0,
+        }
+    }
+
+    /// Begins a section.
+    pub(crate) fn section(&mut self, title: &str) {
+        let anchor: String = title
+            .chars()
+            .map(|c| {
+                if c.is_ascii_alphanumeric() {
+                    c.to_ascii_lowercase()
+                } else {
+                    '-'
+                }
+            })
+            .collect();
+        let title = escaped(title);
+        writeln!(self.body, "<h2 id=\"{anchor}\">{title}</h2>").expect(PUT);
+        self.contents.push((anchor, title));
+    }
+
+    /// Begins a part of a section.
+    pub(crate) fn part(&mut self, title: &str) {
+        writeln!(self.body, "<h3>{}</h3>", escaped(title)).expect(PUT);
+    }
+
+    /// A paragraph.
+    pub(crate) fn text(&mut self, text: &str) {
+        writeln!(self.body, "<p>{}</p>", escaped(text)).expect(PUT);
+    }
+
+    /// The outcome, set off from the rest; `class` is that of its color.
+    pub(crate) fn verdict(&mut self, class: &str, word: &str, text: &str) {
+        let (word, text) = (escaped(word), escaped(text));
+        writeln!(
+            self.body,
+            "<div class=\"verdict {class}\"><strong>{word}</strong> {text}</div>"
+        )
+        .expect(PUT);
+    }
+
+    /// A list.
+    pub(crate) fn list(&mut self, items: &[String]) {
+        self.body.push_str("<ul>\n");
+        for item in items {
+            writeln!(self.body, "<li>{}</li>", escaped(item)).expect(PUT);
+        }
+        self.body.push_str("</ul>\n");
+    }
+
+    /// Text as it is set, as that of a terminal.
+    pub(crate) fn preformatted(&mut self, text: &str) {
+        writeln!(
+            self.body,
+            "<div class=\"wide\" tabindex=\"0\"><pre>{}</pre></div>",
+            escaped(text)
+        )
+        .expect(PUT);
+    }
+
+    /// A table; a click on a head sorts it. Cells that begin with a number stand to the right.
+    pub(crate) fn table(&mut self, caption: &str, head: &[&str], rows: &[Vec<String>]) {
+        writeln!(
+            self.body,
+            "<div class=\"wide\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>",
+            escaped(caption)
+        )
+        .expect(PUT);
+        for name in head {
+            writeln!(
+                self.body,
+                "<th scope=\"col\"><button type=\"button\">{}</button></th>",
+                escaped(name)
+            )
+            .expect(PUT);
+        }
+        self.body.push_str("</tr></thead><tbody>\n");
+        for row in rows {
+            self.body.push_str("<tr>");
+            for (column, cell) in row.iter().enumerate() {
+                let text = escaped(cell);
+                let cell = match (column, number(cell)) {
+                    (0, _) => format!("<th scope=\"row\">{text}</th>"),
+                    (_, Some(value)) => {
+                        format!("<td class=\"number\" data-value=\"{value}\">{text}</td>")
+                    }
+                    _ => format!("<td>{text}</td>"),
+                };
+                self.body.push_str(&cell);
+            }
+            self.body.push_str("</tr>\n");
+        }
+        self.body.push_str("</tbody></table></div>\n");
+    }
+
+    /// A row of figures below one caption, with the colors that they share.
+    pub(crate) fn figures(&mut self, drawings: &[String], legend: &[(&str, &str)], caption: &str) {
+        self.figures += 1;
+        self.body.push_str("<figure><div class=\"drawings\">\n");
+        for drawing in drawings {
+            self.body.push_str(drawing);
+            self.body.push('\n');
+        }
+        writeln!(
+            self.body,
+            "</div><figcaption>Figure {}. {}",
+            self.figures,
+            escaped(caption)
+        )
+        .expect(PUT);
+        for (color, name) in legend {
+            writeln!(
+                self.body,
+                " <span class=\"key\"><span class=\"{color}\" aria-hidden=\"true\"></span>{}</span>",
+                escaped(name)
+            )
+            .expect(PUT);
+        }
+        self.body.push_str("</figcaption></figure>\n");
+    }
+
+    /// What is seen when it is opened.
+    pub(crate) fn folded(&mut self, summary: &str, is_open: bool, inside: impl FnOnce(&mut Self)) {
+        let open = if is_open { " open" } else { "" };
+        writeln!(
+            self.body,
+            "<details{open}><summary>{}</summary>",
+            escaped(summary)
+        )
+        .expect(PUT);
+        inside(self);
+        self.body.push_str("</details>\n");
+    }
+
+    /// The whole text.
+    pub(crate) fn finish(self) -> String {
+        let links = self
+            .contents
+            .iter()
+            .map(|(anchor, title)| format!("<li><a href=\"#{anchor}\">{title}</a></li>"));
+        let links: String = links.collect();
+        let title = escaped(&self.title);
+        format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n<h1>{title}</h1>\n\
+             <nav aria-label=\"contents\"><ul>{links}</ul></nav>\n{}</main>\n<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
+            self.body
+        )
+    }
+}
+
+/// The number that a cell begins with, by which it is sorted.
+fn number(cell: &str) -> Option<f64> {
+    let first = cell.split_whitespace().next()?;
+    first.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+/// Text that HTML shows as it is.
+pub(super) fn escaped(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_text_and_no_markup() {
+        let mut page = Page::new("a <b> & \"c\"", "lead");
+        page.section("one <two>");
+        page.table(
+            "t",
+            &["a", "b"],
+            &[vec!["<x>".to_owned(), "1.5 %".to_owned()]],
+        );
+        let html = page.finish();
+        assert!(
+            html.contains("<title>a &lt;b&gt; &amp; &quot;c&quot;</title>"),
+            "{html}"
+        );
+        assert!(
+            html.contains("<h2 id=\"one--two-\">one &lt;two&gt;</h2>"),
+            "{html}"
+        );
+        assert!(html.contains("<th scope=\"row\">&lt;x&gt;</th>"), "{html}");
+        assert!(html.contains("data-value=\"1.5\">1.5 %</td>"), "{html}");
+    }
+}

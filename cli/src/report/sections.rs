@@ -1,0 +1,188 @@
+//! Sections that the reports of several verbs have.
+
+use std::fmt::Write;
+
+use robot_model::columns::Arm;
+use robot_model::identify::Estimate;
+use robot_model_spec::model::Model;
+use robot_model_spec::parameter::Owner;
+
+use super::{Drawn, Page};
+use crate::interpreted::InterpretedArm;
+use crate::output::significant;
+
+/// Deviations to either side of an interval that holds a value with 95 %.
+const WIDTH: f64 = 1.96;
+
+/// Every parameter with its deviation, its interval and what it is.
+pub(crate) fn parameters(page: &mut Page, arm: &InterpretedArm, estimate: &Estimate) {
+    let rows = estimate.parameters.iter().map(|one| {
+        let is_told = one.std > 0.0 && !estimate.unexcited.contains(&one.name);
+        let interval = [one.value - WIDTH * one.std, one.value + WIDTH * one.std];
+        let [std, low, high] = [one.std, interval[0], interval[1]].map(|value| {
+            if is_told {
+                significant(value, 3)
+            } else {
+                "-".to_owned()
+            }
+        });
+        vec![
+            one.name.clone(),
+            significant(one.value, 5),
+            std,
+            low,
+            high,
+            meaning(arm, &one.name),
+        ]
+    });
+    page.table(
+        "Parameters in SI units; intervals hold the value with 95 %, `-` where the logs do not tell it.",
+        &["parameter", "value", "deviation", "from", "to", "what it is"],
+        &rows.collect::<Vec<_>>(),
+    );
+    let shapes = estimate.shapes.iter().zip(&estimate.shape_std);
+    let shapes: Vec<Vec<String>> = shapes
+        .map(|((name, value), std)| {
+            let std = std.map_or("-".to_owned(), |std| significant(std, 3));
+            vec![
+                name.clone(),
+                significant(*value, 5),
+                std,
+                meaning(arm, name),
+            ]
+        })
+        .collect();
+    if !shapes.is_empty() {
+        page.table(
+            "Shape parameters of effects",
+            &["shape", "value", "deviation", "what it is"],
+            &shapes,
+        );
+    }
+}
+
+/// The comment in the definition of an effect's parameter; of a base parameter what it is made of.
+fn meaning(arm: &InterpretedArm, name: &str) -> String {
+    let compiled = arm.compiled();
+    let model: &Model = &compiled.model;
+    for (number, effect) in model.effects.iter().enumerate() {
+        let prefix = format!("{}.", model.effect_name(number));
+        let Some(own) = name.strip_prefix(&prefix) else {
+            continue;
+        };
+        let linear = effect
+            .definition
+            .linear
+            .iter()
+            .map(|one| (&one.name, &one.doc));
+        let shapes = effect
+            .definition
+            .shapes
+            .iter()
+            .map(|one| (&one.name, &one.doc));
+        if let Some((_, doc)) = linear.chain(shapes).find(|(one, _)| *one == own) {
+            return doc.split_whitespace().collect::<Vec<_>>().join(" ");
+        }
+    }
+    combination(arm, name).unwrap_or_default()
+}
+
+/// What a base parameter is made of.
+fn combination(arm: &InterpretedArm, name: &str) -> Option<String> {
+    let compiled = arm.compiled();
+    let place = compiled.base.names.iter().position(|one| one == name)?;
+    let mut text = String::new();
+    for (standard, factor) in &compiled.base.combinations[place] {
+        let sign = match (text.is_empty(), *factor < 0.0) {
+            (true, false) => "",
+            (true, true) => "-",
+            (false, false) => " + ",
+            (false, true) => " - ",
+        };
+        text.push_str(sign);
+        let size = factor.abs();
+        if (size - 1.0).abs() > 1e-12 {
+            write!(text, "{} ", significant(size, 4)).expect("a string takes all");
+        }
+        text.push_str(&compiled.standard[*standard].name);
+    }
+    Some(text)
+}
+
+/// Which standard parameters each base parameter of the body is made of.
+pub(crate) fn base_parameters(page: &mut Page, arm: &InterpretedArm) {
+    let compiled = arm.compiled();
+    let base = compiled.base.names.iter().zip(&compiled.base.kept);
+    let of_body = base.filter(|(_, kept)| {
+        matches!(
+            compiled.standard[**kept].owner,
+            Owner::Link { .. } | Owner::Monomial(_)
+        )
+    });
+    let rows =
+        of_body.map(|(name, _)| vec![name.clone(), combination(arm, name).unwrap_or_default()]);
+    let rows: Vec<Vec<String>> = rows.collect();
+    if rows.is_empty() {
+        page.text("All inertial parameters are fixed by the spec.");
+        return;
+    }
+    page.table(
+        "Torques tell these sums of the links' parameters, and no more.",
+        &["base parameter", "sum"],
+        &rows,
+    );
+    let silent = compiled.base.unidentifiable.iter();
+    let silent: Vec<&str> = silent
+        .map(|&k| compiled.standard[k].name.as_str())
+        .collect();
+    if !silent.is_empty() {
+        page.text(&format!(
+            "Without influence on any torque: {}.",
+            silent.join(", ")
+        ));
+    }
+}
+
+/// Figures of every joint, those of some open.
+pub(crate) fn figures(
+    page: &mut Page,
+    arm: &InterpretedArm,
+    drawn: &Drawn,
+    legend: &[(&str, &str)],
+    is_open: &dyn Fn(usize) -> bool,
+) {
+    for (joint, name) in arm.joints().iter().enumerate() {
+        page.folded(name, is_open(joint), |page| {
+            let measured = [("measured", "measured"), *legend.last().unwrap_or(&("after", "model"))];
+            page.figures(
+                &[drawn.torque(joint, name)],
+                &measured,
+                &format!("Measured and predicted torque of {name}, raw samples, N m or N."),
+            );
+            page.figures(
+                &drawn.errors(joint, name),
+                legend,
+                &format!(
+                    "Measured minus predicted torque of {name}, in the band of the fit, over velocity, position, load and time; \
+                     root of the spectral density of raw samples."
+                ),
+            );
+        });
+    }
+}
+
+/// How the program was called, as a shell takes it.
+pub(crate) fn invocation() -> String {
+    let quoted = |argument: String| {
+        let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/=,:+".contains(c);
+        if !argument.is_empty() && argument.chars().all(is_plain) {
+            argument
+        } else {
+            format!("'{}'", argument.replace('\'', r"'\''"))
+        }
+    };
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|one| quoted(one.to_string_lossy().into_owned()));
+    let words = std::iter::once("robot-model".to_owned()).chain(arguments);
+    words.collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,220 @@
+//! What is drawn of a model on a log.
+
+use robot_model::columns::Arm;
+use robot_model::identify::Estimate;
+use robot_model::log::Log;
+use robot_model::signal::{band_density, prepare};
+
+use super::chart::{Chart, Ink, Series};
+use crate::Error;
+
+/// Most dots of a color in a drawing, and most points of a line, two for each place.
+const DOTS: usize = 400;
+const PLACES: usize = 500;
+
+/// Bands of a spectrum, from here on to two fifths of the rate.
+const LOWEST_HZ: f64 = 0.25;
+const BANDS: usize = 60;
+
+/// A model with a name, and the color that its errors have.
+pub(crate) struct Shown<'a> {
+    pub(crate) color: Ink,
+    pub(crate) arm: &'a dyn Arm,
+    pub(crate) estimate: &'a Estimate,
+}
+
+/// Errors of models on one log, `[model][joint][sample]`, and what they are drawn over.
+pub(crate) struct Drawn {
+    time: Vec<f64>,
+    rate_hz: f64,
+    measured: Vec<Vec<f64>>,
+    models: Vec<OfModel>,
+    /// Position, velocity and load of the joints at the rows, by the last model.
+    position: Vec<Vec<f64>>,
+    velocity: Vec<Vec<f64>>,
+    load: Vec<Vec<f64>>,
+    row_time: Vec<f64>,
+}
+
+struct OfModel {
+    color: Ink,
+    predicted: Vec<Vec<f64>>,
+    /// In the band of the fit, `[joint][row]`.
+    filtered: Vec<Vec<f64>>,
+}
+
+impl Drawn {
+    /// Models on a log. Rows are those of the first model's filters.
+    pub(crate) fn new(models: &[Shown], log: &Log) -> Result<Self, Error> {
+        let (first, last) = (&models[0], &models[models.len() - 1]);
+        let prepared = prepare(log, &first.estimate.bands)
+            .map_err(robot_model::identify::IdentifyError::from)?;
+        let samples = prepared.motion.time.len();
+        let kept: Vec<usize> = prepared.shared.kept(samples).collect();
+        let pick = |values: &Vec<f64>| kept.iter().map(|&k| values[k]).collect::<Vec<f64>>();
+        let gain = first.arm.actuator_gain();
+        let scaled = log.tau.iter().zip(gain);
+        let measured: Vec<Vec<f64>> = scaled
+            .map(|(tau, gain)| tau.iter().map(|tau| gain * tau).collect())
+            .collect();
+        let of_model = |shown: &Shown| -> Result<OfModel, Error> {
+            let predicted = shown.estimate.predict(shown.arm, log)?;
+            let joints = measured.iter().zip(&predicted);
+            let filtered = joints.map(|(measured, predicted)| {
+                let at = |k: usize| k * prepared.stride;
+                let rest: Vec<f64> = (0..samples)
+                    .map(|k| measured[at(k)] - predicted[at(k)])
+                    .collect();
+                let mut out = Vec::new();
+                prepared.shared.apply(&rest, &mut out);
+                out
+            });
+            Ok(OfModel {
+                color: shown.color,
+                filtered: filtered.collect(),
+                predicted,
+            })
+        };
+        let models_drawn = models.iter().map(of_model).collect::<Result<Vec<_>, _>>()?;
+        let values = last.estimate.values();
+        let shapes: Vec<f64> = last
+            .estimate
+            .shapes
+            .iter()
+            .map(|(_, value)| *value)
+            .collect();
+        let load = last.arm.rigid_torque(&prepared.motion, &shapes, &values);
+        Ok(Self {
+            rate_hz: log.rate_hz(),
+            time: log.time.clone(),
+            models: models_drawn,
+            position: prepared.motion.wide.q.iter().map(pick).collect(),
+            velocity: prepared.motion.wide.dq.iter().map(pick).collect(),
+            load: load.iter().map(pick).collect(),
+            row_time: pick(&prepared.motion.time),
+            measured,
+        })
+    }
+
+    /// Measured torque and that of the last model over time.
+    pub(crate) fn torque(&self, joint: usize, name: &str) -> String {
+        let line = |color, values: &[f64]| Series {
+            color,
+            is_line: true,
+            points: envelope(&self.time, values),
+        };
+        let last = &self.models[self.models.len() - 1];
+        Chart {
+            label: &format!("measured and predicted torque of {name} over time"),
+            x: "time, s",
+            y: "torque",
+            is_logarithmic: false,
+            series: vec![
+                line(Ink::Measured, &self.measured[joint]),
+                line(last.color, &last.predicted[joint]),
+            ],
+        }
+        .svg()
+    }
+
+    /// Errors of all models over velocity, position, load, time and frequency.
+    pub(crate) fn errors(&self, joint: usize, name: &str) -> Vec<String> {
+        let over = |what: &str, unit: &str, of: &[f64]| {
+            let dots = |model: &OfModel| {
+                let values = &model.filtered[joint];
+                let step = of.len().div_ceil(DOTS).max(1);
+                Series {
+                    color: model.color,
+                    is_line: false,
+                    points: (0..of.len().min(values.len()))
+                        .step_by(step)
+                        .map(|k| (of[k], values[k]))
+                        .collect(),
+                }
+            };
+            Chart {
+                label: &format!("residual torque of {name} over {what}"),
+                x: &format!("{what}{unit}"),
+                y: "residual",
+                is_logarithmic: false,
+                series: self.models.iter().map(dots).collect(),
+            }
+            .svg()
+        };
+        vec![
+            over("velocity", ", rad/s or m/s", &self.velocity[joint]),
+            over("position", ", rad or m", &self.position[joint]),
+            over("load", " of the rigid body, N m or N", &self.load[joint]),
+            over("time", ", s", &self.row_time),
+            self.spectrum(joint, name),
+        ]
+    }
+
+    fn spectrum(&self, joint: usize, name: &str) -> String {
+        let highest = 0.4 * self.rate_hz;
+        let edge = |k: usize| LOWEST_HZ * (highest / LOWEST_HZ).powf(k as f64 / BANDS as f64);
+        let edges: Vec<f64> = (0..=BANDS).map(edge).collect();
+        let line = |model: &OfModel| {
+            let rest = self.measured[joint].iter().zip(&model.predicted[joint]);
+            let rest: Vec<f64> = rest
+                .map(|(measured, predicted)| measured - predicted)
+                .collect();
+            let density = band_density(&rest, self.rate_hz, &edges);
+            let points = density
+                .iter()
+                .enumerate()
+                .filter(|(_, power)| **power > 0.0);
+            Series {
+                color: model.color,
+                is_line: true,
+                points: points
+                    .map(|(k, power)| ((edges[k] * edges[k + 1]).sqrt(), power.sqrt()))
+                    .collect(),
+            }
+        };
+        Chart {
+            label: &format!("spectrum of the residual torque of {name}"),
+            x: "frequency, Hz",
+            y: "residual per root of Hz",
+            is_logarithmic: true,
+            series: self.models.iter().map(line).collect(),
+        }
+        .svg()
+    }
+}
+
+/// A long line by the least and the largest value in each of some places.
+fn envelope(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+    let count = time.len().min(values.len());
+    let each = count.div_ceil(PLACES).max(1);
+    if each < 3 {
+        return (0..count).map(|k| (time[k], values[k])).collect();
+    }
+    let place = |start: usize| {
+        let range = start..(start + each).min(count);
+        let least = range
+            .clone()
+            .min_by(|a, b| values[*a].total_cmp(&values[*b]));
+        let most = range.max_by(|a, b| values[*a].total_cmp(&values[*b]));
+        let (first, second) = (least.unwrap_or(start), most.unwrap_or(start));
+        let (first, second) = (first.min(second), first.max(second));
+        [(time[first], values[first]), (time[second], values[second])]
+    };
+    (0..count).step_by(each).flat_map(place).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::envelope;
+
+    #[test]
+    fn a_long_line_keeps_its_peaks() {
+        let time: Vec<f64> = (0..100_000).map(f64::from).collect();
+        let mut values = vec![0.0; 100_000];
+        (values[31_415], values[92_653]) = (7.0, -5.0);
+        let points = envelope(&time, &values);
+        assert!(points.len() <= 1000);
+        assert!(points.contains(&(31_415.0, 7.0)) && points.contains(&(92_653.0, -5.0)));
+        assert!(points.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+    }
+}
