@@ -35,6 +35,7 @@ mod linkage;
 mod measured;
 mod parametric;
 mod plant;
+mod terms;
 
 pub use alone::{EffectColumns, effect_columns};
 pub use baked::{BakeError, Given, Origin};
@@ -45,3 +46,4 @@ pub use linkage::{Driven, Linkage};
 pub use measured::NotInstantaneous;
 pub use parametric::PlantParameters;
 pub use plant::{Plant, PlantSlopes, Share};
+pub use terms::Terms;

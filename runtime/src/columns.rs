@@ -137,6 +137,17 @@ pub trait Arm: Columns {
         &[]
     }
 
+    /// Functions of the motion that the torques are sums of, by their names: `cos(q1 - q2) dq1^2`. What is left of a joint's torque may
+    /// be one of them: a term that is missing there, or has another coefficient. None where equations are too long to be told so.
+    fn terms(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// [`Self::terms`] along a motion, `[term][sample]`.
+    fn term_values(&self, _motion: &Motion) -> Vec<Vec<f64>> {
+        Vec::new()
+    }
+
     /// What is known of each unknown before any log, from CAD: one entry an unknown, or none at all.
     fn nominal(&self) -> Vec<Option<Nominal>> {
         Vec::new()

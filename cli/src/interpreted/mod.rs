@@ -41,7 +41,7 @@ use robot_model::identify::PossibleArms;
 use robot_model::motion::Motion;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
-use robot_model_codegen::{Block, Compiled};
+use robot_model_codegen::{Block, Compiled, Terms};
 use robot_model_spec::parameter::Owner;
 
 use band::EffectBlock;
@@ -67,6 +67,7 @@ pub struct InterpretedArm {
     rigid: Block,
     effects: EffectBlock,
     rigid_torque: Program,
+    terms: Terms,
     known_torque: Program,
     measured: Measured,
     dry: Vec<usize>,
@@ -114,6 +115,7 @@ impl InterpretedArm {
             rigid: compiled.rigid_columns(),
             effects: torque_block(&compiled, compiled.effect_columns()),
             rigid_torque: compiled.rigid_torque(),
+            terms: compiled.terms(),
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
             dry: dry_joints(&compiled.model),
@@ -219,6 +221,21 @@ impl Arm for InterpretedArm {
         run(&self.rigid_torque, motion, &|symbol| match symbol {
             Symbol::Parameter(k) => Operand::Constant(parameters[k]),
             other => signals.bind(&motion.smooth, other),
+        })
+    }
+
+    fn terms(&self) -> Vec<String> {
+        self.terms.names.clone()
+    }
+
+    fn term_values(&self, motion: &Motion) -> Vec<Vec<f64>> {
+        let signals = Signals {
+            motion,
+            shapes: &[],
+            own: &Own::default(),
+        };
+        run(&self.terms.program, motion, &|symbol| {
+            signals.bind(&motion.smooth, symbol)
         })
     }
 

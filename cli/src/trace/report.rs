@@ -1,6 +1,6 @@
 //! What a trace found, as JSON.
 
-use robot_model::trace::{Alternative, Evidence, Finding, Share, Tried, Whereabouts};
+use robot_model::trace::{Alternative, Evidence, Finding, Share, TermShare, Tried, Whereabouts};
 use serde::Serialize;
 
 use crate::close_the_loop::Loop;
@@ -31,7 +31,7 @@ pub(crate) struct Report<'a> {
     structure_before: Vec<f64>,
     structure_after: Vec<f64>,
     /// Of what the structure after is a function, for every joint where it matters.
-    structure_where: Vec<WhereReport>,
+    structure_where: Vec<WhereReport<'a>>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
     /// What was judged in every round, best first, and why it was refused.
@@ -39,12 +39,21 @@ pub(crate) struct Report<'a> {
 }
 
 #[derive(Serialize)]
-struct WhereReport {
+struct WhereReport<'a> {
     joint: usize,
     /// The largest first.
     shares: Vec<ShareReport>,
+    /// Terms of the arm's equations that say most of it, the largest share first.
+    terms: Vec<TermReport<'a>>,
     peak_hz: f64,
     peak_share: f64,
+}
+
+#[derive(Serialize)]
+struct TermReport<'a> {
+    term: &'a str,
+    coefficient: f64,
+    share: f64,
 }
 
 #[derive(Serialize)]
@@ -229,7 +238,7 @@ fn evidence(evidence: &Evidence) -> EvidenceReport<'_> {
     }
 }
 
-fn whereabouts(one: &Whereabouts) -> WhereReport {
+fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
     let share = |share: &Share| ShareReport {
         of: share.of.name(),
         joint: share.of.joint().map(|joint| joint + 1),
@@ -238,8 +247,17 @@ fn whereabouts(one: &Whereabouts) -> WhereReport {
     WhereReport {
         joint: one.joint + 1,
         shares: one.shares.iter().map(share).collect(),
+        terms: one.terms.iter().map(term).collect(),
         peak_hz: one.peak_hz,
         peak_share: one.peak_share,
+    }
+}
+
+fn term(one: &TermShare) -> TermReport<'_> {
+    TermReport {
+        term: &one.term,
+        coefficient: one.coefficient,
+        share: one.share,
     }
 }
 

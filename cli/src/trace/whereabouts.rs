@@ -6,6 +6,7 @@ use robot_model::columns::Arm;
 use robot_model::trace::{Quantity, Share, Whereabouts};
 
 use crate::close_the_loop::Loop;
+use crate::output::significant;
 
 /// Quantities that are told of a joint, and the least share of one, percent.
 const TOLD: usize = 3;
@@ -14,7 +15,7 @@ const LEAST_PERCENT: f64 = 10.0;
 /// Position and velocity together are told where they say so much more than either alone.
 const MORE: f64 = 0.1;
 
-/// One line: the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.
+/// One line: the term of the equations and the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.
 pub(super) fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let names = closed.before.arm.joints();
     let is_both = |share: &&Share| matches!(share.of, Quantity::Motion(_));
@@ -33,6 +34,19 @@ pub(super) fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
             }
         })
         .collect();
+    let term = one.terms.first().map(|term| {
+        let percent = 100.0 * term.share;
+        let coefficient = significant(term.coefficient, 3);
+        (
+            percent,
+            format!(
+                "{percent:.0} % {coefficient} times {}, a term of the equations",
+                term.term
+            ),
+        )
+    });
+    let term = term.filter(|(percent, _)| *percent >= LEAST_PERCENT);
+    let told: Vec<String> = term.into_iter().map(|(_, told)| told).chain(told).collect();
     let mut out = String::from("    of its residual out of fold: ");
     if told.is_empty() {
         out.push_str("no function of a position, velocity, acceleration, load or time");

@@ -231,6 +231,28 @@ pub fn terms(dag: &Dag, polynomial: &Polynomial, names: &Names, style: Style) ->
         .collect()
 }
 
+/// The terms of the sum without their numbers and parameters, as text and as expressions.
+#[must_use]
+pub fn functions(dag: &mut Dag, polynomial: &Polynomial, names: &Names) -> Vec<(String, ExprId)> {
+    let is_parameter = |factor: &Factor| {
+        let node = dag.node(factor.expr);
+        matches!(node, Node::Symbol(Symbol::Parameter(_) | Symbol::Shape(_)))
+    };
+    let free: Vec<Monomial> = polynomial
+        .terms()
+        .map(|(monomial, _)| {
+            let factors = monomial.iter().filter(|(factor, _)| !is_parameter(factor));
+            factors.cloned().collect()
+        })
+        .collect();
+    let told = free.into_iter().map(|monomial| {
+        let alone = Polynomial::of(monomial.clone(), 1.0);
+        let text = terms(dag, &alone, names, Style::Text).remove(0).1;
+        (text, build(dag, &(monomial, 1.0)))
+    });
+    told.collect()
+}
+
 fn power(dag: &Dag, factor: &Factor, power: u32, names: &Names, style: Style) -> String {
     let text = dag.display(factor.expr, names, style);
     let text = match dag.node(factor.expr) {

@@ -70,6 +70,7 @@ pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, neighbors, with_slopes};
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 pub use table::relative_deviation;
+pub(crate) use turns::leave_out as leave_out_turns;
 
 use crate::columns::{Arm, Nominal};
 use crate::log::Log;
@@ -300,7 +301,7 @@ impl Identify {
     }
 
     /// The rows of logs without those of clipped torque, and which of them are at turns.
-    fn rows(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Stack {
+    pub(crate) fn rows(&self, arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Stack {
         let mut stack = Stack::new(arm, logs, shapes);
         clipped::leave_out(&mut stack, arm, logs);
         turns::find(&mut stack, arm, logs);

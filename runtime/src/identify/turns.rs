@@ -52,7 +52,7 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
 }
 
 /// Makes the rows zero that turns reach.
-pub(super) fn leave_out(stack: &mut Stack) {
+pub(crate) fn leave_out(stack: &mut Stack) {
     clear_rows(&mut stack.joints, &stack.turns);
 }
 

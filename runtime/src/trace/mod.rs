@@ -32,6 +32,7 @@
 //! # Ok::<(), robot_model::identify::IdentifyError>(())
 //! ```
 
+mod away;
 mod change;
 mod choose;
 mod conclude;
@@ -59,4 +60,4 @@ pub use structure::Structure;
 pub use verdict::{
     Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,
 };
-pub use whereabouts::{Quantity, Share, Whereabouts};
+pub use whereabouts::{Quantity, Share, TermShare, Whereabouts};

@@ -52,8 +52,8 @@ impl Search<'_> {
         power.sum::<f64>() / residual.len().max(1) as f64
     }
 
-    /// Structure per joint.
-    pub(super) fn structure(&self, state: &State) -> Vec<Structure> {
+    /// Structure per joint, of turns and what is away from them alike.
+    pub(super) fn structure_of_all_rows(&self, state: &State) -> Vec<Structure> {
         let raw: Vec<_> = self
             .prepared
             .iter()

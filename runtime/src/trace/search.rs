@@ -10,6 +10,7 @@ use crate::identify::{
 use crate::log::{Log, MOTION_PHASE};
 use crate::signal::{Prepared, period};
 
+use super::away::Looks;
 use super::conclude::{Told, changed, verdict};
 use super::folds::{self, Fold};
 use super::gate::MATERIAL_PERCENT;
@@ -50,6 +51,7 @@ pub(super) struct State<'a> {
     pub(super) solution: Solution,
     pub(super) residuals: Vec<Vec<f64>>,
     pub(super) accepted: Vec<Accepted<'a>>,
+    pub(super) looks: Looks,
 }
 
 impl<'a> Trace<'a> {
@@ -115,9 +117,10 @@ impl<'a> Trace<'a> {
             solution,
             residuals,
             accepted: Vec::new(),
+            looks: Looks::default(),
         };
         search.update_rigid_torque(&state);
-        let before = search.structure(&state);
+        let before = search.structure(&state).to_vec();
 
         progress("forming candidate columns");
         // What a log does not hold cannot be judged.
@@ -165,7 +168,7 @@ impl<'a> Trace<'a> {
             }
         }
         let mut state = search.prune(state)?;
-        let mut after = search.structure(&state);
+        let mut after = search.structure(&state).to_vec();
         // What is too small to be named may be structure, and is none that is unknown.
         while after.iter().any(Structure::is_material) && state.accepted.len() < MOST_EFFECTS {
             let Some(small) = search.small(&state, &grids) else {
@@ -173,7 +176,7 @@ impl<'a> Trace<'a> {
             };
             state.accepted.push(small);
             state = search.refit(state)?;
-            after = search.structure(&state);
+            after = search.structure(&state).to_vec();
         }
         let before = self.since.clone().unwrap_or(before);
         let left = search.whereabouts(&state, &after);
@@ -286,7 +289,7 @@ impl Search<'_> {
             ..
         } = state;
         if self.arm.uses_rigid_torque() {
-            stack = Stack::new(self.arm, &self.prepared, &self.shapes);
+            stack = self.identify.rows(self.arm, &self.prepared, &self.shapes);
             stack.silence(&self.unexcited);
         } else {
             stack.truncate(self.arm.unknowns().len());
@@ -308,6 +311,7 @@ impl Search<'_> {
             solution,
             residuals,
             accepted,
+            looks: Looks::default(),
         };
         self.update_rigid_torque(&state);
         Ok(state)

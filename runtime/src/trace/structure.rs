@@ -44,6 +44,14 @@ impl Structure {
     pub fn is_material(&self) -> bool {
         self.share > MATERIAL_SHARE
     }
+
+    /// No more of it than this power.
+    pub(super) fn limit(&mut self, most: f64) {
+        if most < self.power {
+            self.share *= most / self.power;
+            self.power = most;
+        }
+    }
 }
 
 /// One log's raw residual: unfiltered torque minus the model's.

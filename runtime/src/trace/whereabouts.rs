@@ -31,6 +31,9 @@ const LEAST_SPAN: f64 = 1e-6;
 /// Phases of a line in the spectrum are those of pieces of a log that are no longer than this, s.
 const PIECE_S: f64 = 60.0;
 
+/// Terms of equations that are kept of a joint.
+const MOST_TERMS: usize = 3;
+
 /// What a torque may follow from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -127,6 +130,17 @@ pub struct Share {
     pub share: f64,
 }
 
+/// How much of a joint's residual is one term of the arm's equations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TermShare {
+    /// The function of the motion, see [`Arm::terms`].
+    pub term: String,
+    /// What it is multiplied with, beside the model; in SI units.
+    pub coefficient: f64,
+    /// As in [`Share`].
+    pub share: f64,
+}
+
 /// Where the structure of a joint's residual lives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Whereabouts {
@@ -134,6 +148,8 @@ pub struct Whereabouts {
     pub joint: usize,
     /// Every quantity that is not at rest, the one of the largest share first.
     pub shares: Vec<Share>,
+    /// Terms of the arm's equations that say most of it, the one of the largest share first.
+    pub terms: Vec<TermShare>,
     /// Frequency of the highest line of the residual's spectrum, Hz.
     pub peak_hz: f64,
     /// Share of that line in the residual's power, in the band of the fit.
@@ -148,35 +164,74 @@ impl Search<'_> {
         if joints.is_empty() {
             return Vec::new();
         }
-        let gram = Gram::new(&state.stack, &self.folds);
-        let without = gram.held_out(&state.solution.sigma);
+        let away = self.away(state);
+        let (stack, sigma) = match away {
+            Some(away) => (&away.stack, &away.solution.sigma),
+            None => (&state.stack, &state.solution.sigma),
+        };
+        let gram = Gram::new(stack, &self.folds);
+        let without = gram.held_out(sigma);
+        // The model with columns beside it on a joint, and the share of the joint's residual that they take off.
+        let beside = |joint: usize, columns: Vec<Vec<f64>>| {
+            let entries = columns.into_iter().enumerate();
+            let entries = entries.map(|(column, values)| Entry {
+                joint,
+                column,
+                values,
+            });
+            let mut entries: Vec<Entry> = entries.collect();
+            if let Some(away) = away {
+                away.clear(&mut entries);
+            }
+            let with = gram.extended(stack, &entries, entries.len());
+            let held_out = with.held_out(sigma);
+            let left = held_out.mean(joint) / without.mean(joint).max(f64::MIN_POSITIVE);
+            (with, (1.0 - left).max(0.0))
+        };
+        let terms = self.terms();
         let of_joint = |joint: usize| {
             let shares = self.quantities(joint).filter_map(|of| {
-                let columns = self.curve(of)?;
-                let entries = columns.into_iter().enumerate();
-                let entries = entries.map(|(column, values)| Entry {
-                    joint,
-                    column,
-                    values,
-                });
-                let entries: Vec<Entry> = entries.collect();
-                let with = gram.extended(&state.stack, &entries, entries.len());
-                let with = with.held_out(&state.solution.sigma);
-                let left = with.mean(joint) / without.mean(joint).max(f64::MIN_POSITIVE);
-                let share = (1.0 - left).max(0.0);
+                let (_, share) = beside(joint, self.curve(of)?);
                 Some(Share { of, share })
             });
             let mut shares: Vec<Share> = shares.collect();
             shares.sort_by(|a, b| b.share.total_cmp(&a.share));
+            let terms = terms.iter().map(|(term, values)| {
+                let (with, share) = beside(joint, vec![values.clone()]);
+                let solved = with.normal(sigma).solve();
+                TermShare {
+                    term: term.clone(),
+                    coefficient: solved[gram.unknowns()],
+                    share,
+                }
+            });
+            let mut terms: Vec<TermShare> = terms.collect();
+            terms.sort_by(|a, b| b.share.total_cmp(&a.share));
+            terms.truncate(MOST_TERMS);
             let (peak_hz, peak_share) = self.peak(state, joint);
             Whereabouts {
                 joint,
                 shares,
+                terms,
                 peak_hz,
                 peak_share,
             }
         };
         joints.into_iter().map(of_joint).collect()
+    }
+
+    /// Terms of the arm's equations, filtered.
+    fn terms(&self) -> Vec<(String, Vec<f64>)> {
+        let names = self.arm.terms();
+        let mut all = vec![Vec::new(); names.len()];
+        let mut filtered = Vec::new();
+        for log in &self.prepared {
+            for (all, values) in all.iter_mut().zip(self.arm.term_values(&log.motion)) {
+                log.shared.apply(&values, &mut filtered);
+                all.extend_from_slice(&filtered);
+            }
+        }
+        names.into_iter().zip(all).collect()
     }
 
     /// What a joint's residual is asked for.
@@ -234,7 +289,10 @@ impl Search<'_> {
 
     /// Frequency and share of the highest line of a joint's residual.
     fn peak(&self, state: &State, joint: usize) -> (f64, f64) {
-        let residual = &state.residuals[joint];
+        let residual = match self.away(state) {
+            Some(away) => &away.residuals[joint],
+            None => &state.residuals[joint],
+        };
         let segments = state.stack.segments.iter();
         let pieces = segments.flat_map(|segment| {
             let time = &segment.time;

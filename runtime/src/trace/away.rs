@@ -1,0 +1,89 @@
+//! The present model away from the turns of joints with dry friction.
+//!
+//! A joint that its friction holds says nothing of the model: the torque there is any between the two that the law has. Such rows come
+//! back in every period as structure does, and move the fit of all others. So what is told of structure has to be there without them.
+
+use std::sync::OnceLock;
+
+use crate::columns::Entry;
+use crate::identify::{Solution, Stack, leave_out_turns};
+
+use super::search::{Search, State};
+use super::structure::Structure;
+
+/// Of a joint's rows: where turns reach all but this share, rows away from them are no judges.
+const LEAST_LEFT: f64 = 0.25;
+
+/// What is worked out of a state when it is asked for.
+#[derive(Default)]
+pub(super) struct Looks {
+    structure: OnceLock<Vec<Structure>>,
+    away: OnceLock<Option<Away>>,
+}
+
+/// A model fitted to the rows away from turns.
+pub(super) struct Away {
+    pub(super) stack: Stack,
+    pub(super) solution: Solution,
+    /// `[joint][row]`; 0 at turns.
+    pub(super) residuals: Vec<Vec<f64>>,
+}
+
+impl Away {
+    /// Mean square of what is left of a joint over the rows away from its turns; none where there are too few of them.
+    pub(super) fn mean_square(&self, joint: usize) -> Option<f64> {
+        let rows = self.stack.samples();
+        let left = rows - self.stack.turns[joint].len();
+        let squares = self.residuals[joint].iter().map(|r| r * r).sum::<f64>();
+        (left as f64 >= LEAST_LEFT * rows as f64).then(|| squares / left as f64)
+    }
+
+    /// Columns without their rows at turns.
+    pub(super) fn clear(&self, entries: &mut [Entry]) {
+        for entry in entries {
+            for &row in &self.stack.turns[entry.joint] {
+                entry.values[row] = 0.0;
+            }
+        }
+    }
+}
+
+impl Search<'_> {
+    /// The present model fitted away from turns; none where there are none, or where other rows do not tell the model.
+    pub(super) fn away<'a>(&self, state: &'a State) -> Option<&'a Away> {
+        let fit = || {
+            if state.stack.turns.iter().all(Vec::is_empty) {
+                return None;
+            }
+            let mut stack = state.stack.clone();
+            leave_out_turns(&mut stack);
+            let solution = self.identify.solve_stack(&stack).ok()?;
+            let residuals = stack.residuals(&solution.estimate);
+            let is_told = solution.unexcited == state.solution.unexcited;
+            is_told.then_some(Away {
+                stack,
+                solution,
+                residuals,
+            })
+        };
+        state.looks.away.get_or_init(fit).as_ref()
+    }
+
+    /// Structure per joint.
+    pub(super) fn structure<'a>(&self, state: &'a State) -> &'a [Structure] {
+        let found = || {
+            let mut found = self.structure_of_all_rows(state);
+            if found.iter().any(Structure::is_material) {
+                if let Some(away) = self.away(state) {
+                    for (joint, structure) in found.iter_mut().enumerate() {
+                        if let Some(most) = away.mean_square(joint) {
+                            structure.limit(most);
+                        }
+                    }
+                }
+            }
+            found
+        };
+        state.looks.structure.get_or_init(found)
+    }
+}
