@@ -36,6 +36,7 @@ mod outputs;
 mod parameters;
 mod payload;
 mod possible;
+mod printed;
 mod simulate;
 mod starts;
 mod trace;
