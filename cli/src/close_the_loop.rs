@@ -58,6 +58,7 @@ impl Loop {
     #[must_use]
     pub fn outcome(&self) -> Outcome {
         match self.verdict.outcome {
+            _ if self.faults.iter().any(|fault| fault.is_last) => Outcome::Explained,
             Outcome::NothingMissing if !self.faults.is_empty() => Outcome::Explained,
             other => other,
         }
@@ -84,19 +85,27 @@ pub fn close(
     let period = mended.iter().find_map(|one| one.log.period());
     let unseen = validate.map(|log| log.clone().with_motion_phase(period));
     let validate = unseen.as_ref();
-    let mut on_time: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
-    let sound = on_time.clone();
+    let sound: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let declared = compiled(source_name, text)?;
-    let before = Stage::identify(declared, &sound, validate, &Identify::default())?;
+    let speeds = Identify::default().turn_speeds(&declared, &sound)?;
+    let sound = turning(&sound, &speeds);
+    let mut on_time = sound.clone();
+    let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
+    let before = Stage::identify(declared, &sound, turned.as_ref(), &Identify::default())?;
     let (arm, estimate) = (&before.arm, &before.estimate);
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
-    if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
+    if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
+        faults.push(smoothed);
+    } else if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
         faults.push(late);
-        on_time = logs;
+        // What turns look like is asked of them anew.
+        on_time = turning(&logs, &[]);
     }
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
-    let verdict = trace(source_name, text, &on_time, progress)?;
+    let is_last = faults.iter().any(|fault| fault.is_last);
+    let verdict = trace(source_name, text, &on_time, !is_last, progress)?;
+    let unseen = unseen.map(|log| log.with_turn_speeds(verdict.turn_speeds.clone()));
     let found = verdict.findings.iter();
     let amendments: Vec<Amendment> = declared
         .into_iter()
@@ -120,7 +129,8 @@ pub fn close(
             bands: Some(bands),
             ..Identify::default()
         };
-        Some(Stage::identify(arm, &sound, validate, &identify)?)
+        let sound = turning(&sound, &verdict.turn_speeds);
+        Some(Stage::identify(arm, &sound, unseen.as_ref(), &identify)?)
     };
     Ok(Loop {
         before,
@@ -133,23 +143,37 @@ pub fn close(
     })
 }
 
+/// The logs of an arm whose dry friction acts in full from these speeds on.
+fn turning(logs: &[Log], speeds: &[f64]) -> Vec<Log> {
+    let logs = logs.iter();
+    logs.map(|log| log.clone().with_turn_speeds(speeds.to_vec()))
+        .collect()
+}
+
 /// Traces until nothing changes the arm any more: what changes it is declared, and what else is missing is asked of the arm with it.
+/// `asks` is whether there are candidates.
 fn trace(
     source_name: &str,
     text: &str,
     logs: &[Log],
+    asks: bool,
     progress: &Progress,
 ) -> Result<Verdict, Error> {
-    let mut text = text.to_owned();
+    let (mut text, mut logs) = (text.to_owned(), logs.to_vec());
     let mut found: Option<Verdict> = None;
     loop {
         let arm = compiled(source_name, &text)?;
         let undeclared = arm.undeclared();
-        let mut trace = Trace::new(undeclared.candidates());
+        let candidates = if asks {
+            undeclared.candidates()
+        } else {
+            Vec::new()
+        };
+        let mut trace = Trace::new(candidates);
         if let Some(found) = &found {
             trace = trace.since(found.before.clone());
         }
-        let verdict = trace.run(&arm, logs, &mut |stage| progress.step(stage))?;
+        let verdict = trace.run(&arm, &logs, &mut |stage| progress.step(stage))?;
         let (goes_on, fresh) = (verdict.goes_on, verdict.findings.len());
         let verdict = match found {
             Some(before) => before.followed_by(verdict),
@@ -161,6 +185,7 @@ fn trace(
         let fresh = &verdict.findings[verdict.findings.len() - fresh..];
         let fresh: Vec<Amendment> = fresh.iter().map(|one| amendment(one, &arm)).collect();
         text = amend(source_name, &text, &fresh)?;
+        logs = turning(&logs, &verdict.turn_speeds);
         found = Some(verdict);
     }
 }

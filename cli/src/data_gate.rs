@@ -7,6 +7,7 @@ use robot_model::identify::{Estimate, Identify, IdentifyError};
 use robot_model::log::{Fault, Log, Mended};
 
 use crate::interpreted::InterpretedArm;
+use crate::output::significant;
 use crate::progress::Progress;
 
 /// Bad samples count from this share of a joint's raw error, as effects do.
@@ -25,6 +26,8 @@ pub struct DataFault {
     pub told: String,
     /// Seconds by which torque is late and their standard deviation, of a `time-delay`.
     pub delay: Option<(f64, f64)>,
+    /// Whether nothing can be asked of logs that have it.
+    pub is_last: bool,
 }
 
 /// Logs without spikes, bursts, dropouts and held values; what was found is said.
@@ -83,6 +86,41 @@ pub(crate) fn corrupt(
         kind: "corrupt-samples",
         told: told.join("; "),
         delay: None,
+        is_last: false,
+    }))
+}
+
+/// Torques of a log that went through a low-pass which its positions did not go through: what they say of turns is the filter's, and no
+/// law is told by them.
+///
+/// # Errors
+/// Those of [`Estimate::predict`].
+pub(crate) fn smoothed(
+    arm: &InterpretedArm,
+    estimate: &Estimate,
+    logs: &[Log],
+) -> Result<Option<DataFault>, IdentifyError> {
+    let mut told = Vec::new();
+    for log in logs {
+        if let Some(filter) = estimate.smoothed(arm, log)? {
+            let (hz, percent) = (significant(filter.cutoff_hz, 2), 100.0 * filter.share);
+            let phase = if filter.lags {
+                "that lags"
+            } else {
+                "without phase"
+            };
+            told.push(format!(
+                "{}: torques went through a low-pass of about {hz} Hz {phase}, and positions did not: the same filter on the model's torque \
+                 takes {percent:.0} % off its error; log raw torques, or a wider filter",
+                log.source
+            ));
+        }
+    }
+    Ok((!told.is_empty()).then(|| DataFault {
+        kind: "corrupt-samples",
+        told: told.join("; "),
+        delay: None,
+        is_last: true,
     }))
 }
 
@@ -130,6 +168,7 @@ pub(crate) fn delay(
         kind: "time-delay",
         told: format!("torque is late against position: {}", joints.join(", ")),
         delay: Some((seconds, std)),
+        is_last: false,
     };
     Some((fault, on_time))
 }

@@ -40,8 +40,8 @@ pub struct Motion {
     pub transmitted_torque: Vec<Vec<f64>>,
     /// Cutoff of the filter for displacements of links, Hz; 0 where they pass none.
     pub displacement_hz: f64,
-    /// Speeds of the wide band below which steps of an encoder hide the direction of a joint, rad/s or m/s; empty or 0 where the
-    /// direction is known. With `w` for one of them, columns that jump are means over a velocity that is logistic about the measured
+    /// Speeds of the wide band below which steps of an encoder hide the direction of a joint, or its dry friction does not act in full, rad/s
+    /// or m/s; empty or 0 where the direction is known and all that counts. With `w` for one of them, columns that jump are means over a velocity that is logistic about the measured
     /// one with scale `w / 2`, which makes `tanh(dq / w)` of `sign(dq)`.
     pub turn_speeds: Vec<f64>,
 }

@@ -16,6 +16,7 @@ mod parquet;
 mod phase;
 mod pieces;
 mod rows;
+mod turns;
 mod uniform;
 
 use std::io::Read;
@@ -65,6 +66,9 @@ pub struct Log {
     /// Where a joint's torque stands at its largest or smallest value, s since the start of the log, `[joint]`: no row of that joint around
     /// them is fitted unless the model says what a limit takes. No joints where none were looked for, see [`Log::mended`].
     pub clipped: Vec<Vec<Range<f64>>>,
+    /// Speeds below which dry friction does not act in full, one a joint, rad/s or m/s; none where they were not looked for: then they are
+    /// those that an encoder does not tell apart. See [`Log::with_turn_speeds`].
+    pub turn_speeds: Vec<f64>,
 }
 
 /// A named channel beside position, velocity and torque: a temperature, a current, a reference.
@@ -198,6 +202,7 @@ impl Log {
             report,
             holes: Vec::new(),
             clipped: Vec::new(),
+            turn_speeds: Vec::new(),
         };
         log.finish(Some(&table.lines), &table.lost)
     }
@@ -250,6 +255,7 @@ impl Log {
             report: Vec::new(),
             holes: Vec::new(),
             clipped: Vec::new(),
+            turn_speeds: Vec::new(),
         }
         .finish(None, &Lost::default())
     }

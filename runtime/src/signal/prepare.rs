@@ -207,7 +207,11 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
     let rates = |filter: &LowPass| kinematics(&q, filter, step, stride, accelerations);
     let wide = rates(&wide);
     let turns = log.q.iter().zip(&wide.dq);
-    let turn_speeds = turns.map(|(q, dq)| turn_speed(q, dq, wide_hz)).collect();
+    let turn_speeds = if log.turn_speeds.is_empty() {
+        turns.map(|(q, dq)| turn_speed(q, dq, wide_hz)).collect()
+    } else {
+        log.turn_speeds.clone()
+    };
     Ok(Prepared {
         motion: Motion {
             time: resample::grid(0.0, 1.0 / rate_hz, samples),

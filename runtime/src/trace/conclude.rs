@@ -14,6 +14,8 @@ pub(super) struct Told {
     pub(super) std: Vec<Vec<Option<f64>>>,
     /// The floor of every joint.
     pub(super) floor: Vec<Floor>,
+    /// Speeds below which dry friction does not act in full.
+    pub(super) turn_speeds: Vec<f64>,
 }
 
 /// The verdict on a finished search.
@@ -46,6 +48,7 @@ pub(super) fn verdict(
         after,
         left: Vec::new(),
         noise_floor: values.floor.clone(),
+        turn_speeds: values.turn_speeds.clone(),
         goes_on: false,
     }
 }
@@ -67,6 +70,7 @@ pub(super) fn changed(
         before,
         left: Vec::new(),
         noise_floor: values.floor.clone(),
+        turn_speeds: values.turn_speeds.clone(),
         goes_on: true,
     }
 }

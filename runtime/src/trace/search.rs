@@ -89,6 +89,15 @@ impl<'a> Trace<'a> {
             bands: Some(bands),
             ..Identify::default()
         };
+        let found;
+        let logs = if logs.iter().any(|log| log.turn_speeds.is_empty()) {
+            progress("finding how slowly joints turn round");
+            let speeds = identify.turn_speeds(arm, logs)?;
+            found = Log::all_with_turn_speeds(logs, &speeds);
+            &found
+        } else {
+            logs
+        };
         let mut prepared = prepare_all(logs, &bands)?;
         progress("fitting the declared model");
         let (solution, shapes, mut stack) = identify.solve(arm, &mut prepared, None)?;
@@ -156,10 +165,17 @@ impl<'a> Trace<'a> {
                 state.accepted.push(found);
                 return Ok(changed(&state, before, &told, tried));
             }
+            let joints = found.trial.candidate.joints().to_vec();
             state.accepted.push(found);
-            state = search.refit(state)?;
+            state = search.refit(state, false)?;
+            // How a joint turns round is told once the model has its friction.
+            let turned = search.settle_turns(&state, &joints)?;
+            if turned {
+                state = search.refit(state, true)?;
+            }
             let fresh = search.grids(&state, &candidates, |candidate| {
-                candidate.uses_rigid_torque()
+                let turns = || candidate.joints().iter().any(|j| joints.contains(j));
+                candidate.uses_rigid_torque() || (turned && turns())
             });
             for (grid, fresh) in grids.iter_mut().zip(fresh) {
                 if fresh.len() > 0 {
@@ -175,7 +191,7 @@ impl<'a> Trace<'a> {
                 break;
             };
             state.accepted.push(small);
-            state = search.refit(state)?;
+            state = search.refit(state, false)?;
             after = search.structure(&state).to_vec();
         }
         let before = self.since.clone().unwrap_or(before);
@@ -216,11 +232,30 @@ impl Search<'_> {
         }
     }
 
+    /// Finds the speeds at which joints creep where they turn, and takes what was made of others anew. Whether there was anything to do.
+    fn settle_turns(&mut self, state: &State, joints: &[usize]) -> Result<bool, IdentifyError> {
+        let (identify, arm) = (self.identify, self.arm);
+        let found = identify.creeping(arm, &state.stack, &self.prepared, joints)?;
+        for &(joint, speed) in &found {
+            for log in &mut self.prepared {
+                log.motion.turn_speeds[joint] = speed;
+            }
+        }
+        Ok(!found.is_empty())
+    }
+
     /// What is told of a model beside what it is made of.
     fn told(&self, state: &State) -> Told {
         Told {
             std: self.deviations(state),
             floor: self.floor(state),
+            turn_speeds: (0..self.arm.dof())
+                .map(|joint| {
+                    let logs = self.prepared.iter();
+                    logs.map(|log| log.motion.turn_speed(joint))
+                        .fold(0.0, f64::max)
+                })
+                .collect(),
         }
     }
 
@@ -281,21 +316,21 @@ impl Search<'_> {
         }
     }
 
-    /// Fits the declared model with all accepted effects.
-    fn refit<'a>(&mut self, state: State<'a>) -> Result<State<'a>, IdentifyError> {
+    /// Fits the declared model with all accepted effects; `anew` where the motion that columns read is another one.
+    fn refit<'a>(&mut self, state: State<'a>, anew: bool) -> Result<State<'a>, IdentifyError> {
         let State {
             mut stack,
             mut accepted,
             ..
         } = state;
-        if self.arm.uses_rigid_torque() {
+        if anew || self.arm.uses_rigid_torque() {
             stack = self.identify.rows(self.arm, &self.prepared, &self.shapes);
             stack.silence(&self.unexcited);
         } else {
             stack.truncate(self.arm.unknowns().len());
         }
         for effect in &mut accepted {
-            if effect.trial.candidate.uses_rigid_torque() {
+            if anew || effect.trial.candidate.uses_rigid_torque() {
                 effect.trial = Trial::new(
                     effect.trial.candidate,
                     effect.trial.shapes.clone(),
@@ -332,11 +367,11 @@ impl Search<'_> {
         let mut number = 0;
         while state.accepted.len() > 1 && number + 1 < state.accepted.len() {
             let effect = state.accepted.remove(number);
-            state = self.refit(state)?;
+            state = self.refit(state, false)?;
             if self.is_needed(&state, &effect.trial) {
                 state.accepted.insert(number, effect);
                 number += 1;
-                state = self.refit(state)?;
+                state = self.refit(state, false)?;
             }
         }
         Ok(state)

@@ -191,6 +191,8 @@ pub struct Verdict {
     pub left: Vec<Whereabouts>,
     /// The least error that a model can have on the logs, per joint.
     pub noise_floor: Vec<Floor>,
+    /// Speeds below which dry friction does not act in full with the findings, one a joint, rad/s or m/s: see [`Log::with_turn_speeds`](crate::log::Log::with_turn_speeds).
+    pub turn_speeds: Vec<f64>,
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).
     pub goes_on: bool,
@@ -236,6 +238,7 @@ impl Verdict {
             after: next.after,
             left: next.left,
             noise_floor: next.noise_floor,
+            turn_speeds: next.turn_speeds,
             goes_on: next.goes_on,
         }
     }

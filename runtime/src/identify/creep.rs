@@ -1,0 +1,220 @@
+//! How slowly a joint has to move for its dry friction to have a direction.
+//!
+//! Where a joint turns round its friction goes from one side to the other over a range of speeds: asperities bend, and a joint that is held
+//! creeps. A law that has the sign of a velocity in it takes that for nothing, and what it is off by, a pulse at every turn, looks like
+//! bristles or like a Stribeck curve with the wrong sign. So logs are asked for the width `w` of `tanh(dq / w)` in place of `sign(dq)`, joint
+//! by joint, as far as that is small: what is wider is another law.
+
+use super::{Identify, IdentifyError, Stack, check_logs, prepare_all, slowest_bands};
+use crate::columns::{Arm, Entry, Unknown};
+use crate::log::Log;
+use crate::signal::Prepared;
+
+/// Widths that are tried, as shares of a joint's root-mean-square speed: each so many times the one before.
+const LOWEST: f64 = 2e-4;
+const HIGHEST: f64 = 0.03;
+const STEP: f64 = 1.6;
+
+/// How often the step between widths is halved after that.
+const HALVINGS: i32 = 4;
+
+/// By which share a joint's squared error has to be less with a width than with the one that its encoder has.
+const SHARE: f64 = 0.04;
+
+impl Identify {
+    /// Speeds below which dry friction does not act in full, one a joint, rad/s or m/s, for [`Log::with_turn_speeds`]: what explains the
+    /// logs better than what their encoders do not tell, which other joints keep.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let speeds = Identify::default().turn_speeds(&pendulum(), &[measure(0.7)])?;
+    /// assert_eq!(speeds.len(), 1);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    pub fn turn_speeds(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Vec<f64>, IdentifyError> {
+        check_logs(arm, logs)?;
+        let mut prepared = prepare_all(logs, &slowest_bands(logs))?;
+        let (solution, _, mut stack) = self.solve(arm, &mut prepared, None)?;
+        stack.silence(&solution.unexcited);
+        let joints: Vec<usize> = (0..arm.dof()).collect();
+        let mut speeds: Vec<f64> = joints.iter().map(|&j| current(&prepared, j)).collect();
+        for (joint, speed) in self.creeping(arm, &stack, &prepared, &joints)? {
+            speeds[joint] = speed;
+        }
+        Ok(speeds)
+    }
+
+    /// Of these joints those that creep where they turn round, with the speeds of it.
+    pub(crate) fn creeping(
+        &self,
+        arm: &dyn Arm,
+        stack: &Stack,
+        logs: &[Prepared],
+        joints: &[usize],
+    ) -> Result<Vec<(usize, f64)>, IdentifyError> {
+        let joints = joints.iter().copied();
+        let turns = joints.map(|joint| Turns::new(arm, logs, joint));
+        let turns: Vec<Turns> = turns.filter(|turns| turns.speed > 0.0).collect();
+        if turns.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut without = stack.clone();
+        for turns in turns.iter().filter(|turns| !turns.is_dry) {
+            turns.append(&mut without, logs, &|dq| jump(dq, turns.current));
+        }
+        let found = self.tried(&without, &turns, logs, &vec![None; turns.len()])?;
+        let before: Vec<f64> = found.iter().map(|tried| tried.squares).collect();
+        let count = ((HIGHEST / LOWEST).ln() / STEP.ln()).ceil() as i32;
+        let mut best: Vec<(i32, Tried)> = vec![(0, Tried::NONE); turns.len()];
+        for place in 0..=count {
+            let widths = turns
+                .iter()
+                .map(|turns| Some(turns.speed * LOWEST * STEP.powi(place)));
+            let tried = self.tried(&without, &turns, logs, &widths.collect::<Vec<_>>())?;
+            for (best, tried) in best.iter_mut().zip(tried) {
+                if tried.squares < best.1.squares {
+                    *best = (place, tried);
+                }
+            }
+        }
+        let is_inside = |place: i32| place < count;
+        let inside: Vec<bool> = best.iter().map(|(place, _)| is_inside(*place)).collect();
+        let mut best: Vec<Tried> = best.into_iter().map(|(_, tried)| tried).collect();
+        for halving in 1..=HALVINGS {
+            let step = STEP.powf(0.5_f64.powi(halving));
+            for factor in [step, 1.0 / step] {
+                let widths = best.iter().map(|tried| Some(factor * tried.width));
+                let tried = self.tried(&without, &turns, logs, &widths.collect::<Vec<_>>())?;
+                for (best, tried) in best.iter_mut().zip(tried) {
+                    if tried.squares < best.squares {
+                        *best = tried;
+                    }
+                }
+            }
+        }
+        let told = turns.iter().zip(best).zip(before).zip(inside);
+        let told = told.filter(|(((_, tried), before), inside)| {
+            *inside && tried.gain > 0.0 && tried.squares < (1.0 - SHARE) * before
+        });
+        Ok(told
+            .map(|(((turns, tried), _), _)| (turns.joint, tried.width))
+            .collect())
+    }
+
+    /// The model with these widths, of a joint each; without one where there is none.
+    fn tried(
+        &self,
+        without: &Stack,
+        turns: &[Turns],
+        logs: &[Prepared],
+        widths: &[Option<f64>],
+    ) -> Result<Vec<Tried>, IdentifyError> {
+        let mut stack = without.clone();
+        let first = stack.unknowns.len();
+        let asked = turns.iter().zip(widths);
+        let asked = asked.filter_map(|(turns, width)| width.map(|width| (turns, width)));
+        for (turns, width) in asked {
+            turns.append(&mut stack, logs, &|dq| {
+                jump(dq, width) - jump(dq, turns.current)
+            });
+        }
+        let solution = self.solve_stack(&stack)?;
+        let residuals = stack.residuals(&solution.estimate);
+        let all = turns.iter().zip(widths).enumerate();
+        let tried = all.map(|(k, (turns, width))| Tried {
+            width: width.unwrap_or(turns.current),
+            gain: solution.estimate.get(first + k).copied().unwrap_or(0.0),
+            squares: residuals[turns.joint].iter().map(|r| r * r).sum(),
+        });
+        Ok(tried.collect())
+    }
+}
+
+/// A width, how much friction goes over to it, and the squared error of the joint with it.
+#[derive(Debug, Clone, Copy)]
+struct Tried {
+    width: f64,
+    gain: f64,
+    squares: f64,
+}
+
+impl Tried {
+    const NONE: Self = Self {
+        width: 0.0,
+        gain: 0.0,
+        squares: f64::INFINITY,
+    };
+}
+
+/// A joint that may creep.
+struct Turns {
+    joint: usize,
+    /// Root mean square.
+    speed: f64,
+    /// The width that its columns have.
+    current: f64,
+    /// Whether the model has dry friction there.
+    is_dry: bool,
+}
+
+impl Turns {
+    fn new(arm: &dyn Arm, logs: &[Prepared], joint: usize) -> Self {
+        let velocities = || logs.iter().flat_map(|log| &log.motion.wide.dq[joint]);
+        let squares = velocities().map(|dq| dq * dq).sum::<f64>();
+        Self {
+            joint,
+            speed: (squares / velocities().count().max(1) as f64).sqrt(),
+            current: current(logs, joint),
+            is_dry: arm.dry_joints().contains(&joint),
+        }
+    }
+
+    /// A column more of a function of the joint's velocity.
+    fn append(&self, stack: &mut Stack, logs: &[Prepared], of: &dyn Fn(f64) -> f64) {
+        let (mut values, mut filtered) = (Vec::with_capacity(stack.samples()), Vec::new());
+        for log in logs {
+            let column = log.motion.wide.dq[self.joint].iter().map(|dq| of(*dq));
+            log.shared.apply(&column.collect::<Vec<_>>(), &mut filtered);
+            values.extend_from_slice(&filtered);
+        }
+        let rows = &stack.joints[self.joint];
+        for (row, value) in values.iter_mut().enumerate() {
+            if !rows.is_there(row) {
+                *value = 0.0;
+            }
+        }
+        let unknown = Unknown {
+            name: String::new(),
+            nonnegative: false,
+        };
+        let entry = Entry {
+            joint: self.joint,
+            column: 0,
+            values,
+        };
+        stack.append(&[unknown], &[entry]);
+    }
+}
+
+/// The largest of the widths that logs have now.
+fn current(logs: &[Prepared], joint: usize) -> f64 {
+    let speeds = logs.iter().map(|log| log.motion.turn_speed(joint));
+    speeds.fold(0.0, f64::max)
+}
+
+/// The direction of a velocity, over a width.
+fn jump(dq: f64, width: f64) -> f64 {
+    if width > 0.0 {
+        (dq / width).tanh()
+    } else if dq == 0.0 {
+        0.0
+    } else {
+        dq.signum()
+    }
+}
