@@ -209,7 +209,7 @@ pub const ALL: &[Injection] = &[
     Injection {
         kind: "gravity-compensation-spring",
         linear: &[("s", 1.0), ("p", 1.2)],
-        shapes: &[("ratio", 2.3), ("q0", 0.4)],
+        shapes: &[("apart", 0.3), ("q0", 0.4)],
         near: &["joint-spring"],
         ..NONE
     },

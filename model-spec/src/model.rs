@@ -93,6 +93,8 @@ pub struct Chain {
     pub convention: Convention,
     /// Acceleration of gravity in the base frame, m/s^2.
     pub gravity: [f64; 3],
+    /// Where forces of the world act on the last link, in its frame, m.
+    pub tip: [f64; 3],
     /// Links from the base to the tip, one a joint.
     pub links: Vec<Link>,
 }

@@ -47,7 +47,7 @@ const LAWS: [(&str, Law); 24] = [
     }),
     ("gravity_compensation_spring", |at| {
         // `K (L - l0) dL/dq` from its lengths, which make the unknowns.
-        let (ratio, q0) = (at.s[0], at.s[1]);
+        let (ratio, q0) = (at.s[0] + 2.0, at.s[1]);
         let a_over_b = 0.5 * (ratio + (ratio * ratio - 4.0).sqrt());
         let (a, b) = (a_over_b.sqrt(), 1.0 / a_over_b.sqrt());
         let (stiffness, rest) = (at.p[0] / (a * b), at.p[1] / at.p[0] * (a * b).sqrt());
@@ -183,6 +183,9 @@ type Acts = fn(&At) -> Vec<f64>;
 const ACTS: [(&str, Acts); 9] = [
     ("backlash", |at| vec![-at.s[0] * at.load[0].signum()]),
     ("base_tilt", |at| vec![at.s[0], at.s[1]]),
+    ("dry_friction_drift", |at| {
+        at.p[0] * (1.0 - (-TIME / at.s[0]).exp()) * at.dq[0].signum()
+    }),
     ("encoder_offset", |at| vec![-at.s[0]]),
     ("external_force", |at| {
         let touched = at.s[0] <= TIME && TIME < at.s[1];

@@ -70,9 +70,14 @@ impl Chain {
         Kinematics { poses, jacobian }
     }
 
-    /// One a link.
-    pub fn levers(&self, dag: &mut Dag) -> Vec<Lever> {
-        let (_, joints) = self.place(dag);
+    /// One a link, of the origin of its frame; of the last one that of a point in it.
+    pub fn levers(&self, dag: &mut Dag, tip: [f64; 3]) -> Vec<Lever> {
+        let (poses, mut joints) = self.place(dag);
+        if let (Some(pose), Some(last)) = (poses.last(), joints.last_mut()) {
+            let tip = vector::constant(dag, tip);
+            let from_origin = vector::apply(dag, &pose.rotation, tip);
+            last.from_joint = vector::add(dag, last.from_joint, from_origin);
+        }
         (1..=joints.len())
             .map(|links| {
                 let columns = columns(dag, &joints[..links]);

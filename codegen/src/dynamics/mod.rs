@@ -172,7 +172,8 @@ pub(crate) fn levers<'a>(
     if !acts.any(|act| matches!(act, Act::Force { .. })) {
         return Vec::new();
     }
-    massless(dag, model).map_or_else(Vec::new, |chain| chain.levers(dag))
+    let tip = model.chain().map_or([0.0; 3], |chain| chain.tip);
+    massless(dag, model).map_or_else(Vec::new, |chain| chain.levers(dag, tip))
 }
 
 fn massless(dag: &mut Dag, model: &Model) -> Option<Chain> {

@@ -97,11 +97,12 @@ fn check_chain(robot: &Robot, definitions: &Definitions, errors: &mut Errors) ->
     let settings = Settings::new(
         &robot.settings,
         "the robot",
-        &["gravity", "convention"],
+        &["gravity", "convention", "tip"],
         errors,
     );
     let convention = check_convention(robot, &settings, errors);
     let gravity = check_gravity(robot, &settings, errors);
+    let tip = check_tip(&settings, errors);
     let joints = chain::check_joints(robot, convention, errors);
     let inertials = link::check_links(robot, &joints, errors);
     let names: Vec<&Ident> = robot.joints.iter().map(|joint| &joint.name).collect();
@@ -116,6 +117,7 @@ fn check_chain(robot: &Robot, definitions: &Definitions, errors: &mut Errors) ->
         body: Body::Chain(Chain {
             convention: convention?,
             gravity: gravity?,
+            tip: tip?,
             links,
         }),
         effects,
@@ -287,6 +289,16 @@ fn check_gravity(robot: &Robot, settings: &Settings, errors: &mut Errors) -> Opt
         return None;
     };
     value::vector(value, Dimension::ACCELERATION)
+        .map_err(|error| errors.push(error))
+        .ok()
+}
+
+/// The origin of the last link's frame where the spec says nothing.
+fn check_tip(settings: &Settings, errors: &mut Errors) -> Option<[f64; 3]> {
+    let Some(value) = settings.get("tip") else {
+        return Some([0.0; 3]);
+    };
+    value::vector(value, Dimension::LENGTH)
         .map_err(|error| errors.push(error))
         .ok()
 }

@@ -21,6 +21,8 @@ pub(super) struct Tree<'a> {
 pub(super) struct Chain<'a> {
     pub(super) base: &'a str,
     pub(super) joints: Vec<ChainJoint<'a>>,
+    /// Where its last link is in the frame of the last one that moves: fixed joints behind that, folded.
+    pub(super) tip: [f64; 3],
 }
 
 /// A moving joint with the fixed joints before it folded into its frame.
@@ -138,6 +140,7 @@ impl<'a> Tree<'a> {
             Some(base) => self.link(base)?,
             None => self.root()?,
         };
+        let is_open = tip.is_none();
         let tip = match tip {
             Some(tip) => self.link(tip)?,
             None => self.only_tip(base)?,
@@ -157,9 +160,14 @@ impl<'a> Tree<'a> {
             )));
         }
         path.reverse();
+        if is_open {
+            path.extend(self.fixed_behind(tip));
+        }
+        let (joints, behind) = fold(&path)?;
         let chain = Chain {
             base,
-            joints: fold(&path)?,
+            joints,
+            tip: behind,
         };
         if chain.joints.is_empty() {
             return Err(ImportError::Structure(format!(
@@ -184,6 +192,20 @@ impl<'a> Tree<'a> {
                 suggest::list(several.iter().copied())
             ))),
         }
+    }
+
+    /// Fixed joints behind a link while there is one only: they lead to the flange.
+    fn fixed_behind(&self, tip: &str) -> Vec<&'a Joint> {
+        let mut behind: Vec<&Joint> = Vec::new();
+        let mut at = tip;
+        while let [joint] = self.joints_of(at) {
+            if joint.joint_type != JointType::Fixed {
+                break;
+            }
+            behind.push(joint);
+            at = &joint.child.link;
+        }
+        behind
     }
 
     /// Follows moving branches while there is one only.
@@ -235,7 +257,7 @@ impl<'a> Tree<'a> {
 }
 
 /// Fixed joints go into the frame of the moving joint behind them.
-fn fold<'a>(path: &[&'a Joint]) -> Result<Vec<ChainJoint<'a>>, ImportError> {
+fn fold<'a>(path: &[&'a Joint]) -> Result<(Vec<ChainJoint<'a>>, [f64; 3]), ImportError> {
     let mut joints = Vec::new();
     let mut before: Option<Transform> = None;
     for joint in path {
@@ -259,7 +281,8 @@ fn fold<'a>(path: &[&'a Joint]) -> Result<Vec<ChainJoint<'a>>, ImportError> {
         });
         before = None;
     }
-    Ok(joints)
+    let tip = before.map_or([0.0; 3], |behind| behind.translation);
+    Ok((joints, tip))
 }
 
 fn check_kind(joint: &Joint) -> Result<(), ImportError> {

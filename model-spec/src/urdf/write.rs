@@ -128,9 +128,14 @@ pub(super) fn spec(
     let name = upper_camel(robot);
     let _ = writeln!(
         text,
-        "robot {name} {{\n    gravity = {};\n    convention = origin;\n",
+        "robot {name} {{\n    gravity = {};\n    convention = origin;",
         list(&options.gravity.unwrap_or(ASSUMED_GRAVITY))
     );
+    let tip = chain.tip.map(readable);
+    if tip != [0.0; 3] {
+        let _ = writeln!(text, "    tip = {};", list(&tip));
+    }
+    text.push('\n');
     for (k, joint) in chain.joints.iter().enumerate() {
         let _ = writeln!(
             text,

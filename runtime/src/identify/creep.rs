@@ -9,14 +9,22 @@ use super::{Identify, IdentifyError, Stack, check_logs, prepare_all, slowest_ban
 use crate::columns::{Arm, Entry, Unknown};
 use crate::log::Log;
 use crate::signal::Prepared;
+use crate::signal::resample::whole_steps;
 
-/// Widths that are tried, as shares of a joint's root-mean-square speed: each so many times the one before.
+/// Widths that are tried, as shares of a joint's root-mean-square speed: each so many times the one before. None is narrower than what the
+/// encoder does not tell.
 const LOWEST: f64 = 2e-4;
-const HIGHEST: f64 = 0.03;
-const STEP: f64 = 1.6;
+const HIGHEST: f64 = 0.015;
+const STEP: f64 = 1.5;
 
 /// How often the step between widths is halved after that.
 const HALVINGS: i32 = 4;
+
+/// A column of the model is the joint's dry friction from this correlation on.
+const ALIKE: f64 = 0.95;
+
+/// All of the dry friction goes over to a width, or the law is another one: shares that count as all.
+const ALL: std::ops::Range<f64> = 0.6..1.6;
 
 /// By which share a joint's squared error has to be less with a width than with the one that its encoder has.
 const SHARE: f64 = 0.04;
@@ -44,7 +52,7 @@ impl Identify {
         stack.silence(&solution.unexcited);
         let joints: Vec<usize> = (0..arm.dof()).collect();
         let mut speeds: Vec<f64> = joints.iter().map(|&j| current(&prepared, j)).collect();
-        for (joint, speed) in self.creeping(arm, &stack, &prepared, &joints)? {
+        for (joint, speed) in self.creeping(&stack, &prepared, &joints)? {
             speeds[joint] = speed;
         }
         Ok(speeds)
@@ -53,29 +61,29 @@ impl Identify {
     /// Of these joints those that creep where they turn round, with the speeds of it.
     pub(crate) fn creeping(
         &self,
-        arm: &dyn Arm,
         stack: &Stack,
         logs: &[Prepared],
         joints: &[usize],
     ) -> Result<Vec<(usize, f64)>, IdentifyError> {
         let joints = joints.iter().copied();
-        let turns = joints.map(|joint| Turns::new(arm, logs, joint));
-        let turns: Vec<Turns> = turns.filter(|turns| turns.speed > 0.0).collect();
+        let turns = joints.map(|joint| Turns::new(logs, joint));
+        let mut turns: Vec<Turns> = turns.filter(|turns| turns.lowest < turns.highest).collect();
         if turns.is_empty() {
             return Ok(Vec::new());
         }
         let mut without = stack.clone();
-        for turns in turns.iter().filter(|turns| !turns.is_dry) {
-            turns.append(&mut without, logs, &|dq| jump(dq, turns.current));
+        for turns in &mut turns {
+            turns.find_friction(&mut without, logs);
         }
+        let turns = turns;
         let found = self.tried(&without, &turns, logs, &vec![None; turns.len()])?;
         let before: Vec<f64> = found.iter().map(|tried| tried.squares).collect();
-        let count = ((HIGHEST / LOWEST).ln() / STEP.ln()).ceil() as i32;
+        let count = whole_steps(((HIGHEST / LOWEST).ln() / STEP.ln()).ceil()) as i32;
         let mut best: Vec<(i32, Tried)> = vec![(0, Tried::NONE); turns.len()];
-        for place in 0..=count {
+        for place in 0..count {
             let widths = turns
                 .iter()
-                .map(|turns| Some(turns.speed * LOWEST * STEP.powi(place)));
+                .map(|turns| Some((turns.lowest * STEP.powi(place)).min(turns.highest)));
             let tried = self.tried(&without, &turns, logs, &widths.collect::<Vec<_>>())?;
             for (best, tried) in best.iter_mut().zip(tried) {
                 if tried.squares < best.1.squares {
@@ -83,8 +91,10 @@ impl Identify {
                 }
             }
         }
-        let is_inside = |place: i32| place < count;
-        let inside: Vec<bool> = best.iter().map(|(place, _)| is_inside(*place)).collect();
+        let at = |turns: &Turns, place: i32| turns.lowest * STEP.powi(place);
+        let inside = turns.iter().zip(&best);
+        let inside = inside.map(|(turns, (place, _))| at(turns, place + 1) < turns.highest);
+        let inside: Vec<bool> = inside.collect();
         let mut best: Vec<Tried> = best.into_iter().map(|(_, tried)| tried).collect();
         for halving in 1..=HALVINGS {
             let step = STEP.powf(0.5_f64.powi(halving));
@@ -100,7 +110,7 @@ impl Identify {
         }
         let told = turns.iter().zip(best).zip(before).zip(inside);
         let told = told.filter(|(((_, tried), before), inside)| {
-            *inside && tried.gain > 0.0 && tried.squares < (1.0 - SHARE) * before
+            *inside && ALL.contains(&tried.share) && tried.squares < (1.0 - SHARE) * before
         });
         Ok(told
             .map(|(((turns, tried), _), _)| (turns.joint, tried.width))
@@ -120,34 +130,41 @@ impl Identify {
         let asked = turns.iter().zip(widths);
         let asked = asked.filter_map(|(turns, width)| width.map(|width| (turns, width)));
         for (turns, width) in asked {
-            turns.append(&mut stack, logs, &|dq| {
+            let values = turns.column(&stack, logs, &|dq| {
                 jump(dq, width) - jump(dq, turns.current)
             });
+            turns.append(&mut stack, values);
         }
         let solution = self.solve_stack(&stack)?;
         let residuals = stack.residuals(&solution.estimate);
         let all = turns.iter().zip(widths).enumerate();
-        let tried = all.map(|(k, (turns, width))| Tried {
-            width: width.unwrap_or(turns.current),
-            gain: solution.estimate.get(first + k).copied().unwrap_or(0.0),
-            squares: residuals[turns.joint].iter().map(|r| r * r).sum(),
+        let tried = all.map(|(k, (turns, width))| {
+            let gain = solution.estimate.get(first + k).copied().unwrap_or(0.0);
+            let friction = turns
+                .friction
+                .map_or(0.0, |column| solution.estimate[column]);
+            Tried {
+                width: width.unwrap_or(turns.current),
+                share: gain / friction,
+                squares: residuals[turns.joint].iter().map(|r| r * r).sum(),
+            }
         });
         Ok(tried.collect())
     }
 }
 
-/// A width, how much friction goes over to it, and the squared error of the joint with it.
+/// A width, which share of the friction goes over to it, and the squared error of the joint with it.
 #[derive(Debug, Clone, Copy)]
 struct Tried {
     width: f64,
-    gain: f64,
+    share: f64,
     squares: f64,
 }
 
 impl Tried {
     const NONE: Self = Self {
         width: 0.0,
-        gain: 0.0,
+        share: 0.0,
         squares: f64::INFINITY,
     };
 }
@@ -155,28 +172,49 @@ impl Tried {
 /// A joint that may creep.
 struct Turns {
     joint: usize,
-    /// Root mean square.
-    speed: f64,
+    /// Widths that are tried.
+    lowest: f64,
+    highest: f64,
     /// The width that its columns have.
     current: f64,
-    /// Whether the model has dry friction there.
-    is_dry: bool,
+    /// The column of its dry friction.
+    friction: Option<usize>,
 }
 
 impl Turns {
-    fn new(arm: &dyn Arm, logs: &[Prepared], joint: usize) -> Self {
+    fn new(logs: &[Prepared], joint: usize) -> Self {
         let velocities = || logs.iter().flat_map(|log| &log.motion.wide.dq[joint]);
         let squares = velocities().map(|dq| dq * dq).sum::<f64>();
+        let speed = (squares / velocities().count().max(1) as f64).sqrt();
+        let current = current(logs, joint);
         Self {
             joint,
-            speed: (squares / velocities().count().max(1) as f64).sqrt(),
-            current: current(logs, joint),
-            is_dry: arm.dry_joints().contains(&joint),
+            lowest: (LOWEST * speed).max(STEP.sqrt() * current),
+            highest: HIGHEST * speed,
+            current,
+            friction: None,
         }
     }
 
-    /// A column more of a function of the joint's velocity.
-    fn append(&self, stack: &mut Stack, logs: &[Prepared], of: &dyn Fn(f64) -> f64) {
+    /// Looks for the column of the joint's dry friction, which an undeclared one has to have, too.
+    fn find_friction(&mut self, stack: &mut Stack, logs: &[Prepared]) {
+        let values = self.column(stack, logs, &|dq| jump(dq, self.current));
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let alike = |column: &[f64]| {
+            let norms = dot(column, column) * dot(&values, &values);
+            dot(column, &values).abs() / norms.sqrt().max(f64::MIN_POSITIVE)
+        };
+        let columns = stack.joints[self.joint].columns.iter();
+        let best = columns.map(|(column, of_joint)| (*column, alike(of_joint)));
+        let best = best.max_by(|a, b| a.1.total_cmp(&b.1));
+        self.friction = Some(match best {
+            Some((column, alike)) if alike > ALIKE => column,
+            _ => self.append(stack, values),
+        });
+    }
+
+    /// Filtered rows of a function of the joint's velocity.
+    fn column(&self, stack: &Stack, logs: &[Prepared], of: &dyn Fn(f64) -> f64) -> Vec<f64> {
         let (mut values, mut filtered) = (Vec::with_capacity(stack.samples()), Vec::new());
         for log in logs {
             let column = log.motion.wide.dq[self.joint].iter().map(|dq| of(*dq));
@@ -189,6 +227,11 @@ impl Turns {
                 *value = 0.0;
             }
         }
+        values
+    }
+
+    /// A column more; its place.
+    fn append(&self, stack: &mut Stack, values: Vec<f64>) -> usize {
         let unknown = Unknown {
             name: String::new(),
             nonnegative: false,
@@ -198,7 +241,7 @@ impl Turns {
             column: 0,
             values,
         };
-        stack.append(&[unknown], &[entry]);
+        stack.append(&[unknown], &[entry])
     }
 }
 

@@ -14,13 +14,14 @@ use crate::signal::{FirstOrder, LowPass, band_density};
 /// Cutoffs that are tried, Hz: from the first, each so many times the one before.
 const LOWEST_HZ: f64 = 0.7;
 const STEP: f64 = 1.25;
-/// The highest is this share of the log's rate, and no more than what hardly rounds a turn of a joint, Hz.
+/// The highest is this share of the log's rate, and no more than what hardly rounds a turn of a joint, Hz. What is best there has no end.
 const HIGHEST: f64 = 0.1;
-const HIGHEST_HZ: f64 = 40.0;
+const HIGHEST_HZ: f64 = 30.0;
 
-/// By which share the error of a joint has to be less, on the joint where that is most, and on at least half of the joints.
+/// By which share the error of a joint has to be less, on the joint where that is most, and on at least three of four joints.
 const MOST_SHARE: f64 = 0.3;
 const SHARE: f64 = 0.1;
+const JOINTS: f64 = 0.75;
 /// By which share the error of any joint may be larger.
 const WORSE: f64 = 0.02;
 
@@ -114,7 +115,9 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
         tried.min_by(|a, b| told(&a.1).total_cmp(&told(&b.1)))
     };
     let (_, without, _) = best(delays(rate_hz))?;
-    let (cutoff_hz, with, channel) = best(low_passes(rate_hz))?;
+    let low_passes = low_passes(rate_hz);
+    let highest = low_passes.last().map_or(0.0, |(hz, _)| *hz);
+    let (cutoff_hz, with, channel) = best(low_passes).filter(|(hz, ..)| *hz < highest)?;
     let shares: Vec<f64> = with
         .iter()
         .zip(&without)
@@ -123,7 +126,7 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
     let share = shares.iter().copied().fold(0.0, f64::max);
     let nearer = shares.iter().filter(|share| **share >= SHARE).count();
     let is_nearer = share >= MOST_SHARE
-        && 2 * nearer >= shares.len()
+        && nearer as f64 >= JOINTS * shares.len() as f64
         && shares.iter().all(|share| *share > -WORSE);
     let is_empty = |torque: &Vec<f64>| {
         let edges = [

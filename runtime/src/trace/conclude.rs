@@ -151,9 +151,7 @@ fn alternatives(state: &State) -> Vec<Alternative> {
 /// most of the structure is elsewhere, the names are those of something else.
 fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
     let laws = |joint: usize| {
-        let acts = |effect: &&Accepted| {
-            !effect.is_small && effect.trial.candidate.joints().contains(&joint)
-        };
+        let acts = |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
         state.accepted.iter().filter(acts).count()
     };
     let joints = 0..after.len();

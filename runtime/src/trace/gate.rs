@@ -1,6 +1,6 @@
 //! Does a candidate hold on data that it was not fitted on?
 
-use crate::columns::{Candidate, Change};
+use crate::columns::Change;
 
 use super::change::Changed;
 use super::folds::Fold;
@@ -74,7 +74,7 @@ impl Baseline<'_> {
         let count = trial.count();
         let gram = self.gram.extended(stack, &trial.entries, count);
         let held_out = gram.held_out(self.present.sigma);
-        let touched = self.touched(trial.candidate);
+        let touched = self.touched(&trial);
         let score = self.present.score(&trial.entries, projected);
         let noise_power = self.raw.noise_power_with(&trial, projected, &score.rest);
         let compared = self.compared(&held_out, &noise_power, &touched);
@@ -164,11 +164,11 @@ impl Baseline<'_> {
     }
 
     /// Joints on which an effect has to hold: all where it changes the arm, as that of one link is felt by others.
-    fn touched(&self, candidate: &dyn Candidate) -> Vec<usize> {
-        if candidate.change().is_some() {
+    fn touched(&self, trial: &Trial) -> Vec<usize> {
+        if trial.candidate.change().is_some() {
             return (0..self.present.stack.dof()).collect();
         }
-        candidate.joints().to_vec()
+        trial.touched()
     }
 
     /// Errors that were not fitted against those of the model without the candidate; score and its chance are left open.

@@ -3,14 +3,15 @@
 //! Columns of small grids are formed once and kept. Those of a law with many points, as the beginning and end of a contact are, would
 //! fill memory: they are screened in every round on the rows of the fit alone, unfiltered, and only the best is formed.
 
+use std::cmp::Ordering;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{self, AtomicUsize};
 
 use crate::columns::{Candidate, Entry};
 use crate::motion::{Kinematics, Motion};
 use crate::signal::Prepared;
 
-use super::score::Present;
+use super::score::{Present, Projected};
 use super::trial::{Trial, points, project};
 
 /// Grids of more points than this are screened.
@@ -50,7 +51,8 @@ impl<'a> Grid<'a> {
         }
     }
 
-    /// The point that explains most of the residual, and how much; `None` where none says anything new.
+    /// The point that explains most of the residual with parameters of the signs that they may have, and how much; `None` where none says
+    /// anything new.
     pub(super) fn best(
         &self,
         present: &Present,
@@ -59,19 +61,44 @@ impl<'a> Grid<'a> {
     ) -> Option<(f64, Trial<'a>)> {
         match self {
             Self::Formed(trials) => {
-                let drops = trials
-                    .iter()
-                    .filter_map(|trial| trial.project(present).map(|p| (p.drop, trial)));
-                let (drop, trial) = drops.max_by(|a, b| a.0.total_cmp(&b.0))?;
-                Some((drop, trial.clone()))
+                let explained = trials.iter().filter_map(|trial| {
+                    let projected = trial.project(present)?;
+                    Some((Explained::new(trial.candidate, &projected), trial))
+                });
+                let (explained, trial) = explained.max_by(|a, b| a.0.total_cmp(&b.0))?;
+                Some((explained.admissible, trial.clone()))
             }
             Self::Screened(candidate) => {
                 let shapes = screened(*candidate, present, rows)?;
                 let trial = Trial::new(*candidate, shapes, logs);
-                let drop = trial.project(present)?.drop;
-                Some((drop, trial))
+                let projected = trial.project(present)?;
+                Some((Explained::new(*candidate, &projected).admissible, trial))
             }
         }
+    }
+}
+
+/// How much a point explains.
+#[derive(Clone, Copy)]
+struct Explained {
+    /// With parameters of the signs that they may have.
+    admissible: f64,
+    /// With any.
+    drop: f64,
+}
+
+impl Explained {
+    fn new(candidate: &dyn Candidate, projected: &Projected) -> Self {
+        Self {
+            admissible: projected.admissible_drop(candidate),
+            drop: projected.drop,
+        }
+    }
+
+    /// Points that explain nothing with the signs of their parameters come in the order of what they explain without.
+    fn total_cmp(&self, other: &Self) -> Ordering {
+        let order = self.admissible.total_cmp(&other.admissible);
+        order.then_with(|| self.drop.total_cmp(&other.drop))
     }
 }
 
@@ -79,10 +106,10 @@ impl<'a> Grid<'a> {
 fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Option<Vec<f64>> {
     let points = points(candidate);
     let next = AtomicUsize::new(0);
-    let best: Mutex<Option<(f64, usize)>> = Mutex::new(None);
+    let best: Mutex<Option<(Explained, usize)>> = Mutex::new(None);
     let work = || {
         loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
+            let number = next.fetch_add(1, atomic::Ordering::Relaxed);
             let Some(shapes) = points.get(number) else {
                 return;
             };
@@ -92,12 +119,13 @@ fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Op
             };
             let mut best = best.lock().expect("no panic while it is held");
             // Of equal ones the first, whatever thread came to it.
-            let is_better = best.is_none_or(|(drop, at)| {
-                let order = projected.drop.total_cmp(&drop);
+            let explained = Explained::new(candidate, &projected);
+            let is_better = best.is_none_or(|(other, at)| {
+                let order = explained.total_cmp(&other);
                 order.then_with(|| at.cmp(&number)).is_gt()
             });
             if is_better {
-                *best = Some((projected.drop, number));
+                *best = Some((explained, number));
             }
         }
     };

@@ -1,6 +1,6 @@
 //! How much of the residual a candidate's columns explain once every column of the model is projected out of them.
 
-use crate::columns::Entry;
+use crate::columns::{Candidate, Entry};
 use crate::identify::{Stack, correlation_time};
 use crate::signal::resample::whole_steps;
 
@@ -70,6 +70,39 @@ impl Projected {
             add(&mut change, -gain, correction);
         }
         change
+    }
+
+    /// Fall of the weighted sum of squares that a candidate makes with parameters of the signs that they may have: that of the best of its
+    /// parts. Of candidates with many parameters, which have no signs, the fall itself.
+    pub(super) fn admissible_drop(&self, candidate: &dyn Candidate) -> f64 {
+        /// A law has no more.
+        const MOST: usize = 4;
+        let unknowns = candidate.unknowns();
+        let is_free = unknowns.iter().all(|unknown| !unknown.nonnegative);
+        if is_free || self.gain.len() > MOST {
+            return self.drop;
+        }
+        let with_residual: Vec<f64> = self
+            .information
+            .iter()
+            .map(|row| dot(row, &self.gain))
+            .collect();
+        let parts = 1..1_usize << self.gain.len();
+        let drops = parts.filter_map(|part| {
+            let columns: Vec<usize> = (0..self.gain.len())
+                .filter(|c| (part >> c) & 1 == 1)
+                .collect();
+            let information: Vec<Vec<f64>> = columns
+                .iter()
+                .map(|&a| columns.iter().map(|&b| self.information[a][b]).collect())
+                .collect();
+            let right: Vec<f64> = columns.iter().map(|&c| with_residual[c]).collect();
+            let gain = solve_symmetric(&information, &right);
+            let mut signed = columns.iter().zip(&gain);
+            let is_admissible = signed.all(|(&c, gain)| *gain >= 0.0 || !unknowns[c].nonnegative);
+            is_admissible.then(|| dot(&gain, &right))
+        });
+        drops.fold(0.0, f64::max)
     }
 
     fn power(&self, gain: &[f64]) -> f64 {

@@ -234,8 +234,9 @@ impl Search<'_> {
 
     /// Finds the speeds at which joints creep where they turn, and takes what was made of others anew. Whether there was anything to do.
     fn settle_turns(&mut self, state: &State, joints: &[usize]) -> Result<bool, IdentifyError> {
-        let (identify, arm) = (self.identify, self.arm);
-        let found = identify.creeping(arm, &state.stack, &self.prepared, joints)?;
+        let found = self
+            .identify
+            .creeping(&state.stack, &self.prepared, joints)?;
         for &(joint, speed) in &found {
             for log in &mut self.prepared {
                 log.motion.turn_speeds[joint] = speed;
@@ -357,7 +358,8 @@ impl Search<'_> {
         let baseline = self.baseline(state, 1, self.folds_of(trial.candidate));
         trial.project(&baseline.present).is_some_and(|projected| {
             let judged = baseline.judge(trial.clone(), &projected);
-            let mut joints = trial.candidate.joints().iter();
+            let touched = trial.touched();
+            let mut joints = touched.iter();
             joints.any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
         })
     }

@@ -1,8 +1,8 @@
 //! Is anything missing? Structure in the residual, whatever its cause.
 //!
 //! Two tests that need no candidate and no known noise level. The first compares the residual's power where robots move
-//! with its power just above: sensor noise, white or correlated over milliseconds, has as much power in both, a missing
-//! torque follows the motion. The second needs a motion that repeats: what comes back in every period is not noise.
+//! with its power just above, and with that of the part of the band of motion which has least: sensor noise, white or correlated over
+//! milliseconds, has as much power in all of them or one, a missing torque follows the motion. The second needs a motion that repeats: what comes back in every period is not noise.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -13,6 +13,9 @@ use crate::signal::resample::whole_steps;
 /// The band of motion and the band of reference, as multiples of the shared filter's cutoff.
 const MOTION_BAND: (f64, f64) = (0.03, 0.8);
 const REFERENCE_BAND: (f64, f64) = (1.2, 2.5);
+
+/// Ends of parts of the band of motion, about as wide as far up they are.
+const PARTS_OF_MOTION: [f64; 5] = [0.03, 0.08, 0.18, 0.38, 0.8];
 
 /// The residual is structured where its power in the band of motion is more than this many times that of the reference.
 const LEAST_RATIO: f64 = 4.0;
@@ -34,7 +37,8 @@ pub struct Structure {
     pub power: f64,
     /// Its share of the raw residual's power.
     pub share: f64,
-    /// Power in the band of motion over power in the reference band.
+    /// Density of power in the band of motion over that of the reference band, or of the part of the band of motion where it is least, if
+    /// that is more.
     pub ratio: f64,
 }
 
@@ -79,16 +83,17 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         let squares = log.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
         total += weight * (squares / log.values.len().max(1) as f64 + log.beyond);
         let hz = log.shared_hz;
-        let low = band_density(
-            log.values,
-            log.rate_hz,
-            &[MOTION_BAND.0 * hz, MOTION_BAND.1 * hz],
-        )[0];
-        let reference = band_density(
-            log.values,
-            log.rate_hz,
-            &[REFERENCE_BAND.0 * hz, REFERENCE_BAND.1 * hz],
-        )[0];
+        let density = |edges: &[f64]| {
+            let edges: Vec<f64> = edges.iter().map(|edge| edge * hz).collect();
+            band_density(log.values, log.rate_hz, &edges)
+        };
+        let low = density(&[MOTION_BAND.0, MOTION_BAND.1])[0];
+        let beyond = density(&[REFERENCE_BAND.0, REFERENCE_BAND.1])[0];
+        // Noise that is correlated over some ten milliseconds falls from the band of motion on, and is flat in it.
+        let least = density(&PARTS_OF_MOTION)
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let reference = beyond.max(least);
         let ratio = low / reference.max(f64::MIN_POSITIVE);
         let above = if ratio > LEAST_RATIO {
             (low - reference) * (MOTION_BAND.1 - MOTION_BAND.0) * hz

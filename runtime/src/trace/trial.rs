@@ -18,8 +18,8 @@ const DECADES: f64 = 100.0;
 const HARDLY: f64 = 1e-3;
 
 /// A column of the logged torque may be more than this share of its largest value in this share of all rows.
-const THERE: f64 = 0.01;
-const RARELY: f64 = 0.4;
+const THERE: f64 = 0.02;
+const RARELY: f64 = 0.5;
 
 /// A law that comes and goes is away for at least this share of the samples.
 const LEAST_AWAY: f64 = 0.1;
@@ -166,6 +166,15 @@ impl<'a> Trial<'a> {
         (low + edge..=high - edge).contains(&value)
     }
 
+    /// Joints whose torque it has a part in: a force on a link is felt by all joints before it.
+    pub(super) fn touched(&self) -> Vec<usize> {
+        let mut joints = self.candidate.joints().to_vec();
+        joints.extend(self.entries.iter().map(|entry| entry.joint));
+        joints.sort_unstable();
+        joints.dedup();
+        joints
+    }
+
     /// What it explains of the residual beside the model.
     pub(super) fn project(&self, present: &Present) -> Option<Projected> {
         project(self.candidate, &self.entries, present)
@@ -174,7 +183,10 @@ impl<'a> Trial<'a> {
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; in further sweeps nearby.
     pub(super) fn refined(&self, present: &Present, logs: &[Prepared], sweeps: usize) -> Self {
         let mut best = self.clone();
-        let drop = |trial: &Self| trial.project(present).map_or(0.0, |p| p.drop);
+        let drop = |trial: &Self| {
+            let projected = trial.project(present);
+            projected.map_or(0.0, |p| p.admissible_drop(trial.candidate))
+        };
         for sweep in 0..sweeps {
             for number in 0..self.shapes.len() {
                 let grid = &self.candidate.shapes()[number].grid;

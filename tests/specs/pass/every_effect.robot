@@ -27,7 +27,7 @@ robot EveryEffect {
         parameter_drift(settle = 5) on elbow;
         transmission_efficiency on elbow;
         torque_gain on turntable;
-        gravity_compensation_spring(ratio = 3, q0 = 0.4) on shoulder;
+        gravity_compensation_spring(apart = 1, q0 = 0.4) on shoulder;
         rokae(eps = 0.05) on turntable;
     }
 }

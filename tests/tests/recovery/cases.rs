@@ -175,8 +175,8 @@ pub const CASES: &[Case] = &[
                     p[2] * p[3] * (p[4] * p[5]).sqrt(),
                 ),
                 (
-                    "j.gravity_compensation_spring.ratio",
-                    p[4] / p[5] + p[5] / p[4],
+                    "j.gravity_compensation_spring.apart",
+                    (p[4] - p[5]).powi(2) / (p[4] * p[5]),
                 ),
                 ("j.gravity_compensation_spring.q0", p[6]),
             ]
