@@ -11,6 +11,10 @@ const FEWEST_POINTS: usize = 4;
 /// An effect of several shape parameters is tried at about so many points in all.
 const POINTS_OF_AN_EFFECT: f64 = 64.0;
 
+/// Fewest values in a decade of a range of several, of an effect without memory, whose points are soon computed: limits and speeds of a motor
+/// have to be met at once.
+const POINTS_OF_A_DECADE: f64 = 3.0;
+
 /// No definition with more steps than this passes the check.
 const MOST_STEPS: u32 = 10_000;
 
@@ -33,8 +37,25 @@ pub(super) fn grids(definition: &EffectDefinition) -> Vec<Vec<f64>> {
     let each = each.map_or(FEWEST_POINTS, |n| n + 1);
     let grids = stepped.into_iter().zip(shapes);
     grids
-        .map(|(grid, shape)| grid.unwrap_or_else(|| spaced(shape, each)))
+        .map(|(grid, shape)| {
+            let is_light = definition.states.is_empty() && shapes.len() == 2;
+            let most = if is_light { decades(shape) } else { 0 };
+            grid.unwrap_or_else(|| spaced(shape, each.max(most)))
+        })
         .collect()
+}
+
+/// Values that the decades of a range ask for; none where it has no logarithm.
+fn decades(shape: &ShapeParameter) -> usize {
+    if shape.low <= 0.0 {
+        return 0;
+    }
+    let wanted = POINTS_OF_A_DECADE * (shape.high / shape.low).log10() + 1.0;
+    let counts = 0..MOST_STEPS as usize;
+    counts
+        .into_iter()
+        .find(|&n| n as f64 >= wanted)
+        .unwrap_or(0)
 }
 
 fn steps(shape: &ShapeParameter) -> Option<Vec<f64>> {
@@ -73,5 +94,6 @@ mod tests {
         assert_eq!(sizes("stribeck"), [12]);
         assert_eq!(sizes("cable_hysteresis"), [8, 3, 3]);
         assert_eq!(sizes("lugre_presliding"), [5, 5, 3]);
+        assert_eq!(sizes("torque_saturation"), [25, 22]);
     }
 }

@@ -27,6 +27,8 @@ pub(crate) struct Report<'a> {
     noise_floor_std: Vec<f64>,
     /// Per joint: periods or curves.
     noise_floor_from: Vec<&'static str>,
+    /// Speeds below which dry friction does not act in full, per joint, rad/s or m/s.
+    turn_speeds: &'a [f64],
     /// Share of the raw error's power that follows the motion, per joint, on the identification logs.
     structure_before: Vec<f64>,
     structure_after: Vec<f64>,
@@ -181,6 +183,7 @@ impl<'a> Report<'a> {
                 .iter()
                 .map(|floor| floor.from.name())
                 .collect(),
+            turn_speeds: &verdict.turn_speeds,
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),

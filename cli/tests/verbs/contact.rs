@@ -6,6 +6,11 @@ use crate::common::{Folder, close, folding as spec, json, moved};
 
 /// What `trace` says of the arm whose log is that of the arm with `effect`: its only finding.
 fn only(effect: &str, values: &str) -> (String, Value) {
+    only_of(&spec, effect, values)
+}
+
+/// The same of another spec.
+fn only_of(spec: &dyn Fn(&str) -> String, effect: &str, values: &str) -> (String, Value) {
     let folder = Folder::new();
     folder.write("arm.robot", &spec(""));
     let values = format!(
@@ -140,4 +145,18 @@ fn a_contact_that_comes_back_is_named_with_its_part_of_the_period() {
     );
     let told = folder.refuse(&["identify", "amended.robot", "log.csv"]);
     assert!(told.contains("motions that repeat"), "{told}");
+}
+
+/// A force at the flange turns the last joint, too, whose link's frame is elsewhere.
+#[test]
+fn a_contact_of_the_tip_is_named_with_its_force() {
+    let with_tip =
+        |effects: &str| spec(effects).replace("convention", "tip = [0.1, 0.25, 0]; convention");
+    let force = r#", "lo.external_force.fx": 0.5, "lo.external_force.fy": 1.0, "lo.external_force.fz": -0.8"#;
+    let effect = "external_force(start = 6.3, end = 9.1) on lo;";
+    let (told, out) = only_of(&with_tip, effect, force);
+    assert_eq!(out["effects"][0]["kind"], "external-force", "{told}");
+    close(value(&out, "fx"), 0.5, 0.03);
+    close(value(&out, "fy"), 1.0, 0.03);
+    close(value(&out, "fz"), -0.8, 0.03);
 }

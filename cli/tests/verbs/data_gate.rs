@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::{CART, Folder, cart_log, json};
+use crate::common::{CART, Folder, cart_log, cart_with, json, tones};
 use crate::delays::late;
 
 const TRACE: [&str; 9] = [
@@ -123,4 +123,65 @@ fn a_spike_that_does_not_matter_is_a_note() {
     let effects = out["effects"].as_array().expect("a list");
     assert_eq!(effects.len(), 1, "{out}");
     assert_eq!(effects[0]["kind"], "coulomb-friction");
+}
+
+/// A log whose torque went through a filter of the first order at `hz`, and its positions did not.
+fn smoothed(log: &str, rate: f64, hz: f64) -> String {
+    let kept = (-std::f64::consts::TAU * hz / rate).exp();
+    let mut state = None;
+    let rows = log.lines().enumerate().map(|(k, row)| {
+        let (rest, tau) = row.rsplit_once(',').expect("columns");
+        if k == 0 {
+            return format!("{row}\n");
+        }
+        let tau: f64 = tau.parse().expect("a number");
+        let next = state.map_or(tau, |state: f64| kept * state + (1.0 - kept) * tau);
+        state = Some(next);
+        format!("{rest},{next:.9}\n")
+    });
+    rows.collect()
+}
+
+/// Torque behind a low-pass is round where a joint turns. No law of friction is, and none is named.
+#[test]
+fn torques_behind_a_low_pass_are_corrupt_samples_and_no_law_of_friction() {
+    let folder = Folder::new();
+    let declared = CART.replace(
+        "viscous_friction",
+        "coulomb_friction on rail; viscous_friction",
+    );
+    folder.write("cart.robot", &declared);
+    let raw = |phase| cart_log(40, 4.0, phase);
+    folder.write("log.csv", &smoothed(&raw(0.0), 200.0, 4.0));
+    folder.write("other.csv", &smoothed(&raw(0.7), 200.0, 4.0));
+    let told = folder.succeed(&TRACE);
+    assert!(
+        told.starts_with("explained:\n  corrupt-samples: log.csv: torques went through a low-pass"),
+        "{told}"
+    );
+    let out = json(&folder.read("out.json"));
+    assert_eq!(out["outcome"], "explained", "{out}");
+    assert_eq!(out["effects"].as_array().map(Vec::len), Some(1), "{out}");
+    folder.write("log.csv", &raw(0.0));
+    folder.write("other.csv", &raw(0.7));
+    assert!(folder.succeed(&TRACE).starts_with("nothing missing"));
+}
+
+/// Dry friction that goes over from one side to the other within some millimeters a second is no bristles.
+#[test]
+fn a_joint_that_creeps_where_it_turns_lacks_nothing() {
+    let folder = Folder::new();
+    let declared = CART.replace(
+        "viscous_friction",
+        "coulomb_friction on rail; viscous_friction",
+    );
+    folder.write("cart.robot", &declared);
+    let creeping = |phase| cart_with(200, 40, &tones(phase), |_, dq| 4.0 * (dq / 0.003).tanh());
+    folder.write("log.csv", &creeping(0.0));
+    folder.write("other.csv", &creeping(0.7));
+    let told = folder.succeed(&TRACE);
+    assert!(told.starts_with("nothing missing"), "{told}");
+    let out = json(&folder.read("out.json"));
+    let speed = out["turn_speeds"][0].as_f64().expect("a number");
+    assert!((speed - 0.003).abs() < 0.0005, "{speed}");
 }

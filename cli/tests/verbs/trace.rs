@@ -144,3 +144,39 @@ fn a_prediction_is_in_the_units_of_the_log() {
         close(last(predicted), last(measured), 0.1);
     }
 }
+
+#[test]
+fn a_report_has_the_verdict_the_errors_and_figures_on_one_page() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "other.csv"];
+    let told = folder.succeed(&[&trace[..], &["--report", "page"]].concat());
+    assert!(told.contains("the report"), "{told}");
+    let page = folder.read("page/index.html");
+    let first = |what: &str| page.find(what).unwrap_or_else(|| panic!("no {what}"));
+    let order = [
+        "Explained",
+        "coulomb-friction",
+        "Errors before and after",
+        "Change of the spec",
+        "<svg",
+        "What was tried",
+    ];
+    let places: Vec<usize> = order.iter().map(|what| first(what)).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    for quantity in ["velocity", "position", "load", "time", "spectrum"] {
+        assert!(
+            page.to_lowercase().contains(quantity),
+            "no figure over {quantity}"
+        );
+    }
+    // Nothing is fetched from anywhere.
+    let fetches = ["src=\"http", "href=\"http", "@import"];
+    assert!(!fetches.iter().any(|what| page.contains(what)), "{page}");
+    assert!(page.len() < 3_000_000, "{}", page.len());
+    // A report that never comes leaves no folder behind.
+    folder.refuse(&["trace", "cart.robot", "none.csv", "--report", "other"]);
+    assert!(!folder.path("other").exists());
+}

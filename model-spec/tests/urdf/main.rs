@@ -343,3 +343,16 @@ fn a_name_of_a_novel_is_refused() {
         &said[..200]
     );
 }
+
+#[test]
+fn fixed_joints_behind_the_last_link_lead_to_the_tip() {
+    let (text, model) = imported(&two_joints(), &ImportOptions::default());
+    assert!(text.contains("tip = [0, 0, 1];"), "{text}");
+    assert_eq!(model.chain().expect("a chain").tip, [0.0, 0.0, 1.0]);
+    // A chain that ends by name ends there.
+    let options = ImportOptions {
+        tip: Some("fore".to_owned()),
+        ..ImportOptions::default()
+    };
+    assert!(!imported(&two_joints(), &options).0.contains("tip ="));
+}

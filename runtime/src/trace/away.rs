@@ -73,12 +73,11 @@ impl Search<'_> {
     pub(super) fn structure<'a>(&self, state: &'a State) -> &'a [Structure] {
         let found = || {
             let mut found = self.structure_of_all_rows(state);
-            if found.iter().any(Structure::is_material) {
-                if let Some(away) = self.away(state) {
-                    for (joint, structure) in found.iter_mut().enumerate() {
-                        if let Some(most) = away.mean_square(joint) {
-                            structure.limit(most);
-                        }
+            let is_asked = found.iter().any(Structure::is_material);
+            if let Some(away) = is_asked.then(|| self.away(state)).flatten() {
+                for (joint, structure) in found.iter_mut().enumerate() {
+                    if let Some(most) = away.mean_square(joint) {
+                        structure.limit(most);
                     }
                 }
             }

@@ -136,7 +136,8 @@ impl Search<'_> {
 
     /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
     fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
-        let structure = self.structure(state);
+        // What bends and gaps do is at turns, too.
+        let structure = self.structure_of_all_rows(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
         joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)
     }
