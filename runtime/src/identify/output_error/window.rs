@@ -68,7 +68,7 @@ impl Rows {
 }
 
 /// Largest less least value.
-fn range(values: &[f64]) -> f64 {
+pub(super) fn range(values: &[f64]) -> f64 {
     let (low, high) = values
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| {
@@ -151,6 +151,11 @@ impl<'a> Window<'a> {
 
     pub fn source(&self) -> &str {
         &self.recording.log.source
+    }
+
+    /// Whether both begin at the same sample.
+    pub fn begins_as(&self, other: &Window<'_>) -> bool {
+        std::ptr::eq(self.recording, other.recording) && self.samples.start == other.samples.start
     }
 
     pub fn counted(&self) -> usize {
