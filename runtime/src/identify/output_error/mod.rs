@@ -20,6 +20,7 @@ mod starts;
 mod sums;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod window;
 
 use nalgebra::DVector;

@@ -39,6 +39,8 @@ pub(super) struct Window<'a> {
     counted: Vec<usize>,
     /// Values of the controller's taps, `[joint][tap]`; none of a channel that may be missing.
     taps: Vec<Vec<Option<&'a [f64]>>>,
+    /// A joint that is driven otherwise behind some samples, by what torque.
+    driven: Option<(usize, Vec<(usize, f64)>)>,
 }
 
 /// A simulated window.
@@ -148,6 +150,7 @@ impl<'a> Window<'a> {
                 recording,
                 samples,
                 taps: taps.clone(),
+                driven: None,
             }
         });
         Ok(windows.collect())
@@ -155,6 +158,27 @@ impl<'a> Window<'a> {
 
     pub fn source(&self) -> &str {
         &self.recording.log.source
+    }
+
+    /// The same with the torque of a joint behind some of its samples that of the sample so many later.
+    pub fn driven_at(&self, joint: usize, samples: &[usize], later: usize) -> Self {
+        let torque = &self.recording.torque[joint];
+        let driven = samples.iter().map(|&k| {
+            let sample = (self.samples.start + k + later).min(torque.len() - 1);
+            (k, torque[sample])
+        });
+        Self {
+            driven: Some((joint, driven.collect())),
+            ..self.clone()
+        }
+    }
+
+    /// What else than the recording drives a joint behind a sample.
+    fn driven(&self, joint: usize, sample: usize) -> Option<f64> {
+        let (other, torques) = self.driven.as_ref()?;
+        let found = torques.binary_search_by_key(&sample, |(k, _)| *k);
+        (*other == joint).then_some(())?;
+        found.ok().map(|place| torques[place].1)
     }
 
     /// Whether both begin at the same sample.
@@ -272,12 +296,13 @@ impl<'a> Window<'a> {
                 let torque = match law {
                     None => {
                         let torque = &self.recording.torque[joint];
-                        match hold {
+                        let logged = match hold {
                             Hold::Sample => torque[sample],
                             Hold::Mean => {
                                 0.5 * (torque[sample] + torque[(sample + 1).min(torque.len() - 1)])
                             }
-                        }
+                        };
+                        self.driven(joint, k).unwrap_or(logged)
                     }
                     Some(law) => {
                         let (law, taps) = (&law.joints[joint], &self.taps[joint]);
@@ -357,6 +382,16 @@ impl<'a> Window<'a> {
         (0..scale.len()).map(square).collect()
     }
 
+    /// Weighted errors of a run, joint after joint.
+    pub fn errors(&self, run: &Run, scale: &[f64]) -> DVector<f64> {
+        let joints = scale.iter().enumerate();
+        let errors = joints.flat_map(|(joint, scale)| {
+            let pairs = self.positions(run, joint).into_iter();
+            pairs.map(move |(y, s)| (s - y) / scale)
+        });
+        DVector::from_vec(errors.collect())
+    }
+
     /// Equations of a run with slopes.
     pub fn rows(&self, run: &Run, scale: &[f64]) -> Rows {
         let (n, count, all) = (scale.len(), self.counted.len(), self.samples.len());
@@ -365,15 +400,13 @@ impl<'a> Window<'a> {
         let starts = run.starts;
         let unknowns = slopes.ncols().saturating_sub(starts);
         let mut rows = Rows {
-            errors: DVector::zeros(n * count),
+            errors: self.errors(run, scale),
             by_start: DMatrix::zeros(n * count, starts),
             by_parameters: DMatrix::zeros(n * count, unknowns),
         };
         for joint in 0..n {
-            let pairs = self.positions(run, joint);
-            for (place, (&k, (y, s))) in self.counted.iter().zip(pairs).enumerate() {
+            for (place, &k) in self.counted.iter().enumerate() {
                 let row = joint * count + place;
-                rows.errors[row] = (s - y) / scale[joint];
                 let slope = slopes.row(joint * all + k) / scale[joint];
                 rows.by_parameters.set_row(row, &slope.columns(0, unknowns));
                 rows.by_start.set_row(row, &slope.columns(unknowns, starts));
