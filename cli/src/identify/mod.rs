@@ -197,7 +197,7 @@ impl IdentifyArguments {
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
-        doubts.extend(units::degrees(form, &identify, &logs, &estimate));
+        doubts.extend(units::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         for doubt in doubts {
