@@ -120,6 +120,26 @@ pub(super) fn explained(estimate: &Estimate, validation: Option<&Errors>) -> Vec
     fitted.into_iter().chain(other).collect()
 }
 
+/// A deviation above this share of its value leaves a shape anywhere.
+const ANYWHERE: f64 = 0.5;
+
+/// Shapes that the logs do not tell: what has such a shape may not be there at all.
+pub(super) fn untold_shapes(estimate: &Estimate) -> Vec<String> {
+    let pairs = estimate.shapes.iter().zip(&estimate.shape_std);
+    let told = pairs.filter_map(|((name, value), std)| untold_shape(name, *value, (*std)?));
+    told.collect()
+}
+
+fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
+    let effect = name.rsplit_once('.').map_or(name, |(effect, _)| effect);
+    (std > ANYWHERE * value.abs()).then(|| {
+        format!(
+            "the logs do not tell `{name}`, {value:.2e} +- {std:.2e}, nor with it the values of `{effect}`: see whether errors on a log that is \
+             not fitted are less with that effect, and leave it out where they are not"
+        )
+    })
+}
+
 /// Share of the last step of a grid within which a search that goes to its end comes.
 const AT_END: f64 = 0.02;
 
@@ -278,6 +298,13 @@ mod tests {
         assert!(ill(&[6.0, 12.0, 8.0, 172.0, 96.0]).is_empty());
         assert_eq!(ill(&[6.0, 12.0, 8.0, 12.0, 199.0]), [4]);
         assert_eq!(ill(&[99.9, 99.9, 99.9, 3.0, 4.0]), [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_shape_with_a_deviation_of_its_size_is_told() {
+        let told = untold_shape("turn.stribeck.vs", 0.0072, 0.0072).expect("not told");
+        assert!(told.contains("values of `turn.stribeck`"), "{told}");
+        assert_eq!(untold_shape("turn.stribeck.vs", 0.4, 0.05), None);
     }
 
     #[test]

@@ -322,6 +322,7 @@ impl IdentifyArguments {
         all.extend(negative.into_iter().chain(explained));
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
+        all.extend(doubts::untold_shapes(estimate));
         let resting = doubts::resting(form.model(), logs);
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
         match apart {
