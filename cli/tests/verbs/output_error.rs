@@ -148,6 +148,20 @@ fn falling() -> (Folder, [(&'static str, f64); 10]) {
     (folder, truth)
 }
 
+#[test]
+fn what_falls_freely_needs_a_start() {
+    let (folder, _) = falling();
+    let identify = ["identify", "arm.robot", "log.csv", "--method"];
+    let run = folder.run(&[&identify[..], &["output-error"]].concat());
+    assert_ne!(run.code, Some(0));
+    let said = &run.stderr;
+    assert!(
+        said.contains("of an arm that is let go give `--start`"),
+        "{said}"
+    );
+    assert!(!said.contains("does the arm move"), "{said}");
+}
+
 /// Without a torque nothing tells how heavy they are.
 #[test]
 fn what_falls_freely_is_known_up_to_a_common_factor() {
