@@ -117,7 +117,49 @@ pub(super) fn explained(estimate: &Estimate, validation: Option<&Errors>) -> Vec
         let of = "on the log to validate on";
         little(ill_judged(percents), percents, &estimate.joints, of)
     });
+    let other = other.or_else(|| {
+        let percents = &validation?.relative_percent;
+        worse_judged(left(estimate), percents, &estimate.joints)
+    });
     fitted.into_iter().chain(other).collect()
+}
+
+/// Joints that are explained where they are fitted, and of which next to nothing is on the other log: by these their own logs are no less
+/// in doubt, but what they lack is another thing than a sign or a unit.
+fn worse_judged(fitted: &[f64], judged: &[f64], joints: &[String]) -> Option<String> {
+    let pairs = fitted.iter().zip(judged).zip(joints);
+    let worse: Vec<String> = pairs
+        .filter(|((fitted, judged), _)| **judged > LITTLE && **fitted < MUCH)
+        .map(|((fitted, judged), joint)| format!("`{joint}` {judged:.0} % ({fitted:.0} %)"))
+        .collect();
+    (!worse.is_empty()).then(|| {
+        format!(
+            "on the log to validate on next to nothing is explained of what is on the logs that are fitted; left of the torque there (here) is: \
+             {}; the other log shows what the model lacks and these hardly do, as a coupling or a load (`trace` with both finds it), or it is of \
+             another arm or order of columns",
+            worse.join(", ")
+        )
+    })
+}
+
+/// A deviation above this share of its value leaves a shape anywhere.
+const ANYWHERE: f64 = 0.5;
+
+/// Shapes that the logs do not tell: what has such a shape may not be there at all.
+pub(super) fn untold_shapes(estimate: &Estimate) -> Vec<String> {
+    let pairs = estimate.shapes.iter().zip(&estimate.shape_std);
+    let told = pairs.filter_map(|((name, value), std)| untold_shape(name, *value, (*std)?));
+    told.collect()
+}
+
+fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
+    let effect = name.rsplit_once('.').map_or(name, |(effect, _)| effect);
+    (std > ANYWHERE * value.abs()).then(|| {
+        format!(
+            "the logs do not tell `{name}`, {value:.2e} +- {std:.2e}, nor with it the values of `{effect}`: see whether errors on a log that is \
+             not fitted are less with that effect, and leave it out where they are not"
+        )
+    })
 }
 
 /// Share of the last step of a grid within which a search that goes to its end comes.
@@ -278,6 +320,27 @@ mod tests {
         assert!(ill(&[6.0, 12.0, 8.0, 172.0, 96.0]).is_empty());
         assert_eq!(ill(&[6.0, 12.0, 8.0, 12.0, 199.0]), [4]);
         assert_eq!(ill(&[99.9, 99.9, 99.9, 3.0, 4.0]), [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_log_that_shows_what_the_model_lacks_is_told_as_one() {
+        let joints = ["one", "two"].map(str::to_owned);
+        let said = |fitted: [f64; 2], judged: [f64; 2]| worse_judged(&fitted, &judged, &joints);
+        let told = said([3.0, 6.0], [8.0, 172.0]).expect("a joint");
+        assert!(
+            told.contains("`two` 172 % (6 %)") && !told.contains("`one`"),
+            "{told}"
+        );
+        assert_eq!(said([3.0, 6.0], [8.0, 60.0]), None);
+        // One that is not explained anywhere is told as that.
+        assert_eq!(said([3.0, 90.0], [8.0, 95.0]), None);
+    }
+
+    #[test]
+    fn a_shape_with_a_deviation_of_its_size_is_told() {
+        let told = untold_shape("turn.stribeck.vs", 0.0072, 0.0072).expect("not told");
+        assert!(told.contains("values of `turn.stribeck`"), "{told}");
+        assert_eq!(untold_shape("turn.stribeck.vs", 0.4, 0.05), None);
     }
 
     #[test]

@@ -197,7 +197,7 @@ impl IdentifyArguments {
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
-        doubts.extend(units::degrees(form, &identify, &logs, &estimate));
+        doubts.extend(units::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         for doubt in doubts {
@@ -322,6 +322,7 @@ impl IdentifyArguments {
         all.extend(negative.into_iter().chain(explained));
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
+        all.extend(doubts::untold_shapes(estimate));
         let resting = doubts::resting(form.model(), logs);
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
         match apart {

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use robot_model::identify::output_error::{
     Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
 };
-use robot_model::identify::{Errors, Estimate, Identify};
+use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::{Fault, Log};
 use robot_model::simulate::Adjustable;
 use robot_model_codegen::Compiled;
@@ -209,6 +209,10 @@ impl IdentifyArguments {
             }
             (None, linear) => both(parameters::resolve(compiled, None).map_err(|lack| {
                 let why = match linear {
+                    // The arm may well move, as one that is let go does.
+                    Err(IdentifyError::NothingExcited { .. }) => "torques that never change, or joints that do not move, tell it \
+                         nothing; of an arm that is let go give `--start`"
+                        .to_owned(),
                     Err(error) => error.to_string(),
                     Ok(estimate) => {
                         let names: Vec<&str> =

@@ -124,10 +124,28 @@ pub(crate) fn text(factor: &Factor) -> String {
     text
 }
 
+/// Whether a file looks like a log: by its first bytes, or by the names in its first line.
+fn log_of(path: &Path) -> bool {
+    const MAGIC: [&[u8]; 2] = [b"PAR1", &[0x1f, 0x8b]];
+    let Ok(bytes) = std::fs::read(path) else {
+        return false;
+    };
+    let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or(&[]);
+    let is_line = |line: &[u8]| line.contains(&b',') && !line.starts_with(b"{");
+    MAGIC.iter().any(|magic| bytes.starts_with(magic)) || is_line(first)
+}
+
 /// Reads a factor of an arm.
 pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
-    let value: Value = json::read(path)?;
+    let value: Value = json::read(path).map_err(|error| {
+        // What is no JSON at all is most likely what the factor was to be made of.
+        if log_of(path) {
+            refuse("it is a log, and no factor of logs; `identify --factor` makes one of it")
+        } else {
+            error
+        }
+    })?;
     if let Some(form) = value["factor"]
         .as_u64()
         .filter(|form| *form != u64::from(FORM))

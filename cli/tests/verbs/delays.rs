@@ -153,3 +153,17 @@ fn torque_that_is_not_late_is_no_fault() {
         }
     }
 }
+
+/// Of the error of a joint most may be of something else; one bus makes all torques late by the same.
+#[test]
+fn a_delay_that_another_joint_is_sure_of_is_told_of_all() {
+    let folder = crate::output_error::two(12.0, 1.0, &[]);
+    let log = folder.read("log.csv");
+    folder.write("late.csv", &late(&log, 5));
+    folder.succeed(&["identify", "two.robot", "late.csv", "--json", "out.json"]);
+    let faults = json(&folder.read("out.json"))["data_faults"].clone();
+    let faults = faults.as_array().expect("a list");
+    let late = faults.iter().filter(|fault| fault["kind"] == "late-torque");
+    let channels: Vec<&str> = late.filter_map(|fault| fault["channel"].as_str()).collect();
+    assert_eq!(channels, ["tau1", "tau2"], "{faults:?}");
+}

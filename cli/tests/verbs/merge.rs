@@ -202,6 +202,10 @@ fn what_is_no_factor_of_the_arm_is_refused() {
             "it is no factor of `identify --factor`",
         ),
         (
+            &["merge", "cart.robot", "one.csv"],
+            "one.csv: it is a log, and no factor of logs",
+        ),
+        (
             &["identify", "dahl.robot", "one.csv", "--factor", "x.json"],
             "`dahl` remembers",
         ),

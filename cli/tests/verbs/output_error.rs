@@ -148,6 +148,20 @@ fn falling() -> (Folder, [(&'static str, f64); 10]) {
     (folder, truth)
 }
 
+#[test]
+fn what_falls_freely_needs_a_start() {
+    let (folder, _) = falling();
+    let identify = ["identify", "arm.robot", "log.csv", "--method"];
+    let run = folder.run(&[&identify[..], &["output-error"]].concat());
+    assert_ne!(run.code, Some(0));
+    let said = &run.stderr;
+    assert!(
+        said.contains("of an arm that is let go give `--start`"),
+        "{said}"
+    );
+    assert!(!said.contains("does the arm move"), "{said}");
+}
+
 /// Without a torque nothing tells how heavy they are.
 #[test]
 fn what_falls_freely_is_known_up_to_a_common_factor() {
@@ -440,4 +454,71 @@ fn what_a_simulation_cannot_take_is_told() {
         let said = folder.refuse(&[&basics[..], options].concat());
         assert!(said.contains(word), "{options:?}: {said}");
     }
+}
+
+const TWO: &str = "robot TwoLink {
+    gravity = [0, -9.81, 0];
+    convention = standard_dh;
+    joint shoulder: revolute { a = 0.5 m; alpha = 0; d = 0; }
+    joint elbow: revolute { a = 0.4 m; alpha = 0; d = 0; offset = 90 deg; }
+    link shoulder { mass = 4; com = [-0.28, 0, 0]; inertia = [0, 0, 0, 0.1, 0, 0.1]; }
+    link elbow { mass = 2.5; com = [-0.22, 0, 0]; inertia = [0, 0, 0, 0.05, 0, 0.05]; }
+    effects { viscous_friction on all; coulomb_friction on all; }
+}";
+
+const FRICTION: &str = r#"{"shoulder.viscous_friction.fv": 1.5, "shoulder.coulomb_friction.fc": 2.0, "elbow.viscous_friction.fv": 0.6, "elbow.coulomb_friction.fc": 0.8}"#;
+
+/// Logs of two joints with dry friction.
+pub(crate) fn two(seconds: f64, phase: f64, more: &[&str]) -> Folder {
+    let folder = Folder::new();
+    folder.write("two.robot", TWO);
+    folder.write("friction.json", FRICTION);
+    let shoulder = |t: f64| 0.6 * (2.3 * t + phase).sin() + 0.2 * (4.1 * t).sin();
+    let elbow = |t: f64| 0.7 * (3.1 * t + phase).sin() + 0.2 * (5.3 * t).cos();
+    folder.write("wanted.csv", &wanted(seconds, &[&shoulder, &elbow]));
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let values = ["--parameters", "friction.json", "--torque-noise", "0.02"];
+    folder.succeed(&[&["simulate", "two.robot"][..], &motion, &values, more].concat());
+    folder
+}
+
+/// Along edges of the cost, which turns of dry joints make, a search could creep for hundreds of steps.
+#[test]
+fn a_search_ends_where_steps_are_within_noise() {
+    let folder = two(3.0, 0.3, &["--encoder-bits", "16"]);
+    let identify = ["identify", "two.robot", "log.csv", "--json", "fit.json"];
+    folder.succeed(&[&identify[..], &["--method", "output-error"]].concat());
+    let report = json(&folder.read("fit.json"));
+    assert_eq!(report["is_converged"], true);
+    let iterates = report["iterates"].as_array().expect("a list");
+    let last = iterates.last().expect("one");
+    let simulations = last["simulations"].as_u64().expect("a count");
+    assert!(simulations < 200, "{simulations}");
+    for (name, truth) in [
+        ("shoulder.viscous_friction.fv", 1.5),
+        ("elbow.coulomb_friction.fc", 0.8),
+    ] {
+        let [found, std] = value(&report, name).expect("a value");
+        assert!((found - truth).abs() < 4.0 * std, "{name}: {found} {std}");
+        assert!(std < 0.05 * truth, "{name}: {std}");
+    }
+}
+
+#[test]
+fn a_log_without_a_motion_is_refused_at_once() {
+    let folder = mistaken();
+    let mut log = String::from("time,q1,tau1\n");
+    for k in 0..4000 {
+        let t = 0.005 * f64::from(k);
+        writeln!(log, "{t},0.3,2").expect("a string takes all");
+    }
+    folder.write("still.csv", &log);
+    let identify = ["identify", "arm.robot", "still.csv", "--method"];
+    let run = folder.run(&[&identify[..], &["output-error", "--start", "start.json"]].concat());
+    assert_ne!(run.code, Some(0));
+    assert!(
+        run.stderr.contains("no joint moves in these logs"),
+        "{}",
+        run.stderr
+    );
 }

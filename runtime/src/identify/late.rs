@@ -25,6 +25,9 @@ const HELD: f64 = 1.25;
 /// to a twelfth, a coupling of a short log by up to a fifth.
 const SHARE: f64 = 0.25;
 
+/// A joint whose delay is that of one that is sure, within so many deviations of both, is told without that.
+const ALIKE: f64 = 3.0;
+
 /// How often the torque is shifted until a step is below a deviation, and most of a shift at once, s: a slope says little of what is further
 /// away. What does not settle is no delay.
 const ROUNDS: usize = 8;
@@ -184,7 +187,22 @@ impl Identify {
             std: found.std[joint],
             gain: 1.0 - found.residuals[joint] / norm(&before[joint]),
         });
-        Some(told.filter(|told| told.gain > SHARE).collect())
+        let told: Vec<TorqueDelay> = told.collect();
+        let sure: Vec<TorqueDelay> = told
+            .iter()
+            .filter(|told| told.gain > SHARE)
+            .copied()
+            .collect();
+        // One bus or clock makes all torques late by the same, whatever else a joint's error has.
+        let is_alike = |told: &TorqueDelay| {
+            let mut sure = sure.iter();
+            sure.any(|sure| (told.seconds - sure.seconds).abs() < ALIKE * told.std.hypot(sure.std))
+        };
+        Some(
+            told.into_iter()
+                .filter(|told| told.gain > SHARE || is_alike(told))
+                .collect(),
+        )
     }
 
     /// What is left of the delays of a stack whose last unknowns they are.

@@ -38,7 +38,7 @@ impl fmt::Display for Estimate {
             let counts = a_joint(&counts);
             writeln!(
                 f,
-                "left out, where dry friction holds a joint that stands nearly all the time: {counts}"
+                "left out, where dry friction holds a joint that stands for long: {counts}"
             )?;
         }
         if self.clipped.iter().any(|count| *count > 0) {

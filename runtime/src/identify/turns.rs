@@ -6,6 +6,8 @@
 //! as far as the shared filter spreads them, is in its deviations; or they are left out. Source of that practice: Swevers, Verdonck,
 //! De Schutter 2007, Dynamic model identification for industrial robots, who leave out samples of low velocity.
 
+use std::ops::Range;
+
 use super::least_squares::{Factors, Solution};
 use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
@@ -23,6 +25,11 @@ const SHARES: [f64; 2] = [0.005, 0.1];
 /// Of a log: a joint that may stand for more of it is held by its friction.
 const HELD: f64 = 0.85;
 
+/// A rest is longer than this, s, and so many times as long as the usual stop of the joint: it has no part in a motion, as the waiting before
+/// and behind one, or a joint that waits for the others.
+const REST: f64 = 1.0;
+const MUCH_LONGER: f64 = 5.0;
+
 /// The largest velocity is no more than so many times what this share is below.
 const SLIPS: f64 = 3.0;
 const FAST: f64 = 0.99;
@@ -30,8 +37,8 @@ const FAST: f64 = 0.99;
 /// What the shared filter spreads a turn over, on either side, in periods of its cutoff.
 const SPREAD: f64 = 0.75;
 
-/// Notes which rows of a stack of the logs the turns of dry joints reach. Those of a joint that stands nearly all the time are left out:
-/// dry friction holds it with a torque that nobody knows, and steps of its encoder are no motion.
+/// Notes which rows of a stack of the logs the turns of dry joints reach. Those of a joint that stands nearly all the time are left out,
+/// and those of long rests: dry friction holds it with a torque that nobody knows, and steps of its encoder are no motion.
 pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     stack.turns = vec![Vec::new(); stack.dof()];
     stack.held = stack.turns.clone();
@@ -39,13 +46,19 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
             let motion = Motion::new(log, joint);
-            let rows = rows_at(start, log, &motion.near_turns(log.shared.border() as f64));
-            let place = if motion.standing() > HELD {
-                &mut stack.held
-            } else {
-                &mut stack.turns
-            };
-            place[joint].extend(rows);
+            let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
+            let mut near = motion.near_turns(reach);
+            if motion.standing() > HELD {
+                stack.held[joint].extend(rows_at(start, log, &near));
+                continue;
+            }
+            let mut rests = vec![false; near.len()];
+            for rest in motion.rests(&near, reach, log.rate_hz) {
+                near[rest.clone()].fill(false);
+                rests[rest].fill(true);
+            }
+            stack.held[joint].extend(rows_at(start, log, &rests));
+            stack.turns[joint].extend(rows_at(start, log, &near));
         }
     }
     clear_rows(&mut stack.joints, &stack.held);
@@ -123,14 +136,47 @@ impl<'a> Motion<'a> {
 
     /// The share of its samples at which it may stand.
     fn standing(&self) -> f64 {
-        let slow = self.wide.iter().filter(|dq| dq.abs() < self.slow).count();
-        slow as f64 / self.wide.len().max(1) as f64
+        self.standing_in(0..self.wide.len())
     }
 
-    /// Which samples its turns reach, with the border of the shared filter.
-    fn near_turns(&self, border: f64) -> Vec<bool> {
+    fn standing_in(&self, samples: Range<usize>) -> f64 {
+        let wide = &self.wide[samples];
+        let slow = wide.iter().filter(|dq| dq.abs() < self.slow).count();
+        slow as f64 / wide.len().max(1) as f64
+    }
+
+    /// Long rests among the samples that its turns reach, with what they reach.
+    fn rests(&self, near: &[bool], reach: usize, rate_hz: f64) -> Vec<Range<usize>> {
+        let mut stops: Vec<Range<usize>> = Vec::new();
+        for (k, _) in near.iter().enumerate().filter(|(_, is_near)| **is_near) {
+            match stops.last_mut() {
+                Some(stop) if stop.end == k => stop.end += 1,
+                _ => stops.push(k..k + 1),
+            }
+        }
+        // Without what is reached, which ends where the log does.
+        let core = |stop: &Range<usize>| {
+            let reached = |is_end: bool| if is_end { 0 } else { reach };
+            let start = stop.start + reached(stop.start == 0);
+            let end = stop.end.saturating_sub(reached(stop.end == near.len()));
+            start..end.max(start)
+        };
+        let mut lengths: Vec<usize> = stops.iter().map(|stop| core(stop).len()).collect();
+        lengths.sort_unstable();
+        let Some(usual) = lengths.get(lengths.len().saturating_sub(1) / 2) else {
+            return Vec::new();
+        };
+        let least = (REST * rate_hz).max(MUCH_LONGER * *usual as f64);
+        stops.retain(|stop| {
+            let core = core(stop);
+            core.len() as f64 > least && self.standing_in(core) > HELD
+        });
+        stops
+    }
+
+    /// Which samples its turns reach.
+    fn near_turns(&self, reach: usize) -> Vec<bool> {
         let Self { wide, slow } = *self;
-        let reach = whole_steps((SPREAD * border).ceil());
         let mut is_near = vec![false; wide.len()];
         let mut told = 0;
         for k in 0..wide.len() {
@@ -164,4 +210,53 @@ fn standing(wide: &[f64], smooth: &[f64]) -> f64 {
     let most = share(1.0).min(SLIPS * share(FAST));
     let [least, largest] = SHARES.map(|share| share * most);
     (NOISE * noise).clamp(least, largest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATE: f64 = 100.0;
+    const REACH: usize = 5;
+
+    /// Long rests of a joint that moves so, s.
+    fn rests(velocity: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
+        let dq: Vec<f64> = (0..2000_u32)
+            .map(|k| velocity(f64::from(k) / RATE))
+            .collect();
+        let motion = Motion {
+            slow: standing(&dq, &dq),
+            wide: &dq,
+        };
+        let rests = motion.rests(&motion.near_turns(REACH), REACH, RATE);
+        let seconds = |k: usize| k as f64 / RATE;
+        rests
+            .iter()
+            .map(|rest| (seconds(rest.start), seconds(rest.end)))
+            .collect()
+    }
+
+    #[test]
+    fn long_rests_are_no_turns() {
+        let swing = |t: f64| (2.0 * t).sin();
+        assert!(rests(swing).is_empty());
+        let framed = rests(|t| {
+            if (4.0..16.0).contains(&t) {
+                swing(t)
+            } else {
+                0.0
+            }
+        });
+        let [(0.0, first), (last, 20.0)] = framed[..] else {
+            panic!("{framed:?}");
+        };
+        assert!((first - 4.0).abs() < 0.1 && (last - 16.0).abs() < 0.3);
+        // A motion that stops for long each time it turns has no other rests.
+        let dwelling = |t: f64| {
+            let phase = t.rem_euclid(4.0);
+            let way = if t.rem_euclid(8.0) < 4.0 { 1.0 } else { -1.0 };
+            if phase < 2.0 { way } else { 0.0 }
+        };
+        assert!(rests(dwelling).is_empty());
+    }
 }

@@ -42,6 +42,16 @@ pub enum SimulateError {
         /// The joint, from 1.
         joint: usize,
     },
+    /// Neighboring motions part beyond all bounds.
+    #[error(
+        "at {time:.6} s the least change of a parameter or of the start moves joint {joint} beyond all bounds; look at the parameters, or simulate less at once"
+    )]
+    Sensitive {
+        /// Time, s.
+        time: f64,
+        /// The joint, from 1.
+        joint: usize,
+    },
     /// An internal state has grown beyond all bounds.
     #[error(
         "at {time:.6} s internal state {state} of the effects is beyond all bounds; look at the parameters of its effect"

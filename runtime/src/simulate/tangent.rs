@@ -202,7 +202,7 @@ impl Tangent {
         self.state = matrix
             .lu()
             .solve(&right)
-            .ok_or(SimulateError::NoInertia { time: start })?;
+            .ok_or(SimulateError::NoAcceleration { time: start })?;
         Ok(())
     }
 

@@ -7,6 +7,7 @@ use super::identifiable::{KNOWN, frail};
 use super::parts::Part;
 use super::ratios::{self, Ratio};
 use super::search::Ending;
+use super::turns::Moves;
 use super::window::{Rows, Run, Window};
 use super::{Direction, Hold, Identifiability, Iterate, Problem, sums};
 use crate::identify::Combination;
@@ -100,7 +101,17 @@ pub(super) fn result<P: Adjustable + Clone>(
     let mut std = vec![None; names.len()];
     let mut ratio_std = vec![None; pairs.len()];
     let inverse = identifiability.inverse(&r);
-    let found = deviations(problem, &rows, &reduced, &free, &inverse);
+    let moves = Moves::new(problem, (place, runs), (&rows, &reduced), (&free, &inverse));
+    // Of functions of the parameters with given slopes.
+    let deviations = |slopes: &DMatrix<f64>| -> Vec<f64> {
+        let noise = deviations(problem, &rows, &reduced, &free, &(&inverse * slopes));
+        let turns = moves.squares(slopes);
+        let pairs = noise.into_iter().zip(turns);
+        pairs
+            .map(|(noise, turns)| noise.hypot(turns.sqrt()))
+            .collect()
+    };
+    let found = deviations(&DMatrix::identity(free.len(), free.len()));
     let of_free = found.into_iter().enumerate();
     let of_free: Vec<Option<f64>> = of_free
         .map(|(place, std)| identifiability.is_identified(place).then_some(std))
@@ -119,15 +130,13 @@ pub(super) fn result<P: Adjustable + Clone>(
         for (&k, deviation) in free.iter().zip(of_free) {
             std[k] = deviation;
         }
-        let of_sums = &inverse * sums::slopes(&told, values.len());
-        let found = deviations(problem, &rows, &reduced, &free, &of_sums);
+        let found = deviations(&sums::slopes(&told, values.len()));
         combinations = told
             .iter()
             .zip(found)
             .map(|(sum, std)| Combination::of(sum, &values, &free_names, std))
             .collect();
-        let of_ratios = inverse * ratios::slopes(&pairs, &values);
-        let found = deviations(problem, &rows, &reduced, &free, &of_ratios);
+        let found = deviations(&ratios::slopes(&pairs, &values));
         ratio_std = found.into_iter().map(Some).collect();
     }
     let ratios = pairs.iter().zip(ratio_std).map(|(pair, std)| Ratio {

@@ -20,6 +20,7 @@ mod starts;
 mod sums;
 #[cfg(test)]
 mod tests;
+mod turns;
 mod window;
 
 use nalgebra::DVector;
@@ -84,6 +85,11 @@ pub enum OutputErrorError {
         /// What happened.
         error: SimulateError,
     },
+    /// Positions are the same all along.
+    #[error(
+        "no joint moves in these logs, so that simulated positions say nothing of the arm: move it"
+    )]
+    Still,
     /// A controller remembers across windows.
     #[error("a controller is simulated along whole logs; leave the window out")]
     WindowedLaw,
@@ -170,6 +176,19 @@ impl<P: Adjustable + Clone> Problem<'_, P> {
         }
     }
 
+    /// Windows that begin where one of another problem does start as that was found to.
+    fn start_as(&self, place: &mut Place, other: &Self, known: &Place) {
+        for (start, window) in place.starts.iter_mut().zip(&self.windows) {
+            let same = other
+                .windows
+                .iter()
+                .position(|other| other.begins_as(window));
+            if let Some(same) = same {
+                start.clone_from(&known.starts[same]);
+            }
+        }
+    }
+
     fn rows(&self, runs: &[Run]) -> Vec<Rows> {
         let runs = self.windows.iter().zip(runs);
         runs.map(|(window, run)| window.rows(run, &self.scale))
@@ -196,6 +215,12 @@ impl<P: Adjustable + Clone> Problem<'_, P> {
         sums.into_iter().map(root).collect()
     }
 
+    /// Samples of all joints that count.
+    fn samples(&self) -> usize {
+        let counted = self.windows.iter().map(Window::counted);
+        self.scale.len() * counted.sum::<usize>()
+    }
+
     /// What joints are weighed by: their errors, but none by less than a share of the largest, so that one that is exact does not drown the
     /// others.
     fn scales(&self, runs: &[Run]) -> Vec<f64> {
@@ -220,6 +245,9 @@ impl OutputError {
         progress: &mut dyn FnMut(&Iterate),
     ) -> Result<OutputEstimate, OutputErrorError> {
         self.check(plant, names, start)?;
+        if !recordings.iter().any(Recording::moves) {
+            return Err(OutputErrorError::Still);
+        }
         let mut plant = plant.clone();
         plant.prepare();
         let mut parts = Parts::new(self, start.len(), plant.joints(), progress);
@@ -229,12 +257,17 @@ impl OutputError {
         let first = match self.first_window() {
             Some(first) => match problem(Some(first), hold) {
                 Err(OutputErrorError::Short { .. }) => None,
-                problem => Some(parts.search(problem?, Some(first), start)?),
+                problem => Some(parts.search(problem?, Some(first), start, None)?),
             },
             None => None,
         };
         let values = first.as_ref().map_or(start, |part| &part.place.values);
-        let whole = parts.search(problem(self.window, hold)?, self.window, values);
+        let whole = parts.search(
+            problem(self.window, hold)?,
+            self.window,
+            values,
+            first.as_ref(),
+        );
         let mut part = match (whole, first) {
             // The arm runs away along the longer motion; the shorter ones have told what they could.
             (Err(_), Some(first)) => first,
@@ -243,7 +276,12 @@ impl OutputError {
         // A search that has not come to its end would only be given more time.
         if part.found.1 == search::Ending::Converged && self.is_hold_open(recordings) {
             let window = part.window;
-            let other = parts.search(problem(window, Hold::Sample)?, window, &part.place.values);
+            let other = parts.search(
+                problem(window, Hold::Sample)?,
+                window,
+                &part.place.values,
+                Some(&part),
+            );
             // An arm that runs away was not driven so.
             part = match other {
                 Ok(other) if other.error() < part.error() - FITS_BETTER => other,
@@ -263,28 +301,38 @@ impl OutputError {
         values: &[f64],
         recordings: &[Recording],
     ) -> Result<Comparison, OutputErrorError> {
-        let hold = self.hold.unwrap_or_default();
-        let mut problem = self.problem(plant.clone(), recordings, self.window, hold)?;
-        let mut place = problem.place(values);
-        let runs = problem.run(&place, false);
-        let away =
-            |problem: &Problem<'_, P>, (k, error): (usize, SimulateError)| OutputErrorError::Away {
-                log: problem.windows[k].source().to_owned(),
-                error,
-            };
-        let runs = runs.map_err(|error| away(&problem, error))?;
         let bounds: Vec<[f64; 2]> = values.iter().map(|&value| [value, value]).collect();
-        let (mut way, mut nobody) = (Vec::new(), |_: &Iterate| ());
-        let found = search::search(
-            self.search,
-            &mut problem,
-            &mut place,
-            &runs,
-            &bounds,
-            &mut way,
-            &mut nobody,
-        );
-        let (runs, _) = found.map_err(|error| away(&problem, error))?;
+        let hold = self.hold.unwrap_or_default();
+        let near = |window, before: Option<&(Problem<'_, P>, Place)>| {
+            let mut problem = self.problem(plant.clone(), recordings, window, hold)?;
+            let mut place = problem.place(values);
+            if let Some((shorter, known)) = before {
+                problem.start_as(&mut place, shorter, known);
+            }
+            let found = problem.run(&place, false).and_then(|runs| {
+                search::search(
+                    self.search,
+                    &mut problem,
+                    &mut place,
+                    &runs,
+                    &bounds,
+                    &mut Vec::new(),
+                    &mut |_| (),
+                )
+            });
+            match found {
+                Ok((runs, _)) => Ok(((problem, place), runs)),
+                Err((k, error)) => Err(OutputErrorError::Away {
+                    log: problem.windows[k].source().to_owned(),
+                    error,
+                }),
+            }
+        };
+        // Starts that are a little off run away along the whole window, and are found along a part of it.
+        let first = self
+            .first_window()
+            .and_then(|first| near(Some(first), None).ok());
+        let ((problem, _), runs) = near(self.window, first.as_ref().map(|(first, _)| first))?;
         Ok(comparison(&problem.windows, &runs, self.law.is_some()))
     }
 

@@ -44,14 +44,19 @@ impl<'s> Parts<'s> {
         }
     }
 
-    /// One of them, from given parameters on; a joint counts by what its errors are, once they are known.
+    /// One of them, from given parameters on; a joint counts by what its errors are, once they are known. Windows that begin where one of the
+    /// part `before` does start as that was found to.
     pub fn search<'a, P: Adjustable + Clone>(
         &mut self,
         mut problem: Problem<'a, P>,
         window: Option<f64>,
         values: &[f64],
+        before: Option<&Part<'_, P>>,
     ) -> Result<Part<'a, P>, OutputErrorError> {
         let mut place = problem.place(values);
+        if let Some(before) = before {
+            problem.start_as(&mut place, &before.problem, &before.place);
+        }
         let weighed = self.scale.len() > 1;
         let mut last = None;
         for _ in 0..if weighed { 2 } else { 1 } {

@@ -1,5 +1,6 @@
 //! Logs as they drive a simulation.
 
+use super::window::range;
 use crate::log::Log;
 use crate::signal::resample::cubic;
 
@@ -23,7 +24,16 @@ pub struct Recording {
     pub(super) inputs: Vec<usize>,
 }
 
+/// A range of positions, rad or m, that is none.
+const STILL: f64 = 1e-9;
+
 impl Recording {
+    /// Whether any of its joints does.
+    pub(super) fn moves(&self) -> bool {
+        let mut positions = self.log.q.iter();
+        positions.any(|q| range(q) > STILL)
+    }
+
     /// `gain` is joint torque over what is logged, one a joint; logged torques are `late` by so many seconds; `inputs` are channels that
     /// effects read, by their places.
     #[must_use]

@@ -25,6 +25,12 @@ const LEAST: f64 = 1e-10;
 const STILL: f64 = 1e-10;
 const NO_STEP: f64 = 1e-9;
 
+/// Of deviations, as white noise with the size of the errors makes them: shorter steps of the parameters are none, where twice in a row they
+/// lower the cost by less than this share. A cost with turns of dry friction in it has edges along which a search creeps for ever.
+const WITHIN_NOISE: f64 = 0.01;
+const LITTLE: f64 = 1e-5;
+const IN_A_ROW: usize = 2;
+
 /// Who looks for the least cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Search {
@@ -188,6 +194,7 @@ pub(super) fn search<P: Adjustable + Clone>(
     let mut scale = DVector::zeros(place.values.len());
     let mut control: Option<f64> = None;
     let mut ending = Ending::OutOfIterations;
+    let mut quiet = 0;
     let mut note = |place: &Place, cost: f64, control: f64, simulations: usize| {
         let iterate = Iterate {
             stage,
@@ -202,7 +209,8 @@ pub(super) fn search<P: Adjustable + Clone>(
     for _ in 0..problem.most {
         simulations += 1;
         let equations = Equations::new(&problem.rows(&best));
-        scale = scales(&equations.reduced(0.0).r, &scale, &place.values);
+        let reduced = equations.reduced(0.0);
+        scale = scales(&reduced.r, &scale, &place.values);
         let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
         note(place, cost, now, simulations);
         let mut next = None;
@@ -227,17 +235,26 @@ pub(super) fn search<P: Adjustable + Clone>(
             let ratio = (cost - after) / step.predicted;
             now = next_control(search, now, ratio, step.length);
             if ratio > 0.0 {
-                next = Some((trial, after, step.length));
-                break;
+                // Where only its slopes run away nothing tells how to go on from there.
+                if let Ok(runs) = problem.run(&trial, true) {
+                    next = Some((trial, after, step, runs));
+                    break;
+                }
+                now = next_control(search, now, f64::NAN, step.length);
             }
         }
-        let Some((trial, after, length)) = next else {
+        let Some((trial, after, step, runs)) = next else {
             ending = Ending::Converged;
             break;
         };
-        let runs = problem.run(&trial, true)?;
         let size = DVector::from_column_slice(&trial.values).component_mul(&scale);
-        let is_over = cost - after <= STILL * cost || length <= NO_STEP * size.norm();
+        let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
+        let is_quiet = cost - after <= LITTLE * cost
+            && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise;
+        quiet = if is_quiet { quiet + 1 } else { 0 };
+        let is_over = cost - after <= STILL * cost
+            || step.length <= NO_STEP * size.norm()
+            || quiet == IN_A_ROW;
         (*place, cost, best, control) = (trial, after, runs, Some(now));
         if is_over {
             simulations += 1;

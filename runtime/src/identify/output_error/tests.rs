@@ -314,3 +314,104 @@ fn the_controller_of_the_experiment_takes_part() {
         })
     );
 }
+
+/// A rod that stands upright, `ddq = k q + tau`: it stays there, and by no start that is near.
+#[derive(Debug, Clone)]
+struct Upright([f64; 1]);
+
+impl Plant for Upright {
+    fn dof(&self) -> usize {
+        1
+    }
+
+    fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
+        torque[0] = at.ddq[0] - self.0[0] * at.q[0];
+        inertia[(0, 0)] = 1.0;
+    }
+
+    fn slopes(&mut self, _: &Instant<'_>, slopes: &mut Slopes) {
+        slopes.torque[0][(0, 0)] = -self.0[0];
+        slopes.torque[1][(0, 0)] = 0.0;
+    }
+}
+
+impl Adjustable for Upright {
+    fn values(&self) -> Vec<f64> {
+        self.0.to_vec()
+    }
+
+    fn adjust(&mut self, values: &[f64]) {
+        self.0.copy_from_slice(values);
+    }
+
+    fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
+        slopes.torque[(0, 0)] = -at.q[0];
+    }
+}
+
+#[test]
+fn what_the_least_change_moves_without_bounds_has_run_away() {
+    let mut still = log(4.0);
+    still.q[0].fill(0.0);
+    still.tau[0].fill(0.0);
+    let recording = || [Recording::new(&still, &[1.0], 0.0, Vec::new())];
+    let found = |settings: &OutputError| {
+        let (start, names) = ([400.0], ["k".to_owned()]);
+        settings.fit(&Upright(start), &names, &start, &recording(), &mut |_| ())
+    };
+    let error = found(&HELD).expect_err("it falls");
+    let OutputErrorError::Start { error, .. } = error else {
+        panic!("{error}");
+    };
+    assert!(
+        matches!(error, SimulateError::Sensitive { joint: 1, .. }),
+        "{error}"
+    );
+}
+
+/// The log of a block that is moved along a given way: its torque jumps at turns, between two samples.
+fn moved(phase: f64) -> Log {
+    let mut log = log(0.2);
+    let time: Vec<f64> = (0..600_u32).map(|k| STEP * f64::from(k)).collect();
+    let swing = |t: f64, order: i32| -> f64 {
+        let parts = [(0.5, 1.7, phase), (0.3, 2.9, 2.0 * phase), (0.2, 4.3, 0.4)];
+        let part = |(size, rate, phase): (f64, f64, f64)| {
+            let turned = rate * t + phase + std::f64::consts::FRAC_PI_2 * f64::from(order);
+            size * rate.powi(order) * turned.sin()
+        };
+        parts.into_iter().map(part).sum()
+    };
+    let [m, c, f, _] = TRUTH;
+    let torque = |t: &f64| {
+        let (dq, ddq) = (swing(*t, 1), swing(*t, 2));
+        m * ddq + c * dq + f * dq.signum()
+    };
+    log.q[0] = time.iter().map(|t| swing(*t, 0)).collect();
+    log.tau[0] = time.iter().map(torque).collect();
+    log.time = time;
+    log
+}
+
+#[test]
+fn deviations_know_what_turns_of_dry_joints_hide() {
+    let settings = OutputError {
+        window: Some(0.5),
+        hold: Some(Hold::Mean),
+        ..HELD
+    };
+    let runs = 0..12_u32;
+    let errors: Vec<f64> = runs
+        .flat_map(|run| {
+            let log = noisy(moved(0.5 * f64::from(run)), 1e-4, u64::from(run));
+            let found = fit(&settings, &log);
+            let error = |k: usize| (found.values[k] - TRUTH[k]) / found.std[k].expect("told");
+            (0..3).map(error).collect::<Vec<f64>>()
+        })
+        .collect();
+    let held = errors.iter().filter(|z| z.abs() < 1.96).count();
+    let share = held as f64 / errors.len() as f64;
+    assert!(share > 0.85, "{share}: {errors:.1?}");
+    // They are no larger than what they know of.
+    let square = errors.iter().map(|z| z * z).sum::<f64>() / errors.len() as f64;
+    assert!(square > 0.2, "{square}: {errors:.1?}");
+}

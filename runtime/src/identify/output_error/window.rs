@@ -26,6 +26,10 @@ const GUESS: usize = 21;
 /// A simulation that is so many ranges of its log away from it, and so many rad or m, has run away: what follows says nothing, and takes long.
 const FAR: f64 = 10.0;
 
+/// So has one whose position would move by so many rad or m where its start moves by one, or a parameter by all of it: the tolerances of
+/// simulations alone move it by as much as a motion is long.
+const SENSITIVE: f64 = 1e8;
+
 /// Some samples of a recording, with a start that is fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Window<'a> {
@@ -35,6 +39,8 @@ pub(super) struct Window<'a> {
     counted: Vec<usize>,
     /// Values of the controller's taps, `[joint][tap]`; none of a channel that may be missing.
     taps: Vec<Vec<Option<&'a [f64]>>>,
+    /// A joint that is driven otherwise behind some samples, by what torque.
+    driven: Option<(usize, Vec<(usize, f64)>)>,
 }
 
 /// A simulated window.
@@ -68,7 +74,7 @@ impl Rows {
 }
 
 /// Largest less least value.
-fn range(values: &[f64]) -> f64 {
+pub(super) fn range(values: &[f64]) -> f64 {
     let (low, high) = values
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &x| {
@@ -144,6 +150,7 @@ impl<'a> Window<'a> {
                 recording,
                 samples,
                 taps: taps.clone(),
+                driven: None,
             }
         });
         Ok(windows.collect())
@@ -151,6 +158,32 @@ impl<'a> Window<'a> {
 
     pub fn source(&self) -> &str {
         &self.recording.log.source
+    }
+
+    /// The same with the torque of a joint behind some of its samples that of the sample so many later.
+    pub fn driven_at(&self, joint: usize, samples: &[usize], later: usize) -> Self {
+        let torque = &self.recording.torque[joint];
+        let driven = samples.iter().map(|&k| {
+            let sample = (self.samples.start + k + later).min(torque.len() - 1);
+            (k, torque[sample])
+        });
+        Self {
+            driven: Some((joint, driven.collect())),
+            ..self.clone()
+        }
+    }
+
+    /// What else than the recording drives a joint behind a sample.
+    fn driven(&self, joint: usize, sample: usize) -> Option<f64> {
+        let (other, torques) = self.driven.as_ref()?;
+        let found = torques.binary_search_by_key(&sample, |(k, _)| *k);
+        (*other == joint).then_some(())?;
+        found.ok().map(|place| torques[place].1)
+    }
+
+    /// Whether both begin at the same sample.
+    pub fn begins_as(&self, other: &Window<'_>) -> bool {
+        std::ptr::eq(self.recording, other.recording) && self.samples.start == other.samples.start
     }
 
     pub fn counted(&self) -> usize {
@@ -232,6 +265,8 @@ impl<'a> Window<'a> {
             starts: start.len(),
         };
         let mut drives: Vec<DMatrix<f64>> = vec![DMatrix::zeros(count, columns); n];
+        let whole = plant.values().into_iter().map(|x| x.abs().max(1e-6));
+        let whole: Vec<f64> = whole.chain(vec![1.0; start.len()]).collect();
         let far: Vec<f64> = log.q.iter().map(|q| FAR * (1.0 + range(q))).collect();
         for k in 0..count {
             for joint in 0..n {
@@ -245,6 +280,14 @@ impl<'a> Window<'a> {
                 }
                 run.q[joint].push(arm.q()[joint]);
                 if let (Some(slopes), Some(tangent)) = (&mut run.slopes, &tangent) {
+                    let moves = tangent.state.row(joint);
+                    let mut moves = moves.iter().zip(&whole);
+                    if !moves.all(|(slope, whole)| (slope * whole).abs() < SENSITIVE) {
+                        return Err(SimulateError::Sensitive {
+                            time: arm.time(),
+                            joint: joint + 1,
+                        });
+                    }
                     slopes.set_row(joint * count + k, &tangent.state.row(joint));
                 }
             }
@@ -253,12 +296,13 @@ impl<'a> Window<'a> {
                 let torque = match law {
                     None => {
                         let torque = &self.recording.torque[joint];
-                        match hold {
+                        let logged = match hold {
                             Hold::Sample => torque[sample],
                             Hold::Mean => {
                                 0.5 * (torque[sample] + torque[(sample + 1).min(torque.len() - 1)])
                             }
-                        }
+                        };
+                        self.driven(joint, k).unwrap_or(logged)
                     }
                     Some(law) => {
                         let (law, taps) = (&law.joints[joint], &self.taps[joint]);
@@ -306,12 +350,7 @@ impl<'a> Window<'a> {
                 None => arm.advance(next)?,
             }
         }
-        match &run.slopes {
-            Some(slopes) if !slopes.iter().all(|slope| slope.is_finite()) => {
-                Err(SimulateError::NoInertia { time: arm.time() })
-            }
-            _ => Ok(run),
-        }
+        Ok(run)
     }
 
     /// Measured and simulated positions of a joint.
@@ -343,6 +382,16 @@ impl<'a> Window<'a> {
         (0..scale.len()).map(square).collect()
     }
 
+    /// Weighted errors of a run, joint after joint.
+    pub fn errors(&self, run: &Run, scale: &[f64]) -> DVector<f64> {
+        let joints = scale.iter().enumerate();
+        let errors = joints.flat_map(|(joint, scale)| {
+            let pairs = self.positions(run, joint).into_iter();
+            pairs.map(move |(y, s)| (s - y) / scale)
+        });
+        DVector::from_vec(errors.collect())
+    }
+
     /// Equations of a run with slopes.
     pub fn rows(&self, run: &Run, scale: &[f64]) -> Rows {
         let (n, count, all) = (scale.len(), self.counted.len(), self.samples.len());
@@ -351,15 +400,13 @@ impl<'a> Window<'a> {
         let starts = run.starts;
         let unknowns = slopes.ncols().saturating_sub(starts);
         let mut rows = Rows {
-            errors: DVector::zeros(n * count),
+            errors: self.errors(run, scale),
             by_start: DMatrix::zeros(n * count, starts),
             by_parameters: DMatrix::zeros(n * count, unknowns),
         };
         for joint in 0..n {
-            let pairs = self.positions(run, joint);
-            for (place, (&k, (y, s))) in self.counted.iter().zip(pairs).enumerate() {
+            for (place, &k) in self.counted.iter().enumerate() {
                 let row = joint * count + place;
-                rows.errors[row] = (s - y) / scale[joint];
                 let slope = slopes.row(joint * all + k) / scale[joint];
                 rows.by_parameters.set_row(row, &slope.columns(0, unknowns));
                 rows.by_start.set_row(row, &slope.columns(unknowns, starts));

@@ -72,7 +72,7 @@ impl<P: Plant> Integrator<P> {
             Some((jacobian, by_time)) => {
                 let known = (&from.rate, jacobian, by_time);
                 let step = implicit::step(rate, self.time, &self.x, known, h)?;
-                let (end, error) = step.ok_or(SimulateError::NoInertia { time: self.time })?;
+                let (end, error) = step.ok_or(SimulateError::NoAcceleration { time: self.time })?;
                 (end, error, 0.0, None)
             }
         };

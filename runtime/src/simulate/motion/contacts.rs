@@ -209,7 +209,7 @@ impl<P: Plant> Moving<P> {
             .copy_from(&(accelerations * h));
         let mut step = rate * h;
         if !lu.solve_mut(&mut step) || !lu.solve_mut(&mut effect) {
-            return Err(SimulateError::NoInertia { time });
+            return Err(SimulateError::NoAcceleration { time });
         }
         let speeds = effect.rows(dof, dof);
         let held_back = &self.jumps.directions * speeds;
