@@ -33,7 +33,7 @@ fn lugre_rate(at: &At) -> f64 {
 
 /// Torque on the effect's first joint. Friction is positive where the joint moves in positive direction: it is what the
 /// motor has to supply.
-const LAWS: [(&str, Law); 24] = [
+const LAWS: [(&str, Law); 25] = [
     ("asymmetric_coulomb", |at| at.p[0] * at.dq[0].signum().abs()),
     ("asymmetric_viscous", |at| at.p[0] * at.dq[0].abs()),
     ("cable_hysteresis", |at| at.p[0] * at.z[0]),
@@ -42,6 +42,9 @@ const LAWS: [(&str, Law); 24] = [
         at.p[0] * at.dq[0] * at.dq[0] * at.dq[0]
     }),
     ("dahl", |at| at.p[0] * at.z[0]),
+    ("dry_friction_drift", |at| {
+        at.p[0] * (1.0 - (-TIME / at.s[0]).exp()) * at.dq[0].signum()
+    }),
     ("gear_coupling", |at| {
         at.p[0] * at.ddq[1] + at.p[1] * at.dq[1] + at.p[2] * (at.dq[0] + at.dq[1]).signum()
     }),
@@ -183,9 +186,6 @@ type Acts = fn(&At) -> Vec<f64>;
 const ACTS: [(&str, Acts); 9] = [
     ("backlash", |at| vec![-at.s[0] * at.load[0].signum()]),
     ("base_tilt", |at| vec![at.s[0], at.s[1]]),
-    ("dry_friction_drift", |at| {
-        at.p[0] * (1.0 - (-TIME / at.s[0]).exp()) * at.dq[0].signum()
-    }),
     ("encoder_offset", |at| vec![-at.s[0]]),
     ("external_force", |at| {
         let touched = at.s[0] <= TIME && TIME < at.s[1];

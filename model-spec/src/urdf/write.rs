@@ -132,7 +132,7 @@ pub(super) fn spec(
         list(&options.gravity.unwrap_or(ASSUMED_GRAVITY))
     );
     let tip = chain.tip.map(readable);
-    if tip != [0.0; 3] {
+    if tip.iter().any(|x| *x != 0.0) {
         let _ = writeln!(text, "    tip = {};", list(&tip));
     }
     text.push('\n');

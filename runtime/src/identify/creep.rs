@@ -78,12 +78,13 @@ impl Identify {
         let turns = turns;
         let found = self.tried(&without, &turns, logs, &vec![None; turns.len()])?;
         let before: Vec<f64> = found.iter().map(|tried| tried.squares).collect();
-        let count = whole_steps(((HIGHEST / LOWEST).ln() / STEP.ln()).ceil()) as i32;
-        let mut best: Vec<(i32, Tried)> = vec![(0, Tried::NONE); turns.len()];
+        let count = whole_steps(((HIGHEST / LOWEST).ln() / STEP.ln()).ceil());
+        let mut best: Vec<(usize, Tried)> = vec![(0, Tried::NONE); turns.len()];
+        let at = |turns: &Turns, place: usize| turns.lowest * STEP.powf(place as f64);
         for place in 0..count {
             let widths = turns
                 .iter()
-                .map(|turns| Some((turns.lowest * STEP.powi(place)).min(turns.highest)));
+                .map(|turns| Some(at(turns, place).min(turns.highest)));
             let tried = self.tried(&without, &turns, logs, &widths.collect::<Vec<_>>())?;
             for (best, tried) in best.iter_mut().zip(tried) {
                 if tried.squares < best.1.squares {
@@ -91,7 +92,6 @@ impl Identify {
                 }
             }
         }
-        let at = |turns: &Turns, place: i32| turns.lowest * STEP.powi(place);
         let inside = turns.iter().zip(&best);
         let inside = inside.map(|(turns, (place, _))| at(turns, place + 1) < turns.highest);
         let inside: Vec<bool> = inside.collect();

@@ -8,7 +8,7 @@ use crate::identify::{
     prepare_all, slowest_bands,
 };
 use crate::log::{Log, MOTION_PHASE};
-use crate::signal::{Prepared, period};
+use crate::signal::{Bands, Prepared, period};
 
 use super::away::Looks;
 use super::conclude::{Told, changed, verdict};
@@ -89,37 +89,41 @@ impl<'a> Trace<'a> {
             bands: Some(bands),
             ..Identify::default()
         };
-        let found;
-        let logs = if logs.iter().any(|log| log.turn_speeds.is_empty()) {
-            progress("finding how slowly joints turn round");
-            let speeds = identify.turn_speeds(arm, logs)?;
-            found = Log::all_with_turn_speeds(logs, &speeds);
-            &found
-        } else {
-            logs
-        };
+        if logs.iter().all(|log| !log.turn_speeds.is_empty()) {
+            return self.traced(arm, &identify, bands, logs, progress);
+        }
+        progress("finding how slowly joints turn round");
+        let speeds = identify.turn_speeds(arm, logs)?;
+        let logs = Log::all_with_turn_speeds(logs, &speeds);
+        self.traced(arm, &identify, bands, &logs, progress)
+    }
+
+    /// The trace of logs of which it is known how slowly joints turn round.
+    fn traced(
+        &self,
+        arm: &dyn Arm,
+        identify: &Identify,
+        bands: Bands,
+        logs: &[Log],
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<Verdict, IdentifyError> {
         let mut prepared = prepare_all(logs, &bands)?;
         progress("fitting the declared model");
         let (solution, shapes, mut stack) = identify.solve(arm, &mut prepared, None)?;
         stack.silence(&solution.unexcited);
+        let of_log = |log: &Prepared| period(&log.motion.wide.q, log.rate_hz);
+        let periods: Vec<Option<f64>> = prepared.iter().map(of_log).collect();
         let mut search = Search {
             arm,
-            identify: &identify,
+            identify,
             shapes,
             shared_hz: bands.shared_hz,
             unexcited: solution.unexcited.clone(),
             prepared,
-            periods: Vec::new(),
-            folds: Vec::new(),
-            folds_of_time: Vec::new(),
+            folds: folds::cut(&stack.segments, &periods),
+            folds_of_time: folds::cut(&stack.segments, &vec![None; logs.len()]),
+            periods,
         };
-        search.periods = search
-            .prepared
-            .iter()
-            .map(|log| period(&log.motion.wide.q, log.rate_hz))
-            .collect();
-        search.folds = folds::cut(&stack.segments, &search.periods);
-        search.folds_of_time = folds::cut(&stack.segments, &vec![None; logs.len()]);
         let residuals = stack.residuals(&solution.estimate);
         let mut state = State {
             stack,

@@ -94,6 +94,7 @@ fn log(seconds: f64) -> Log {
         report: Vec::new(),
         holes: Vec::new(),
         clipped: Vec::new(),
+        turn_speeds: Vec::new(),
     }
 }
 
