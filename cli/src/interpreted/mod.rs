@@ -67,7 +67,7 @@ pub struct InterpretedArm {
     rigid: Block,
     effects: EffectBlock,
     rigid_torque: Program,
-    terms: Terms,
+    terms: Option<Terms>,
     known_torque: Program,
     measured: Measured,
     dry: Vec<usize>,
@@ -115,7 +115,7 @@ impl InterpretedArm {
             rigid: compiled.rigid_columns(),
             effects: torque_block(&compiled, compiled.effect_columns()),
             rigid_torque: compiled.rigid_torque(),
-            terms: compiled.terms(),
+            terms: written_terms(&compiled),
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
             dry: dry_joints(&compiled.model),
@@ -225,7 +225,8 @@ impl Arm for InterpretedArm {
     }
 
     fn terms(&self) -> Vec<String> {
-        self.terms.names.clone()
+        let terms = self.terms.iter();
+        terms.flat_map(|terms| terms.names.clone()).collect()
     }
 
     fn term_values(&self, motion: &Motion) -> Vec<Vec<f64>> {
@@ -234,7 +235,10 @@ impl Arm for InterpretedArm {
             shapes: &[],
             own: &Own::default(),
         };
-        run(&self.terms.program, motion, &|symbol| {
+        let Some(terms) = &self.terms else {
+            return Vec::new();
+        };
+        run(&terms.program, motion, &|symbol| {
             signals.bind(&motion.smooth, symbol)
         })
     }
@@ -270,6 +274,12 @@ impl Arm for InterpretedArm {
         }
         torque
     }
+}
+
+/// Terms of equations that somebody has written: those of a chain follow from its frames, and none of them is wrong by itself.
+fn written_terms(compiled: &Compiled) -> Option<Terms> {
+    let is_written = compiled.model.energies().is_some();
+    is_written.then(|| compiled.terms())
 }
 
 /// Base parameters as unknowns; only an effect's parameter that stands alone has a sign.

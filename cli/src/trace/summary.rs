@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
+use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome, Whereabouts};
 
 use super::doubt::{doubt, on_joints};
 use super::report::effect;
@@ -74,7 +74,8 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         .expect("a string takes all");
     }
     for (joint, left) in verdict.after.iter().enumerate() {
-        if left.is_material() {
+        let is_told = |one: &Whereabouts| one.joint == joint;
+        if left.is_material() || verdict.left.iter().any(is_told) {
             let name = &closed.before.arm.joints()[joint];
             let share = 100.0 * left.share;
             writeln!(

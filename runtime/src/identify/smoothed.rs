@@ -2,8 +2,8 @@
 //!
 //! Dry friction jumps where a joint turns round. A filter in the torque's channel rounds the jump, and what a model has there and the log
 //! has not looks like a law of low speeds with a negative sign. It is a filter of the recorder where two things hold: what the model says
-//! comes nearer to all torques by one and the same low-pass, nearer than by any delay, and the torques have next to nothing beyond it, not
-//! even noise, of which every sensor has as much there as below.
+//! comes nearer to all torques by one and the same low-pass, nearer than by any delay, and what is left of them has next to nothing beyond
+//! it: noise of a sensor is there as much as below.
 
 use super::{Estimate, IdentifyError};
 use crate::columns::Arm;
@@ -18,14 +18,14 @@ const STEP: f64 = 1.25;
 const HIGHEST: f64 = 0.1;
 const HIGHEST_HZ: f64 = 30.0;
 
-/// By which share the error of a joint has to be less, on the joint where that is most, and on at least three of four joints.
+/// By which share the error above half the cutoff has to be less, on the joint where that is most, and on at least three of four joints.
 const MOST_SHARE: f64 = 0.3;
 const SHARE: f64 = 0.1;
 const JOINTS: f64 = 0.75;
 /// By which share the error of any joint may be larger.
 const WORSE: f64 = 0.02;
 
-/// Beyond this many times the cutoff torques have less than this share of the density that they have around it.
+/// Beyond this many times the cutoff what is left of the torques has less than this share of the density that it has below.
 const BEYOND: f64 = 3.0;
 const EMPTY: f64 = 0.05;
 
@@ -114,31 +114,51 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
             .map(|(cutoff, channel)| (cutoff, errors(&channel), channel));
         tried.min_by(|a, b| told(&a.1).total_cmp(&told(&b.1)))
     };
-    let (_, without, _) = best(delays(rate_hz))?;
+    let (_, _, late) = best(delays(rate_hz))?;
     let low_passes = low_passes(rate_hz);
     let highest = low_passes.last().map_or(0.0, |(hz, _)| *hz);
-    let (cutoff_hz, with, channel) = best(low_passes).filter(|(hz, ..)| *hz < highest)?;
-    let shares: Vec<f64> = with
-        .iter()
-        .zip(&without)
-        .map(|(with, without)| 1.0 - with / without.max(f64::MIN_POSITIVE))
-        .collect();
+    let (cutoff_hz, _, channel) = best(low_passes).filter(|(hz, ..)| *hz < highest)?;
+    // What a model lacks is slow: the low-pass has to be in what is fast.
+    let fast = LowPass::butterworth(2, cutoff_hz / 2.0, rate_hz).ok()?;
+    let fast_error = |joint: usize, channel: &Channel| {
+        let through = channel.apply(&predicted[joint]);
+        let error = measured[joint].iter().zip(through);
+        let error: Vec<f64> = error
+            .map(|(measured, through)| measured - through)
+            .collect();
+        let mut slow = Vec::new();
+        fast.apply(&error, &mut slow);
+        let inner = border..samples - border;
+        let squares = inner.map(|k| (error[k] - slow[k]).powi(2));
+        squares.sum::<f64>().sqrt()
+    };
+    let shares = (0..measured.len()).map(|joint| {
+        let (with, without) = (fast_error(joint, &channel), fast_error(joint, &late));
+        1.0 - with / without.max(f64::MIN_POSITIVE)
+    });
+    let shares: Vec<f64> = shares.collect();
     let share = shares.iter().copied().fold(0.0, f64::max);
     let nearer = shares.iter().filter(|share| **share >= SHARE).count();
     let is_nearer = share >= MOST_SHARE
         && nearer as f64 >= JOINTS * shares.len() as f64
         && shares.iter().all(|share| *share > -WORSE);
-    let is_empty = |torque: &Vec<f64>| {
+    let is_empty = |(torque, predicted): (&Vec<f64>, &Vec<f64>)| {
+        let through = channel.apply(predicted);
+        let rest = torque
+            .iter()
+            .zip(through)
+            .map(|(torque, through)| torque - through);
+        let rest: Vec<f64> = rest.collect();
         let edges = [
             cutoff_hz / 2.0,
             cutoff_hz,
             BEYOND * cutoff_hz,
             0.45 * rate_hz,
         ];
-        let density = band_density(torque, rate_hz, &edges);
+        let density = band_density(&rest, rate_hz, &edges);
         density[2] < EMPTY * density[0]
     };
-    (is_nearer && measured.iter().all(is_empty)).then_some(Smoothed {
+    (is_nearer && measured.iter().zip(predicted).all(is_empty)).then_some(Smoothed {
         cutoff_hz,
         lags: matches!(channel, Channel::Lag(_)),
         share,

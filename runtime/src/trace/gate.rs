@@ -15,7 +15,7 @@ use super::verdict::{Evidence, Refusal, Tried};
 pub(super) const MATERIAL_PERCENT: f64 = 5.0;
 
 /// Family-wise error rate of the score.
-const SIGNIFICANCE: f64 = 0.05;
+const SIGNIFICANCE: f64 = 1e-3;
 
 /// How far a fold's torque of the effect may be from that of all folds, relative.
 const STEADINESS: f64 = 0.5;

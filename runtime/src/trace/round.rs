@@ -85,6 +85,11 @@ impl Search<'_> {
                     if follows_torque && !self.is_of_structure(state, &judged) {
                         judged.refusals.push(Refusal::Noise);
                     }
+                    if Self::is_trimming(state, &judged)
+                        && !judged.refusals.contains(&Refusal::Small)
+                    {
+                        judged.refusals.push(Refusal::Small);
+                    }
                     return Some(judged);
                 };
                 if changes == CHANGES || !gate::is_promising(&judged) {
@@ -94,6 +99,20 @@ impl Search<'_> {
                 Some(self.as_what_it_is(state, &baseline, judged, change, &projected.gain))
             })
             .collect()
+    }
+
+    /// Whether a law is there already on the same joints, and a second instance of it takes off less than matters of the error that there was
+    /// without the first: it is what the first one is off by.
+    fn is_trimming(state: &State, judged: &Judged) -> bool {
+        let same = |first: &&Accepted| {
+            let (first, candidate) = (first.trial.candidate, judged.trial.candidate);
+            first.kind() == candidate.kind() && first.joints() == candidate.joints()
+        };
+        state.accepted.iter().find(same).is_some_and(|first| {
+            let first = first.evidence.raw_percent.iter();
+            let mut both = first.zip(&judged.evidence.raw_percent);
+            both.all(|(first, second)| second * (1.0 - first / 100.0) < MATERIAL_PERCENT)
+        })
     }
 
     /// A change whose first order is promising, tried as what it is.

@@ -148,6 +148,7 @@ impl<'a> Trace<'a> {
             .collect();
         let mut grids = search.grids(&state, &candidates, |_| true);
         let mut tried = Vec::new();
+        let mut of_terms = Vec::new();
         while state.accepted.len() < MOST_EFFECTS {
             progress(&format!(
                 "round {}: {} candidates",
@@ -162,6 +163,10 @@ impl<'a> Trace<'a> {
                 state.accepted.len() + 1,
                 found.trial.candidate.kind()
             ));
+            of_terms = search.where_a_term_is(&state, &found);
+            if !of_terms.is_empty() {
+                break;
+            }
             if found.changed.is_some() {
                 // What else is missing is asked of the arm with it, and of that what is told of all.
                 let mut told = search.told(&state);
@@ -199,8 +204,13 @@ impl<'a> Trace<'a> {
             after = search.structure(&state).to_vec();
         }
         let before = self.since.clone().unwrap_or(before);
-        let left = search.whereabouts(&state, &after);
-        let verdict = verdict(&state, before, after, &search.told(&state), tried);
+        let is_told = |joint: &usize| after[*joint].is_material() || of_terms.contains(joint);
+        let told = (0..after.len()).filter(is_told).collect();
+        let left = search.whereabouts(&state, told);
+        let mut verdict = verdict(&state, before, after, &search.told(&state), tried);
+        if !of_terms.is_empty() {
+            verdict = verdict.unexplained();
+        }
         Ok(Verdict { left, ..verdict })
     }
 }

@@ -199,6 +199,17 @@ pub struct Verdict {
 }
 
 impl Verdict {
+    /// This one, but that no name accounts for what is there.
+    pub(super) fn unexplained(self) -> Self {
+        let leads = self.findings.into_iter().chain(self.leads);
+        Self {
+            outcome: Outcome::Unexplained,
+            leads: leads.collect(),
+            findings: Vec::new(),
+            ..self
+        }
+    }
+
     /// This one, which goes on, with what was found after it.
     #[must_use]
     pub fn followed_by(self, next: Self) -> Self {

@@ -13,8 +13,7 @@ use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
 use super::gram::Gram;
-use super::search::{Search, State};
-use super::structure::Structure;
+use super::search::{Accepted, Search, State};
 
 /// A curve is straight between so many values of its quantity, among which samples are evenly spread.
 const KNOTS: usize = 24;
@@ -33,6 +32,9 @@ const PIECE_S: f64 = 60.0;
 
 /// Terms of equations that are kept of a joint.
 const MOST_TERMS: usize = 3;
+
+/// How many times as much a term of the equations has to explain as an effect for the name of the effect to be wrong.
+const MORE_THAN_AN_EFFECT: f64 = 1.5;
 
 /// What a torque may follow from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -157,10 +159,31 @@ pub struct Whereabouts {
 }
 
 impl Search<'_> {
-    /// Of every joint with structure that matters.
-    pub(super) fn whereabouts(&self, state: &State, structure: &[Structure]) -> Vec<Whereabouts> {
-        let joints = (0..structure.len()).filter(|&joint| structure[joint].is_material());
-        let joints: Vec<usize> = joints.collect();
+    /// Joints on which one term of the equations explains clearly more than an effect that passes: then it is the equations that are wrong.
+    pub(super) fn where_a_term_is(&self, state: &State, found: &Accepted) -> Vec<usize> {
+        let terms = self.terms();
+        if terms.is_empty() || found.changed.is_some() {
+            return Vec::new();
+        }
+        let baseline = self.baseline(state, 1, &self.folds);
+        let present = &baseline.present;
+        let by_effect = found.trial.project(present).map_or(0.0, |p| p.drop);
+        let is_more = |joint: usize, values: &Vec<f64>| {
+            let entry = Entry {
+                joint,
+                column: 0,
+                values: values.clone(),
+            };
+            let projected = present.project(&[entry], 1);
+            projected.is_some_and(|projected| projected.drop > MORE_THAN_AN_EFFECT * by_effect)
+        };
+        let mut joints = found.trial.touched();
+        joints.retain(|&joint| terms.iter().any(|(_, values)| is_more(joint, values)));
+        joints
+    }
+
+    /// Of some joints.
+    pub(super) fn whereabouts(&self, state: &State, joints: Vec<usize>) -> Vec<Whereabouts> {
         if joints.is_empty() {
             return Vec::new();
         }

@@ -355,6 +355,8 @@ fn what_the_least_change_moves_without_bounds_has_run_away() {
     let mut still = log(4.0);
     still.q[0].fill(0.0);
     still.tau[0].fill(0.0);
+    // A log in which nothing moves is refused as such.
+    *still.q[0].last_mut().expect("samples") = 1e-6;
     let recording = || [Recording::new(&still, &[1.0], 0.0, Vec::new())];
     let found = |settings: &OutputError| {
         let (start, names) = ([400.0], ["k".to_owned()]);
