@@ -2,8 +2,8 @@
 //!
 //! Dry friction jumps where a joint turns round. A filter in the torque's channel rounds the jump, and what a model has there and the log
 //! has not looks like a law of low speeds with a negative sign. It is a filter of the recorder where two things hold: what the model says
-//! comes nearer to all torques by one and the same low-pass, nearer than by any delay, and what is left of them has next to nothing beyond
-//! it: noise of a sensor is there as much as below.
+//! comes nearer to all torques by one and the same low-pass, nearer than by any delay, and the torques have no more beyond it than it
+//! leaves: noise of a sensor is there as much as below.
 
 use super::{Estimate, IdentifyError};
 use crate::columns::Arm;
@@ -25,9 +25,11 @@ const JOINTS: f64 = 0.75;
 /// By which share the error of any joint may be larger.
 const WORSE: f64 = 0.02;
 
-/// Beyond this many times the cutoff what is left of the torques has less than this share of the density that it has below.
+/// Beyond this many times the cutoff torques have less than this share of the density that they have below it, or less than so many times what
+/// the low-pass leaves there of the model's: noise of a sensor behind the filter would be more.
 const BEYOND: f64 = 3.0;
-const EMPTY: f64 = 0.05;
+const EMPTY: f64 = 1e-4;
+const AS_MUCH: f64 = 2.0;
 
 /// Order of the low-pass without phase, one way.
 const ORDER: usize = 4;
@@ -143,20 +145,15 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
         && nearer as f64 >= JOINTS * shares.len() as f64
         && shares.iter().all(|share| *share > -WORSE);
     let is_empty = |(torque, predicted): (&Vec<f64>, &Vec<f64>)| {
-        let through = channel.apply(predicted);
-        let rest = torque
-            .iter()
-            .zip(through)
-            .map(|(torque, through)| torque - through);
-        let rest: Vec<f64> = rest.collect();
         let edges = [
             cutoff_hz / 2.0,
             cutoff_hz,
             BEYOND * cutoff_hz,
             0.45 * rate_hz,
         ];
-        let density = band_density(&rest, rate_hz, &edges);
-        density[2] < EMPTY * density[0]
+        let [of_torque, of_model] =
+            [torque, &channel.apply(predicted)].map(|torque| band_density(torque, rate_hz, &edges));
+        of_torque[2] < EMPTY * of_torque[0] || of_torque[2] < AS_MUCH * of_model[2]
     };
     (is_nearer && measured.iter().zip(predicted).all(is_empty)).then_some(Smoothed {
         cutoff_hz,
