@@ -146,8 +146,9 @@ fn a_law_of_another_joints_position_is_told_to_live_there() {
     }
     assert!(told.contains("% a function of position of up; "), "{told}");
     // What comes nearest is told with what is against it.
-    assert!(told.contains("\nround   effect "), "{told}");
-    assert!(told.contains("under 5 % of the error"), "{told}");
+    let tried = out["tried"].as_array().expect("a list");
+    let is_refused = |one: &Value| one["refused"].as_array().is_some_and(|r| !r.is_empty());
+    assert!(!tried.is_empty() && tried.iter().all(is_refused), "{out}");
 }
 
 /// A product of functions of position and velocity is a function of neither.
