@@ -56,9 +56,7 @@ fn measured() -> Folder {
 #[test]
 fn the_misprint_of_seed_004_is_told_as_a_term_of_joint_3() {
     let folder = measured();
-    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/specs/run");
-    let printed = std::fs::read_to_string(format!("{root}/phantom_printed.robot"));
-    folder.write("printed.robot", &printed.expect("in the repository"));
+    folder.write("printed.robot", include_str!("phantom_printed.robot"));
     let told = folder.succeed(&["trace", "printed.robot", "log.csv", "--json", "out.json"]);
     let out = json(&folder.read("out.json"));
     assert_eq!(out["outcome"], "unexplained", "{told}");
