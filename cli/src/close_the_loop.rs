@@ -88,7 +88,7 @@ pub fn close(
     let sound: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let declared = compiled(source_name, text)?;
     let speeds = Identify::default().turn_speeds(&declared, &sound)?;
-    let sound = turning(&sound, &speeds);
+    let sound = Log::all_with_turn_speeds(&sound, &speeds);
     let mut on_time = sound.clone();
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
     let before = Stage::identify(declared, &sound, turned.as_ref(), &Identify::default())?;
@@ -100,7 +100,7 @@ pub fn close(
     } else if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
         faults.push(late);
         // What turns look like is asked of them anew.
-        on_time = turning(&logs, &[]);
+        on_time = Log::all_with_turn_speeds(&logs, &[]);
     }
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
     let is_last = faults.iter().any(|fault| fault.is_last);
@@ -129,7 +129,7 @@ pub fn close(
             bands: Some(bands),
             ..Identify::default()
         };
-        let sound = turning(&sound, &verdict.turn_speeds);
+        let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);
         Some(Stage::identify(arm, &sound, unseen.as_ref(), &identify)?)
     };
     Ok(Loop {
@@ -141,13 +141,6 @@ pub fn close(
         amended,
         changed,
     })
-}
-
-/// The logs of an arm whose dry friction acts in full from these speeds on.
-fn turning(logs: &[Log], speeds: &[f64]) -> Vec<Log> {
-    let logs = logs.iter();
-    logs.map(|log| log.clone().with_turn_speeds(speeds.to_vec()))
-        .collect()
 }
 
 /// Traces until nothing changes the arm any more: what changes it is declared, and what else is missing is asked of the arm with it.
@@ -185,7 +178,7 @@ fn trace(
         let fresh = &verdict.findings[verdict.findings.len() - fresh..];
         let fresh: Vec<Amendment> = fresh.iter().map(|one| amendment(one, &arm)).collect();
         text = amend(source_name, &text, &fresh)?;
-        logs = turning(&logs, &verdict.turn_speeds);
+        logs = Log::all_with_turn_speeds(&logs, &verdict.turn_speeds);
         found = Some(verdict);
     }
 }

@@ -183,8 +183,9 @@ fn a_joint_that_creeps_where_it_turns_lacks_nothing() {
             [0.02, 1.9, 2.0],
         ]
     };
+    let creeping = |phase| cart_with(200, 80, &slow(phase), |_, dq| 4.0 * (dq / 0.0006).tanh());
     // An encoder of a micrometer.
-    let encoded = |log: String| -> String {
+    let encoded = |log: &str| -> String {
         let rows = log.lines().enumerate().map(|(k, row)| {
             let mut fields: Vec<String> = row.split(',').map(str::to_owned).collect();
             if k > 0 {
@@ -195,16 +196,14 @@ fn a_joint_that_creeps_where_it_turns_lacks_nothing() {
         });
         rows.collect()
     };
-    let creeping = |phase| {
-        encoded(cart_with(200, 80, &slow(phase), |_, dq| {
-            4.0 * (dq / 0.0006).tanh()
-        }))
-    };
-    folder.write("log.csv", &creeping(0.0));
-    folder.write("other.csv", &creeping(0.7));
-    let told = folder.succeed(&TRACE);
-    assert!(told.starts_with("nothing missing"), "{told}");
-    let out = json(&folder.read("out.json"));
-    let speed = out["turn_speeds"][0].as_f64().expect("a number");
-    assert!((speed - 0.0006).abs() < 0.0001, "{speed}");
+    let exact = |log: &str| log.to_owned();
+    for measured in [&encoded as &dyn Fn(&str) -> String, &exact] {
+        folder.write("log.csv", &measured(&creeping(0.0)));
+        folder.write("other.csv", &measured(&creeping(0.7)));
+        let told = folder.succeed(&TRACE);
+        assert!(told.starts_with("nothing missing"), "{told}");
+        let out = json(&folder.read("out.json"));
+        let speed = out["turn_speeds"][0].as_f64().expect("a number");
+        assert!((speed - 0.0006).abs() < 0.0001, "{speed}");
+    }
 }

@@ -129,3 +129,37 @@ fn what_is_no_text_is_refused_with_the_way_out() {
         "error: cannot read `arm.robot`: it is no text in UTF-8; save it as such, or name the file that has the text\n"
     );
 }
+
+/// A force on the last link turns it by its lever to the tip, and other links by that to the origin of their frames.
+#[test]
+fn forces_of_the_world_act_on_the_tip() {
+    let folder = Folder::new();
+    let link = "{ mass = 1; com = [0, 0, 0]; inertia = [0, 0, 0, 0, 0, 1]; }";
+    let spec = format!(
+        "effect push(j) {{ linear f; force(j) = [0, f, 0]; }}
+        robot A {{
+            gravity = [0, 0, 0];
+            convention = standard_dh;
+            tip = [0.1, 0, 0];
+            joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            link up: fixed {link}
+            link lo: fixed {link}
+            effects {{ push on lo, up; }}
+        }}"
+    );
+    folder.write("arm.robot", &spec);
+    let still = r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0]}]}"#;
+    folder.write("states.json", still);
+    // Stretched out along x the motors hold against it: `-J^T F`.
+    for (lo, up, wanted) in [(1, 0, [-1.0, -0.5]), (0, 1, [-0.5, 0.0])] {
+        let values = format!(r#"{{"lo.push.f": {lo}, "up.push.f": {up}}}"#);
+        folder.write("values.json", &values);
+        let eval = ["eval", "arm.robot", "--states", "states.json"];
+        let given = ["--parameters", "values.json"];
+        let out = json(&folder.succeed(&[&eval[..], &given].concat()));
+        for (found, wanted) in numbers(&out["states"][0]["torque"]).iter().zip(wanted) {
+            close(*found, wanted, 1e-12);
+        }
+    }
+}

@@ -8,6 +8,7 @@
 use super::{Identify, IdentifyError, Stack, check_logs, prepare_all, slowest_bands};
 use crate::columns::{Arm, Entry, Unknown};
 use crate::log::Log;
+use crate::motion::between;
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
@@ -19,6 +20,9 @@ const STEP: f64 = 1.5;
 
 /// How often the step between widths is halved after that.
 const HALVINGS: i32 = 4;
+
+/// Instants of a sample interval over which a column is averaged.
+const INSTANTS: u32 = 4;
 
 /// A column of the model is the joint's dry friction from this correlation on.
 const ALIKE: f64 = 0.95;
@@ -220,8 +224,8 @@ impl Turns {
     fn column(&self, stack: &Stack, logs: &[Prepared], of: &dyn Fn(f64) -> f64) -> Vec<f64> {
         let (mut values, mut filtered) = (Vec::with_capacity(stack.samples()), Vec::new());
         for log in logs {
-            let column = log.motion.wide.dq[self.joint].iter().map(|dq| of(*dq));
-            log.shared.apply(&column.collect::<Vec<_>>(), &mut filtered);
+            let column = means(&log.motion.wide.dq[self.joint], of);
+            log.shared.apply(&column, &mut filtered);
             values.extend_from_slice(&filtered);
         }
         let rows = &stack.joints[self.joint];
@@ -252,6 +256,19 @@ impl Turns {
 fn current(logs: &[Prepared], joint: usize) -> f64 {
     let speeds = logs.iter().map(|log| log.motion.turn_speed(joint));
     speeds.fold(0.0, f64::max)
+}
+
+/// Means of a function of a velocity over the interval about every sample, as columns that jump are.
+fn means(velocity: &[f64], of: &dyn Fn(f64) -> f64) -> Vec<f64> {
+    let all: Vec<usize> = (0..velocity.len()).collect();
+    let mut sum = vec![0.0; velocity.len()];
+    for instant in 0..INSTANTS {
+        let part = (f64::from(instant) + 0.5) / f64::from(INSTANTS) - 0.5;
+        for (sum, velocity) in sum.iter_mut().zip(between(velocity, part, &all)) {
+            *sum += of(velocity) / f64::from(INSTANTS);
+        }
+    }
+    sum
 }
 
 /// The direction of a velocity, over a width.

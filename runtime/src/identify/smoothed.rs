@@ -34,7 +34,7 @@ const AS_MUCH: f64 = 2.0;
 /// Order of the low-pass without phase, one way.
 const ORDER: usize = 4;
 
-/// Delays that are tried in place of a low-pass, samples, at most this many seconds.
+/// Delays that are tried in place of a low-pass are at most this many seconds.
 const LATEST_S: f64 = 0.06;
 
 /// A low-pass in the channel of all torques.
@@ -121,7 +121,7 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
     let highest = low_passes.last().map_or(0.0, |(hz, _)| *hz);
     let (cutoff_hz, _, channel) = best(low_passes).filter(|(hz, ..)| *hz < highest)?;
     // What a model lacks is slow: the low-pass has to be in what is fast.
-    let fast = LowPass::butterworth(2, cutoff_hz / 2.0, rate_hz).ok()?;
+    let slow_part = LowPass::butterworth(2, cutoff_hz / 2.0, rate_hz).ok()?;
     let fast_error = |joint: usize, channel: &Channel| {
         let through = channel.apply(&predicted[joint]);
         let error = measured[joint].iter().zip(through);
@@ -129,7 +129,7 @@ fn find(measured: &[Vec<f64>], predicted: &[Vec<f64>], rate_hz: f64) -> Option<S
             .map(|(measured, through)| measured - through)
             .collect();
         let mut slow = Vec::new();
-        fast.apply(&error, &mut slow);
+        slow_part.apply(&error, &mut slow);
         let inner = border..samples - border;
         let squares = inner.map(|k| (error[k] - slow[k]).powi(2));
         squares.sum::<f64>().sqrt()

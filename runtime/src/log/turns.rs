@@ -22,7 +22,18 @@ impl Log {
     }
 
     /// [`Self::with_turn_speeds`] of several logs of one arm.
-    pub(crate) fn all_with_turn_speeds(logs: &[Self], speeds: &[f64]) -> Vec<Self> {
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..900).map(|k| 0.01 * f64::from(k)).collect();
+    /// let log = Log::from_samples("a plant", time, vec![vec![0.0; 900]], vec![vec![0.0; 900]])?;
+    /// let logs = Log::all_with_turn_speeds(&[log.clone(), log], &[0.002]);
+    /// assert!(logs.iter().all(|log| log.turn_speeds == [0.002]));
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    #[must_use]
+    pub fn all_with_turn_speeds(logs: &[Self], speeds: &[f64]) -> Vec<Self> {
         let logs = logs.iter();
         logs.map(|log| log.clone().with_turn_speeds(speeds.to_vec()))
             .collect()

@@ -327,6 +327,68 @@ fn solve_symmetric(matrix: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::columns::{Columns, Shape, Unknown};
+    use crate::motion::Motion;
+
+    struct Law([Unknown; 2]);
+
+    impl Columns for Law {
+        fn unknowns(&self) -> &[Unknown] {
+            &self.0
+        }
+
+        fn shapes(&self) -> &[Shape] {
+            &[]
+        }
+
+        fn uses_rigid_torque(&self) -> bool {
+            false
+        }
+
+        fn entries(&self, _: &Motion, _: &[f64]) -> Vec<Entry> {
+            Vec::new()
+        }
+    }
+
+    impl Candidate for Law {
+        fn kind(&self) -> &'static str {
+            "law"
+        }
+
+        fn joints(&self) -> &[usize] {
+            &[0]
+        }
+    }
+
+    /// Columns `z` with products `[[2, 1], [1, 2]]`, of which least squares makes `[3, -1]`: with neither negative it is `[2.5, 0]`.
+    #[test]
+    fn a_law_explains_what_it_does_with_the_signs_that_it_may_have() {
+        let law = |nonnegative: [bool; 2]| {
+            Law(nonnegative.map(|nonnegative| Unknown {
+                name: String::new(),
+                nonnegative,
+            }))
+        };
+        let projected = Projected {
+            gain: vec![3.0, -1.0],
+            drop: 14.0,
+            corrections: Vec::new(),
+            information: vec![vec![2.0, 1.0], vec![1.0, 2.0]],
+        };
+        let drop = |nonnegative| projected.admissible_drop(&law(nonnegative));
+        for (signs, wanted) in [
+            ([false, false], 14.0),
+            ([true, false], 14.0),
+            ([false, true], 12.5),
+            ([true, true], 12.5),
+        ] {
+            assert!(
+                (drop(signs) - wanted).abs() < 1e-9,
+                "{signs:?}: {}",
+                drop(signs)
+            );
+        }
+    }
 
     #[test]
     fn a_direction_without_information_is_left_alone() {

@@ -172,7 +172,8 @@ fn comes_back(repeating: &[f64], rest: &[f64], periods: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::repeated_power;
+    use super::{LEAST_RATIO, MOTION_BAND, REFERENCE_BAND, RawResidual, of, repeated_power};
+    use crate::signal::band_density;
 
     /// Slow noise: every value is that before it, but for a little.
     fn slow(samples: usize, seed: f64) -> Vec<f64> {
@@ -204,6 +205,41 @@ mod tests {
         let by_power = (0..200).filter(|seed| is_twice(&slow(800, 1e4 * f64::from(*seed)), 400));
         assert!(by_power.count() > 20);
         assert!(found <= 8, "{found} of 200");
+    }
+
+    /// Noise that is correlated over 20 ms falls by more than the least ratio from the band of motion to that above it, and follows nothing.
+    #[test]
+    fn noise_of_some_milliseconds_is_no_structure_and_a_wave_in_it_is() {
+        const HZ: f64 = 500.0;
+        let kept = (-1.0 / (HZ * 0.02)).exp();
+        let mut value = 0.0;
+        let noise = (0..30_000_u32).map(|k| {
+            let random = (12.9898 * (f64::from(k) + 1.0)).sin() * 43_758.545_3;
+            value = kept * value + random.rem_euclid(1.0) - 0.5;
+            value
+        });
+        let noise: Vec<f64> = noise.collect();
+        let structure = |values: &[f64]| {
+            of(&[RawResidual {
+                values,
+                beyond: 0.0,
+                filtered: values,
+                filtered_hz: HZ,
+                rate_hz: HZ,
+                shared_hz: 10.0,
+                period: None,
+            }])
+        };
+        let density =
+            |(low, high): (f64, f64)| band_density(&noise, HZ, &[10.0 * low, 10.0 * high])[0];
+        assert!(density(MOTION_BAND) > LEAST_RATIO * density(REFERENCE_BAND));
+        assert!(!structure(&noise).is_material(), "{:?}", structure(&noise));
+        let wave = noise
+            .iter()
+            .enumerate()
+            .map(|(k, noise)| noise + 1.2 * (std::f64::consts::TAU * 1.3 * k as f64 / HZ).sin());
+        let wave: Vec<f64> = wave.collect();
+        assert!(structure(&wave).is_material(), "{:?}", structure(&wave));
     }
 
     #[test]
