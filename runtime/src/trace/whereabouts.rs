@@ -135,7 +135,7 @@ pub struct Share {
 /// How much of a joint's residual is one term of the arm's equations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TermShare {
-    /// The function of the motion, see [`crate::Arm::terms`].
+    /// The function of the motion, see [`Arm::terms`](crate::columns::Arm::terms).
     pub term: String,
     /// What it is multiplied with, beside the model; in SI units.
     pub coefficient: f64,
