@@ -6,6 +6,7 @@ mod figure;
 mod interrupt;
 mod limits;
 mod output;
+mod request;
 mod room;
 mod separate;
 
@@ -14,22 +15,14 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::{Args, ValueEnum};
-use robot_model::excite::{
-    Clearance, Ends, ExciteError, Limits, Progress as Search, Regressor, Request,
-};
-use robot_model_codegen::{Compiled, Nominal};
+use robot_model::excite::{ExciteError, Progress as Search, Request};
 
-use crate::interpreted::InterpretedFunction;
-use crate::output::{Files, counted, names};
-use crate::parameters;
+use crate::output::{Files, counted};
 use crate::progress::Progress;
 use crate::{Error, spec};
 
 use criterion::CriterionArgument;
 use interrupt::Interrupt;
-
-/// Velocity within which dry friction turns round while a motion is looked for, as a share of a joint's velocity limit.
-const TURN: f64 = 0.01;
 
 /// Design the motion that identifies an arm best, within its limits.
 ///
@@ -211,162 +204,6 @@ impl Excite {
             file.commit(output::report(&request, &design, seconds).as_bytes())?;
         }
         crate::output::print(&output::summary(&request, &design, seconds))
-    }
-
-    fn request(
-        &self,
-        compiled: &Compiled,
-        rivals: Option<&separate::Expected>,
-        progress: &Progress,
-    ) -> Result<Request, Error> {
-        let scaling = self.criterion.scaling(self.unit_columns)?;
-        let joints: Vec<String> = compiled
-            .model
-            .joints
-            .iter()
-            .map(|joint| joint.name.clone())
-            .collect();
-        let limits = limits::of(&compiled.model, self.acceleration.as_deref())?;
-        let expected = rivals.map_or_else(Vec::new, separate::Expected::shapes);
-        let known = parameters::known(compiled, self.parameters.as_deref(), &expected)?;
-        let guessed = &known.guessed;
-        if !guessed.is_empty() {
-            let guessed: Vec<&str> = guessed.iter().map(String::as_str).collect();
-            progress.note(&format!(
-                "note: designed with the spec's first values of {}; give others with `--parameters`",
-                names(&guessed)
-            ));
-        }
-        if compiled.check_instantaneous().is_err() || compiled.delay().is_some() {
-            progress.note(
-                "note: what moves links along a motion, or makes torques late, is not designed for",
-            );
-        }
-        let nominal = Nominal {
-            beta: known.beta.clone(),
-            shapes: known.shapes.clone(),
-            turn: limits.velocity.iter().map(|speed| TURN * speed).collect(),
-        };
-        let beside = rivals.map(|rivals| rivals.columns(compiled));
-        let beside = beside.unwrap_or_default();
-        let columns = compiled.design_columns(&nominal, &beside);
-        let jumping = Nominal {
-            turn: Vec::new(),
-            ..nominal.clone()
-        };
-        let jumping = compiled.design_columns(&jumping, &beside);
-        if !columns.left_out.is_empty() {
-            let left_out = columns.left_out.iter();
-            let left_out: Vec<String> = left_out.map(|column| column.name(compiled)).collect();
-            progress.note(&format!(
-                "note: not designed for {}: {} on more than the motion",
-                names(&left_out.iter().map(String::as_str).collect::<Vec<_>>()),
-                if left_out.len() == 1 {
-                    "it depends"
-                } else {
-                    "they depend"
-                },
-            ));
-        }
-        let criterion = match rivals {
-            Some(rivals) => rivals.criterion(compiled, &columns, &known)?,
-            None => self.criterion.into(),
-        };
-        let basis = match &self.columns {
-            None => None,
-            Some(names) => Some(columns::basis(compiled, &columns, names)?),
-        };
-        let function = |programs| InterpretedFunction::new(programs, compiled.dof(), self.period);
-        let followed = function(columns.function);
-        if let Some(state) = followed.restless_state() {
-            return Err(Error::Argument(format!(
-                "the state `{}` does not settle where a motion repeats: no motion is designed with its effect; take that out of the spec",
-                compiled.model.states()[state]
-            )));
-        }
-        let clearances = self.clearances(
-            compiled,
-            rivals,
-            &nominal,
-            &limits,
-            &known.missing,
-            progress,
-        )?;
-        let of_columns = columns.columns.iter();
-        let noise = limits::noise(self.noise.as_deref(), &limits, &joints)?;
-        Ok(Request {
-            regressor: Regressor {
-                columns: of_columns.map(|column| column.name(compiled)).collect(),
-                entries: columns.entries,
-                function: Box::new(followed),
-                exact: Box::new(function(jumping.function)),
-            },
-            joints,
-            limits,
-            clearances,
-            criterion,
-            basis,
-            scaling,
-            noise,
-            period: self.period,
-            harmonics: self.harmonics,
-            ends: match (&self.pose, self.ends) {
-                (Some(pose), _) => Ends::At(pose.clone()),
-                (None, EndsArgument::Rest) => Ends::AtRest,
-                (None, EndsArgument::Free) => Ends::Free,
-            },
-            starts: self.starts as usize,
-            seed: self.seed,
-        })
-    }
-
-    /// Torque limits and the room, where there are some.
-    fn clearances(
-        &self,
-        compiled: &Compiled,
-        rivals: Option<&separate::Expected>,
-        nominal: &Nominal,
-        limits: &Limits,
-        missing: &[String],
-        progress: &Progress,
-    ) -> Result<Vec<Box<dyn Clearance>>, Error> {
-        let mut clearances = Vec::new();
-        let is_limited = limits.torque.iter().any(|limit| limit.is_finite());
-        let reads_load = rivals.is_some_and(separate::Expected::read_load);
-        let said: Vec<&str> = rivals
-            .into_iter()
-            .flat_map(separate::Expected::parameters)
-            .collect();
-        let missing = missing.iter().map(String::as_str);
-        let missing: Vec<&str> = missing.filter(|name| !said.contains(name)).collect();
-        if (is_limited || reads_load) && !missing.is_empty() {
-            progress.note(&format!(
-                "note: torques are those of an arm without {}, which {} no value; give {} with `--parameters`",
-                names(&missing),
-                if missing.len() == 1 { "has" } else { "have" },
-                if missing.len() == 1 { "it" } else { "them" },
-            ));
-        }
-        if is_limited {
-            // Whichever of two rivals is there, the limits are kept.
-            let arms = match rivals {
-                Some(rivals) => rivals.arms(compiled).to_vec(),
-                None => vec![Vec::new()],
-            };
-            for values in arms {
-                let known = parameters::known(compiled, self.parameters.as_deref(), &values)?;
-                let arm = Nominal {
-                    beta: known.beta,
-                    shapes: known.shapes,
-                    turn: nominal.turn.clone(),
-                };
-                clearances.push(limits::torque(compiled, &arm, limits, self.period));
-            }
-        }
-        if let Some(path) = &self.room {
-            clearances.push(room::read(path, compiled, nominal, self.period)?);
-        }
-        Ok(clearances)
     }
 }
 

@@ -79,6 +79,27 @@ fn a_law_that_says_all_that_a_simpler_one_says_is_named() {
     assert_eq!(kinds(&out, "effects").len(), 1, "{out}");
 }
 
+/// Over one range of speeds a square and a cube of the velocity are alike; a further log at other speeds parts them.
+#[test]
+fn a_further_log_at_another_speed_parts_laws_that_one_log_does_not() {
+    let drag = |_, dq: f64| 0.5 * dq * dq.abs();
+    let fast = tones(0.7).map(|[amplitude, frequency, phase]| [amplitude, 2.5 * frequency, phase]);
+    let folder = Folder::new();
+    folder.write("arm.robot", CART);
+    folder.write("log.csv", &cart_with(200, 40, &tones(0.0), drag));
+    folder.write("fast.csv", &cart_with(200, 40, &fast, drag));
+    let of = |logs: &[&str]| {
+        folder.succeed(&[&["trace", "arm.robot", "--json", "out.json"], logs].concat());
+        json(&folder.read("out.json"))
+    };
+    let one = of(&["log.csv"]);
+    assert_eq!(kinds(&one, "effects"), ["quadratic-viscous"], "{one}");
+    assert_eq!(kinds(&one, "alternatives"), ["cubic-viscous"], "{one}");
+    let both = of(&["log.csv", "fast.csv"]);
+    assert_eq!(kinds(&both, "effects"), ["quadratic-viscous"], "{both}");
+    assert!(kinds(&both, "alternatives").is_empty(), "{both}");
+}
+
 /// The rise at breakaway is in pulses of milliseconds, of which the filtered fit sees little.
 #[test]
 fn a_law_of_short_pulses_is_named_by_raw_errors() {

@@ -1,0 +1,137 @@
+//! What `--method output-error` refuses, and how.
+
+use std::fmt::Write;
+
+use super::soft;
+use crate::common::Folder;
+
+/// An arm with a log of one joint, and files with mistakes.
+fn mistaken() -> Folder {
+    let folder = Folder::new();
+    folder.write("arm.robot", &soft("(stiffness = 500)"));
+    folder.write(
+        "start.json",
+        r#"{"a.motor_inertia.ia": 0.3, "a.viscous_friction.fv": 0.8}"#,
+    );
+    let mut log = String::from("time,q1,tau1,ref1\n");
+    for k in 0..400 {
+        let t = 0.005 * f64::from(k);
+        let (q, tau) = (0.3 * (3.0 * t).sin(), 5.0 * (3.0 * t).cos());
+        writeln!(log, "{t},{q},{tau},{q}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    folder.write(
+        "two.json",
+        r#"{"joints": [{"position": [1]}, {"position": [1]}]}"#,
+    );
+    folder.write("typo.json", r#"{"joints": [{"positions": [1]}]}"#);
+    folder.write("other.json", r#"{"joints": [{"columns": {"qref1": [1]}}]}"#);
+    folder.write(
+        "limit.json",
+        r#"{"joints": [{"position": [-1], "limit": 0}]}"#,
+    );
+    folder.write("wild.json", r#"{"joints": [{"position": [1e9]}]}"#);
+    folder.write("far.json", r#"{"a.viscous_friction.fv": [1, 2]}"#);
+    folder.write("name.json", r#"{"a.fv": [1, 2]}"#);
+    folder.write("fall.json", r#"{"a.viscous_friction.fv": [2, 1]}"#);
+    folder
+}
+
+#[test]
+fn what_a_simulation_cannot_take_is_told() {
+    let folder = mistaken();
+    let basics = ["identify", "arm.robot", "log.csv"];
+    let simulated = ["--method", "output-error", "--start", "start.json"];
+    for (options, word) in [
+        (
+            &["--start", "start.json"][..],
+            "`--start` is of `--method output-error`",
+        ),
+        (
+            &["--method", "wls", "--window", "1"],
+            "`--window` is of `--method output-error`",
+        ),
+        (
+            &["--method", "output-error", "--prior", "0.2"],
+            "`--prior` is of methods with equations",
+        ),
+        (
+            &["--method", "output-error", "--form", "filtered"],
+            "`--form filtered` is of methods",
+        ),
+        (
+            &["--method", "output-error"],
+            "nor does the spec: arm.robot: no value for `a.motor_inertia.ia`, ",
+        ),
+        (
+            &[&simulated[..], &["--window", "0.02"]].concat(),
+            "too few samples for a motion",
+        ),
+        (
+            &[&simulated[..], &["--window", "0"]].concat(),
+            "`--window` has to be positive",
+        ),
+        (
+            &[&simulated[..], &["--controller", "two.json"]].concat(),
+            "has 2 laws for an arm with 1 joint",
+        ),
+        (
+            &[&simulated[..], &["--controller", "typo.json"]].concat(),
+            "unknown field `positions`",
+        ),
+        (
+            &[&simulated[..], &["--controller", "other.json"]].concat(),
+            "no column `qref1`, which the controller reads",
+        ),
+        (
+            &[&simulated[..], &["--controller", "limit.json"]].concat(),
+            "joint a: `limit` has to be positive",
+        ),
+        (
+            &[&simulated[..], &["--controller", "wild.json"]].concat(),
+            "with the parameters that the search starts from",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "far.json"]].concat(),
+            "starts at 0.8, outside of its bounds 1 .. 2",
+        ),
+        (
+            &[
+                &simulated[..],
+                &["--controller", "limit.json", "--hold", "mean"],
+            ]
+            .concat(),
+            "`--hold` is of arms that the logged torque drives",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "name.json"]].concat(),
+            "no parameter is called `a.fv`",
+        ),
+        (
+            &[&simulated[..], &["--bounds", "fall.json"]].concat(),
+            "two numbers that rise",
+        ),
+    ] {
+        let said = folder.refuse(&[&basics[..], options].concat());
+        assert!(said.contains(word), "{options:?}: {said}");
+    }
+}
+
+#[test]
+fn a_log_without_a_motion_is_refused_at_once() {
+    let folder = mistaken();
+    let mut log = String::from("time,q1,tau1\n");
+    for k in 0..4000 {
+        let t = 0.005 * f64::from(k);
+        writeln!(log, "{t},0.3,2").expect("a string takes all");
+    }
+    folder.write("still.csv", &log);
+    let identify = ["identify", "arm.robot", "still.csv", "--method"];
+    let run = folder.run(&[&identify[..], &["output-error", "--start", "start.json"]].concat());
+    assert_ne!(run.code, Some(0));
+    assert!(
+        run.stderr.contains("no joint moves in these logs"),
+        "{}",
+        run.stderr
+    );
+}
