@@ -196,6 +196,11 @@ pub trait Candidate: Columns {
         false
     }
 
+    /// Whether it is a law of time or of the part of a period, as a contact is: a wander of the zero is one of time as well.
+    fn is_of_time(&self) -> bool {
+        false
+    }
+
     /// What it is where it is no torque that is added; its [`Columns::unknowns`] are then its shapes, one a [`Change::probe`], and it
     /// has no [`Columns::entries`].
     fn change(&self) -> Option<&dyn Change> {

@@ -75,6 +75,11 @@ impl EffectBlock {
         self.reads(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)))
     }
 
+    /// Whether a column reads the time.
+    pub(super) fn reads_time(&self) -> bool {
+        self.reads(|symbol| matches!(symbol, Symbol::Time))
+    }
+
     fn reads(&self, wanted: impl Fn(&Symbol) -> bool) -> bool {
         let mut symbols = self
             .block

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
-use robot_model::log::Channel;
+use robot_model::log::{Channel, MOTION_PHASE};
 use robot_model::motion::{Kinematics, Motion};
 use robot_model_codegen::effect_columns;
 use robot_model_spec::model::{Act, EffectDefinition, Model};
@@ -231,6 +231,10 @@ impl Candidate for InterpretedCandidate {
 
     fn follows_torque(&self) -> bool {
         self.columns.reads_measured_torque()
+    }
+
+    fn is_of_time(&self) -> bool {
+        self.columns.reads_time() || self.inputs().iter().any(|input| input == MOTION_PHASE)
     }
 
     fn joints(&self) -> &[usize] {

@@ -9,9 +9,8 @@ use super::gram::Gram;
 use super::score::Present;
 use super::search::{Search, State};
 
-/// Chance of what counts as more, and of what counts as nothing.
-const MORE: f64 = 1e-3;
-const NOTHING: f64 = 1e-2;
+/// Chance up to which it counts as more, and from which on as nothing.
+const CHANCE: f64 = 1e-2;
 
 /// Held-out errors within this of each other are alike, percent: the error of a joint that neither effect touches is not the same in two
 /// fits.
@@ -21,8 +20,8 @@ impl Search<'_> {
     /// Whether `one` encompasses `other`.
     pub(super) fn encompasses(&self, state: &State, one: &Judged, other: &Judged) -> bool {
         gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
-            && self.beside(state, one, other) < MORE
-            && self.beside(state, other, one) > NOTHING
+            && self.beside(state, one, other) < CHANCE
+            && self.beside(state, other, one) > CHANCE
     }
 
     /// Probability of the score of `one` in noise, with `other` in the model; 1 where it says nothing new.
@@ -43,7 +42,8 @@ impl Search<'_> {
         let trial = &one.trial;
         let projected = trial.project(&present);
         projected.map_or(1.0, |projected| {
-            present.score(&trial.entries, &projected).p_value
+            let score = present.score(trial.candidate, &trial.entries, &projected);
+            score.p_value
         })
     }
 }

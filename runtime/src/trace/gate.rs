@@ -5,8 +5,9 @@ use crate::columns::Change;
 use super::change::Changed;
 use super::folds::Fold;
 use super::gram::{Gram, HeldOut};
+use super::projected::Projected;
 use super::raw::Raw;
-use super::score::{Present, Projected};
+use super::score::Present;
 use super::search::{Search, State};
 use super::trial::Trial;
 use super::verdict::{Evidence, Refusal, Tried};
@@ -30,8 +31,8 @@ pub(super) struct Baseline<'a> {
     held_out: HeldOut,
     /// The residual on raw samples.
     raw: Raw<'a>,
-    /// Candidates and shapes tried.
-    tried: usize,
+    /// Independent tests that all candidates and shapes are worth.
+    tests: f64,
 }
 
 /// A candidate's trial, judged.
@@ -49,11 +50,11 @@ pub(super) struct Judged<'a> {
 }
 
 impl Search<'_> {
-    /// The present model as that which `tried` candidates and shapes are judged against, on these folds.
+    /// The present model as that which candidates and shapes worth so many tests are judged against, on these folds.
     pub(super) fn baseline<'a>(
         &'a self,
         state: &'a State,
-        tried: usize,
+        tests: f64,
         folds: &[Fold],
     ) -> Baseline<'a> {
         let (stack, sigma) = (&state.stack, &state.solution.sigma);
@@ -63,7 +64,7 @@ impl Search<'_> {
             held_out: gram.held_out(sigma),
             gram,
             raw: self.raw(state),
-            tried,
+            tests,
         }
     }
 }
@@ -75,11 +76,11 @@ impl Baseline<'_> {
         let gram = self.gram.extended(stack, &trial.entries, count);
         let held_out = gram.held_out(self.present.sigma);
         let touched = self.touched(&trial);
-        let score = self.present.score(&trial.entries, projected);
+        let score = (self.present).score(trial.candidate, &trial.entries, projected);
         let noise_power = self.raw.noise_power_with(&trial, projected, &score.rest);
         let compared = self.compared(&held_out, &noise_power, &touched);
         let gain = gram.normal(self.present.sigma).solve()[self.gram.unknowns()..].to_vec();
-        let p_value = (self.tried as f64 * score.p_value).min(1.0);
+        let p_value = (self.tests * score.p_value).min(1.0);
         let evidence = Evidence {
             score: score.f,
             p_value,

@@ -11,7 +11,8 @@ use crate::columns::{Candidate, Entry};
 use crate::motion::{Kinematics, Motion};
 use crate::signal::Prepared;
 
-use super::score::{Present, Projected};
+use super::projected::Projected;
+use super::score::Present;
 use super::trial::{Trial, points, project};
 
 /// Grids of more points than this are screened.
@@ -48,6 +49,22 @@ impl<'a> Grid<'a> {
                 .iter()
                 .map(|shape| shape.grid.len())
                 .product(),
+        }
+    }
+
+    /// Its points' columns, as rows of the fit.
+    pub(super) fn each(&self, rows: &[Motion], see: &mut dyn FnMut(&dyn Candidate, &[Entry])) {
+        match self {
+            Self::Formed(trials) => {
+                for trial in trials {
+                    see(trial.candidate, &trial.entries);
+                }
+            }
+            Self::Screened(candidate) => {
+                for shapes in points(*candidate) {
+                    see(*candidate, &over(*candidate, rows, &shapes));
+                }
+            }
         }
     }
 

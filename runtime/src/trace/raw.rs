@@ -6,7 +6,7 @@
 use crate::columns::Entry;
 use crate::signal::Prepared;
 
-use super::score::Projected;
+use super::projected::Projected;
 use super::search::{Search, State};
 use super::trial::Trial;
 

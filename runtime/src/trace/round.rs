@@ -7,6 +7,7 @@ use crate::motion::Motion;
 use super::choose::choose;
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::grid::{self, Grid};
+use super::multiplicity;
 use super::search::{Accepted, Search, State, is_of_phase};
 use super::trial::Trial;
 use super::verdict::{Refusal, Tried};
@@ -14,7 +15,7 @@ use super::verdict::{Refusal, Tried};
 /// Candidates that are fitted on every fold in a round, by how much of the residual they explain.
 const FINALISTS: usize = 16;
 
-/// Candidates whose shapes are refined twice: what a shape is off by stays in the residual, and looks like another effect.
+/// Candidates whose shapes are refined together: what a shape is off by stays in the residual, and looks like another effect.
 const FINELY: usize = 3;
 
 /// Share of what comes back in every period that a law of the part of a period may leave.
@@ -53,9 +54,12 @@ impl Search<'_> {
 
     /// The candidates that explain most, judged.
     fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
-        let points = grids.iter().map(Grid::len).sum();
-        let baseline = self.baseline(state, points, &self.folds);
         let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
+        let tests = self.tests.get_or_init(|| {
+            let baseline = self.baseline(state, 1.0, &self.folds);
+            multiplicity::tests(&baseline.present, grids, &rows)
+        });
+        let baseline = self.baseline(state, *tests, &self.folds);
         let mut best: Vec<(f64, Trial)> = grids
             .iter()
             .filter_map(|grid| grid.best(&baseline.present, &self.prepared, &rows))
@@ -66,11 +70,10 @@ impl Search<'_> {
         finalists
             .enumerate()
             .filter_map(|(place, (_, trial))| {
-                let sweeps = if place < FINELY { 2 } else { 1 };
-                let trial = trial.refined(&baseline.present, &self.prepared, sweeps);
+                let trial = trial.refined(&baseline.present, &self.prepared, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
                 let mut judged = if is_of_phase(trial.candidate) {
-                    let baseline = self.baseline(state, points, self.folds_of(trial.candidate));
+                    let baseline = self.baseline(state, *tests, self.folds_of(trial.candidate));
                     let rest = baseline.present.rest(&trial.entries, &projected);
                     let mut judged = baseline.judge(trial, &projected);
                     if self.comes_back(state, &rest) {

@@ -1,5 +1,6 @@
 //! Forward search: the best effect that passes, then the next, until none does.
 
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::columns::{Arm, Candidate};
@@ -122,6 +123,7 @@ impl<'a> Trace<'a> {
             prepared,
             folds: folds::cut(&stack.segments, &periods),
             folds_of_time: folds::cut(&stack.segments, &vec![None; logs.len()]),
+            tests: OnceLock::new(),
             periods,
         };
         let residuals = stack.residuals(&solution.estimate);
@@ -192,17 +194,9 @@ impl<'a> Trace<'a> {
                 }
             }
         }
-        let mut state = search.prune(state)?;
-        let mut after = search.structure(&state).to_vec();
-        // What is too small to be named may be structure, and is none that is unknown.
-        while after.iter().any(Structure::is_material) && state.accepted.len() < MOST_EFFECTS {
-            let Some(small) = search.small(&state, &grids) else {
-                break;
-            };
-            state.accepted.push(small);
-            state = search.refit(state, false)?;
-            after = search.structure(&state).to_vec();
-        }
+        state = search.prune(state)?;
+        state = search.with_small(state, &grids)?;
+        let after = search.structure(&state).to_vec();
         let before = self.since.clone().unwrap_or(before);
         let is_told = |joint: &usize| after[*joint].is_material() || of_terms.contains(joint);
         let told = (0..after.len()).filter(is_told).collect();
@@ -234,6 +228,8 @@ pub(super) struct Search<'s> {
     pub(super) folds: Vec<Fold>,
     /// Blocks of time although motions repeat: for laws of the part of a period, of which others have to be seen.
     folds_of_time: Vec<Fold>,
+    /// Independent tests that all candidates are worth, found in the first round.
+    pub(super) tests: OnceLock<f64>,
 }
 
 impl Search<'_> {
@@ -369,13 +365,33 @@ impl Search<'_> {
 
     /// Whether a model without an effect is worse by as much as matters on one of its joints.
     fn is_needed(&self, state: &State, trial: &Trial) -> bool {
-        let baseline = self.baseline(state, 1, self.folds_of(trial.candidate));
+        let baseline = self.baseline(state, 1.0, self.folds_of(trial.candidate));
         trial.project(&baseline.present).is_some_and(|projected| {
             let judged = baseline.judge(trial.clone(), &projected);
             let touched = trial.touched();
             let mut joints = touched.iter();
             joints.any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
         })
+    }
+
+    /// Takes off what is too small to be named: it may be structure, and is none that is unknown.
+    fn with_small<'a>(
+        &mut self,
+        mut state: State<'a>,
+        grids: &[Grid<'a>],
+    ) -> Result<State<'a>, IdentifyError> {
+        let is_left = |search: &Self, state: &State| {
+            let structure = search.structure(state).iter().any(Structure::is_material);
+            structure && state.accepted.len() < MOST_EFFECTS
+        };
+        while is_left(self, &state) {
+            let Some(small) = self.small(&state, grids) else {
+                break;
+            };
+            state.accepted.push(small);
+            state = self.refit(state, false)?;
+        }
+        Ok(state)
     }
 
     /// Drops effects that later ones made needless.

@@ -1,13 +1,9 @@
 //! How sure the values of accepted effects are, shapes among them.
 
-use crate::columns::{Candidate, Entry, Unknown};
-use crate::identify::filtered_columns;
+use crate::columns::{Candidate, Unknown};
 
 use super::search::{Accepted, Search, State};
-
-/// Step of a shape's slope, of its value or of a thousandth of its range.
-const STEP: f64 = 1e-4;
-const SHARE_OF_RANGE: f64 = 1e-3;
+use super::slopes::slopes;
 
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
@@ -24,7 +20,9 @@ impl Search<'_> {
         for effect in effects() {
             let count = effect.trial.count();
             let gain = &state.solution.estimate[first..first + count];
-            let (unknowns, slopes) = self.slopes(effect, gain);
+            let trial = &effect.trial;
+            let slopes = slopes(trial.candidate, &trial.shapes, gain, &self.prepared);
+            let unknowns = unknowns(trial.candidate);
             let shapes = stack.unknowns.len();
             places.push((first..first + count, shapes..shapes + unknowns.len()));
             stack.append(&unknowns, &slopes);
@@ -40,53 +38,6 @@ impl Search<'_> {
             linear.chain(shapes).map(|k| std[k]).collect()
         };
         state.accepted.iter().map(of_effect).collect()
-    }
-
-    /// Columns of what an effect's torque changes by with each of its shapes.
-    fn slopes(&self, effect: &Accepted, gain: &[f64]) -> (Vec<Unknown>, Vec<Entry>) {
-        let trial = &effect.trial;
-        let candidate = trial.candidate;
-        let torque = |shapes: &[f64]| {
-            let columns = filtered_columns(candidate, &self.prepared, shapes);
-            let mut joints = vec![Vec::new(); self.arm.dof()];
-            for Entry {
-                joint,
-                column,
-                values,
-            } in columns
-            {
-                let torque: &mut Vec<f64> = &mut joints[joint];
-                torque.resize(values.len(), 0.0);
-                let terms = torque.iter_mut().zip(values);
-                terms.for_each(|(sum, value)| *sum += gain[column] * value);
-            }
-            joints
-        };
-        let slope = |(number, value): (usize, &f64)| {
-            let grid = &candidate.shapes()[number].grid;
-            let (low, high) = (grid[0], grid[grid.len() - 1]);
-            let step = STEP * value.abs().max(SHARE_OF_RANGE * (high - low));
-            let ends = [value - step, value + step].map(|end| end.clamp(low, high));
-            let [below, above] = ends.map(|end| {
-                let mut shapes = trial.shapes.clone();
-                shapes[number] = end;
-                torque(&shapes)
-            });
-            let joints = below.into_iter().zip(above).enumerate();
-            let joints = joints.filter(|(_, (below, _))| !below.is_empty());
-            let entries = joints.map(move |(joint, (below, above))| Entry {
-                joint,
-                column: number,
-                values: below
-                    .iter()
-                    .zip(&above)
-                    .map(|(below, above)| (above - below) / (ends[1] - ends[0]))
-                    .collect(),
-            });
-            entries.collect::<Vec<Entry>>()
-        };
-        let slopes = trial.shapes.iter().enumerate().flat_map(slope).collect();
-        (unknowns(candidate), slopes)
     }
 }
 

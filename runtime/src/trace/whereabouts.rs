@@ -165,7 +165,7 @@ impl Search<'_> {
         if terms.is_empty() || found.changed.is_some() {
             return Vec::new();
         }
-        let baseline = self.baseline(state, 1, &self.folds);
+        let baseline = self.baseline(state, 1.0, &self.folds);
         let present = &baseline.present;
         let by_effect = found.trial.project(present).map_or(0.0, |p| p.drop);
         let is_more = |joint: usize, values: &Vec<f64>| {
