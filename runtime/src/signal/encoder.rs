@@ -13,6 +13,10 @@ const SINGLE: f64 = 0.01;
 /// With fewer changes of so few steps nothing is said.
 const LEAST_CHANGES: usize = 10;
 
+/// A joint that its friction holds creeps, at speeds of this order, rad/s or m/s: a fine encoder shows the direction of that, which says
+/// nothing of the friction.
+const CREEP: f64 = 0.002;
+
 /// Largest speed without direction, as a share of a joint's root-mean-square speed.
 const MOST_TURN_SHARE: f64 = 0.01;
 
@@ -50,15 +54,18 @@ fn encoder_step(positions: &[f64]) -> Option<f64> {
     None
 }
 
-/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not more
-/// than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from slow motion.
+/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not less than
+/// a joint creeps at, nor more than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from
+/// slow motion. Positions between steps, of a simulation or a filter, have none.
 pub(super) fn turn_speed(positions: &[f64], velocity: &[f64], wide_hz: f64) -> f64 {
     let Some(step) = encoder_step(positions) else {
         return 0.0;
     };
     let squares = velocity.iter().map(|dq| dq * dq).sum::<f64>();
     let speed = (squares / velocity.len().max(1) as f64).sqrt();
-    (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed)
+    (2.0 * wide_hz * step)
+        .max(CREEP)
+        .min(MOST_TURN_SHARE * speed)
 }
 
 #[cfg(test)]
@@ -101,7 +108,8 @@ mod tests {
     fn a_coarse_encoder_takes_little_of_a_motion() {
         let read = |step: f64| turning(|q| (q / step).round() * step);
         let of = |step: f64| turn_speed(&read(step), &[0.3, -0.3], 90.0);
-        assert!((of(1e-6) / 180e-6 - 1.0).abs() < 1e-6, "{}", of(1e-6));
+        assert!((of(1e-6) - CREEP).abs() < 1e-12, "{}", of(1e-6));
+        assert!((of(1.5e-5) / 2.7e-3 - 1.0).abs() < 1e-6, "{}", of(1.5e-5));
         assert!((of(1e-3) - 0.003).abs() < 1e-12, "{}", of(1e-3));
         assert!(turn_speed(&turning(|q| q), &[0.3], 90.0) == 0.0);
     }
