@@ -14,10 +14,11 @@ const SINGLE: f64 = 0.01;
 const LEAST_CHANGES: usize = 10;
 
 /// A joint that its friction holds creeps, at speeds of this order, rad/s or m/s: a fine encoder shows the direction of that, which says
-/// nothing of the friction.
+/// nothing of the friction. But no more than this share of a joint's root-mean-square speed.
 const CREEP: f64 = 0.002;
+const MOST_CREEP_SHARE: f64 = 0.005;
 
-/// Largest speed without direction, as a share of a joint's root-mean-square speed.
+/// Largest speed without direction that an encoder makes, as the same share.
 const MOST_TURN_SHARE: f64 = 0.01;
 
 /// The step of an encoder: a smallest change of a position from sample to sample of which nearly all small changes are whole numbers.
@@ -63,9 +64,8 @@ pub(super) fn turn_speed(positions: &[f64], velocity: &[f64], wide_hz: f64) -> f
     };
     let squares = velocity.iter().map(|dq| dq * dq).sum::<f64>();
     let speed = (squares / velocity.len().max(1) as f64).sqrt();
-    (2.0 * wide_hz * step)
-        .max(CREEP)
-        .min(MOST_TURN_SHARE * speed)
+    let of_encoder = (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed);
+    of_encoder.max(CREEP.min(MOST_CREEP_SHARE * speed))
 }
 
 #[cfg(test)]
@@ -108,8 +108,8 @@ mod tests {
     fn a_coarse_encoder_takes_little_of_a_motion() {
         let read = |step: f64| turning(|q| (q / step).round() * step);
         let of = |step: f64| turn_speed(&read(step), &[0.3, -0.3], 90.0);
-        assert!((of(1e-6) - CREEP).abs() < 1e-12, "{}", of(1e-6));
-        assert!((of(1.5e-5) / 2.7e-3 - 1.0).abs() < 1e-6, "{}", of(1.5e-5));
+        assert!((of(1e-6) - 0.0015).abs() < 1e-12, "{}", of(1e-6));
+        assert!((of(1e-5) / 1.8e-3 - 1.0).abs() < 1e-6, "{}", of(1e-5));
         assert!((of(1e-3) - 0.003).abs() < 1e-12, "{}", of(1e-3));
         assert!(turn_speed(&turning(|q| q), &[0.3], 90.0) == 0.0);
     }
