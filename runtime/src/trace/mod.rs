@@ -45,6 +45,7 @@ mod grid;
 mod multiplicity;
 mod normal;
 mod projected;
+mod prune;
 mod raw;
 mod refine;
 mod residual;
