@@ -30,9 +30,15 @@ const ALIKE: f64 = 0.95;
 /// By which share a joint's squared error has to be less with a width than with the one that its encoder has.
 const SHARE: f64 = 0.04;
 
+/// Where logs do not tell, a joint that its friction holds is taken to creep at speeds up to this, rad/s or m/s, and to at most this share of
+/// its root-mean-square speed: a fine encoder shows the direction of creep, which says nothing of the friction. Positions between steps,
+/// of a simulation or a filter, are taken for exact.
+const CREEP: f64 = 0.002;
+const MOST_CREEP_SHARE: f64 = 0.005;
+
 impl Identify {
     /// Speeds below which dry friction does not act in full, one a joint, rad/s or m/s, for [`Log::with_turn_speeds`]: what explains the
-    /// logs better than what their encoders do not tell, which other joints keep.
+    /// logs better than what their encoders do not tell. Other joints have that, or 2 mrad/s (mm/s) if it is more.
     ///
     /// # Errors
     /// Those of [`Identify::fit`].
@@ -52,7 +58,16 @@ impl Identify {
         let (solution, _, mut stack) = self.solve(arm, &mut prepared, None)?;
         stack.silence(&solution.unexcited);
         let joints: Vec<usize> = (0..arm.dof()).collect();
-        let mut speeds: Vec<f64> = joints.iter().map(|&j| current(&prepared, j)).collect();
+        let untold = joints.iter().map(|&joint| {
+            let of_encoder = current(&prepared, joint);
+            let creep = CREEP.min(MOST_CREEP_SHARE * speed(&prepared, joint));
+            if of_encoder > 0.0 {
+                of_encoder.max(creep)
+            } else {
+                0.0
+            }
+        });
+        let mut speeds: Vec<f64> = untold.collect();
         for (joint, speed) in self.creeping(&stack, &prepared, &joints)? {
             speeds[joint] = speed;
         }
@@ -174,9 +189,7 @@ struct Turns {
 
 impl Turns {
     fn new(logs: &[Prepared], joint: usize) -> Self {
-        let velocities = || logs.iter().flat_map(|log| &log.motion.wide.dq[joint]);
-        let squares = velocities().map(|dq| dq * dq).sum::<f64>();
-        let speed = (squares / velocities().count().max(1) as f64).sqrt();
+        let speed = speed(logs, joint);
         let current = current(logs, joint);
         Self {
             joint,
@@ -256,6 +269,13 @@ impl Turns {
 fn current(logs: &[Prepared], joint: usize) -> f64 {
     let speeds = logs.iter().map(|log| log.motion.turn_speed(joint));
     speeds.fold(0.0, f64::max)
+}
+
+/// A joint's root-mean-square speed.
+fn speed(logs: &[Prepared], joint: usize) -> f64 {
+    let velocities = || logs.iter().flat_map(|log| &log.motion.wide.dq[joint]);
+    let squares = velocities().map(|dq| dq * dq).sum::<f64>();
+    (squares / velocities().count().max(1) as f64).sqrt()
 }
 
 /// Means of a function of a velocity over the interval about every sample, as columns that jump are.

@@ -13,12 +13,7 @@ const SINGLE: f64 = 0.01;
 /// With fewer changes of so few steps nothing is said.
 const LEAST_CHANGES: usize = 10;
 
-/// A joint that its friction holds creeps, at speeds of this order, rad/s or m/s: a fine encoder shows the direction of that, which says
-/// nothing of the friction. But no more than this share of a joint's root-mean-square speed.
-const CREEP: f64 = 0.002;
-const MOST_CREEP_SHARE: f64 = 0.005;
-
-/// Largest speed without direction that an encoder makes, as the same share.
+/// Largest speed without direction, as a share of a joint's root-mean-square speed.
 const MOST_TURN_SHARE: f64 = 0.01;
 
 /// The step of an encoder: a smallest change of a position from sample to sample of which nearly all small changes are whole numbers.
@@ -55,17 +50,15 @@ fn encoder_step(positions: &[f64]) -> Option<f64> {
     None
 }
 
-/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not less than
-/// a joint creeps at, nor more than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from
-/// slow motion. Positions between steps, of a simulation or a filter, have none.
+/// One encoder step in half a period of the wide band, as slower motion has no direction there that the log could tell; but not more
+/// than a small share of the joint's own speed, so that a coarse encoder does not take dry friction away from slow motion.
 pub(super) fn turn_speed(positions: &[f64], velocity: &[f64], wide_hz: f64) -> f64 {
     let Some(step) = encoder_step(positions) else {
         return 0.0;
     };
     let squares = velocity.iter().map(|dq| dq * dq).sum::<f64>();
     let speed = (squares / velocity.len().max(1) as f64).sqrt();
-    let of_encoder = (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed);
-    of_encoder.max(CREEP.min(MOST_CREEP_SHARE * speed))
+    (2.0 * wide_hz * step).min(MOST_TURN_SHARE * speed)
 }
 
 #[cfg(test)]
@@ -108,8 +101,7 @@ mod tests {
     fn a_coarse_encoder_takes_little_of_a_motion() {
         let read = |step: f64| turning(|q| (q / step).round() * step);
         let of = |step: f64| turn_speed(&read(step), &[0.3, -0.3], 90.0);
-        assert!((of(1e-6) - 0.0015).abs() < 1e-12, "{}", of(1e-6));
-        assert!((of(1e-5) / 1.8e-3 - 1.0).abs() < 1e-6, "{}", of(1e-5));
+        assert!((of(1e-6) / 180e-6 - 1.0).abs() < 1e-6, "{}", of(1e-6));
         assert!((of(1e-3) - 0.003).abs() < 1e-12, "{}", of(1e-3));
         assert!(turn_speed(&turning(|q| q), &[0.3], 90.0) == 0.0);
     }

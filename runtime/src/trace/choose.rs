@@ -7,7 +7,7 @@ use super::verdict::Alternative;
 /// The best candidate and those that are as good within the size that matters; of these the simplest is taken that none encompasses.
 pub(super) fn choose<'a>(
     judged: Vec<Judged<'a>>,
-    encompasses: &dyn Fn(&Judged, &Judged) -> bool,
+    encompasses: &dyn Fn(&Judged, &Judged, usize) -> bool,
 ) -> Option<Accepted<'a>> {
     let best = judged.first()?.raw_power.clone();
     let mut class: Vec<Judged<'a>> = judged
@@ -22,7 +22,7 @@ pub(super) fn choose<'a>(
     });
     let mut place = 0;
     for other in 1..class.len() {
-        if encompasses(&class[other], &class[place]) {
+        if encompasses(&class[other], &class[place], class.len() - 1) {
             place = other;
         }
     }
@@ -128,7 +128,7 @@ mod tests {
             changed: None,
         });
         let kind = |judged: &Judged| judged.trial.candidate.kind().to_owned();
-        let chosen = choose(judged.collect(), &|one, other| {
+        let chosen = choose(judged.collect(), &|one, other, _| {
             encompasses(&kind(one), &kind(other))
         });
         let chosen = chosen.expect("one of them");

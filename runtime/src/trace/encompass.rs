@@ -9,7 +9,7 @@ use super::gram::Gram;
 use super::score::Present;
 use super::search::{Search, State};
 
-/// Chance up to which it counts as more, and from which on as nothing.
+/// Chance up to which it counts as more, of all rivals together, and from which on as nothing.
 const CHANCE: f64 = 1e-2;
 
 /// Held-out errors within this of each other are alike, percent: the error of a joint that neither effect touches is not the same in two
@@ -17,10 +17,16 @@ const CHANCE: f64 = 1e-2;
 const ALIKE_PERCENT: f64 = 0.2;
 
 impl Search<'_> {
-    /// Whether `one` encompasses `other`.
-    pub(super) fn encompasses(&self, state: &State, one: &Judged, other: &Judged) -> bool {
+    /// Whether `one`, which is one of some rivals, encompasses `other`.
+    pub(super) fn encompasses(
+        &self,
+        state: &State,
+        one: &Judged,
+        other: &Judged,
+        rivals: usize,
+    ) -> bool {
         gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
-            && self.beside(state, one, other) < CHANCE
+            && rivals as f64 * self.beside(state, one, other) < CHANCE
             && self.beside(state, other, one) > CHANCE
     }
 

@@ -18,8 +18,12 @@ const STEPS: usize = 8;
 const HALVES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 const LEAST_GAIN: f64 = 1e-5;
 
+/// A shape of several decades goes no further in a step, in its logarithm.
+const FACTOR: f64 = 1.0;
+
 impl Trial<'_> {
-    /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` until all of them are there.
+    /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` all of them
+    /// together from there on.
     pub(super) fn refined(&self, present: &Present, logs: &[Prepared], finely: bool) -> Self {
         let mut best = self.clone();
         let drop = |trial: &Self| {
@@ -42,7 +46,7 @@ impl Trial<'_> {
                 best = refined;
             }
         }
-        if finely {
+        if finely && !best.shapes.is_empty() {
             best = best.together(present, &drop, logs);
         }
         let mut best = best.away_from_ends(&drop, logs);
@@ -101,7 +105,13 @@ impl Trial<'_> {
         let shapes = self.candidate.shapes().iter().zip(&self.shapes).zip(step);
         let shapes = shapes.map(|((shape, value), step)| {
             let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
-            (value + share * step).clamp(low, high)
+            let next = if low > 0.0 && high > DECADES * low {
+                // Such a range is one of its logarithm.
+                value * (share * step / value).clamp(-FACTOR, FACTOR).exp()
+            } else {
+                value + share * step
+            };
+            next.clamp(low, high)
         });
         Self::new(self.candidate, shapes.collect(), logs)
     }

@@ -6,8 +6,10 @@ use crate::motion::Motion;
 
 use super::choose::choose;
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
+use super::gram::Gram;
 use super::grid::{self, Grid};
 use super::multiplicity;
+use super::score::Present;
 use super::search::{Accepted, Search, State, is_of_phase};
 use super::trial::Trial;
 use super::verdict::{Refusal, Tried};
@@ -37,7 +39,9 @@ impl Search<'_> {
         told.extend(judged.iter().map(|judged| judged.told(round)));
         judged.retain(Judged::passes);
         judged.sort_by(|a, b| b.merit.total_cmp(&a.merit));
-        choose(judged, &|one, other| self.encompasses(state, one, other))
+        choose(judged, &|one, other, rivals| {
+            self.encompasses(state, one, other, rivals)
+        })
     }
 
     /// The torque that explains most of those that have nothing against them but their size.
@@ -47,7 +51,7 @@ impl Search<'_> {
         let best = judged
             .into_iter()
             .max_by(|a, b| a.merit.total_cmp(&b.merit))?;
-        let mut small = choose(vec![best], &|_, _| false)?;
+        let mut small = choose(vec![best], &|_, _, _| false)?;
         small.is_small = true;
         Some(small)
     }
@@ -56,8 +60,9 @@ impl Search<'_> {
     fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
         let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
         let tests = self.tests.get_or_init(|| {
-            let baseline = self.baseline(state, 1.0, &self.folds);
-            multiplicity::tests(&baseline.present, grids, &rows)
+            let (stack, sigma) = (&state.stack, &state.solution.sigma);
+            let present = Present::new(stack, &Gram::new(stack, &[]), sigma, &state.residuals);
+            multiplicity::tests(&present, grids, &rows)
         });
         let baseline = self.baseline(state, *tests, &self.folds);
         let mut best: Vec<(f64, Trial)> = grids

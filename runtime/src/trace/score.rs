@@ -11,7 +11,7 @@ use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 use super::gram::Gram;
 use super::normal::Normal;
 use super::projected::Projected;
-use super::small::{add, dot, rank, solve_symmetric};
+use super::small::{add, directions, dot, solve_symmetric};
 
 /// A candidate's columns are called new only if this share of their norm is outside the model's columns.
 const LEAST_NEW: f64 = 1e-3;
@@ -97,11 +97,12 @@ impl<'a> Present<'a> {
     }
 
     /// Wald test of the candidate: `gain' S V^-1 S gain`, where `V` sums products of the scores of whole blocks of time, so
-    /// that samples of one block do not count as independent. With `B` blocks and `p` parameters,
+    /// that samples of one block do not count as independent. With `B` blocks and `p` directions in which the columns are new,
     /// `(B - p) / (p B)` times it is compared with `F(p, B - p)`.
     ///
     /// Blocks are as long as the products of columns and what is left are correlated: a slow wander of the zero is next to nothing of a
-    /// column that changes its sign with the motion. For a law of time they are as long as what is left is.
+    /// column that changes its sign with the motion. Where the scores of neighboring blocks are alike all the same, as they are of a
+    /// column with a mean, blocks are longer. For a law of time they are as long as what is left is.
     pub(super) fn score(
         &self,
         candidate: &dyn Candidate,
@@ -111,47 +112,68 @@ impl<'a> Present<'a> {
         let count = projected.gain.len();
         let columns = self.projected_columns(entries, projected);
         let rest = self.without(&columns, projected);
-        let mut correlation = (0..count)
-            .map(|c| correlation_time(&self.products(&columns, &rest, c)))
-            .fold(1.0, f64::max);
+        let products = (0..count).map(|c| self.products(&columns, &rest, c));
+        let products: Vec<Vec<f64>> = products.collect();
+        let correlations = products.iter().map(|products| correlation_time(products));
+        let mut correlation = correlations.fold(1.0, f64::max);
         if candidate.is_of_time() {
-            let touched = entries.iter();
-            let touched = touched.map(|entry| correlation_time(&rest[entry.joint]));
-            correlation = touched.fold(correlation, f64::max);
+            let touched = (0..rest.len()).filter(|j| entries.iter().any(|e| e.joint == *j));
+            let of_rest = touched.map(|joint| correlation_time(&rest[joint]));
+            correlation = of_rest.fold(correlation, f64::max);
         }
         let least = LEAST_BLOCKS.max(BLOCKS_OF_A_PARAMETER * count);
-        let blocks = self.blocks(correlation, least);
-        let mut information = vec![vec![0.0; count]; count];
-        let mut variance = vec![vec![0.0; count]; count];
-        for block in &blocks {
-            let mut score = vec![0.0; count];
-            for (joint, columns) in columns.iter().enumerate() {
-                let weight = self.sigma[joint].powi(-2);
-                for a in 0..count {
-                    let column = &columns[a][block.clone()];
-                    score[a] += weight * dot(column, &rest[joint][block.clone()]);
-                    for b in 0..count {
-                        information[a][b] += weight * dot(column, &columns[b][block.clone()]);
-                    }
-                }
-            }
-            for a in 0..count {
-                for b in 0..count {
-                    variance[a][b] += score[a] * score[b];
-                }
+        let scores = self.block_scores(&products, correlation, least);
+
+        // In directions of the columns that are new, of which there are `p`.
+        let directions = directions(&projected.information, LEAST_NEW.powi(2));
+        let along = |values: &[f64]| -> Vec<f64> {
+            directions
+                .iter()
+                .map(|direction| dot(direction, values))
+                .collect()
+        };
+        let moved = projected.information.iter();
+        let moved: Vec<f64> = moved.map(|row| dot(row, &projected.gain)).collect();
+        let moved = along(&moved);
+        let mut variance = vec![vec![0.0; moved.len()]; moved.len()];
+        for score in &scores {
+            let score = along(score);
+            for (row, a) in variance.iter_mut().zip(&score) {
+                add(row, *a, &score);
             }
         }
-        let moved: Vec<f64> = information
-            .iter()
-            .map(|row| dot(row, &projected.gain))
-            .collect();
         let wald = dot(&moved, &solve_symmetric(&variance, &moved));
-        let parameters = rank(&information, LEAST_NEW.powi(2)).max(1);
-        let (parameters, blocks) = (parameters as f64, blocks.len() as f64);
+        let (parameters, blocks) = (moved.len() as f64, scores.len() as f64);
         let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
         let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
         Score { f, p_value, rest }
+    }
+
+    /// Sums of products over blocks that are independent, `[block][column]`.
+    fn block_scores(
+        &self,
+        products: &[Vec<f64>],
+        mut correlation: f64,
+        least: usize,
+    ) -> Vec<Vec<f64>> {
+        let mut count = usize::MAX;
+        loop {
+            let blocks = self.blocks(correlation, least);
+            let sum = |block: &Range<usize>| -> Vec<f64> {
+                let products = products.iter();
+                products
+                    .map(|products| products[block.clone()].iter().sum())
+                    .collect()
+            };
+            let scores: Vec<Vec<f64>> = blocks.iter().map(sum).collect();
+            let is_alike = (0..products.len()).any(|column| are_alike(&scores, column));
+            if !is_alike || blocks.len() >= count {
+                return scores;
+            }
+            count = blocks.len();
+            correlation *= 2.0;
+        }
     }
 
     /// A column times what is left, weighed and summed over joints, sample by sample.
@@ -203,9 +225,12 @@ impl<'a> Present<'a> {
             .collect()
     }
 
-    /// About so many blocks of all logs, of equal lengths of time.
-    pub(super) fn equal_blocks(&self, count: usize) -> Vec<Range<usize>> {
+    /// Blocks of all logs, of equal lengths of about so many seconds, but no fewer and no more of them than in a range.
+    pub(super) fn equal_blocks(&self, length: f64, counts: Range<usize>) -> Vec<Range<usize>> {
         let samples = self.stack.samples().max(1);
+        let logs = self.stack.segments.iter();
+        let seconds = logs.filter_map(|log| Some(log.time.last()? - log.time.first()?));
+        let count = whole_steps(seconds.sum::<f64>() / length).clamp(counts.start, counts.end);
         let of_log = self.stack.segments.iter().flat_map(|segment| {
             let rows = segment.time.len();
             let count = (count * rows).div_ceil(samples).clamp(1, rows.max(1));
@@ -251,4 +276,13 @@ impl<'a> Present<'a> {
         }
         blocks
     }
+}
+
+/// Whether a column's scores of neighboring blocks are alike, by more than independent ones are once in forty.
+fn are_alike(scores: &[Vec<f64>], column: usize) -> bool {
+    let of = |block: &Vec<f64>| block[column];
+    let squares: f64 = scores.iter().map(|block| of(block).powi(2)).sum();
+    let pairs = scores.windows(2);
+    let products: f64 = pairs.map(|pair| of(&pair[0]) * of(&pair[1])).sum();
+    products > 2.0 / (scores.len() as f64).sqrt() * squares
 }

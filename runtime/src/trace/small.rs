@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 const LANES: usize = 8;
 
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    debug_assert_eq!(a.len(), b.len());
     let (a, a_rest) = a.as_chunks::<LANES>();
     let (b, b_rest) = b.as_chunks::<LANES>();
     let mut sums = [0.0; LANES];
@@ -43,11 +44,23 @@ fn scaled(matrix: &[Vec<f64>]) -> (Vec<f64>, DMatrix<f64>) {
     (scale, scaled)
 }
 
-/// Directions that a small symmetric positive matrix tells apart, by more than `least`.
-pub(super) fn rank(matrix: &[Vec<f64>], least: f64) -> usize {
-    let (_, scaled) = scaled(matrix);
-    let eigenvalues = scaled.symmetric_eigenvalues();
-    eigenvalues.iter().filter(|value| **value > least).count()
+/// Combinations of columns whose products are a small symmetric positive matrix, in which they have more than `least` of what they have
+/// together: the first that there is at least.
+pub(super) fn directions(matrix: &[Vec<f64>], least: f64) -> Vec<Vec<f64>> {
+    let (scale, scaled) = scaled(matrix);
+    let eigen = scaled.symmetric_eigen();
+    let mut order: Vec<usize> = (0..scale.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let is_told = |&(place, k): &(usize, usize)| place == 0 || eigen.eigenvalues[k] > least;
+    let told = order.into_iter().enumerate().filter(is_told);
+    let over = |value: f64, scale: f64| if scale > 0.0 { value / scale } else { 0.0 };
+    let combination = |(_, k): (usize, usize)| {
+        let columns = scale.iter().enumerate();
+        columns
+            .map(|(c, scale)| over(eigen.eigenvectors[(c, k)], *scale))
+            .collect()
+    };
+    told.map(combination).collect()
 }
 
 /// Solves a small symmetric positive system; directions without information get 0.
@@ -81,7 +94,9 @@ mod tests {
 
     #[test]
     fn columns_that_are_one_are_one_direction() {
-        assert_eq!(rank(&[vec![4.0, -2.0], vec![-2.0, 1.0]], 1e-6), 1);
-        assert_eq!(rank(&[vec![4.0, -1.0], vec![-1.0, 1.0]], 1e-6), 2);
+        let count = |matrix: &[Vec<f64>]| directions(matrix, 1e-6).len();
+        assert_eq!(count(&[vec![4.0, -2.0], vec![-2.0, 1.0]]), 1);
+        assert_eq!(count(&[vec![4.0, -1.0], vec![-1.0, 1.0]]), 2);
+        assert_eq!(count(&[vec![0.0]]), 1);
     }
 }

@@ -6,6 +6,7 @@ use crate::signal::Prepared;
 
 use super::projected::Projected;
 use super::score::Present;
+use super::search::is_of_phase;
 
 /// A shape this close to an end of its range, relative to the range's length, is at the end.
 const END_SHARE: f64 = 0.002;
@@ -74,7 +75,7 @@ pub(super) enum Presence {
     Nearly,
 }
 
-/// When a law of the motion is there. One that reads the logged torque, as that of a drive's limit, comes with the torque.
+/// When a law is there. What comes with the motion or with the torque, as a drive's limit does, is no law of time.
 pub(super) fn presence(candidate: &dyn Candidate, shapes: &[f64], logs: &[Prepared]) -> Presence {
     let (mut nothing, mut all) = (0, 0);
     for log in logs {
@@ -88,10 +89,10 @@ pub(super) fn presence(candidate: &dyn Candidate, shapes: &[f64], logs: &[Prepar
         Presence::Always
     } else if (nothing as f64) < LEAST_AWAY * all as f64 {
         Presence::Nearly
-    } else if candidate.follows_torque() {
-        Presence::Always
-    } else {
+    } else if candidate.is_of_time() {
         Presence::ComesAndGoes
+    } else {
+        Presence::Always
     }
 }
 
@@ -150,7 +151,11 @@ impl<'a> Trial<'a> {
         match self.presence {
             Presence::Nearly => false,
             // A force that is there from the first sample on, or to the last, is a step, which a wander of the zero makes as well.
-            Presence::ComesAndGoes => numbers.all(is_own),
+            Presence::ComesAndGoes => {
+                // Where a period begins is nothing special.
+                let recurs = is_of_phase(self.candidate);
+                numbers.all(|number| is_own(number) || (recurs && self.is_at_zero(number)))
+            }
             // A law none of whose shapes is felt inside its range is a simpler one.
             Presence::Always => {
                 let mut own = numbers.clone();
