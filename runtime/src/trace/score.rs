@@ -286,3 +286,19 @@ fn are_alike(scores: &[Vec<f64>], column: usize) -> bool {
     let products: f64 = pairs.map(|pair| of(&pair[0]) * of(&pair[1])).sum();
     products > 2.0 / (scores.len() as f64).sqrt() * squares
 }
+
+#[cfg(test)]
+mod tests {
+    use super::are_alike;
+
+    /// A column that wanders, and one that changes its sign from block to block.
+    #[test]
+    fn scores_that_wander_are_alike() {
+        let slow = |k: u32| (0.2 * f64::from(k)).sin();
+        let scores: Vec<Vec<f64>> = (0..60)
+            .map(|k| vec![slow(k), if k % 2 == 0 { 1.0 } else { -1.0 }])
+            .collect();
+        assert!(are_alike(&scores, 0));
+        assert!(!are_alike(&scores, 1));
+    }
+}

@@ -99,4 +99,11 @@ mod tests {
         assert_eq!(count(&[vec![4.0, -1.0], vec![-1.0, 1.0]]), 2);
         assert_eq!(count(&[vec![0.0]]), 1);
     }
+
+    /// Whole lanes, and what is left behind them.
+    #[test]
+    fn a_sum_has_all_of_its_terms() {
+        let values: Vec<f64> = (1..=19).map(f64::from).collect();
+        assert!((dot(&values, &values) - 2470.0).abs() < 1e-9);
+    }
 }
