@@ -1,12 +1,12 @@
-//! The `build.rs` route: `arm.robot` became Rust while this crate was built.
+//! The `build.rs` route: `arm.robot` became Rust while `embedded` was built.
 //!
-//! Evaluates the equations at one state, then lets the controller of `src/lib.rs` follow a motion at 1 kHz.
+//! Evaluates the equations at one state, then lets the controller of `embedded` follow a motion at 1 kHz.
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::time::Instant;
 
 use robot_model::{Mechanics, RobotModel, State, Vector};
-use robot_model_examples::{TwoLinkArm, arm, computed_torque};
+use robot_model_embedded::{TwoLinkArm, arm, computed_torque};
 
 const STEP_S: f64 = 1e-3;
 const STEPS: u32 = 2000;

@@ -16,10 +16,10 @@ use robot_model::motion::{Kinematics, Motion};
 use robot_model::trace::{Outcome, Trace};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
-use robot_model_examples::MEASURED;
+use robot_model_embedded::MEASURED;
 use robot_model_spec::amend::{Amendment, amend};
 
-const SPEC: &str = include_str!("../arm.robot");
+const SPEC: &str = include_str!("../embedded/arm.robot");
 
 /// Dry friction of the machine's elbow, N m.
 const FC: f64 = 1.5;

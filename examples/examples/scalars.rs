@@ -4,7 +4,7 @@
 use robot_model::model::in_scalar;
 use robot_model::scalar::{Dual, Lanes4};
 use robot_model::{RobotModel, State, Vector};
-use robot_model_examples::{arm as measured, page as arm};
+use robot_model_embedded::{arm as measured, page as arm};
 
 /// Prints torques of four states and how gravity's torques change with the shoulder's position.
 pub fn main() {

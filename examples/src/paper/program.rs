@@ -1,0 +1,54 @@
+//! What the program of every paper does: run, print, draw.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use super::{Error, Paper};
+
+/// Reproduce a paper: its tables beside ours, its figures, and what is wrong in it.
+#[derive(Debug, Parser)]
+struct Options {
+    /// Folder for the figures; `target/papers/NAME` unless told.
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
+    /// Print tables as Markdown, as the docs have them.
+    #[arg(long)]
+    markdown: bool,
+}
+
+/// Runs the paper of this name and prints it. Returns the exit code: 1 where a library or a file says no.
+#[must_use]
+#[expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program's result"
+)]
+pub fn main(name: &str, run: impl Fn() -> Result<Paper, Error>) -> ExitCode {
+    let options = Options::parse();
+    let folder = options.figures.unwrap_or_else(|| {
+        let folders = ["target", "papers", name];
+        folders.iter().collect()
+    });
+    let done = run().and_then(|paper| {
+        fs::create_dir_all(&folder)?;
+        for figure in &paper.figures {
+            fs::write(
+                folder.join(&figure.name).with_extension("svg"),
+                figure.svg(),
+            )?;
+        }
+        Ok(paper)
+    });
+    match done {
+        Ok(paper) if options.markdown => println!("{}", paper.markdown()),
+        Ok(paper) => println!("{paper}\nFigures are in {}.", folder.display()),
+        Err(error) => {
+            eprintln!("{name}: {error}");
+            return ExitCode::FAILURE;
+        }
+    }
+    ExitCode::SUCCESS
+}
