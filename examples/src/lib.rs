@@ -6,3 +6,4 @@
 pub mod paper;
 
 pub use paper::Paper;
+pub mod seed_000;
