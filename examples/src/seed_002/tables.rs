@@ -85,8 +85,8 @@ fn table_2(results: &Results) -> Table {
         table.push(errors(&format!("{name}, here"), &ours.rmse));
     }
     table.push(errors(
-        "MFWLS with the gain of joint 2",
-        &results.with_gain.rmse,
+        "MFWLS with the ripple of joint 2",
+        &results.with_ripple.rmse,
     ));
     table
 }
