@@ -174,7 +174,7 @@ fn falling() -> Result<Log, Error> {
         });
         terms.iter().sum()
     };
-    let time: Vec<f64> = (0..15_000).map(|k| 2e-3 * f64::from(k)).collect();
+    let time: Vec<f64> = (0..6000).map(|k| 5e-3 * f64::from(k)).collect();
     let q = time.iter().map(|&t| wave(t, 0)).collect();
     let torque = |t: f64, noise: f64| {
         let (v, dv) = (wave(t, 1), wave(t, 2));

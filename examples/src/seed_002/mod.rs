@@ -27,12 +27,19 @@ use crate::paper::{Error, Paper};
 /// # Errors
 /// Those of the libraries.
 pub fn run() -> Result<Paper, Error> {
-    let results = results::results()?;
+    paper(&results::results()?)
+}
+
+/// What the results say of the publication.
+///
+/// # Errors
+/// Those of the libraries.
+pub fn paper(results: &results::Results) -> Result<Paper, Error> {
     Ok(Paper {
         title: "Liu, Li, Fang, Han and Zhang: a ROKAE arm, friction with square and cube, weighted least squares, hand guiding"
             .to_owned(),
-        tables: tables::tables(&results),
-        rows: rows::rows(&results),
-        figures: figures::figures(&results)?,
+        tables: tables::tables(results),
+        rows: rows::rows(results),
+        figures: figures::figures(results)?,
     })
 }

@@ -12,6 +12,17 @@ fn list(values: &[f64], digits: usize) -> String {
     values.join(", ")
 }
 
+/// A number that may be zero but for rounding.
+fn small(value: f64) -> String {
+    if value.abs() < 1e-12 {
+        "0".to_owned()
+    } else if value.abs() < 1e-2 {
+        format!("{value:.0e}")
+    } else {
+        format!("{value:.2}")
+    }
+}
+
 /// All rows.
 #[must_use]
 pub fn rows(results: &Results) -> Vec<Row> {
@@ -53,11 +64,9 @@ fn law(results: &Results) -> Vec<Row> {
             "the law at the speed `eps`",
             "movement is made smoother",
             format!(
-                "jumps by {} N m at 0.01 rad/s; {:.0e} where the viscous part begins at rest",
+                "jumps by {} N m at 0.01 rad/s; by {} where the viscous part begins at rest",
                 list(&results.jumps[0], 2),
-                results.jumps[1]
-                    .iter()
-                    .fold(0.0_f64, |most, x| most.max(*x))
+                small(results.jumps[1].iter().fold(0.0, |most, x| x.max(most)))
             ),
             results.jumps[0].iter().all(|jump| *jump > 5e-3)
                 && results.jumps[1].iter().all(|jump| *jump == 0.0),
@@ -209,7 +218,7 @@ fn identification(results: &Results) -> Vec<Row> {
             "2.5",
             "Table II: drop of the mean error by both; share of friction",
             format!(
-                "54.1 % ({total:.1}), mean of the joints' 61.3 % ({each:.1}); friction alone {} %",
+                "more than 54 %: {total:.1} % of the mean, {each:.1} % mean over joints; friction alone {} %",
                 list(&friction, 0)
             ),
             format!(
@@ -249,10 +258,10 @@ fn excitation(results: &Results) -> Vec<Row> {
     let ended = |found: &Objectives, k: usize| {
         let value = found.values.get(k).copied().unwrap_or(f64::NAN);
         let worth = found.log_det[k].map_or_else(
-            || "a motion that is refused, as it tells no parameters apart".to_owned(),
+            || "refused, as it tells no parameters apart".to_owned(),
             |log_det| format!("ln det {log_det:.0}"),
         );
-        format!("{value:.1e} with {worth}")
+        format!("{} ({worth})", small(value))
     };
     let columns = results.base.symbolic;
     let product = log_of_product(&results.designs[0], columns);
@@ -272,7 +281,8 @@ fn excitation(results: &Results) -> Vec<Row> {
             "limits and ends (26)",
             "kept",
             format!(
-                "exceeded by {worst:.0e} at most, on a grid ten times as fine; ends within rounding"
+                "exceeded by {} at most, on a grid ten times as fine; ends within rounding",
+                small(worst)
             ),
             worst <= 0.0,
             "a limit is exceeded",
@@ -312,7 +322,7 @@ fn excitation(results: &Results) -> Vec<Row> {
             unit.values.len() == 2
                 && unit.values.iter().all(|value| value.abs() < 1e-9)
                 && unit.log_det.iter().all(Option::is_none)
-                && raw.values.iter().all(|value| *value < -1.0)
+                && raw.values.iter().all(|value| *value < -0.5)
                 && raw.log_det.iter().all(Option::is_some),
             "columns of unit length have the bound 1 by every motion: nothing is designed",
         ),
@@ -321,7 +331,7 @@ fn excitation(results: &Results) -> Vec<Row> {
             "(29) as a product of 70 sums over 120 000 rows",
             "1 / product",
             format!(
-                "ln of the product {product:.0}: 1 / product is {:e} in a double; the sum of logarithms is what is minimized here",
+                "ln of the product {product:.0}: 1 / product is {} in a double; here the sum of logarithms is minimized",
                 1.0 / product.exp()
             ),
             1.0 / product.exp() == 0.0,
@@ -335,6 +345,8 @@ fn arm(results: &Results) -> Vec<Row> {
     let count = |audited: &super::table_one::Audited, check: &str| audited.findings(check).len();
     let turned = as_printed.findings("signs").iter();
     let turned = turned.filter(|said| said.contains("fc2")).count();
+    let driven = (0..6).filter_map(|k| as_printed.drives_from(k));
+    let driven = driven.filter(|speed| *speed < 1e-3).count();
     let [ours, _] = &results.ours;
     let sound = ["bodies", "signs", "inertia"].map(|check| count(ours, check));
     vec![
@@ -360,13 +372,8 @@ fn arm(results: &Results) -> Vec<Row> {
             "fc2 of Table I in equation 3",
             "fc2 sgn(dq), fc2 < 0",
             format!(
-                "`signs` finds {turned} of them, friction drives joints from {} rad/s on; as magnitudes {}",
-                list(
-                    &(0..6)
-                        .filter_map(|k| as_printed.drives_from(k))
-                        .collect::<Vec<f64>>(),
-                    2
-                ),
+                "`signs` finds {turned} of them, friction drives {} of 6 joints at the slowest speeds; as magnitudes {}",
+                driven,
                 magnitude
                     .findings("signs")
                     .iter()
