@@ -52,7 +52,7 @@ fn the_law_jumps_drives_and_has_neither_fall_nor_position() {
         let viscous = FRICTION.fv1[k] * 1e-2 + FRICTION.fv2[k] * 1e-4 + FRICTION.fv3[k] * 1e-6;
         assert!((jump - viscous).abs() < 1e-9, "{jump} {viscous}");
     }
-    assert_eq!(results.jumps[1], [0.0; 6]);
+    assert!(results.jumps[1].iter().all(|jump| *jump < 1e-12));
     let falls = [1.57, 1.47, 0.81, 2.55, 1.62, 1.77];
     let drives = [2.70, 2.61, 1.48, 4.66, 2.96, 3.39];
     for k in 0..6 {
@@ -96,7 +96,7 @@ fn motions_keep_limits_and_are_best_by_their_own_criteria() {
     let results = &RESULTS.0;
     for (design, violation) in results.designs.iter().zip(&results.violations) {
         assert!(against_differences(&design.motion) < 1e-9);
-        assert_eq!(*violation, 0.0);
+        assert!(*violation <= 0.0, "{violation}");
         let coefficients = &design.motion.coefficients;
         assert_eq!(coefficients.iter().map(Vec::len).sum::<usize>(), 66);
     }
