@@ -138,7 +138,10 @@ mod tests {
             q: [0.1, 0.3, -0.4, 0.5, 0.6, -0.2],
             dq: [0.4, -0.6, 0.5, 0.9, -0.8, 1.0],
         };
-        let push = [5.0, -40.0, 20.0, 4.0, -3.0, 1.0];
+        // Near gravity: an arm that falls gets to the speeds at which this friction drives it, and runs away.
+        let more = [5.0, -20.0, 10.0, 4.0, -3.0, 1.0];
+        let gravity = gravity_torque(&now.q);
+        let push: Joints = array::from_fn(|k| gravity[k] + more[k]);
         let power = |now: &Moving| -> f64 {
             let gravity = gravity_torque(&now.q);
             let torque = |k: usize| push[k] - gravity[k] - friction(k, now.dq[k]);
