@@ -5,6 +5,7 @@
 //! What is said of it is said by the compiler, the runtime and the audit.
 
 pub mod arm;
+mod arm_rows;
 pub mod base;
 pub mod excitation;
 pub mod experiment;
