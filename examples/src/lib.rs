@@ -4,6 +4,7 @@
 //! what is wrong in it. `src/bin` has a program for each, which prints that and draws its figures.
 
 pub mod paper;
+pub mod seed_002;
 
 pub use paper::Paper;
 pub mod seed_000;
