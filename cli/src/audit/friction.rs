@@ -1,5 +1,6 @@
-//! Whether effects take energy: over there and back at one speed through one pose, the work of the effects' torque is
-//! `sum (f(v) - f(-v)) v`, whatever springs and offsets are in `f`.
+//! Whether effects take energy: over a way there at one speed and back at another, through one pose, the work of the effects'
+//! torque is `f(v) - f(-w)` a rad, whatever springs and offsets are in `f`. A term that is even in the velocity, as the square of
+//! it, takes part: at one speed both ways it cancels, at two it does not.
 
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
@@ -16,6 +17,9 @@ use crate::parameters::Values;
 const POSES: usize = 8;
 const DIRECTIONS: usize = 24;
 const SPEEDS: usize = 100;
+
+/// Share of the largest speeds that is slower than all thresholds of laws: what friction takes of a joint that creeps.
+const CREEP: f64 = 1e-6;
 
 /// Largest speed of a joint whose spec says none, rad/s or m/s.
 const FAST: [f64; 2] = [std::f64::consts::PI, 1.0];
@@ -116,25 +120,42 @@ struct Effects<'a> {
 impl Effects<'_> {
     /// Where effects give energy along a direction, at a pose and a time.
     fn gains(&self, direction: &[f64], pose: &[f64], time: f64) -> Option<Gain> {
-        let found: Vec<(f64, f64, f64)> = (1..=SPEEDS)
-            .map(|k| {
-                let share = k as f64 / SPEEDS as f64;
-                let (mut lost, mut size) = (0.0, 0.0);
-                let speeds: Vec<f64> = direction.iter().map(|speed| share * speed).collect();
-                let back: Vec<f64> = speeds.iter().map(|speed| -speed).collect();
-                let torques = [&speeds, &back].map(|speeds| self.torque(speeds, pose, time));
-                for (joint, speed) in speeds.iter().enumerate() {
-                    let [there, back] = [torques[0][joint] * speed, torques[1][joint] * speed];
-                    lost += 0.5 * (there - back);
-                    size += there.abs().max(back.abs());
-                }
-                (share, lost, size)
+        let shares = (1..=SPEEDS).map(|k| k as f64 / SPEEDS as f64);
+        let mut size: f64 = 0.0;
+        // Work a second of the largest speeds, W, there and back.
+        let ways: Vec<(f64, [f64; 2])> = std::iter::once(CREEP)
+            .chain(shares)
+            .map(|share| {
+                let work = [share, -share].map(|share| {
+                    let speeds: Vec<f64> = direction.iter().map(|speed| share * speed).collect();
+                    let torques = self.torque(&speeds, pose, time);
+                    let parts = torques.iter().zip(direction).map(|(f, speed)| f * speed);
+                    let parts: Vec<f64> = parts.collect();
+                    size = size.max(parts.iter().map(|part| part.abs()).sum());
+                    share.signum() * parts.iter().sum::<f64>()
+                });
+                (share, work)
             })
             .collect();
-        let size = found.iter().map(|found| found.2).fold(0.0, f64::max);
-        let gives = |found: &&(f64, f64, f64)| found.1 < -ROUNDING * size;
-        let share = found.iter().find(gives)?.0;
-        let powers = found.iter().filter(gives).map(|found| -found.1);
+        let gives = |lost: f64| lost < -ROUNDING * size;
+        // The cheapest speeds so far.
+        let mut cheapest = [f64::INFINITY; 2];
+        let mut first = ways.iter().filter(|(_, work)| {
+            cheapest = [0, 1].map(|way| cheapest[way].min(work[way]));
+            gives(cheapest[0] + cheapest[1])
+        });
+        let share = first.next()?.0;
+        let pairs = ways
+            .iter()
+            .flat_map(|there| ways.iter().map(move |back| (there, back)));
+        let powers = pairs.map(|((v, there), (w, back))| {
+            let lost = there[0] + back[1];
+            if gives(lost) {
+                -lost / (1.0 / v + 1.0 / w)
+            } else {
+                0.0
+            }
+        });
         Some(Gain {
             share,
             power: powers.fold(0.0, f64::max),

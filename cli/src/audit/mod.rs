@@ -1,9 +1,10 @@
-//! `robot-model audit`: whether an arm can have given parameters.
+//! `robot-model audit`: whether an arm can have given parameters; [`audit`] asks the same of values in memory.
 
 mod bodies;
 mod friction;
 mod inertia;
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
 
@@ -40,15 +41,37 @@ struct Report<'a> {
 }
 
 /// One question, and what speaks against it.
-#[derive(Serialize)]
-struct Check {
-    name: &'static str,
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Check {
+    /// `bodies`, `signs`, `inertia`, `friction`, `rank`.
+    pub name: &'static str,
     /// None where it was not decided.
-    passed: Option<bool>,
+    pub passed: Option<bool>,
     /// What was looked at.
-    scope: String,
+    pub scope: String,
     /// What is wrong; of `rank` what cannot be known.
-    findings: Vec<String>,
+    pub findings: Vec<String>,
+}
+
+/// All checks of an arm with parameters by name, standard or all base parameters; nominal values of the spec for those that are
+/// not given.
+///
+/// # Errors
+/// [`Error`] where a name is not the arm's, or a parameter has no value.
+pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
+    let values = parameters::by_name(compiled, parameters)?;
+    Ok(checks(compiled, &values))
+}
+
+fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
+    let all = [
+        bodies::check(compiled, values),
+        Some(signs(compiled, values)),
+        Some(inertia::check(compiled, values)),
+        Some(friction::check(compiled, values)),
+        Some(rank(compiled)),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 impl Check {
@@ -88,16 +111,7 @@ impl Audit {
                 )),
             }
         }
-        let checks: Vec<Check> = [
-            bodies::check(&compiled, &values),
-            Some(signs(&compiled, &values)),
-            Some(inertia::check(&compiled, &values)),
-            Some(friction::check(&compiled, &values)),
-            Some(rank(&compiled)),
-        ]
-        .into_iter()
-        .flatten()
-        .collect();
+        let checks = checks(&compiled, &values);
         let failed = checks
             .iter()
             .filter(|check| check.passed == Some(false))

@@ -246,3 +246,22 @@ fn base_parameters_are_those_of_some_bodies_or_of_none() {
     let (_, checks, text) = audit(&bare.join("\n"), &values);
     assert!(!findings(&checks["bodies"]).is_empty(), "{text}");
 }
+
+/// A term that is even in the velocity cancels there and back at one speed, and does not at two.
+#[test]
+fn friction_of_two_directions_is_looked_at_with_a_speed_for_each() {
+    let effects = "viscous_friction on all; asymmetric_viscous on upper;";
+    let arm = PENDULUM.replace("\n}\n", &format!("\n    effects {{ {effects} }}\n}}\n"));
+    for (delta, drives) in [(0.3, false), (0.7, true)] {
+        let values = [
+            ("upper.viscous_friction.fv", 0.5),
+            ("upper.asymmetric_viscous.delta", delta),
+            ("lower.viscous_friction.fv", 0.5),
+        ];
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let (_, checks, text) = audit(&arm, &BTreeMap::from(values));
+        assert_eq!(checks["friction"]["passed"], !drives, "{text}");
+        let found = findings(&checks["friction"]);
+        assert!(found.iter().all(|said| said.contains("`upper`")), "{text}");
+    }
+}
