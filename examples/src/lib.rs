@@ -5,6 +5,7 @@
 
 pub mod paper;
 pub mod seed_002;
+pub mod seed_003;
 
 pub use paper::Paper;
 pub mod seed_000;

@@ -39,27 +39,13 @@ const TIMES: [f64; 2] = [0.0, 1e6];
 
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     let workspace = workspace(compiled);
-    let effects = Effects {
-        torque: compiled.effect_torque(),
-        gravity: compiled.gravity(),
-        parts: compiled.states(),
-        values,
-    };
+    let effects = Effects::new(compiled, values);
     let joints = &compiled.model.joints;
     let unit = |joint: usize| match joints[joint].kind {
         JointKind::Prismatic => "m/s",
         JointKind::Revolute => "rad/s",
     };
-    let fastest: Vec<f64> = joints
-        .iter()
-        .map(|joint| {
-            let usual = match joint.kind {
-                JointKind::Prismatic => FAST[1],
-                JointKind::Revolute => FAST[0],
-            };
-            joint.limits.velocity.unwrap_or(usual)
-        })
-        .collect();
+    let fastest = fastest(compiled);
     let worst = |direction: &[f64]| {
         let poses = (0..POSES).map(|k| pose(&workspace, k));
         poses
@@ -107,20 +93,53 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     Check::new("friction", scope, findings)
 }
 
+/// Largest speed of each joint.
+pub(super) fn fastest(compiled: &Compiled) -> Vec<f64> {
+    let joints = compiled.model.joints.iter();
+    let largest = joints.map(|joint| {
+        let usual = match joint.kind {
+            JointKind::Prismatic => FAST[1],
+            JointKind::Revolute => FAST[0],
+        };
+        joint.limits.velocity.unwrap_or(usual)
+    });
+    largest.collect()
+}
+
 /// A share of the largest speeds from which on effects give energy, and the largest power that they give, W.
 struct Gain {
     share: f64,
     power: f64,
 }
 
-struct Effects<'a> {
+/// Torques of the effects.
+pub(super) struct Effects<'a> {
     torque: Program,
     gravity: Program,
     parts: Vec<StateProgram>,
     values: &'a Values,
 }
 
-impl Effects<'_> {
+impl<'a> Effects<'a> {
+    pub(super) fn new(compiled: &Compiled, values: &'a Values) -> Self {
+        Self {
+            torque: compiled.effect_torque(),
+            gravity: compiled.gravity(),
+            parts: compiled.states(),
+            values,
+        }
+    }
+
+    /// By how much effects hold a joint that creeps alone, N m or N: half of what they change by where it turns round.
+    pub(super) fn hold(&self, joint: usize, fastest: &[f64]) -> f64 {
+        let torque = |way: f64| {
+            let mut speeds = vec![0.0; fastest.len()];
+            speeds[joint] = way * CREEP * fastest[joint];
+            self.torque(&speeds, &vec![0.0; fastest.len()], 0.0)[joint]
+        };
+        0.5 * (torque(1.0) - torque(-1.0))
+    }
+
     /// Where effects give energy along a direction, at a pose and a time.
     fn gains(&self, direction: &[f64], pose: &[f64], time: f64) -> Option<Gain> {
         let shares = (1..=SPEEDS).map(|k| k as f64 / SPEEDS as f64);

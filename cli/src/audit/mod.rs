@@ -1,8 +1,10 @@
 //! `robot-model audit`: whether an arm can have given parameters; [`audit`] asks the same of values in memory.
 
 mod bodies;
+mod drives;
 mod friction;
 mod inertia;
+mod memory;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,7 +19,7 @@ use crate::output::{self, Files, counted, names, rounded};
 use crate::parameters::{self, Beside, Values};
 use crate::{Error, spec};
 
-/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, rank.
+/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, torques of motors, rank.
 ///
 /// Exit code 1 where a check fails; the report is written all the same.
 #[derive(Debug, Args)]
@@ -43,7 +45,7 @@ struct Report<'a> {
 /// One question, and what speaks against it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Check {
-    /// `bodies`, `signs`, `inertia`, `friction`, `rank`.
+    /// `bodies`, `signs`, `inertia`, `friction`, `memory`, `drives`, `rank`.
     pub name: &'static str,
     /// None where it was not decided.
     pub passed: Option<bool>,
@@ -69,6 +71,8 @@ fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
         Some(signs(compiled, values)),
         Some(inertia::check(compiled, values)),
         Some(friction::check(compiled, values)),
+        memory::check(compiled, values),
+        drives::check(compiled, values),
         Some(rank(compiled)),
     ];
     all.into_iter().flatten().collect()
