@@ -261,7 +261,11 @@ mod tests {
         assert!((found.relative_percent - 100.0 * (2.5_f64 / 41.0).sqrt()).abs() < 1e-12);
         // About the mean of what was measured, 3.
         let fit = 100.0 * (1.0 - (2.5_f64 / 14.0).sqrt());
-        assert!(found.nrmse_fit_percent.is_some_and(|x| (x - fit).abs() < 1e-12));
+        assert!(
+            found
+                .nrmse_fit_percent
+                .is_some_and(|x| (x - fit).abs() < 1e-12)
+        );
     }
 
     #[test]
