@@ -5,6 +5,12 @@ use robot_model::simulate::Functions;
 use robot_model_codegen::Compiled;
 use robot_model_spec::parameter::Owner;
 
+/// A product: unknowns by their places, with their exponents.
+type Factors = Vec<(usize, i32)>;
+
+/// A sum of products with coefficients.
+type Terms = Vec<(f64, Factors)>;
+
 /// A robot's unknowns as its spec names them: constants of energies, then parameters of effects, then open shapes.
 ///
 /// Base parameters are sums of products of the constants, so motions may tell fewer than these.
@@ -12,8 +18,8 @@ use robot_model_spec::parameter::Owner;
 pub struct Constants {
     names: Vec<String>,
     nominal: Vec<Option<f64>>,
-    /// Of each own parameter of the plant its terms: a coefficient, and factors with their exponents.
-    terms: Vec<Vec<(f64, Vec<(usize, i32)>)>>,
+    /// Of each own parameter of the plant.
+    terms: Vec<Terms>,
 }
 
 impl Constants {
@@ -24,7 +30,7 @@ impl Constants {
         let own = energies.parameters.iter();
         let mut names: Vec<String> = own.clone().map(|constant| constant.name.clone()).collect();
         let mut nominal: Vec<Option<f64>> = own.map(|constant| constant.nominal).collect();
-        let mut term = |k: usize| -> Vec<(usize, i32)> {
+        let mut term = |k: usize| -> Factors {
             match compiled.standard[k].owner {
                 Owner::Monomial(monomial) => energies.monomials[monomial].factors.clone(),
                 Owner::Link { .. } | Owner::Effect { .. } => {
@@ -40,7 +46,7 @@ impl Constants {
             }
         };
         let bases = compiled.base.combinations.iter();
-        let mut terms: Vec<Vec<_>> = bases
+        let mut terms: Vec<Terms> = bases
             .map(|base| base.iter().map(|&(k, x)| (x, term(k))).collect())
             .collect();
         let shapes = compiled.shape_names();
@@ -76,7 +82,7 @@ fn product(values: &[f64], factors: &[(usize, i32)]) -> f64 {
 
 impl Functions for Constants {
     fn own(&self, values: &[f64]) -> Vec<f64> {
-        let sum = |terms: &Vec<(f64, Vec<(usize, i32)>)>| {
+        let sum = |terms: &Terms| {
             let terms = terms.iter();
             terms.map(|(x, factors)| x * product(values, factors)).sum()
         };

@@ -49,9 +49,12 @@ impl Told {
             ..settings()
         };
         let truth = ESTIMATED.values();
-        let bound = |(name, value): (&&str, f64)| match KNOWN.contains(name) {
-            true => [value; 2],
-            false => [f64::NEG_INFINITY, f64::INFINITY],
+        let bound = |(name, value): (&&str, f64)| {
+            if KNOWN.contains(name) {
+                [value; 2]
+            } else {
+                [f64::NEG_INFINITY, f64::INFINITY]
+            }
         };
         let known = OutputError {
             bounds: NAMES.iter().zip(truth).map(bound).collect(),

@@ -14,7 +14,7 @@ impl Results {
         let pairs = own.map(|own| audit::metrics(&own.measured, &own.cad, own.link));
         let pairs: Vec<[Printed; 2]> = pairs.collect();
         let is_void = |[as_said, mended]: &[Printed; 2]| {
-            as_said.mae == 0.0 && as_said.nrmse == 100.0 && mended.mae > 0.0
+            as_said.mae < 1e-12 && (as_said.nrmse - 100.0).abs() < 1e-9 && mended.mae > 1e-3
         };
         let [as_said, mended] = pairs[0];
         Row::wrong_in_print(
@@ -33,7 +33,7 @@ impl Results {
     pub(super) fn rank(&self) -> Row {
         let own = &self.told.eleven.identifiability;
         let (rank, mended) = (own.rank, &self.told.mended.identifiability);
-        let told: Vec<&str> = self.names_told(&self.told.eleven);
+        let told: Vec<&str> = names_told(&self.told.eleven);
         let silent: Vec<&str> = own
             .directions
             .iter()
@@ -65,14 +65,6 @@ impl Results {
                 && told == ["l1"],
             "five sums of products and friction times any factor move alike, so no mass, center, inertia or friction has a value",
         )
-    }
-
-    fn names_told<'a>(&self, estimate: &OutputEstimate) -> Vec<&'a str> {
-        let pairs = NAMES.into_iter().zip(&estimate.std);
-        pairs
-            .filter(|(_, std)| std.is_some())
-            .map(|(name, _)| name)
-            .collect()
     }
 
     pub(super) fn cost_of_text(&self) -> Result<Row, Error> {
@@ -174,4 +166,11 @@ pub(super) fn bounds_of_text() -> Row {
         off.iter().map(|off| off.name).eq(["m1", "m2", "l1", "c1"]),
         "four of the seven bounds are others",
     )
+}
+
+/// Parameters that have a value of their own.
+fn names_told(estimate: &OutputEstimate) -> Vec<&'static str> {
+    let pairs = NAMES.into_iter().zip(&estimate.std);
+    let told = pairs.filter(|(_, std)| std.is_some());
+    told.map(|(name, _)| name).collect()
 }

@@ -59,8 +59,7 @@ impl BoxPlot {
         };
         let count = |value: f64| {
             let same = sorted.iter();
-            same.filter(|other| other.total_cmp(&&value).is_eq())
-                .count()
+            same.filter(|other| other.total_cmp(&value).is_eq()).count()
         };
         let by_count = |x: &&f64, y: &&f64| count(**x).cmp(&count(**y));
         Self {
