@@ -233,8 +233,9 @@ pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool
 }
 
 impl Distance {
-    /// Of pairs of a measured and a simulated value.
-    fn new(pairs: &[(f64, f64)]) -> Self {
+    /// Of pairs of a measured and a simulated value, at least one.
+    #[must_use]
+    pub fn new(pairs: &[(f64, f64)]) -> Self {
         let count = pairs.len().max(1) as f64;
         let sum = |value: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(value).sum::<f64>();
         let squares = sum(&|(y, s)| (y - s).powi(2));
@@ -248,5 +249,32 @@ impl Distance {
             relative_percent: if level > 0.0 { share(level) } else { 0.0 },
             nrmse_fit_percent: (spread > 1e-12 * level).then(|| 100.0 - share(spread)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_those_of_their_equations() {
+        let found = Distance::new(&[(1.0, 1.5), (2.0, 2.0), (6.0, 4.5)]);
+        assert!((found.mae - 2.0 / 3.0).abs() < 1e-12);
+        assert!((found.rmse - (2.5_f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert!((found.relative_percent - 100.0 * (2.5_f64 / 41.0).sqrt()).abs() < 1e-12);
+        // About the mean of what was measured, 3.
+        let fit = 100.0 * (1.0 - (2.5_f64 / 14.0).sqrt());
+        assert!(
+            found
+                .nrmse_fit_percent
+                .is_some_and(|x| (x - fit).abs() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn a_mean_fits_nothing_and_a_channel_that_stands_has_no_fit() {
+        let mean = Distance::new(&[(1.0, 2.0), (3.0, 2.0)]);
+        assert!(mean.nrmse_fit_percent.is_some_and(|fit| fit.abs() < 1e-12));
+        assert_eq!(Distance::new(&[(2.0, 1.0); 3]).nrmse_fit_percent, None);
     }
 }
