@@ -3,7 +3,7 @@
 //! One file a verb; each reads its inputs, calls the libraries once, and writes its results. Results go to standard output
 //! or to files, messages and progress to standard error. Exit codes: 0 done, 1 the input is at fault, 2 usage.
 
-mod audit;
+pub mod audit;
 mod calibrate;
 mod check;
 pub mod close_the_loop;
