@@ -4,5 +4,6 @@
 //! what is wrong in it. `src/bin` has a program for each, which prints that and draws its figures.
 
 pub mod paper;
+pub mod seed_004;
 
 pub use paper::Paper;
