@@ -4,6 +4,9 @@
 //! what is wrong in it. `src/bin` has a program for each, which prints that and draws its figures.
 
 pub mod paper;
-pub mod seed_004;
+pub mod seed_000;
+pub mod seed_001;
+pub mod seed_002;
+pub mod seed_003;
 
 pub use paper::Paper;

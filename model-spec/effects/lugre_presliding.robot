@@ -12,11 +12,11 @@ effect lugre_presliding(j) {
     /// Damping of the bristles, N m s/rad (N s/m for a prismatic joint).
     linear s1 >= 0;
     /// Deflection at which the bristles slide, rad (m for a prismatic joint).
-    shape d in 1e-4 .. 0.1;
+    shape d in 1e-4 .. 0.5;
     /// Stribeck speed, rad/s (m/s for a prismatic joint).
-    shape vs in 0.005 .. 0.5;
+    shape vs in 0.005 .. 1.5;
     /// Breakaway torque over that of sliding, less one.
-    shape rise in 0 .. 1.5 step 0.75;
+    shape rise in 0 .. 3 step 1.5;
     /// Deflection of the bristles over that of sliding.
     state z;
     let g = 1 + rise * exp(-(dq(j)/vs)^2);

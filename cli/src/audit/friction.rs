@@ -1,5 +1,6 @@
-//! Whether effects take energy: over there and back at one speed through one pose, the work of the effects' torque is
-//! `sum (f(v) - f(-v)) v`, whatever springs and offsets are in `f`.
+//! Whether effects take energy: over a way there at one speed and back at another, through one pose, the work of the effects'
+//! torque is `f(v) - f(-w)` a rad, whatever springs and offsets are in `f`. A term that is even in the velocity, as the square of
+//! it, takes part: at one speed both ways it cancels, at two it does not.
 
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
@@ -17,6 +18,12 @@ const POSES: usize = 8;
 const DIRECTIONS: usize = 24;
 const SPEEDS: usize = 100;
 
+/// Halvings of the interval between two speeds, where effects begin to give energy in it.
+const BISECTIONS: usize = 10;
+
+/// Share of the largest speeds that is slower than all thresholds of laws: what friction takes of a joint that creeps.
+const CREEP: f64 = 1e-6;
+
 /// Largest speed of a joint whose spec says none, rad/s or m/s.
 const FAST: [f64; 2] = [std::f64::consts::PI, 1.0];
 
@@ -32,27 +39,13 @@ const TIMES: [f64; 2] = [0.0, 1e6];
 
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     let workspace = workspace(compiled);
-    let effects = Effects {
-        torque: compiled.effect_torque(),
-        gravity: compiled.gravity(),
-        parts: compiled.states(),
-        values,
-    };
+    let effects = Effects::new(compiled, values);
     let joints = &compiled.model.joints;
     let unit = |joint: usize| match joints[joint].kind {
         JointKind::Prismatic => "m/s",
         JointKind::Revolute => "rad/s",
     };
-    let fastest: Vec<f64> = joints
-        .iter()
-        .map(|joint| {
-            let usual = match joint.kind {
-                JointKind::Prismatic => FAST[1],
-                JointKind::Revolute => FAST[0],
-            };
-            joint.limits.velocity.unwrap_or(usual)
-        })
-        .collect();
+    let fastest = fastest(compiled);
     let worst = |direction: &[f64]| {
         let poses = (0..POSES).map(|k| pose(&workspace, k));
         poses
@@ -100,44 +93,111 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     Check::new("friction", scope, findings)
 }
 
+/// Largest speed of each joint.
+pub(super) fn fastest(compiled: &Compiled) -> Vec<f64> {
+    let joints = compiled.model.joints.iter();
+    let largest = joints.map(|joint| {
+        let usual = match joint.kind {
+            JointKind::Prismatic => FAST[1],
+            JointKind::Revolute => FAST[0],
+        };
+        joint.limits.velocity.unwrap_or(usual)
+    });
+    largest.collect()
+}
+
 /// A share of the largest speeds from which on effects give energy, and the largest power that they give, W.
 struct Gain {
     share: f64,
     power: f64,
 }
 
-struct Effects<'a> {
+/// Torques of the effects.
+pub(super) struct Effects<'a> {
     torque: Program,
     gravity: Program,
     parts: Vec<StateProgram>,
     values: &'a Values,
 }
 
-impl Effects<'_> {
+impl<'a> Effects<'a> {
+    pub(super) fn new(compiled: &Compiled, values: &'a Values) -> Self {
+        Self {
+            torque: compiled.effect_torque(),
+            gravity: compiled.gravity(),
+            parts: compiled.states(),
+            values,
+        }
+    }
+
+    /// By how much effects hold a joint that creeps alone, N m or N: half of what they change by where it turns round.
+    pub(super) fn hold(&self, joint: usize, fastest: &[f64]) -> f64 {
+        let torque = |way: f64| {
+            let mut speeds = vec![0.0; fastest.len()];
+            speeds[joint] = way * CREEP * fastest[joint];
+            self.torque(&speeds, &vec![0.0; fastest.len()], 0.0)[joint]
+        };
+        0.5 * (torque(1.0) - torque(-1.0))
+    }
+
     /// Where effects give energy along a direction, at a pose and a time.
     fn gains(&self, direction: &[f64], pose: &[f64], time: f64) -> Option<Gain> {
-        let found: Vec<(f64, f64, f64)> = (1..=SPEEDS)
-            .map(|k| {
-                let share = k as f64 / SPEEDS as f64;
-                let (mut lost, mut size) = (0.0, 0.0);
-                let speeds: Vec<f64> = direction.iter().map(|speed| share * speed).collect();
-                let back: Vec<f64> = speeds.iter().map(|speed| -speed).collect();
-                let torques = [&speeds, &back].map(|speeds| self.torque(speeds, pose, time));
-                for (joint, speed) in speeds.iter().enumerate() {
-                    let [there, back] = [torques[0][joint] * speed, torques[1][joint] * speed];
-                    lost += 0.5 * (there - back);
-                    size += there.abs().max(back.abs());
-                }
-                (share, lost, size)
-            })
+        let shares = (1..=SPEEDS).map(|k| k as f64 / SPEEDS as f64);
+        let shares = std::iter::once(CREEP).chain(shares);
+        let ways: Vec<(f64, [f64; 2])> = shares
+            .map(|share| (share, self.work(share, direction, pose, time)))
             .collect();
-        let size = found.iter().map(|found| found.2).fold(0.0, f64::max);
-        let gives = |found: &&(f64, f64, f64)| found.1 < -ROUNDING * size;
-        let share = found.iter().find(gives)?.0;
-        let powers = found.iter().filter(gives).map(|found| -found.1);
+        let work = ways.iter().flat_map(|(_, work)| work.iter());
+        let size = work.fold(0.0_f64, |size, work| size.max(work.abs()));
+        let gives = |lost: f64| lost < -ROUNDING * size;
+        // The cheapest speeds so far.
+        let mut cheapest = [f64::INFINITY; 2];
+        let cheaper = |than: [f64; 2], work: [f64; 2]| [0, 1].map(|way| than[way].min(work[way]));
+        let mut below = 0.0;
+        let mut share = None;
+        for &(next, work) in &ways {
+            let [there, back] = cheaper(cheapest, work);
+            if gives(there + back) {
+                share = Some(next);
+                break;
+            }
+            (cheapest, below) = ([there, back], next);
+        }
+        let mut share = share?;
+        // Between two of the speeds.
+        for _ in 0..BISECTIONS {
+            let middle = f64::midpoint(below, share);
+            let [there, back] = cheaper(cheapest, self.work(middle, direction, pose, time));
+            if gives(there + back) {
+                share = middle;
+            } else {
+                below = middle;
+            }
+        }
+        let pairs = ways
+            .iter()
+            .flat_map(|there| ways.iter().map(move |back| (there, back)));
+        let powers = pairs.map(|((v, there), (w, back))| {
+            let lost = there[0] + back[1];
+            if gives(lost) {
+                -lost / (1.0 / v + 1.0 / w)
+            } else {
+                0.0
+            }
+        });
         Some(Gain {
             share,
             power: powers.fold(0.0, f64::max),
+        })
+    }
+
+    /// Work of the effects there and back at a share of the largest speeds, J, over the way of a second at these.
+    fn work(&self, share: f64, direction: &[f64], pose: &[f64], time: f64) -> [f64; 2] {
+        [1.0, -1.0].map(|way| {
+            let speeds: Vec<f64> = direction.iter().map(|speed| way * share * speed).collect();
+            let torques = self.torque(&speeds, pose, time);
+            let parts = torques.iter().zip(direction).map(|(f, speed)| f * speed);
+            way * parts.sum::<f64>()
         })
     }
 

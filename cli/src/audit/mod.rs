@@ -1,8 +1,10 @@
-//! `robot-model audit`: whether an arm can have given parameters.
+//! `robot-model audit`: whether an arm can have given parameters; [`audit`] asks the same of values in memory.
 
 mod bodies;
+mod drives;
 mod friction;
 mod inertia;
+mod memory;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -17,7 +19,7 @@ use crate::output::{self, Files, counted, names, rounded};
 use crate::parameters::{self, Beside, Values};
 use crate::{Error, spec};
 
-/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, rank.
+/// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, torques of motors, rank.
 ///
 /// Exit code 1 where a check fails; the report is written all the same.
 #[derive(Debug, Args)]
@@ -41,9 +43,9 @@ struct Report<'a> {
 }
 
 /// One question, and what speaks against it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Check {
-    /// `bodies`, `signs`, `inertia`, `friction` or `rank`.
+    /// `bodies`, `signs`, `inertia`, `friction`, `memory`, `drives`, `rank`.
     pub name: &'static str,
     /// None where it was not decided.
     pub passed: Option<bool>,
@@ -51,6 +53,29 @@ pub struct Check {
     pub scope: String,
     /// What is wrong; of `rank` what cannot be known.
     pub findings: Vec<String>,
+}
+
+/// All checks of an arm with parameters by name, standard or all base parameters; nominal values of the spec for those that are
+/// not given.
+///
+/// # Errors
+/// [`Error`] where a name is not the arm's, or a parameter has no value.
+pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
+    let values = parameters::by_name(compiled, parameters)?;
+    Ok(checks(compiled, &values))
+}
+
+fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
+    let all = [
+        bodies::check(compiled, values),
+        Some(signs(compiled, values)),
+        Some(inertia::check(compiled, values)),
+        Some(friction::check(compiled, values)),
+        memory::check(compiled, values),
+        drives::check(compiled, values),
+        Some(rank(compiled)),
+    ];
+    all.into_iter().flatten().collect()
 }
 
 impl Check {
@@ -145,7 +170,7 @@ impl Audit {
                 )),
             }
         }
-        let checks = all(&compiled, &values);
+        let checks = checks(&compiled, &values);
         let failed = checks
             .iter()
             .filter(|check| check.passed == Some(false))

@@ -61,6 +61,13 @@ impl Found<'_> {
                 ));
             }
         }
+        if !law.is_told_by_differences(curve) {
+            doubts.push(format!(
+                "one step of the encoder from sample to sample is {:.4} {}, above the Stribeck speed: velocities that are differences of samples \
+                 do not tell the fall, the slopes of the stretches do",
+                curve.speed_step, units.speed
+            ));
+        }
         if law.coulomb.value < -NOTHING * law.coulomb.std {
             doubts.push("the Coulomb torque is below zero".to_owned());
         }
@@ -99,6 +106,14 @@ impl Found<'_> {
                 bristles.deflection.value,
                 bristles.most_stiffness(),
                 units.torque,
+                position = units.position
+            ));
+        }
+        if !bristles.is_of_contact() {
+            doubts.push(format!(
+                "the bristles bend by {:.4} {position} before they slide, further than surfaces in contact do: a spring or play, or a torque in \
+                 another unit",
+                bristles.deflection.value,
                 position = units.position
             ));
         }

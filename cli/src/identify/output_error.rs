@@ -288,6 +288,8 @@ impl IdentifyArguments {
                 HoldArgument::Sample => Hold::Sample,
             }),
             window: options.window.or(is_open.then_some(1.0)),
+            held_starts: None,
+            iterations: None,
             law: law.transpose()?,
             bounds: bounds(
                 compiled,

@@ -7,7 +7,7 @@ use robot_model::log::{Fault, Log};
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
-use super::report::{Parameter, Report, report};
+use super::report::{Parameter, Report, counted, report, shares};
 use super::table::table;
 use super::{IdentifyArguments, doubts, told_apart, twice};
 use crate::Error;
@@ -34,8 +34,8 @@ pub(super) struct Body<'a> {
     /// In the link's frame, m.
     pub center: [Option<f64>; 3],
     /// Of logs with it.
-    rmse: &'a [f64],
-    relative_percent: &'a [f64],
+    rmse: Vec<Option<f64>>,
+    relative_percent: Vec<Option<f64>>,
 }
 
 /// Logs of `identify --payload`, and what was found in them.
@@ -186,8 +186,8 @@ impl Judged {
                 mass: mass.map(|[mass, _]| mass),
                 mass_std: mass.map(|[_, std]| std),
                 center,
-                rmse: &self.carrying.rmse,
-                relative_percent: &self.carrying.relative_percent,
+                rmse: counted(&self.carrying, &self.carrying.rmse),
+                relative_percent: shares(&self.carrying.relative_percent),
             },
         }
     }

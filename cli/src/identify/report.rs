@@ -7,6 +7,7 @@ use robot_model::log::Fault;
 use serde::Serialize;
 
 use super::data_faults::{FaultReport, fault_reports};
+use super::table::share;
 
 /// What `--json` writes; a contract.
 #[derive(Serialize)]
@@ -18,14 +19,15 @@ pub(crate) struct Report<'a> {
     parameters: Vec<Parameter<'a>>,
     /// Errors `rmse*`, first and last second cut: `raw` samples, or `filtered` torque `L{tau}`.
     domain: &'static str,
-    rmse: Option<&'a [f64]>,
-    rmse_validate: Option<&'a [f64]>,
+    /// Null of a joint of which no sample counts, as all other errors are.
+    rmse: Option<Vec<Option<f64>>>,
+    rmse_validate: Option<Vec<Option<f64>>>,
     /// RMS%, of filtered torque in any case.
-    relative_percent: &'a [f64],
-    relative_percent_validate: Option<&'a [f64]>,
+    relative_percent: Vec<Option<f64>>,
+    relative_percent_validate: Option<Vec<Option<f64>>>,
     /// Mean absolute error and NRMSE fit, of the samples of `rmse*`.
-    mae: Option<&'a [f64]>,
-    mae_validate: Option<&'a [f64]>,
+    mae: Option<Vec<Option<f64>>>,
+    mae_validate: Option<Vec<Option<f64>>>,
     nrmse_fit_percent: Option<Vec<Option<f64>>>,
     nrmse_fit_percent_validate: Option<Vec<Option<f64>>>,
     condition: f64,
@@ -69,7 +71,7 @@ struct HausmanReport<'a> {
 struct PossibleReport<'a> {
     standard: Vec<StandardReport<'a>>,
     /// `relative_percent` without the constraint.
-    relative_percent_unconstrained: &'a [f64],
+    relative_percent_unconstrained: Vec<Option<f64>>,
     /// Links and parameters on the border of what is possible.
     border: &'a [String],
     steps: usize,
@@ -116,7 +118,7 @@ struct Term<'a> {
 #[derive(Serialize)]
 struct EssentialReport<'a> {
     parameters: Vec<Parameter<'a>>,
-    relative_percent: &'a [f64],
+    relative_percent: Vec<Option<f64>>,
 }
 
 /// How often blocks were drawn, and of how many.
@@ -124,6 +126,19 @@ struct EssentialReport<'a> {
 struct BootstrapReport {
     draws: usize,
     blocks: usize,
+}
+
+/// Errors of joints of which samples count.
+pub(super) fn counted(errors: &Errors, values: &[f64]) -> Vec<Option<f64>> {
+    let joints = values.iter().zip(&errors.samples);
+    joints
+        .map(|(value, samples)| (*samples > 0).then_some(*value))
+        .collect()
+}
+
+/// Relative errors of joints that have rows.
+pub(super) fn shares(percents: &[f64]) -> Vec<Option<f64>> {
+    percents.iter().map(|percent| share(*percent)).collect()
 }
 
 pub(super) fn combination(found: &Combination) -> CombinationReport<'_> {
@@ -151,7 +166,7 @@ fn essential(found: &Essential) -> EssentialReport<'_> {
                 interval: None,
             })
             .collect(),
-        relative_percent: &found.relative_percent,
+        relative_percent: shares(&found.relative_percent),
     }
 }
 
@@ -191,12 +206,12 @@ pub(crate) fn report<'a>(
         corner,
         parameters: linear.chain(shapes).collect(),
         domain,
-        rmse: train.map(|errors| errors.rmse.as_slice()),
-        rmse_validate: validation.map(|errors| errors.rmse.as_slice()),
-        relative_percent: &estimate.relative_percent,
-        relative_percent_validate: validation.map(|errors| errors.relative_percent.as_slice()),
-        mae: train.map(|errors| errors.mae.as_slice()),
-        mae_validate: validation.map(|errors| errors.mae.as_slice()),
+        rmse: train.map(|errors| counted(errors, &errors.rmse)),
+        rmse_validate: validation.map(|errors| counted(errors, &errors.rmse)),
+        relative_percent: shares(&estimate.relative_percent),
+        relative_percent_validate: validation.map(|errors| shares(&errors.relative_percent)),
+        mae: train.map(|errors| counted(errors, &errors.mae)),
+        mae_validate: validation.map(|errors| counted(errors, &errors.mae)),
         nrmse_fit_percent: train.map(Errors::nrmse_fit),
         nrmse_fit_percent_validate: validation.map(Errors::nrmse_fit),
         condition: estimate.condition,
@@ -215,7 +230,7 @@ pub(crate) fn report<'a>(
         outliers: estimate.outliers.as_deref(),
         possible: estimate.possible.as_ref().map(|possible| PossibleReport {
             standard: standard(estimate, possible),
-            relative_percent_unconstrained: &possible.unconstrained_percent,
+            relative_percent_unconstrained: shares(&possible.unconstrained_percent),
             border: &possible.border,
             steps: possible.steps,
             gap: possible.gap,

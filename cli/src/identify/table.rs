@@ -6,6 +6,11 @@ use robot_model::identify::{Errors, Estimate, Form};
 
 use crate::output;
 
+/// A relative error; none of a joint without a row that counts, as there is no share of nothing.
+pub(super) fn share(percent: f64) -> Option<f64> {
+    Some(percent).filter(|percent| *percent > 0.0)
+}
+
 /// Errors per joint, of several logs side by side.
 ///
 /// ```text
@@ -42,8 +47,7 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
         for (_, errors) in columns {
             let fit = errors.nrmse_fit()[joint];
             let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
-            // A joint without a row that counts has no share of nothing.
-            let share = Some(errors.relative_percent[joint]).filter(|percent| *percent > 0.0);
+            let share = share(errors.relative_percent[joint]);
             let share = share.map_or("-".to_owned(), |percent| format!("{percent:.2} %"));
             write!(
                 text,

@@ -95,6 +95,12 @@ pub(crate) fn values(
     Ok((values, doubts, source))
 }
 
+/// Values by name, and from the spec where none is given.
+pub(crate) fn by_name(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Values, Error> {
+    let found = arm(compiled, given).map(|(values, _)| values);
+    found.map_err(|reason| Error::Argument(format!("{}: {reason}", compiled.model.source)))
+}
+
 /// What is known from a file, `more` by name and the spec.
 pub(crate) fn known(
     compiled: &Compiled,

@@ -62,10 +62,10 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
         ("lower.joint_spring.t0", 3.0),
     ];
     let sound: BTreeMap<String, f64> = effects.map(|(name, value)| (name.to_owned(), value)).into();
-    // Offsets and springs give back what they take; a bent bristle slides.
+    // Offsets and springs give back what they take; a bent bristle slides, and has a memory to look at.
     let (code, checks, text) = audit(&arm, &sound);
     assert_eq!(code, Some(0), "{text}");
-    assert_eq!(checks.len(), 5, "{text}");
+    assert_eq!(checks.len(), 6, "{text}");
     let with = |name: &str, value: f64| {
         let mut values = sound.clone();
         values.insert(name.to_owned(), value);
@@ -167,6 +167,62 @@ fn what_drifts_couples_or_is_carried_is_looked_at() {
     );
 }
 
+/// A block on `LuGre` bristles under a motor of 5 N: it gives energy where `s2 < s1 rise`, here 6 N s/m, and moves where it breaks away
+/// below 5 N.
+#[test]
+fn bristles_give_energy_where_their_damping_is_large_and_hold_weak_motors() {
+    let block = "robot Block {
+    coordinates x: m;
+    parameters m = 1 kg;
+    kinetic = m/2*dot(x)^2;
+    potential = 0;
+    limits x { velocity = 6; torque = 5 N; }
+    effects { lugre_presliding(d = 1e-3, vs = 0.1, rise = 0.5) on x; viscous_friction on x; }
+}
+";
+    let of = |fc: f64, s1: f64, fv: f64| {
+        let values = [
+            ("x.lugre_presliding.fc", fc),
+            ("x.lugre_presliding.s1", s1),
+            ("x.viscous_friction.fv", fv),
+        ];
+        audit(
+            block,
+            &values.map(|(name, value)| (name.to_owned(), value)).into(),
+        )
+    };
+    let passes = |checks: &BTreeMap<String, Value>, name: &str| checks[name]["passed"] == true;
+    for (s1, fv, is_sound) in [
+        (12.0, 6.5, true),
+        (12.0, 0.2, false),
+        (120.0, 5.0, false),
+        (0.0, 0.0, true),
+    ] {
+        let (_, checks, text) = of(2.0, s1, fv);
+        assert_eq!(passes(&checks, "memory"), is_sound, "{s1} {fv}: {text}");
+        assert!(
+            passes(&checks, "friction") && passes(&checks, "drives"),
+            "{text}"
+        );
+    }
+    // It breaks away at 1.5 times what it slides with.
+    for (fc, is_moved) in [(3.3, true), (3.4, false)] {
+        let (_, checks, text) = of(fc, 0.0, 0.4);
+        assert_eq!(passes(&checks, "drives"), is_moved, "{fc}: {text}");
+    }
+    let (code, checks, text) = of(4.0, 12.0, 0.1);
+    assert_eq!(code, Some(1));
+    let told = findings(&checks["drives"]);
+    assert!(
+        told[0].contains("held by 6.0000 N of friction, and its motor has 5.0000 N"),
+        "{text}"
+    );
+    assert!(
+        findings(&checks["memory"])[0].contains("driven by what its effects remember"),
+        "{text}"
+    );
+}
+
 /// A plate with three digits, and a point of mass on a turning slide.
 #[test]
 fn rounded_and_degenerate_bodies_are_told_from_impossible_ones() {
@@ -245,4 +301,23 @@ fn base_parameters_are_those_of_some_bodies_or_of_none() {
     values.insert("lower.izzr".to_owned(), -0.45);
     let (_, checks, text) = audit(&bare.join("\n"), &values);
     assert!(!findings(&checks["bodies"]).is_empty(), "{text}");
+}
+
+/// A term that is even in the velocity cancels there and back at one speed, and does not at two.
+#[test]
+fn friction_of_two_directions_is_looked_at_with_a_speed_for_each() {
+    let effects = "viscous_friction on all; asymmetric_viscous on upper;";
+    let arm = PENDULUM.replace("\n}\n", &format!("\n    effects {{ {effects} }}\n}}\n"));
+    for (delta, drives) in [(0.3, false), (0.7, true)] {
+        let values = [
+            ("upper.viscous_friction.fv", 0.5),
+            ("upper.asymmetric_viscous.delta", delta),
+            ("lower.viscous_friction.fv", 0.5),
+        ];
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let (_, checks, text) = audit(&arm, &BTreeMap::from(values));
+        assert_eq!(checks["friction"]["passed"], !drives, "{text}");
+        let found = findings(&checks["friction"]);
+        assert!(found.iter().all(|said| said.contains("`upper`")), "{text}");
+    }
 }

@@ -72,14 +72,15 @@ fn the_table_of_seed_002_is_no_arm() {
         "{text}"
     );
     assert_eq!(checks["inertia"]["passed"], false);
-    // The cubic terms turn friction round: the joints where that is below their largest speeds.
+    // The cubic terms turn friction round: the joints where that is below their largest speeds, in the direction where the square
+    // helps.
     let friction = findings(&checks["friction"]);
     for (joint, speed) in [
-        ("j1", 2.85),
-        ("j2", 2.71),
-        ("j3", 1.58),
-        ("j5", 3.12),
-        ("j6", 3.58),
+        ("j1", 2.70),
+        ("j2", 2.61),
+        ("j3", 1.48),
+        ("j5", 2.96),
+        ("j6", 3.39),
     ] {
         let said = friction
             .iter()
@@ -90,7 +91,7 @@ fn the_table_of_seed_002_is_no_arm() {
             .expect("a speed");
         let (said, _) = said.split_once(' ').expect("a unit");
         let said: f64 = said.parse().expect("a number");
-        assert!((said - speed).abs() < 0.03, "{joint}: {said}");
+        assert!((said - speed).abs() < 0.006, "{joint}: {said}");
     }
     assert_eq!(friction.len(), 5, "{text}");
     // With friction that is known to be right the same arm still has no bodies.

@@ -43,6 +43,9 @@ const TOLD: f64 = 5.0;
 /// Steps of the encoder that the deflection at sliding has to be.
 const LEAST_STEPS: f64 = 5.0;
 
+/// What surfaces in contact give by at most before they slide, rad or m: some hundred times what is published of joints.
+const MOST_DEFLECTION: f64 = 0.1;
+
 /// Bristles of a joint: stiffness and, where the log tells it, damping of the `LuGre` model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bristles {
@@ -79,6 +82,13 @@ impl Bristles {
     #[must_use]
     pub fn is_resolved(&self) -> bool {
         self.deflection.value >= LEAST_STEPS * self.encoder_step
+    }
+
+    /// Whether the deflection at sliding is one that surfaces in contact have, up to 0.1 rad or m. What gives by more is a spring, a gear's
+    /// play, or torques in another unit than positions.
+    #[must_use]
+    pub fn is_of_contact(&self) -> bool {
+        self.deflection.value <= MOST_DEFLECTION
     }
 
     /// The largest stiffness that the encoder would tell, N m/rad or N/m; infinite where it has no steps.
@@ -297,6 +307,21 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_gives_by_a_tenth_of_a_radian_is_no_contact() {
+        let exact = |value: f64| Value { value, std: 0.0 };
+        let of = |deflection: f64| Bristles {
+            stiffness: exact(0.5843 / deflection),
+            damping: None,
+            reached: 2.0,
+            deflection: exact(deflection),
+            encoder_step: 1e-3,
+            seconds: 0.0..1.0,
+        };
+        assert!(of(0.003).is_of_contact() && !of(0.27).is_of_contact());
+        assert!(!of(0.003).is_resolved() && of(0.27).is_resolved());
+    }
 
     /// Bristles of 200 N m/rad and 1.5 N m s/rad under a torque that rises to 80 % of 2 N m.
     #[test]

@@ -57,6 +57,9 @@ pub struct Curve {
     pub beside: Vec<(usize, f64)>,
     /// From where to where each joint went or stood, rad or m.
     pub range: Vec<(f64, f64)>,
+    /// By how much a velocity changes with one step of the encoder where it is the difference of two neighboring samples, rad/s or m/s; the
+    /// least of all logs. Speeds of the points are slopes over stretches, and far finer.
+    pub speed_step: f64,
     /// How far each block's error moves each point, one deviation of it, `[block, point]`.
     influence: Mat<f64>,
 }
@@ -81,6 +84,7 @@ impl Measured<'_> {
             rows,
             stretches,
             range,
+            speed_step,
         } = self.runs(logs)?;
         if stretches.is_empty() {
             let joint = self.name();
@@ -122,6 +126,7 @@ impl Measured<'_> {
             has_constant: chosen.has_constant,
             beside,
             range,
+            speed_step,
             influence,
         })
     }
@@ -212,6 +217,7 @@ impl Curve {
             has_constant: false,
             beside: Vec::new(),
             range: Vec::new(),
+            speed_step: 0.0,
             influence,
         }
     }

@@ -125,6 +125,14 @@ impl Law {
         way * (self.coulomb.value + fall) + self.viscous.value * v + self.constant()
     }
 
+    /// Whether velocities from differences of neighboring samples would tell the fall: a step of the encoder is below the Stribeck speed. True
+    /// where there is no fall.
+    #[must_use]
+    pub fn is_told_by_differences(&self, curve: &Curve) -> bool {
+        self.fall
+            .is_none_or(|fall| curve.speed_step < fall.speed.value)
+    }
+
     /// `t0`; 0 where it is not told.
     pub(super) fn constant(&self) -> f64 {
         self.offset.map_or(0.0, |offset| offset.value)

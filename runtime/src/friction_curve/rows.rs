@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::stretch::{BLOCK_S, Stretch};
+use super::stretch::{BLOCK_S, Stretch, encoder_step};
 use crate::columns::{Arm, Entry};
 use crate::log::{Channel, Log};
 use crate::motion::{Kinematics, Motion};
@@ -99,6 +99,8 @@ pub(super) struct Runs {
     pub stretches: Vec<(f64, f64)>,
     /// From where to where each joint went or stood.
     pub range: Vec<(f64, f64)>,
+    /// A step of the encoder from one sample to the next, as a speed.
+    pub speed_step: f64,
 }
 
 impl Measured<'_> {
@@ -160,6 +162,7 @@ impl Measured<'_> {
     pub(super) fn runs(&self, logs: &[Log]) -> Result<Runs, SignalError> {
         let mut runs = Runs {
             range: vec![(f64::INFINITY, f64::NEG_INFINITY); self.arm.dof()],
+            speed_step: f64::INFINITY,
             ..Runs::default()
         };
         let count = match self.known {
@@ -172,6 +175,9 @@ impl Measured<'_> {
             if found.is_empty() {
                 continue;
             }
+            let step = encoder_step(&log.q[self.joint]) * log.rate_hz();
+            // A fast log may jump over single steps.
+            runs.speed_step = runs.speed_step.min(step);
             let prepared = prepare(log, &Bands::for_log(log))?;
             let block = whole_steps((BLOCK_S * prepared.rate_hz).round()).max(1);
             for stretch in found {

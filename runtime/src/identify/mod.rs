@@ -69,7 +69,7 @@ pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowe
 pub use method::{Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
-pub(crate) use shapes::{golden, neighbors, with_slopes};
+pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 pub use table::relative_deviation;
@@ -286,7 +286,7 @@ impl Identify {
         let cost = |logs: &[Prepared], shapes: &[f64]| self.cost(arm, logs, shapes);
         let mut shapes = match shapes {
             Some(shapes) => shapes,
-            None => shapes::search(arm, logs, cost)?,
+            None => self.together(arm, logs, shapes::search(arm, logs, cost)?)?,
         };
         let mut last = None;
         for pass in 0..if loaded { RIGID_TORQUE_PASSES } else { 1 } {

@@ -1,6 +1,7 @@
 //! Shape parameters without a value: a search over their ranges, the linear unknowns solved for at every point.
 
 mod simplex;
+mod together;
 
 use std::ops::Range;
 
@@ -224,6 +225,28 @@ pub(crate) fn neighbors(grid: &[f64], value: f64) -> (f64, f64) {
         .saturating_sub(1);
     let above = grid.partition_point(|point| *point <= value).min(last);
     (grid[below], grid[above])
+}
+
+/// A range whose ends are this far apart is one of its logarithm.
+const DECADES: f64 = 100.0;
+
+/// A shape of several decades goes no further in a step, in its logarithm.
+const FACTOR: f64 = 1.0;
+
+/// Whether a grid is one of the logarithm.
+pub(crate) fn is_of_decades(grid: &[f64]) -> bool {
+    let (low, high) = (grid[0], grid[grid.len() - 1]);
+    low > 0.0 && high > DECADES * low
+}
+
+/// The value a step further, inside its range.
+pub(crate) fn moved(grid: &[f64], value: f64, step: f64) -> f64 {
+    let next = if is_of_decades(grid) {
+        value * (step / value).clamp(-FACTOR, FACTOR).exp()
+    } else {
+        value + step
+    };
+    next.clamp(grid[0], grid[grid.len() - 1])
 }
 
 /// Golden section on an interval.

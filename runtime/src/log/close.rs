@@ -8,6 +8,14 @@ use super::{Log, Note};
 /// noise, and is far from all others beside them.
 const CLOSE: f64 = 0.3;
 
+/// Whether a sample is the one before once more, as recorders of two sources write it.
+pub(super) fn is_again(log: &Log, sample: usize) -> bool {
+    let channels = log.q.iter().chain(&log.dq).chain(&log.tau);
+    let mut all = channels.chain(log.extra.iter().map(|channel| &channel.values));
+    #[expect(clippy::float_cmp, reason = "the same digits were read twice")]
+    all.all(|values| values[sample] == values[sample - 1])
+}
+
 /// Makes one sample of those that nearly coincide, their mean; says which line each sample has now.
 pub(super) fn merge(log: &mut Log, lines: Option<&[u64]>, median: f64) -> Option<Vec<u64>> {
     let mut groups: Vec<Range<usize>> = Vec::new();

@@ -90,7 +90,7 @@ impl Log {
     /// # Errors
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
     /// field that is no number, a twentieth of the rows with fields that are empty or not finite (fewer count as missing), a
-    /// row of the wrong length, time that does not rise, a gap in time of more than half a second or a twentieth of the log,
+    /// row of the wrong length, time that does not rise (but for rows that are there twice), a gap in time of more than half a second or a twentieth of the log,
     /// too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
     ///
     /// # Examples

@@ -281,8 +281,10 @@ fn samples_from_memory_are_checked_too() {
     );
     let mut repeated = time.clone();
     repeated[8] = 7.0;
+    let mut q = vec![vec![0.0; 20]];
+    q[0][8] = 1.0;
     assert_eq!(
-        text(&repeated, vec![vec![0.0; 20]]),
+        text(&repeated, q),
         "plant: sample 8: time does not rise: 7 s follows 7 s; remove the row if it is there twice, or split the log here and give both parts"
     );
 }

@@ -6,7 +6,7 @@ use crate::signal::resample;
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
 const UNIFORM_SHARE: f64 = 0.01;
 
-/// Refuses time that does not rise or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels
+/// Refuses time that does not rise, but for rows that are there again, or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels
 /// onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(
     log: &mut Log,
@@ -16,7 +16,8 @@ pub(super) fn make_uniform(
     let time = &log.time;
     let place = |sample: usize| log.place(sample, lines);
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    if let Some(k) = steps.iter().position(|&step| step <= 0.0) {
+    let falls = |k: &usize| steps[*k] < 0.0 || steps[*k] == 0.0 && !close::is_again(log, *k + 1);
+    if let Some(k) = (0..steps.len()).find(falls) {
         return Err(LogError::TimeOrder {
             place: place(k + 1),
             time: time[k + 1],

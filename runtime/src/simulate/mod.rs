@@ -17,6 +17,7 @@ mod motion;
 mod noise;
 mod plant;
 mod tangent;
+mod through;
 mod trajectory;
 
 pub use controller::{ComputedTorque, Controller, Gains, InverseDynamics, Measured, Pd, Torques};
@@ -27,4 +28,5 @@ pub use motion::Drive;
 pub use noise::Sensors;
 pub use plant::{Instant, Jumps, Plant, Slopes};
 pub use tangent::{Adjustable, ParameterSlopes, Tangent};
+pub use through::{Functions, Through};
 pub use trajectory::{Desired, Trajectory};

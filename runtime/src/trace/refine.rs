@@ -3,12 +3,12 @@
 use std::convert::Infallible;
 
 use crate::columns::Entry;
-use crate::identify::{golden, neighbors};
+use crate::identify::{golden, is_of_decades, moved, neighbors};
 use crate::signal::Prepared;
 
 use super::score::Present;
 use super::slopes::slopes;
-use super::trial::{DECADES, Trial, presence};
+use super::trial::{Trial, presence};
 
 /// How much less a candidate may explain with a shape that hardly changes anything.
 const HARDLY: f64 = 1e-3;
@@ -17,9 +17,6 @@ const HARDLY: f64 = 1e-3;
 const STEPS: usize = 8;
 const HALVES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 const LEAST_GAIN: f64 = 1e-5;
-
-/// A shape of several decades goes no further in a step, in its logarithm.
-const FACTOR: f64 = 1.0;
 
 impl Trial<'_> {
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` all of them
@@ -103,16 +100,7 @@ impl Trial<'_> {
     /// With shapes a share of a step further, inside their ranges.
     fn moved(&self, step: &[f64], share: f64, logs: &[Prepared]) -> Self {
         let shapes = self.candidate.shapes().iter().zip(&self.shapes).zip(step);
-        let shapes = shapes.map(|((shape, value), step)| {
-            let (low, high) = (shape.grid[0], shape.grid[shape.grid.len() - 1]);
-            let next = if low > 0.0 && high > DECADES * low {
-                // Such a range is one of its logarithm.
-                value * (share * step / value).clamp(-FACTOR, FACTOR).exp()
-            } else {
-                value + share * step
-            };
-            next.clamp(low, high)
-        });
+        let shapes = shapes.map(|((shape, value), step)| moved(&shape.grid, *value, share * step));
         Self::new(self.candidate, shapes.collect(), logs)
     }
 
@@ -121,7 +109,7 @@ impl Trial<'_> {
         let grid = &self.candidate.shapes()[number].grid;
         let (first, last, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
         let (low, high) = neighbors(grid, value);
-        let steps = if first > 0.0 && last > DECADES * first {
+        let steps = if is_of_decades(grid) {
             [value * low / high, value * high / low]
         } else {
             [value - (high - low), value + (high - low)]

@@ -1,7 +1,7 @@
 //! A candidate at given shapes, its columns filtered like the model's.
 
 use crate::columns::{Candidate, Entry};
-use crate::identify::filtered_columns;
+use crate::identify::{filtered_columns, is_of_decades};
 use crate::signal::Prepared;
 
 use super::projected::Projected;
@@ -10,9 +10,6 @@ use super::search::is_of_phase;
 
 /// A shape this close to an end of its range, relative to the range's length, is at the end.
 const END_SHARE: f64 = 0.002;
-
-/// A range whose ends are further apart than this factor.
-pub(super) const DECADES: f64 = 100.0;
 
 /// A column of the logged torque may be more than this share of its largest value in this share of all rows.
 const THERE: f64 = 0.02;
@@ -175,8 +172,7 @@ impl<'a> Trial<'a> {
     pub(super) fn is_within(&self, number: usize) -> bool {
         let grid = &self.candidate.shapes()[number].grid;
         let (low, high, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
-        if low > 0.0 && high > DECADES * low {
-            // Such a range is one of its logarithm.
+        if is_of_decades(grid) {
             let edge = END_SHARE * (high / low).ln();
             return (low.ln() + edge..=high.ln() - edge).contains(&value.ln());
         }

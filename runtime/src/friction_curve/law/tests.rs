@@ -97,3 +97,18 @@ fn few_speeds_are_refused_and_four_have_no_fall() {
     let law = Law::fit(&drawn(1, &ladder(4), &seed_003, 20, 0.01)).expect("a law");
     assert!(law.fall.is_none() && law.probability.is_none());
 }
+
+#[test]
+fn differences_of_samples_tell_a_fall_above_one_step_of_the_encoder() {
+    let mut curve = drawn(1, &ladder(20), &seed_003, 40, 0.01);
+    let law = Law::fit(&curve).expect("a law");
+    assert!(law.fall.is_some());
+    // 12 bits a turn at 1 kHz, and at 100 Hz.
+    for (rate, is_told) in [(1000.0, false), (100.0, true)] {
+        curve.speed_step = std::f64::consts::TAU / 4096.0 * rate;
+        assert_eq!(law.is_told_by_differences(&curve), is_told, "{rate}");
+    }
+    let flat = drawn(2, &ladder(20), &|v| 0.5 * v.signum() + 0.1 * v, 40, 0.01);
+    let law = Law::fit(&flat).expect("a law");
+    assert!(law.fall.is_none() && law.is_told_by_differences(&curve));
+}

@@ -52,7 +52,7 @@ pub struct OutputEstimate {
     pub bound: Vec<usize>,
     /// What the logs say of which of the other parameters.
     pub identifiability: Identifiability,
-    /// Ratios of parameters of which the logs tell all but a common factor.
+    /// Ratios of parameters of which the logs tell all but a common factor, or hardly that one: where the frail direction scales them all.
     pub ratios: Vec<Ratio>,
     /// Sums of other parameters that the logs do not tell apart; none where the search ran out of iterations.
     pub combinations: Vec<Combination>,
@@ -64,6 +64,8 @@ pub struct OutputEstimate {
     pub unsure: Vec<(String, f64)>,
     /// On the logs that were fitted.
     pub fit: Comparison,
+    /// Positions and velocities of all degrees of freedom where each window starts.
+    pub starts: Vec<Vec<f64>>,
     /// Samples a joint.
     pub samples: usize,
     /// Seconds of the windows that were fitted, none of whole logs: shorter than what was asked for where the arm runs away in those.
@@ -95,11 +97,9 @@ pub(super) fn result<P: Adjustable + Clone>(
     let free_names: Vec<String> = free.iter().map(|&k| names[k].clone()).collect();
     let r = reduced.r.select_columns(&free);
     let identifiability = Identifiability::new(&r, &values, &free_names);
-    let pairs = ratios::pairs(&identifiability, &r, &values, &free_names);
     let told = sums::sums(&identifiability, &r, &free_names);
     let mut combinations = Vec::new();
     let mut std = vec![None; names.len()];
-    let mut ratio_std = vec![None; pairs.len()];
     let inverse = identifiability.inverse(&r);
     let moves = Moves::new(problem, (place, runs), (&rows, &reduced), (&free, &inverse));
     // Of functions of the parameters with given slopes.
@@ -118,6 +118,8 @@ pub(super) fn result<P: Adjustable + Clone>(
         .collect();
     // What hangs on what the model lacks does so on the way, too.
     let frail = frail(&r, &values, &of_free, &free_names);
+    let pairs = ratios::pairs(&identifiability, frail.as_ref(), &r, &values, &free_names);
+    let mut ratio_std = vec![None; pairs.len()];
     let mut unsure = Vec::new();
     if *ending == Ending::OutOfIterations {
         for ((name, value), std) in free_names.iter().zip(&values).zip(&of_free) {
@@ -159,6 +161,7 @@ pub(super) fn result<P: Adjustable + Clone>(
         identifiability,
         window: *window,
         hold: problem.law.is_none().then_some(problem.hold),
+        starts: place.starts.iter().map(|x| x.as_slice().to_vec()).collect(),
         values: part.place.values,
     }
 }
@@ -230,8 +233,9 @@ pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool
 }
 
 impl Distance {
-    /// Of pairs of a measured and a simulated value.
-    fn new(pairs: &[(f64, f64)]) -> Self {
+    /// Of pairs of a measured and a simulated value, at least one.
+    #[must_use]
+    pub fn new(pairs: &[(f64, f64)]) -> Self {
         let count = pairs.len().max(1) as f64;
         let sum = |value: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(value).sum::<f64>();
         let squares = sum(&|(y, s)| (y - s).powi(2));
@@ -245,5 +249,32 @@ impl Distance {
             relative_percent: if level > 0.0 { share(level) } else { 0.0 },
             nrmse_fit_percent: (spread > 1e-12 * level).then(|| 100.0 - share(spread)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_those_of_their_equations() {
+        let found = Distance::new(&[(1.0, 1.5), (2.0, 2.0), (6.0, 4.5)]);
+        assert!((found.mae - 2.0 / 3.0).abs() < 1e-12);
+        assert!((found.rmse - (2.5_f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert!((found.relative_percent - 100.0 * (2.5_f64 / 41.0).sqrt()).abs() < 1e-12);
+        // About the mean of what was measured, 3.
+        let fit = 100.0 * (1.0 - (2.5_f64 / 14.0).sqrt());
+        assert!(
+            found
+                .nrmse_fit_percent
+                .is_some_and(|x| (x - fit).abs() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn a_mean_fits_nothing_and_a_channel_that_stands_has_no_fit() {
+        let mean = Distance::new(&[(1.0, 2.0), (3.0, 2.0)]);
+        assert!(mean.nrmse_fit_percent.is_some_and(|fit| fit.abs() < 1e-12));
+        assert_eq!(Distance::new(&[(2.0, 1.0); 3]).nrmse_fit_percent, None);
     }
 }

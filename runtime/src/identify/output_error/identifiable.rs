@@ -70,11 +70,13 @@ impl Direction {
     /// Whether it scales all of its parameters by the same factor: then their ratios are known.
     #[must_use]
     pub fn is_scale(&self) -> bool {
-        self.moves.len() > 1
-            && self
-                .moves
-                .iter()
-                .all(|(_, share)| (share - 1.0).abs() < 0.05)
+        self.scales_within(0.05)
+    }
+
+    /// The same with shares that differ by so much at most. One that is not silent has a little of others in it.
+    pub(super) fn scales_within(&self, difference: f64) -> bool {
+        let mut shares = self.moves.iter().map(|(_, share)| share);
+        self.moves.len() > 1 && shares.all(|share| (share - 1.0).abs() < difference)
     }
 }
 

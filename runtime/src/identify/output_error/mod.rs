@@ -59,6 +59,11 @@ pub struct OutputError {
     pub law: Option<Law>,
     /// Logged torque between samples; none is the one whose errors are less, where it makes a difference.
     pub hold: Option<Hold>,
+    /// Positions and velocities of all degrees of freedom where each log starts, which are held there, as of a velocity from differences;
+    /// none are fitted. For whole logs.
+    pub held_starts: Option<Vec<Vec<f64>>>,
+    /// Iterations at most of each part of the search; none are 100.
+    pub iterations: Option<usize>,
 }
 
 /// Why there is no estimate.
@@ -93,6 +98,9 @@ pub enum OutputErrorError {
     /// A controller remembers across windows.
     #[error("a controller is simulated along whole logs; leave the window out")]
     WindowedLaw,
+    /// Starts that are held are those of whole logs.
+    #[error("starts that are held are those of whole logs; leave the window out")]
+    WindowedStarts,
     /// Parts have other sizes than the arm.
     #[error("{what}: {found} for an arm with {expected}")]
     Size {
@@ -144,6 +152,8 @@ struct Problem<'a, P> {
     windows: Vec<Window<'a>>,
     law: Option<&'a Law>,
     hold: Hold,
+    /// Where windows start, if that is not fitted.
+    held_starts: Option<&'a [Vec<f64>]>,
     /// One a joint.
     scale: Vec<f64>,
     /// Iterations of a search.
@@ -169,9 +179,16 @@ impl<P: Adjustable + Clone> Problem<'_, P> {
     /// These parameters, and starts as logs have them.
     fn place(&mut self, values: &[f64]) -> Place {
         self.plant.adjust(values);
-        let windows = self.windows.iter();
+        let starts = if let Some(held) = self.held_starts {
+            let held = held.iter();
+            held.map(|start| DVector::from_column_slice(start))
+                .collect()
+        } else {
+            let windows = self.windows.iter();
+            windows.map(|window| window.start(&self.plant)).collect()
+        };
         Place {
-            starts: windows.map(|window| window.start(&self.plant)).collect(),
+            starts,
             values: values.to_vec(),
         }
     }
@@ -191,8 +208,14 @@ impl<P: Adjustable + Clone> Problem<'_, P> {
 
     fn rows(&self, runs: &[Run]) -> Vec<Rows> {
         let runs = self.windows.iter().zip(runs);
-        runs.map(|(window, run)| window.rows(run, &self.scale))
-            .collect()
+        let rows = runs.map(|(window, run)| {
+            let mut rows = window.rows(run, &self.scale);
+            if self.held_starts.is_some() {
+                rows.by_start.fill(0.0);
+            }
+            rows
+        });
+        rows.collect()
     }
 
     fn cost(&self, runs: &[Run]) -> f64 {
@@ -245,6 +268,7 @@ impl OutputError {
         progress: &mut dyn FnMut(&Iterate),
     ) -> Result<OutputEstimate, OutputErrorError> {
         self.check(plant, names, start)?;
+        self.check_starts(plant, recordings)?;
         if !recordings.iter().any(Recording::moves) {
             return Err(OutputErrorError::Still);
         }
@@ -301,6 +325,7 @@ impl OutputError {
         values: &[f64],
         recordings: &[Recording],
     ) -> Result<Comparison, OutputErrorError> {
+        self.check_starts(plant, recordings)?;
         let bounds: Vec<[f64; 2]> = values.iter().map(|&value| [value, value]).collect();
         let hold = self.hold.unwrap_or_default();
         let near = |window, before: Option<&(Problem<'_, P>, Place)>| {
@@ -367,9 +392,38 @@ impl OutputError {
             windows: windows.into_iter().flatten().collect(),
             law: self.law.as_ref(),
             hold,
-            most: search::MOST,
+            held_starts: self.held_starts.as_deref(),
+            most: self.iterations.unwrap_or(search::MOST),
             plant,
         })
+    }
+
+    /// Held starts are of whole logs, one a log.
+    fn check_starts(
+        &self,
+        plant: &impl Adjustable,
+        recordings: &[Recording],
+    ) -> Result<(), OutputErrorError> {
+        let Some(starts) = &self.held_starts else {
+            return Ok(());
+        };
+        if self.window.is_some() {
+            return Err(OutputErrorError::WindowedStarts);
+        }
+        let state = 2 * plant.dof();
+        let of_logs = ("starts that are held", starts.len(), recordings.len());
+        let of_states = starts.iter().map(|x| ("values of a start", x.len(), state));
+        match std::iter::once(of_logs)
+            .chain(of_states)
+            .find(|(_, found, expected)| found != expected)
+        {
+            Some((what, found, expected)) => Err(OutputErrorError::Size {
+                what,
+                found,
+                expected,
+            }),
+            None => Ok(()),
+        }
     }
 
     fn check(

@@ -79,3 +79,27 @@ fn jitter_makes_no_spikes() {
     let faults = log.mended().faults;
     assert!(faults.iter().all(Fault::is_in_report), "{faults:?}");
 }
+
+/// As recorders write it that merge two sources. Another value at the same time is a mistake of the file.
+#[test]
+fn a_row_that_is_there_twice_counts_once() {
+    let mut rows: Vec<String> = (0..200)
+        .map(|k| format!("{:.3},0.5,{k}", 0.002 * f64::from(k)))
+        .collect();
+    let once = read(&text("time,q1,tau1", &rows), 1).expect("it is sound");
+    rows.insert(50, rows[49].clone());
+    rows.insert(120, rows[119].clone());
+    let twice = read(&text("time,q1,tau1", &rows), 1).expect("the same is there twice");
+    assert_eq!((&twice.time, &twice.tau), (&once.time, &once.tau));
+    assert!(
+        matches!(twice.report[..], [Note::Coincident { samples: 2, .. }]),
+        "{:?}",
+        twice.report
+    );
+    rows[50] = "0.098,0.5,7".to_owned();
+    let error = read(&text("time,q1,tau1", &rows), 1).expect_err("which of them is it?");
+    assert!(
+        error.to_string().contains(":52: time does not rise"),
+        "{error}"
+    );
+}

@@ -1,0 +1,35 @@
+//! Whether motors move their joints at all: what holds a joint that creeps is below the largest torque of its motor.
+
+use robot_model_codegen::Compiled;
+use robot_model_spec::model::JointKind;
+
+use super::Check;
+use super::friction::{Effects, fastest};
+use crate::parameters::Values;
+
+/// `None` where the spec has no torque limits.
+pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
+    let joints = &compiled.model.joints;
+    if joints.iter().all(|joint| joint.limits.torque.is_none()) {
+        return None;
+    }
+    let effects = Effects::new(compiled, values);
+    let fastest = fastest(compiled);
+    let findings = joints.iter().enumerate().filter_map(|(place, joint)| {
+        let most = joint.limits.torque?;
+        let hold = effects.hold(place, &fastest);
+        let unit = match joint.kind {
+            JointKind::Prismatic => "N",
+            JointKind::Revolute => "N m",
+        };
+        (hold > most).then(|| {
+            format!(
+                "joint `{}` is held by {hold:.4} {unit} of friction, and its motor has {most:.4} {unit}: it would not move",
+                joint.name
+            )
+        })
+    });
+    let findings = findings.collect();
+    let scope = "friction of joints that creep, beside their torque limits".to_owned();
+    Some(Check::new("drives", scope, findings))
+}

@@ -1,0 +1,89 @@
+//! The three laws of friction, named in the spec's text and compiled while the program runs.
+
+use robot_model_cli::interpreted::InterpretedPlant;
+use robot_model_codegen::{Compiled, compile_model};
+use robot_model_spec::amend::{Amendment, amend};
+
+use super::words::InWords;
+use crate::paper::Error;
+
+/// The rigid arm and the three laws, none of which it declares.
+pub const SHOULDER: &str = include_str!("shoulder.robot");
+
+/// A law of friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Law {
+    /// (6.1): `c x`
+    Linear,
+    /// (6.2): `c1 x + c2 x |x|`
+    Quadratic,
+    /// (6.3): `c1 x` forward, `c2 x` backward.
+    Directional,
+}
+
+/// All of them, as the tables have them.
+pub const LAWS: [Law; 3] = [Law::Linear, Law::Quadratic, Law::Directional];
+
+impl Law {
+    /// What the paper calls it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear (6.1)",
+            Self::Quadratic => "quadratic (6.2)",
+            Self::Directional => "directional (6.3)",
+        }
+    }
+
+    fn effect(self) -> &'static str {
+        match self {
+            Self::Linear => "linear_law",
+            Self::Quadratic => "quadratic_law",
+            Self::Directional => "direction_law",
+        }
+    }
+
+    /// `alpha`, `beta` and its own constants.
+    #[must_use]
+    pub fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Self::Linear => &["alpha", "beta", "c"],
+            Self::Quadratic | Self::Directional => &["alpha", "beta", "c1", "c2"],
+        }
+    }
+
+    /// The arm with this law.
+    ///
+    /// # Errors
+    /// Mistakes in the spec.
+    pub fn compiled(self) -> Result<Compiled, Error> {
+        let amendment = Amendment {
+            effect: self.effect().to_owned(),
+            joints: vec!["th".to_owned()],
+            shapes: Vec::new(),
+        };
+        compiled(&amend("shoulder.robot", SHOULDER, &[amendment])?)
+    }
+
+    /// The same as a plant, with `[alpha, beta, c..]`.
+    ///
+    /// # Errors
+    /// As [`Self::compiled`].
+    pub fn plant(self, values: &[f64]) -> Result<InWords, Error> {
+        let compiled = self.compiled()?;
+        let ones = vec![1.0; compiled.base.kept.len()];
+        let plant = InterpretedPlant::new(compiled.clone(), &ones, &[])?;
+        InWords::new(plant, &compiled.base.names, values)
+    }
+}
+
+/// Text to equations.
+///
+/// # Errors
+/// Mistakes of the text.
+pub fn compiled(text: &str) -> Result<Compiled, Error> {
+    Ok(compile_model(&robot_model_spec::load(
+        "shoulder.robot",
+        text,
+    )?))
+}

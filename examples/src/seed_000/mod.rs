@@ -1,0 +1,120 @@
+//! The shoulder of a PUMA, identified by output error: "Parameter identification for a robotic manipulator arm", a report on a
+//! UNIMATE PUMA 600 of NASA's Langley Research Center.
+//!
+//! The arm and its motor are simulated with the last line of the paper's Table 2; then the paper's procedure runs on what was measured of
+//! them, with the tool's search, simulator and calibration.
+
+mod data;
+mod drive;
+mod figures;
+mod fits;
+mod law;
+mod misprint;
+mod motion;
+mod plant;
+mod rows;
+mod scale;
+mod truth;
+mod words;
+
+pub use data::Data;
+pub use drive::{GAIN, Static, calibrated, noise_gain, white_gain};
+pub use fits::{Fit, Tables, cost};
+pub use law::{LAWS, Law};
+pub use misprint::{Pair, pairs, start};
+pub use motion::{Change, Turns, changes, slope_errors, turns, upright_rate};
+pub use plant::Experiment;
+pub use scale::{FACTORS, Told, costs_by_factor, told};
+pub use truth::{ARM, BACK_EMF, TABLE_1, TABLE_2};
+
+use crate::paper::{Error, Paper};
+
+/// Seeds of the noise.
+const EXPERIMENT: u64 = 1;
+const GAUGE: u64 = 3;
+const STANDING: u64 = 4;
+
+/// All that came out.
+#[derive(Debug, Clone)]
+pub struct Findings {
+    /// The simulated experiment.
+    pub experiment: Experiment,
+    /// What the paper makes of its measurements.
+    pub data: Data,
+    /// Tables 1 and 2.
+    pub tables: Tables,
+    /// Figures 7 to 10, 7 and 8 with the printed parameters and with the arm's own.
+    pub changes: [Change; 6],
+    /// Motions through turn-arounds.
+    pub turns: [Turns; 2],
+    /// Errors of exact slopes.
+    pub slope_errors: [f64; 5],
+    /// Rates at which the upright falls, models (5.1) and (5.2), 1/s.
+    pub rates: [f64; 2],
+    /// The static experiment.
+    pub statics: Static,
+    /// What differences make of noise, 1/s.
+    pub noise_gain: f64,
+    /// Numbers of Table 1 that are off, and their table.
+    pub misprints: (crate::paper::Table, Vec<Pair>),
+    /// What model (5.2) tells of its parameters.
+    pub told: Vec<Told>,
+    /// Costs of a wrong law by the factor of measured velocities in the input.
+    pub by_factor: Vec<(f64, f64)>,
+}
+
+impl Findings {
+    /// Simulates and identifies.
+    ///
+    /// # Errors
+    /// None are expected; those of the libraries are passed on.
+    pub fn new() -> Result<Self, Error> {
+        let experiment = Experiment::run(EXPERIMENT);
+        let data = Data::new(&experiment)?;
+        Ok(Self {
+            tables: Tables::of(&data)?,
+            changes: changes(&data)?,
+            turns: turns(&experiment)?,
+            slope_errors: slope_errors(&data)?,
+            // Figures of friction that the constants of Table 2 come to, without and with the back-EMF.
+            rates: [upright_rate(12.0, 2.59)?, upright_rate(12.0, 35.0)?],
+            statics: calibrated(GAUGE)?,
+            noise_gain: noise_gain(STANDING),
+            misprints: misprint::table()?,
+            told: told(&data)?,
+            by_factor: costs_by_factor(&data)?,
+            data,
+            experiment,
+        })
+    }
+
+    /// Beside the paper.
+    ///
+    /// # Errors
+    /// Mistakes of the spec.
+    pub fn paper(&self) -> Result<Paper, Error> {
+        let mut tables = self.tables.beside();
+        tables.extend([
+            figures::table(&self.changes),
+            self.misprints.0.clone(),
+            scale::table(&self.told),
+            figures::by_factor(&self.by_factor),
+        ]);
+        Ok(Paper {
+            title:
+                "Parameter identification for a robotic manipulator arm: the shoulder of a PUMA 600"
+                    .to_owned(),
+            tables,
+            rows: rows::rows(self)?,
+            figures: figures::figures(self),
+        })
+    }
+}
+
+/// The paper beside what came out.
+///
+/// # Errors
+/// As [`Findings::new`].
+pub fn run() -> Result<Paper, Error> {
+    Findings::new()?.paper()
+}

@@ -1,0 +1,63 @@
+//! The arm of the specs in this folder, compiled, with numbers.
+
+use std::collections::BTreeMap;
+
+use robot_model_cli::interpreted::InterpretedArm;
+use robot_model_codegen::{Compiled, compile_model};
+
+use super::truth::{FRICTION, LINKS};
+use crate::paper::Error;
+
+/// With the law of the publication on all joints.
+pub const ROKAE: &str = include_str!("rokae.robot");
+/// With Coulomb and viscous friction.
+pub const CONVENTIONAL: &str = include_str!("conventional.robot");
+
+/// A spec, compiled.
+///
+/// # Errors
+/// What the language says of it.
+pub fn compiled(name: &str, text: &str) -> Result<Compiled, Error> {
+    Ok(compile_model(&robot_model_spec::load(name, text)?))
+}
+
+/// The same behind the traits of the runtime.
+///
+/// # Errors
+/// Those of [`compiled`].
+pub fn interpreted(name: &str, text: &str) -> Result<InterpretedArm, Error> {
+    Ok(InterpretedArm::new(compiled(name, text)?))
+}
+
+/// Standard parameters of the simulated arm by name, those of its friction law among them.
+#[must_use]
+pub fn truth() -> BTreeMap<String, f64> {
+    let mut values = BTreeMap::new();
+    for (k, link) in LINKS.iter().enumerate() {
+        let mut put = |name: &str, value: f64| values.insert(format!("j{}.{name}", k + 1), value);
+        let ([x, y, z], [ixx, iyy, izz], m) = (link.com, link.inertia, link.mass);
+        put("m", m);
+        put("mx", m * x);
+        put("my", m * y);
+        put("mz", m * z);
+        // About the origin of the frame: Steiner.
+        put("ixx", ixx + m * (y * y + z * z));
+        put("ixy", -m * x * y);
+        put("ixz", -m * x * z);
+        put("iyy", iyy + m * (x * x + z * z));
+        put("iyz", -m * y * z);
+        put("izz", izz + m * (x * x + y * y));
+        put("motor_inertia.ia", link.rotor);
+        let rows = [
+            ("fc1", FRICTION.fc1),
+            ("fc2", FRICTION.fc2),
+            ("fv1", FRICTION.fv1),
+            ("fv2", FRICTION.fv2),
+            ("fv3", FRICTION.fv3),
+        ];
+        for (name, row) in rows {
+            put(&format!("rokae.{name}"), row[k]);
+        }
+    }
+    values
+}

@@ -1,0 +1,199 @@
+//! The friction law: what it says, what is claimed of it, and what it does at high speeds.
+
+use std::f64::consts::TAU;
+
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+use robot_model::columns::Candidate;
+use robot_model::log::Log;
+use robot_model::simulate::{Instant, Jumps, Plant as _};
+use robot_model::trace::{Outcome, Trace};
+use robot_model_cli::interpreted::InterpretedPlant;
+use robot_model_codegen::Compiled;
+use robot_model_codegen::base::shape_values;
+use robot_model_codegen::expr::Symbol;
+
+use super::arm::{compiled, interpreted};
+use super::plant::friction;
+use super::truth::{EPS, FRICTION};
+use crate::paper::Error;
+
+/// One joint with the law as printed.
+pub const PRINTED: &str = include_str!("law.robot");
+/// One joint with the law that begins at rest.
+pub const CONTINUOUS: &str = include_str!("continuous.robot");
+/// What stands for the joint's effect in [`PRINTED`].
+const DECLARED: &str = "rokae(eps = 0.01) on j;";
+
+/// Base parameters of a joint of one of these specs with the friction of joint `k` of the arm, whatever its effect is called.
+fn values(compiled: &Compiled, k: usize) -> Vec<f64> {
+    let rows = [
+        ("fc1", FRICTION.fc1),
+        ("fc2", FRICTION.fc2),
+        ("fv1", FRICTION.fv1),
+        ("fv2", FRICTION.fv2),
+        ("fv3", FRICTION.fv3),
+        ("izz", [1.0; 6]),
+    ];
+    let value = |name: &str| {
+        let end = name.rsplit('.').next().unwrap_or_default();
+        let row = rows.iter().find(|(name, _)| *name == end);
+        row.map_or(0.0, |(_, row)| row[k])
+    };
+    let standard = compiled.standard.iter();
+    let standard: Vec<f64> = standard.map(|p| value(&p.name)).collect();
+    compiled.base.beta(&standard)
+}
+
+/// Friction of joint `k` at a speed, N m, as the compiler has the law of a spec.
+///
+/// # Errors
+/// What the language says of the spec.
+pub fn compiled_friction(spec: &str, k: usize) -> Result<impl Fn(f64) -> f64, Error> {
+    let compiled = compiled("law.robot", spec)?;
+    let (program, shapes) = (compiled.effect_torque(), shape_values(&compiled.model));
+    let parameters = compiled.parameter_values(&values(&compiled, k));
+    Ok(move |v: f64| {
+        program.eval(&|symbol| match symbol {
+            Symbol::Dq(_) => v,
+            Symbol::Parameter(k) => parameters[k],
+            Symbol::Shape(k) => shapes[k],
+            _ => 0.0,
+        })[0]
+    })
+}
+
+/// Largest difference of the compiled law from the printed one, N m, over all joints and speeds up to 5 rad/s.
+///
+/// # Errors
+/// Those of [`compiled_friction`].
+pub fn difference() -> Result<f64, Error> {
+    let mut most: f64 = 0.0;
+    for k in 0..6 {
+        let law = compiled_friction(PRINTED, k)?;
+        for step in -5003_i32..=5003 {
+            let v = 1e-3 * f64::from(step);
+            most = most.max((law(v) - friction(k, v)).abs());
+        }
+    }
+    Ok(most)
+}
+
+/// Speed at which the friction of a joint begins to fall, rad/s: the mean of both directions.
+///
+/// # Errors
+/// Those of [`compiled_friction`].
+pub fn peak(k: usize) -> Result<f64, Error> {
+    let law = compiled_friction(PRINTED, k)?;
+    let mean = |v: f64| 0.5 * (law(v) - law(-v));
+    let speeds = (20..6000_i32).map(|step| 1e-3 * f64::from(step));
+    let most = speeds.max_by(|x, y| mean(*x).total_cmp(&mean(*y)));
+    Ok(most.unwrap_or_default())
+}
+
+/// By how much the torque of joint `k` jumps at `eps`, N m: the jumps that the compiler has found for the simulator.
+///
+/// # Errors
+/// What the language or the compiler says of the spec.
+pub fn jump(spec: &str, k: usize) -> Result<f64, Error> {
+    let compiled = compiled("law.robot", spec)?;
+    let (beta, shapes) = (values(&compiled, k), shape_values(&compiled.model));
+    let mut plant = InterpretedPlant::new(compiled, &beta, &shapes)?;
+    let mut arguments = vec![0.0; plant.switches()];
+    let mut at = Instant {
+        time: 0.0,
+        q: &[0.0],
+        dq: &[EPS],
+        ddq: &[0.0],
+        memory: &[],
+        switches: &[],
+        torque: &[0.0],
+        inputs: &[],
+    };
+    plant.arguments(&at, &mut arguments);
+    let is_here = |g: &f64| g.abs() < 1e-9;
+    let switches: Vec<f64> = arguments
+        .iter()
+        .map(|g| if is_here(g) { 0.0 } else { g.signum() })
+        .collect();
+    at.switches = &switches;
+    let mut jumps = Jumps::zeros(&plant);
+    plant.jumps(&at, &mut jumps);
+    let here = (0..arguments.len()).filter(|&s| is_here(&arguments[s]));
+    Ok(here.map(|s| 2.0 * jumps.halves[(0, s)].abs()).sum())
+}
+
+/// Whether the friction of a spec with one joint reads where the joint is.
+///
+/// # Errors
+/// What the language says of the spec.
+pub fn reads_position(spec: &str) -> Result<bool, Error> {
+    let compiled = compiled("law.robot", spec)?;
+    let symbols = compiled.dag.symbols(&compiled.dynamics.effect_torque);
+    Ok(symbols.contains(&Symbol::Q(0)))
+}
+
+/// The printed law beside other effects.
+#[must_use]
+pub fn beside(effects: &str) -> String {
+    PRINTED.replace(DECLARED, &format!("{DECLARED} {effects}"))
+}
+
+/// Rise of friction at low speeds, N m, and the speed within which it is gone, rad/s: a negative slope, as is claimed to be fitted.
+const RISE: f64 = 3.0;
+const FALL: f64 = 0.1;
+
+/// Names of what the tracer finds where a joint's friction falls at low speeds and the spec is this one; none where nothing is
+/// missing.
+///
+/// # Errors
+/// Those of the libraries.
+pub fn missing_where_friction_falls(spec: &str) -> Result<Vec<String>, Error> {
+    let arm = interpreted("law.robot", spec)?;
+    let candidates = arm.candidates();
+    let candidates = candidates.iter().map(|one| one as &dyn Candidate).collect();
+    let verdict = Trace::new(candidates).run(&arm, &[falling()?], &mut |_| ())?;
+    if verdict.outcome == Outcome::Unexplained {
+        return Ok(vec!["unexplained".to_owned()]);
+    }
+    let findings = verdict.findings.into_iter();
+    Ok(findings.map(|finding| finding.effect).collect())
+}
+
+/// Half a minute of joint 3 in slow and fast waves: its friction with a rise at low speeds.
+fn falling() -> Result<Log, Error> {
+    const JOINT: usize = 2;
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let waves = [(0.5, 0.07), (0.25, 0.19), (0.08, 0.53)];
+    let wave = |t: f64, order: i32| -> f64 {
+        let turn = f64::from(order) * TAU / 4.0;
+        let terms = waves.map(|(size, hz)| {
+            let w = TAU * hz;
+            size * w.powi(order) * (w * t + turn).sin()
+        });
+        terms.iter().sum()
+    };
+    let time: Vec<f64> = (0..6000).map(|k| 5e-3 * f64::from(k)).collect();
+    let q = time.iter().map(|&t| wave(t, 0)).collect();
+    let torque = |t: f64, noise: f64| {
+        let (v, dv) = (wave(t, 1), wave(t, 2));
+        dv + friction(JOINT, v) + RISE * (-(v / FALL).powi(2)).exp() * v.signum() + 0.1 * noise
+    };
+    let tau = time.iter().map(|&t| {
+        let noise: f64 = StandardNormal.sample(&mut random);
+        torque(t, noise)
+    });
+    let tau = tau.collect();
+    Ok(Log::from_samples("a joint", time, vec![q], vec![tau])?)
+}
+
+/// The simulated arm's friction of a joint over its speed, for a figure.
+#[must_use]
+pub fn curve(k: usize) -> Vec<(f64, f64)> {
+    let steps = -170_i32..=170;
+    steps
+        .map(|step| 0.01 * f64::from(step))
+        .map(|v| (v, friction(k, v)))
+        .collect()
+}

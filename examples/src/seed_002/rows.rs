@@ -1,0 +1,342 @@
+//! Every item of the list, with what became of it.
+
+use super::arm_rows;
+use super::excitation::{Objectives, against_differences, log_of_product};
+use super::results::Results;
+use super::table_two::{drop, mean, mean_drop, squares};
+use super::truth::{HARMONICS, TABLE_2};
+use crate::paper::Row;
+
+/// Numbers, one a joint.
+pub(super) fn list(values: &[f64], digits: usize) -> String {
+    let values: Vec<String> = values.iter().map(|x| format!("{x:.digits$}")).collect();
+    values.join(", ")
+}
+
+/// A number that may be zero but for rounding.
+fn small(value: f64) -> String {
+    if value.abs() < 1e-12 {
+        "0".to_owned()
+    } else if value.abs() < 1e-2 {
+        format!("{value:.0e}")
+    } else {
+        format!("{value:.2}")
+    }
+}
+
+/// All rows.
+#[must_use]
+pub fn rows(results: &Results) -> Vec<Row> {
+    let parts = [
+        law(results),
+        base(results),
+        identification(results),
+        excitation(results),
+        arm_rows::of_table(results),
+        arm_rows::of_use(results),
+    ];
+    parts.into_iter().flatten().collect()
+}
+
+fn law(results: &Results) -> Vec<Row> {
+    let drives: Vec<f64> = (0..6)
+        .filter_map(|k| results.table_1[1].drives_from(k))
+        .collect();
+    let said = [2.70, 2.61, 1.48, 4.66, 2.96, 3.39];
+    let falls = [1.57, 1.47, 0.81, 2.55, 1.62, 1.77];
+    let near = |x: &[f64], y: &[f64], by: f64| {
+        x.len() == y.len() && x.iter().zip(y).all(|(x, y)| (x - y).abs() < by)
+    };
+    let is_found = near(&drives, &said, 0.006) && near(&results.peaks, &falls, 0.006);
+    vec![
+        Row::holds(
+            "2.1",
+            "friction law (3), (4) by name: `rokae`",
+            "five parameters a joint and `eps`",
+            format!(
+                "compiled law within {:.0e} N m of it at 10 007 speeds of six joints",
+                results.law_difference
+            ),
+            results.law_difference < 1e-12,
+            "the compiled law is another",
+        ),
+        Row::wrong_in_print(
+            "2.1.jump",
+            "the law at the speed `eps`",
+            "movement is made smoother",
+            format!(
+                "jumps by {} N m at 0.01 rad/s; by {} where the viscous part begins at rest",
+                list(&results.jumps[0], 2),
+                small(results.jumps[1].iter().fold(0.0, |most, x| x.max(most)))
+            ),
+            results.jumps[0].iter().all(|jump| *jump > 5e-3)
+                && results.jumps[1].iter().all(|jump| *jump == 0.0),
+            "the viscous part is missing below `eps`, so the torque jumps there",
+        ),
+        Row::wrong_in_print(
+            "2.1.slope",
+            "a negative slope at low speed",
+            "the law is to fit it",
+            format!(
+                "where friction falls at low speeds the tracer names {}; with it declared, {}",
+                names(&results.missing[0]),
+                names(&results.missing[1])
+            ),
+            results.missing[0] == ["stribeck"] && results.missing[1].is_empty(),
+            "no term of the law falls at low speed",
+        ),
+        Row::wrong_in_print(
+            "2.1.displacement",
+            "friction over the angle",
+            "abstract: angular displacement is considered",
+            format!(
+                "the compiled torque reads positions: {}; with `position_dependent_friction` beside it: {}",
+                results.reads_position[0], results.reads_position[1]
+            ),
+            results.reads_position == [false, true],
+            "no term of the law has the position in it",
+        ),
+        Row::wrong_in_print(
+            "2.1.passive",
+            "sign of friction with the values of Table I",
+            "the square and the cube guarantee accuracy",
+            format!(
+                "falls from {} rad/s, drives from {} rad/s; without square and cube {} findings",
+                list(&results.peaks, 2),
+                list(&drives, 2),
+                results.ours[1].findings("friction").len()
+            ),
+            is_found && results.ours[1].findings("friction").is_empty(),
+            "`fv3 < 0`, and `fv2` is even in the velocity: friction gives energy at high speeds",
+        ),
+    ]
+}
+
+/// In words.
+fn names(found: &[String]) -> String {
+    match found {
+        [] => "nothing".to_owned(),
+        found => found.join(", "),
+    }
+}
+
+fn base(results: &Results) -> Vec<Row> {
+    let base = &results.base;
+    let ranks = [base.symbolic, base.identified, base.numeric];
+    vec![
+        Row::holds(
+            "2.2",
+            "base parameters of 96",
+            "70 and 26",
+            format!(
+                "{} by the compiler ({} of friction, rotors of {}), {} by identification of all, {} by QR; {} standard",
+                base.symbolic,
+                base.friction,
+                base.rotors.join(", "),
+                base.identified,
+                base.numeric,
+                base.standard
+            ),
+            ranks == [70; 3]
+                && base.standard == 96
+                && base.friction == 30
+                && base.rotors == ["j3", "j4", "j5", "j6"],
+            "the ranks differ",
+        ),
+        Row::holds(
+            "2.3",
+            "numeric QR on random six-sine data and the compiler's set",
+            "QR of normalized columns",
+            format!(
+                "kept columns at least {:.0e} apart, dropped ones at most {:.0e}; `R1^-1 R2` is the compiler's within {:.0e}",
+                base.kept_apart, base.dropped_apart, base.k
+            ),
+            base.kept_apart > 1e-6 && base.dropped_apart < 1e-12 && base.k < 1e-8,
+            "the sets differ",
+        ),
+        Row::wrong_in_print(
+            "2.3.k",
+            "the matrix that regroups (15)",
+            "k = R2 R1^-1, W2 = k W1",
+            format!(
+                "R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 and W2 = W1 k {:.0e} of W2 is left",
+                base.printed[0], base.printed[1], base.regrouped[0]
+            ),
+            base.printed[0] != base.printed[1] && base.regrouped[0] < 1e-10,
+            "the product does not exist: it is R1^-1 R2, and W2 = W1 k",
+        ),
+        Row::wrong_in_print(
+            "2.3.lengths",
+            "k of normalized columns, used on measured ones (15)",
+            "the same k",
+            format!(
+                "{:.2} of W2 is left, and {:.0e} where lengths are put back",
+                base.regrouped[1], base.regrouped[0]
+            ),
+            base.regrouped[1] > 0.1 && base.regrouped[0] < 1e-10,
+            "R is of columns of unit length: k has to get the lengths back",
+        ),
+    ]
+}
+
+fn identification(results: &Results) -> Vec<Row> {
+    let [tfls, mfls, mfwls] = &TABLE_2;
+    let total = drop(mean(tfls), mean(mfwls));
+    let each = mean_drop(tfls, mfwls);
+    let friction: Vec<f64> = tfls.iter().zip(mfls).map(|(a, b)| drop(*a, *b)).collect();
+    let is_said = (total - 54.1).abs() < 0.05
+        && (each - 61.3).abs() < 0.05
+        && friction
+            .iter()
+            .zip([3.0, 4.0, 41.0, -7.0, 6.0, 16.0])
+            .all(|(x, y)| (x - y).abs() < 0.55);
+    let ours = [
+        &results.conventional[0],
+        &results.conventional[1],
+        &results.modified[0],
+        &results.modified[1],
+    ];
+    let means = ours.map(|fit| mean(&fit.rmse));
+    let drops = [1, 2, 3].map(|k| drop(means[0], means[k]));
+    let better = (0..6)
+        .filter(|&k| ours[3].rmse[k] < ours[0].rmse[k])
+        .count();
+    let trained: Vec<f64> = results.modified.iter().map(|fit| fit.trained).collect();
+    let sums = [squares(mfls), squares(mfwls)];
+    vec![
+        Row::holds(
+            "2.4",
+            "weights by torque norm (20)-(22), beside others; 2 x 2 with friction",
+            "1 / |tau_i|",
+            format!(
+                "mean error on the test run: TFLS {:.2}, weights alone {:.2}, friction alone {:.2}, both {:.2} N m",
+                means[0], means[1], means[2], means[3]
+            ),
+            means[3] < means[2] && means[3] < means[1] && means[1] < means[0],
+            "both together are not the best",
+        ),
+        Row::holds(
+            "2.5",
+            "Table II: drop of the mean error by both; share of friction",
+            format!(
+                "more than 54 %: {total:.1} % of the mean, {each:.1} % mean over joints; friction alone {} %",
+                list(&friction, 0)
+            ),
+            format!(
+                "weights alone {:.0} %, friction alone {:.0} %, both {:.0} %; {better} of 6 joints better",
+                drops[0], drops[1], drops[2]
+            ),
+            is_said && drops[0] > drops[1] && drops[2] > drops[1] && better == 6,
+            "weights do not bring more than friction here",
+        ),
+        Row::holds(
+            "2.5.sum",
+            "sum of squares over all joints, with weights and without",
+            format!("falls from {:.0} to {:.0} N^2 m^2", sums[0], sums[1]),
+            format!(
+                "on the run that is fitted it rises from {:.0} to {:.0} N^2 m^2: least of all is that without weights",
+                trained[0], trained[1]
+            ),
+            sums[1] < sums[0] && trained[1..].iter().all(|sum| *sum > trained[0]),
+            "weights lower the sum on the run that is fitted",
+        ),
+    ]
+}
+
+fn excitation(results: &Results) -> Vec<Row> {
+    let motions: Vec<f64> = results
+        .designs
+        .iter()
+        .map(|design| against_differences(&design.motion))
+        .collect();
+    let off = motions.iter().copied().fold(0.0, f64::max);
+    let joints = results.designs[0].motion.coefficients.len();
+    let coefficients = joints * (2 * HARMONICS + 1);
+    let worst = results.violations.iter().copied().fold(0.0, f64::max);
+    let quality = |k: usize| &results.designs[k].quality;
+    let best = |own: usize, of: &dyn Fn(usize) -> f64| (0..4).all(|k| of(own) >= of(k));
+    let [raw, unit] = &results.objectives;
+    let ended = |found: &Objectives, k: usize| {
+        let value = found.values.get(k).copied().unwrap_or(f64::NAN);
+        let worth = found.log_det[k].map_or_else(
+            || "refused, as it tells no parameters apart".to_owned(),
+            |log_det| format!("ln det {log_det:.0}"),
+        );
+        format!("{} ({worth})", small(value))
+    };
+    let columns = results.base.symbolic;
+    let product = log_of_product(&results.designs[0], columns);
+    vec![
+        Row::holds(
+            "2.6",
+            "Fourier series (24), 5 harmonics of 20 s",
+            "66 coefficients",
+            format!(
+                "{coefficients} coefficients; within {off:.0e} of differences of the 8th order"
+            ),
+            coefficients == 66 && off < 1e-9,
+            "derivatives are not those of the position",
+        ),
+        Row::holds(
+            "2.7",
+            "limits and ends (26)",
+            "kept",
+            format!(
+                "exceeded by {} at most, on a grid ten times as fine; ends within rounding",
+                small(worst)
+            ),
+            worst <= 0.0,
+            "a limit is exceeded",
+        ),
+        Row::holds(
+            "2.8",
+            "Hadamard's bound (29) beside log det, condition number, least eigenvalue",
+            "Hadamard's bound",
+            format!(
+                "ln det {:.0} / {:.0} / {:.0} / {:.0}, condition of unit columns {:.0} / {:.0} / {:.0} / {:.0}",
+                quality(0).log_det,
+                quality(1).log_det,
+                quality(2).log_det,
+                quality(3).log_det,
+                quality(0).condition_of_unit_columns,
+                quality(1).condition_of_unit_columns,
+                quality(2).condition_of_unit_columns,
+                quality(3).condition_of_unit_columns,
+            ),
+            best(0, &|k| quality(k).hadamard)
+                && best(1, &|k| quality(k).log_det)
+                && best(2, &|k| -quality(k).condition)
+                && best(3, &|k| quality(k).least_singular),
+            "a motion is better by another's criterion",
+        ),
+        Row::wrong_in_print(
+            "2.8.unit",
+            "(29) on the normalized columns of (11), as the text has it",
+            "an objective",
+            format!(
+                "searches from two motions end at {} and at {}; on columns as they are at {} and at {}",
+                ended(unit, 0),
+                ended(unit, 1),
+                ended(raw, 0),
+                ended(raw, 1)
+            ),
+            unit.values.len() == 2
+                && unit.values.iter().all(|value| value.abs() < 1e-9)
+                && unit.log_det.iter().all(Option::is_none)
+                && raw.values.iter().all(|value| *value < -0.5)
+                && raw.log_det.iter().all(Option::is_some),
+            "columns of unit length have the bound 1 by every motion: nothing is designed",
+        ),
+        Row::wrong_in_print(
+            "2.8.product",
+            "(29) as a product of 70 sums over 120 000 rows",
+            "1 / product",
+            format!(
+                "ln of the product {product:.0}: 1 / product is {} in a double; here the sum of logarithms is minimized",
+                1.0 / product.exp()
+            ),
+            1.0 / product.exp() == 0.0,
+            "the product overflows: its logarithm is to be taken",
+        ),
+    ]
+}

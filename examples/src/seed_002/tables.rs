@@ -1,0 +1,130 @@
+//! Tables of the publication beside ours.
+
+use super::excitation::CRITERIA;
+use super::results::Results;
+use super::table_two::{Fit, WEIGHTS, drop, mean};
+use super::truth::{METHODS, TABLE_2};
+use crate::paper::Table;
+
+/// All of them.
+#[must_use]
+pub fn tables(results: &Results) -> Vec<Table> {
+    vec![
+        friction(results),
+        criteria(results),
+        table_2(results),
+        ablation(results),
+        guiding(results),
+    ]
+}
+
+/// Numbers as text.
+fn cells<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Vec<String> {
+    let values = values.into_iter().map(|x| format!("{x:.2}"));
+    std::iter::once(name.to_owned()).chain(values).collect()
+}
+
+fn friction(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Friction of Table I, joint by joint",
+        ["", "1", "2", "3", "4", "5", "6"],
+    );
+    table.push(cells("jump at 0.01 rad/s, N m", &results.jumps[0]));
+    table.push(cells("falls from, rad/s", &results.peaks));
+    let drives: Vec<f64> = (0..6)
+        .map(|k| results.table_1[1].drives_from(k).unwrap_or(f64::NAN))
+        .collect();
+    table.push(cells("drives from, rad/s", &drives));
+    table
+}
+
+fn criteria(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Motions of 20 s by four criteria",
+        [
+            "criterion",
+            "sum ln A_jj",
+            "ln det A",
+            "condition",
+            "of unit columns",
+            "least singular value",
+        ],
+    );
+    for ((name, _), design) in CRITERIA.iter().zip(&results.designs) {
+        let quality = &design.quality;
+        table.push([
+            (*name).to_owned(),
+            format!("{:.1}", quality.hadamard),
+            format!("{:.1}", quality.log_det),
+            format!("{:.0}", quality.condition),
+            format!("{:.1}", quality.condition_of_unit_columns),
+            format!("{:.2e}", quality.least_singular),
+        ]);
+    }
+    table
+}
+
+/// A row of errors with their mean.
+fn errors(name: &str, values: &[f64]) -> Vec<String> {
+    let all: Vec<f64> = values.iter().copied().chain([mean(values)]).collect();
+    cells(name, &all)
+}
+
+fn table_2(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Table II: root mean square errors on the test run, N m",
+        ["method", "1", "2", "3", "4", "5", "6", "mean"],
+    );
+    let ours = [
+        &results.conventional[0],
+        &results.modified[0],
+        &results.modified[1],
+    ];
+    for ((name, printed), ours) in METHODS.iter().zip(&TABLE_2).zip(ours) {
+        table.push(errors(&format!("{name}, printed"), printed));
+        table.push(errors(&format!("{name}, here"), &ours.rmse));
+    }
+    table.push(errors(
+        "MFWLS with the ripple of joint 2",
+        &results.with_ripple.rmse,
+    ));
+    table
+}
+
+fn ablation(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Mean error on the test run by friction and weights, N m, and its drop from TFLS",
+        [
+            "weights",
+            "conventional friction",
+            "",
+            "modified friction",
+            "",
+        ],
+    );
+    let from = mean(&results.conventional[0].rmse);
+    let cell = |fit: &Fit| {
+        let own = mean(&fit.rmse);
+        [format!("{own:.3}"), format!("{:.0} %", drop(from, own))]
+    };
+    for (k, (name, ..)) in WEIGHTS.iter().enumerate() {
+        let pair = [&results.conventional[k], &results.modified[k]].map(cell);
+        let cells = pair.into_iter().flatten();
+        table.push(std::iter::once((*name).to_owned()).chain(cells));
+    }
+    table
+}
+
+fn guiding(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Hand guiding: torque of the hand, N m root mean square",
+        ["", "1", "2", "3", "4", "5", "6"],
+    );
+    for (name, guided) in ["TFLS", "MFWLS"].iter().zip(&results.guided) {
+        for (what, is_slow) in [("slower than 0.01 rad/s", true), ("faster", false)] {
+            let efforts: Vec<f64> = (0..6).map(|k| guided.effort(k, is_slow)).collect();
+            table.push(cells(&format!("{name}, {what}"), &efforts));
+        }
+    }
+    table
+}

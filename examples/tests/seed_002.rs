@@ -1,0 +1,188 @@
+//! Seed 002, row by row: the figures that a reproduction has to show, findings that come out, and findings that go away once what is
+//! wrong is repaired.
+
+use std::sync::LazyLock;
+
+use robot_model_examples::Paper;
+use robot_model_examples::paper::Status;
+use robot_model_examples::seed_002::excitation::{against_differences, log_of_product};
+use robot_model_examples::seed_002::experiment::RIPPLE_2;
+use robot_model_examples::seed_002::results::{Results, results};
+use robot_model_examples::seed_002::table_two::{drop, mean};
+use robot_model_examples::seed_002::truth::{FRICTION, TABLE_2};
+use robot_model_examples::seed_002::{law, paper};
+
+const PAGE: &str = include_str!("../../docs/papers/seed_002.md");
+
+static RESULTS: LazyLock<(Results, Paper)> = LazyLock::new(|| {
+    let results = results().unwrap_or_else(|error| panic!("{error}"));
+    let paper = paper(&results).unwrap_or_else(|error| panic!("{error}"));
+    (results, paper)
+});
+
+#[test]
+fn the_page_says_what_the_program_says() {
+    let paper = &RESULTS.1;
+    assert_eq!(paper.differences(PAGE), [""; 0]);
+    let lacks =
+        |row: &&robot_model_examples::paper::Row| matches!(row.status, Status::NotReached(_));
+    let lacking: Vec<&str> = paper
+        .rows
+        .iter()
+        .filter(lacks)
+        .map(|row| row.item)
+        .collect();
+    assert_eq!(lacking, [""; 0], "{paper}");
+    // Ten of them are wrong as printed.
+    let wrong = paper
+        .rows
+        .iter()
+        .filter(|row| matches!(row.status, Status::Impossible(_)));
+    assert_eq!((paper.rows.len(), wrong.count()), (21, 10));
+    for figure in &paper.figures {
+        assert!(figure.svg().contains("<polyline"), "{}", figure.name);
+    }
+}
+
+#[test]
+fn the_law_jumps_drives_and_has_neither_fall_nor_position() {
+    let results = &RESULTS.0;
+    assert!(results.law_difference < 1e-12);
+    for (k, jump) in results.jumps[0].iter().enumerate() {
+        let viscous = FRICTION.fv1[k] * 1e-2 + FRICTION.fv2[k] * 1e-4 + FRICTION.fv3[k] * 1e-6;
+        assert!((jump - viscous).abs() < 1e-9, "{jump} {viscous}");
+    }
+    assert!(results.jumps[1].iter().all(|jump| *jump < 1e-12));
+    let falls = [1.57, 1.47, 0.81, 2.55, 1.62, 1.77];
+    let drives = [2.70, 2.61, 1.48, 4.66, 2.96, 3.39];
+    for k in 0..6 {
+        assert!((results.peaks[k] - falls[k]).abs() < 0.006, "{k}");
+        let found = results.table_1[1].drives_from(k).expect("a speed");
+        assert!((found - drives[k]).abs() < 0.006, "{k}: {found}");
+    }
+    // Without square and cube it brakes.
+    assert_eq!(results.ours[0].findings("friction").len(), 6);
+    assert_eq!(results.ours[1].findings("friction"), [""; 0]);
+    assert_eq!(results.missing[0], ["stribeck"]);
+    assert_eq!(results.missing[1], [""; 0]);
+    assert_eq!(results.reads_position, [false, true]);
+    // The law that begins at rest is the printed one from `eps` on.
+    let [printed, repaired] = [law::PRINTED, law::CONTINUOUS]
+        .map(|spec| law::compiled_friction(spec, 2).expect("sound specs"));
+    for v in [-1.3, -0.011, 0.011, 0.7] {
+        assert!((printed(v) - repaired(v)).abs() < 1e-12, "{v}");
+    }
+    assert!((repaired(0.005) - printed(0.005) - 0.5e-2 * FRICTION.fv1[2]).abs() < 1e-3);
+}
+
+#[test]
+fn base_parameters_are_seventy_both_ways() {
+    let base = &RESULTS.0.base;
+    assert_eq!(
+        (base.standard, base.symbolic, base.identified, base.numeric),
+        (96, 70, 70, 70)
+    );
+    assert_eq!((base.friction, base.rotors.len()), (30, 4));
+    assert_eq!(base.rotors, ["j3", "j4", "j5", "j6"]);
+    assert!(base.kept_apart > 1e-3 && base.dropped_apart < 1e-12);
+    assert!(base.k < 1e-10, "{}", base.k);
+    // `R2 R1^-1` does not exist; lengths of columns belong into `R1^-1 R2`.
+    assert_eq!(base.printed, [26, 70]);
+    assert!(base.regrouped[0] < 1e-12 && base.regrouped[1] > 0.1);
+}
+
+#[test]
+fn motions_keep_limits_and_are_best_by_their_own_criteria() {
+    let results = &RESULTS.0;
+    for (design, violation) in results.designs.iter().zip(&results.violations) {
+        assert!(against_differences(&design.motion) < 1e-9);
+        assert!(*violation <= 0.0, "{violation}");
+        let coefficients = &design.motion.coefficients;
+        assert_eq!(coefficients.iter().map(Vec::len).sum::<usize>(), 66);
+    }
+    let quality: Vec<_> = results
+        .designs
+        .iter()
+        .map(|design| &design.quality)
+        .collect();
+    for k in 1..4 {
+        assert!(quality[0].hadamard > quality[k].hadamard);
+    }
+    for k in [0, 2, 3] {
+        assert!(quality[1].log_det > quality[k].log_det);
+    }
+    // Hadamard's bound does not see columns that look alike.
+    assert!(quality[0].condition_of_unit_columns > 3.0 * quality[1].condition_of_unit_columns);
+    let [raw, unit] = &results.objectives;
+    assert_eq!(unit.values.len(), 2);
+    assert!(unit.values.iter().all(|value| value.abs() < 1e-9));
+    assert_eq!(unit.log_det, [None, None]);
+    assert!(raw.values.iter().all(|value| *value < -0.5));
+    assert!(raw.log_det.iter().all(Option::is_some));
+    // 1 / product underflows, its logarithm does not.
+    let product = log_of_product(&results.designs[0], results.base.symbolic);
+    assert!(product.is_finite() && 1.0 / product.exp() == 0.0);
+}
+
+#[test]
+fn weights_bring_more_than_friction() {
+    let results = &RESULTS.0;
+    let [tfls, _, mfwls] = &TABLE_2;
+    assert!((drop(mean(tfls), mean(mfwls)) - 54.1).abs() < 0.05);
+    let error = |fit: &robot_model_examples::seed_002::table_two::Fit| mean(&fit.rmse);
+    let plain = [0, 1].map(|k| error(&results.conventional[k]));
+    let modified = [0, 1].map(|k| error(&results.modified[k]));
+    assert!(plain[1] < modified[0] && modified[0] < plain[0]);
+    assert!(modified[1] < plain[1]);
+    let gained = drop(plain[0], modified[1]);
+    assert!((35.0..65.0).contains(&gained), "{gained}");
+    // Joint 2 keeps its error, the others lose theirs.
+    let [ls, wls] = [0, 1].map(|k| &results.modified[k].rmse);
+    assert!(wls[1] > 0.7 * ls[1]);
+    for k in [0, 2, 3, 4, 5] {
+        assert!(wls[k] < 0.5 * ls[k], "{k}: {} {}", wls[k], ls[k]);
+    }
+    // On the run that is fitted, no weights lower the sum of squares.
+    for weighted in &results.modified[1..] {
+        assert!(weighted.trained > results.modified[0].trained);
+    }
+    // What joint 2 has and the model does not know of is its ripple.
+    let known = &results.with_ripple;
+    assert!(known.rmse[1] < 0.05 * wls[1]);
+    let mut parameters = known.estimate.parameters.iter();
+    let size = parameters.find(|one| one.name == "j2.torque_ripple.a");
+    let size = size.expect("declared").value;
+    assert!((size - RIPPLE_2[0]).abs() < 0.02 * RIPPLE_2[0], "{size}");
+}
+
+#[test]
+fn table_one_is_no_arm_and_the_simulated_one_is() {
+    let results = &RESULTS.0;
+    let [as_printed, magnitude] = &results.table_1;
+    assert!(magnitude.findings("bodies").len() >= 5);
+    let rotors = magnitude.findings("signs");
+    assert_eq!(rotors.len(), 3);
+    for joint in ["j3", "j5", "j6"] {
+        let name = format!("`{joint}.motor_inertia.ia`");
+        assert!(rotors.iter().any(|said| said.contains(&name)), "{rotors:?}");
+    }
+    assert_eq!(magnitude.findings("inertia").len(), 1);
+    // With the sign of `fc2` as printed dry friction drives.
+    assert_eq!(as_printed.findings("signs").len(), 9);
+    assert!((0..6).all(|k| as_printed.drives_from(k).is_some_and(|speed| speed < 0.1)));
+    for check in ["bodies", "signs", "inertia", "friction"] {
+        assert_eq!(results.ours[1].findings(check), [""; 0], "{check}");
+    }
+}
+
+#[test]
+fn a_hand_needs_less_with_the_better_model() {
+    let [tfls, mfwls] = &RESULTS.0.guided;
+    for k in 0..6 {
+        assert!(mfwls.effort(k, true) < 0.7 * tfls.effort(k, true), "{k}");
+    }
+    assert!(mfwls.at_rest[2].abs() < 0.6 * tfls.at_rest[2].abs());
+    let streamed = &RESULTS.0.streamed;
+    assert_eq!(streamed.size, [120_000, 70]);
+    assert!(streamed.error < 0.05);
+}

@@ -1,0 +1,202 @@
+//! The `LuGre` link: what comes back, what the model shows, what is wrong in print and passes where it is mended.
+
+use std::sync::OnceLock;
+
+use robot_model_examples::Paper;
+use robot_model_examples::paper::Status;
+use robot_model_examples::seed_003::audit::{Finding, off, stiff};
+use robot_model_examples::seed_003::encoder::{BITS, stiffest};
+use robot_model_examples::seed_003::plant::PRINTED;
+use robot_model_examples::seed_003::results::{PULLED, Results, is_even, results, sticks};
+use robot_model_examples::seed_003::{paper, truth};
+
+/// Everything takes half a minute, once.
+fn all() -> &'static (Results, Paper) {
+    static ALL: OnceLock<(Results, Paper)> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let results = results().expect("results");
+        let paper = paper(&results).expect("a paper");
+        (results, paper)
+    })
+}
+
+fn close(what: &str, found: f64, truth: f64, share: f64) {
+    let is_close = (found / truth - 1.0).abs() < share;
+    assert!(is_close, "{what}: {found}, {truth}");
+}
+
+/// 3.1
+#[test]
+fn the_chain_is_a_uniform_rod() {
+    let body = &all().0.body;
+    close("share", body.share, 1.0 / 3.0, 1e-12);
+    assert!(body.off < 1e-12, "{}", body.off);
+}
+
+/// 3.2
+#[test]
+fn settled_bristles_are_the_stribeck_curve() {
+    let [by_hand, spec] = all().0.settled;
+    assert!(by_hand < 1e-9 && spec < 1e-9, "{by_hand} {spec}");
+    assert_eq!(all().0.findings.friction.printed, None);
+}
+
+/// 3.3: twenty speeds, 12 bits and 10 mA of noise; a fine encoder for what moves bristles.
+#[test]
+fn the_static_four_and_the_dynamic_two_come_back() {
+    let found = &all().0.found;
+    assert_eq!(found.curve.points.len(), truth::SPEEDS);
+    assert!(off(&found.law, &PRINTED) < 0.02, "{:?}", found.law);
+    close("s0", found.dynamic.stiffness.value, truth::STIFFNESS, 0.1);
+    close("s1", found.dynamic.damping.value, truth::DAMPING, 0.1);
+    // 3.5 and 3.6
+    close(
+        "s0 of a ramp",
+        found.bristles.stiffness.value,
+        truth::STIFFNESS,
+        0.1,
+    );
+    close(
+        "s1 of the second order",
+        found.first[1],
+        truth::DAMPING,
+        0.1,
+    );
+}
+
+/// 3.4: 280 degrees are too short for bristles that are as soft as printed, and long enough for stiff ones.
+#[test]
+fn printed_bristles_do_not_settle_in_the_range() {
+    let [free, printed, _, stiffer, held] = &all().0.protocols[..] else {
+        panic!("five protocols");
+    };
+    assert!(off(&free.law, &PRINTED) < 0.02);
+    assert!(off(&printed.law, &PRINTED) > 0.1, "{:?}", printed.law);
+    assert!(off(&stiffer.law, &stiff()) < 0.02, "{:?}", stiffer.law);
+    assert_eq!(stiffer.points, truth::SPEEDS);
+    // The printed gains lose the speeds at which friction falls.
+    assert!(held.points < truth::SPEEDS, "{}", held.points);
+}
+
+#[test]
+fn equations_and_numbers_that_are_wrong_are_told_and_pass_when_mended() {
+    let findings = &all().0.findings;
+    let (deflection, [printed, repaired]) = &findings.deflection;
+    let told: [(&str, &Finding, &str); 8] = [
+        ("(7)", &findings.gravity, "kg m^3/s^2"),
+        (
+            "(8)",
+            &findings.unit,
+            "terms of different dimensions do not add",
+        ),
+        ("(17)", deflection, "the torque off by"),
+        ("(22)", &findings.damping, "and 1/s^2"),
+        (
+            "stall",
+            &findings.drives,
+            "held by 2.0020 N m of friction, and its motor has 1.0885 N m",
+        ),
+        (
+            "passivity",
+            &findings.memory,
+            "driven by what its effects remember",
+        ),
+        ("softness", &findings.softness, "(15."),
+        ("differences", &findings.differences, "1.534 rad/s"),
+    ];
+    for (what, finding, words) in told {
+        assert!(finding.text().contains(words), "{what}: {finding:?}");
+        assert_eq!(finding.repaired, None, "{what}");
+        assert!(finding.is_told());
+    }
+    // Dimensions of (17) are right; its stiffness is not, and that of its repair is.
+    assert!((printed / truth::STIFFNESS - 1.0).abs() > 0.5, "{printed}");
+    close("repaired", *repaired, truth::STIFFNESS, 0.1);
+}
+
+/// 3.8
+#[test]
+fn the_loop_closes_and_stick_slip_ends_at_a_critical_speed() {
+    let results = &all().0;
+    let (motion, distance) = &results.to_and_fro;
+    let (work, width) = motion.last_loop();
+    assert!(work > 0.1 && width > 0.1, "{work} {width}");
+    assert!(
+        distance.max(results.slip.1) < 1e-3,
+        "{distance} {}",
+        results.slip.1
+    );
+    for shown in &results.shown[..2] {
+        let slips = PULLED
+            .iter()
+            .zip(&shown.spread)
+            .filter(|(_, spread)| sticks(**spread));
+        let fastest = slips.map(|(speed, _)| *speed).fold(0.0, f64::max);
+        assert!((0.5..5.0).contains(&fastest), "{}: {fastest}", shown.name);
+        let beyond = PULLED
+            .iter()
+            .zip(&shown.spread)
+            .filter(|(speed, _)| **speed > fastest);
+        for (speed, spread) in beyond {
+            assert!(is_even(*spread), "{}: {speed} {spread:?}", shown.name);
+        }
+    }
+    // Stiff bristles stick at every lower speed; those of the paper creep along with the slowest.
+    assert!(
+        results.shown[1].spread[..5]
+            .iter()
+            .all(|spread| sticks(*spread))
+    );
+    assert!(is_even(results.shown[0].spread[0]));
+}
+
+#[test]
+fn what_an_encoder_is_said_to_tell_it_tells() {
+    let trials = &all().0.encoders;
+    for trial in trials.iter().filter(|trial| trial.is_resolved) {
+        assert!(trial.is_close(), "{trial:?}");
+    }
+    let coarse = trials
+        .iter()
+        .find(|trial| trial.bits == truth::BITS)
+        .expect("12 bits");
+    close(
+        "told by 12 bits",
+        coarse.most,
+        0.5843 / (5.0 * std::f64::consts::TAU / 4096.0),
+        0.01,
+    );
+    // Four times the stiffness with two bits more, until the study ends.
+    let found = BITS.map(|bits| stiffest(trials, bits));
+    assert!(
+        found[0] < 500.0 && found[1] > found[0] && found[2] > found[1],
+        "{found:?}"
+    );
+    assert!(trials.iter().any(|trial| !trial.is_close()));
+}
+
+#[test]
+fn rows_are_reached_or_said_not_to_be_and_the_page_says_the_same() {
+    let paper = &all().1;
+    let statuses = |wanted: fn(&Status) -> bool| {
+        let rows = paper.rows.iter().filter(move |row| wanted(&row.status));
+        rows.map(|row| row.item).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        statuses(|status| *status == Status::Reached),
+        ["3.1", "3.2", "3.3", "3.5", "3.6", "3.8", "3.encoder", "3.9"]
+    );
+    assert_eq!(
+        statuses(|status| matches!(status, Status::NotReached(_))),
+        ["3.7"]
+    );
+    let page = include_str!("../../docs/papers/seed_003.md");
+    assert_eq!(paper.differences(page), Vec::<String>::new());
+    for number in ["figure_6", "figure_7", "figure_8", "figure_9a", "figure_9b"] {
+        let figure = paper.figures.iter().find(|figure| figure.name == number);
+        assert!(
+            figure.is_some_and(|figure| figure.svg().len() < 150_000),
+            "{number}"
+        );
+    }
+}
