@@ -24,8 +24,24 @@ const ROUNDING: f64 = 1e-9;
 const FINE: f64 = 1e-5;
 
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
-    let inertia = Inertia::new(compiled, values);
-    let (least, pose) = inertia.worst(&workspace(compiled));
+    let workspace = workspace(compiled);
+    let inertia = Inertia {
+        program: compiled.inertia_at_rest(),
+        values,
+    };
+    let mut poses: Vec<(f64, Vec<f64>)> = (0..POSES)
+        .map(|k| {
+            let pose = pose(&workspace, k);
+            (inertia.least(&pose), pose)
+        })
+        .collect();
+    poses.sort_by(|x, y| x.0.total_cmp(&y.0));
+    poses.truncate(SEARCHED);
+    let searched = poses
+        .into_iter()
+        .map(|(_, pose)| inertia.descend(&workspace, pose));
+    let worst = searched.min_by(|x, y| x.0.total_cmp(&y.0));
+    let (least, pose) = worst.unwrap_or_default();
     let rounding = ROUNDING * inertia.eigenvalues(&pose).1.abs();
     let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
     let found = format!("{least:.4e} at q = [{}]", at.join(", "));
@@ -43,11 +59,6 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
         )]
     };
     Check::new("inertia", scope, findings)
-}
-
-/// Least eigenvalue over the workspace, and where.
-pub(super) fn least(compiled: &Compiled, values: &Values) -> (f64, Vec<f64>) {
-    Inertia::new(compiled, values).worst(&workspace(compiled))
 }
 
 /// Ranges of the joints.
@@ -84,31 +95,7 @@ struct Inertia<'a> {
     values: &'a Values,
 }
 
-impl<'a> Inertia<'a> {
-    fn new(compiled: &Compiled, values: &'a Values) -> Self {
-        Self {
-            program: compiled.inertia_at_rest(),
-            values,
-        }
-    }
-
-    /// Least eigenvalue over a workspace, and where.
-    fn worst(&self, workspace: &[(f64, f64)]) -> (f64, Vec<f64>) {
-        let mut poses: Vec<(f64, Vec<f64>)> = (0..POSES)
-            .map(|k| {
-                let pose = pose(workspace, k);
-                (self.least(&pose), pose)
-            })
-            .collect();
-        poses.sort_by(|x, y| x.0.total_cmp(&y.0));
-        poses.truncate(SEARCHED);
-        let searched = poses
-            .into_iter()
-            .map(|(_, pose)| self.descend(workspace, pose));
-        let worst = searched.min_by(|x, y| x.0.total_cmp(&y.0));
-        worst.unwrap_or_default()
-    }
-
+impl Inertia<'_> {
     /// Least eigenvalue at a pose.
     fn least(&self, pose: &[f64]) -> f64 {
         self.eigenvalues(pose).0

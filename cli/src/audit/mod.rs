@@ -98,61 +98,6 @@ impl Check {
     }
 }
 
-/// What the verb asks of parameter values, given by name; what has none takes the spec's own.
-///
-/// # Errors
-/// [`Error::Argument`], where a name is not one of the arm's, or a parameter has no value.
-///
-/// # Examples
-/// A rotor that friction drives:
-/// ```
-/// use robot_model_cli::audit::checks;
-/// let spec = "robot Rotor {
-///     coordinates q1;
-///     parameters inertia: kg*m^2;
-///     kinetic = inertia/2*dot(q1)^2;
-///     potential = 0;
-///     effects { viscous_friction on q1; }
-/// }";
-/// let compiled = robot_model_codegen::compile_model(&robot_model_spec::load("rotor.robot", spec)?);
-/// let values = [("inertia", 2e-3), ("q1.viscous_friction.fv", -1e-3)];
-/// let values = values.map(|(name, value)| (name.to_owned(), value)).into();
-/// let found = checks(&compiled, &values)?;
-/// let failed: Vec<&str> = found.iter().filter(|check| check.passed == Some(false)).map(|check| check.name).collect();
-/// assert_eq!(failed, ["signs", "friction"]);
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn checks(compiled: &Compiled, values: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
-    let values = parameters::by_name(compiled, values).map_err(Error::Argument)?;
-    Ok(all(compiled, &values))
-}
-
-/// Least eigenvalue of the inertia over the workspace, which are the position limits of the spec, and a pose that has it;
-/// `values` as those of [`checks`].
-///
-/// # Errors
-/// As [`checks`].
-pub fn least_inertia(
-    compiled: &Compiled,
-    values: &BTreeMap<String, f64>,
-) -> Result<(f64, Vec<f64>), Error> {
-    let values = parameters::by_name(compiled, values).map_err(Error::Argument)?;
-    Ok(inertia::least(compiled, &values))
-}
-
-fn all(compiled: &Compiled, values: &Values) -> Vec<Check> {
-    [
-        bodies::check(compiled, values),
-        Some(signs(compiled, values)),
-        Some(inertia::check(compiled, values)),
-        Some(friction::check(compiled, values)),
-        Some(rank(compiled)),
-    ]
-    .into_iter()
-    .flatten()
-    .collect()
-}
-
 impl Audit {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let inputs = [Some(&self.spec), self.parameters.as_ref()];

@@ -58,14 +58,6 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
     Ok(values)
 }
 
-/// Values by name, and from the spec where there are none.
-pub(crate) fn by_name(
-    compiled: &Compiled,
-    given: &BTreeMap<String, f64>,
-) -> Result<Values, String> {
-    arm(compiled, given).map(|(values, _)| values)
-}
-
 /// Values as far as they are known.
 pub(crate) struct Known {
     /// Base parameters; what has no value counts as 0.
