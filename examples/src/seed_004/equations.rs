@@ -14,8 +14,8 @@ use crate::paper::{Error, Row};
 /// A row a parameter, a column a joint, as the paper has its regressors.
 type Transposed = [Three; 8];
 
-/// Equation (4).
-fn printed_regressor(q: &Three, v: &Three, a: &Three) -> Transposed {
+/// Equation (4); `sign` is that of the last term of `pi4` on joint 3, printed as +1.
+fn printed_regressor(q: &Three, v: &Three, a: &Three, sign: f64) -> Transposed {
     let [_, t2, t3] = *q;
     let (s2, c2, s3, c3) = (t2.sin(), t2.cos(), t3.sin(), t3.cos());
     let (s23, c23) = ((t2 - t3).sin(), (t2 - t3).cos());
@@ -36,7 +36,7 @@ fn printed_regressor(q: &Three, v: &Three, a: &Three) -> Transposed {
         [
             a[0] * c2 * s3 - v[0] * v[1] * s2 * s3 + v[0] * v[2] * c2 * c3,
             0.5 * (-a[2] * s23 + v[0] * v[0] * s2 * s3 + v[2] * v[2] * c23),
-            0.5 * (-a[1] * s23 - v[0] * v[0] * c2 * c3 + v[1] * v[1] * c23),
+            0.5 * (-a[1] * s23 - v[0] * v[0] * c2 * c3 + sign * v[1] * v[1] * c23),
         ],
         [0.0, a[1], 0.0],
         [0.0, 0.0, a[2]],
@@ -45,8 +45,9 @@ fn printed_regressor(q: &Three, v: &Three, a: &Three) -> Transposed {
     ]
 }
 
-/// Equation (13) as `Y_L = w (p - L{p}) + L{h} + u`: `p`, `h`, and `u` that is printed without the filter.
-fn printed_filtered(q: &Three, v: &Three) -> [Transposed; 3] {
+/// Equation (13) as `Y_L = w (p - L{p}) + L{h} + u`: `p`, `h`, and `u` that is printed without the filter. The squared
+/// velocity of joint 2 is in the row of `pi4` on joint 3 so many times, printed once.
+fn printed_filtered(q: &Three, v: &Three, times: f64) -> [Transposed; 3] {
     let [_, t2, t3] = *q;
     let (s2, c2, s3, c3) = (t2.sin(), t2.cos(), t3.sin(), t3.cos());
     let (s23, c23) = ((t2 - t3).sin(), (t2 - t3).cos());
@@ -69,7 +70,7 @@ fn printed_filtered(q: &Three, v: &Three) -> [Transposed; 3] {
         [
             0.0,
             0.5 * (v[1] * v[2] * c23 + v[0] * v[0] * s2 * s3),
-            v[1] * v[1] * c23 - 0.5 * v[0] * v[0] * c2 * c3 - 0.5 * v[1] * v[2] * c23,
+            times * v[1] * v[1] * c23 - 0.5 * v[0] * v[0] * c2 * c3 - 0.5 * v[1] * v[2] * c23,
         ],
         none,
         none,
@@ -125,9 +126,10 @@ pub struct Comparison {
 /// Smaller differences are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Compares (4) and (13) with what the compiler derives from the energies.
+/// Compares (4) and (13) with what the compiler derives from the energies, as they are printed or with the sign of (4) put right.
 #[must_use]
-pub fn compare() -> Comparison {
+pub fn compare(is_repaired: bool) -> Comparison {
+    let (own_sign, times) = if is_repaired { (-1.0, 0.0) } else { (1.0, 1.0) };
     let mut random = ChaCha8Rng::seed_from_u64(41);
     let mut found = Comparison {
         regressor: Vec::new(),
@@ -145,8 +147,8 @@ pub fn compare() -> Comparison {
         let derived = transposed(&Phantom::regressor(&x, &dx, &ddx));
         let momentum = transposed(&Phantom::momentum_regressor(&x, &dx));
         let drift = transposed(&Phantom::drift_regressor(&x, &dx));
-        let printed = printed_regressor(&q, &v, &a);
-        let [printed_momentum, filtered, bare] = printed_filtered(&q, &v);
+        let printed = printed_regressor(&q, &v, &a, own_sign);
+        let [printed_momentum, filtered, bare] = printed_filtered(&q, &v, times);
         let sign = v[1] * v[1] * (q[1] - q[2]).cos();
         for k in 0..8 {
             for joint in 0..3 {
@@ -192,7 +194,7 @@ pub fn without_filter(motion: &Sines, place: Place) -> Result<f64, Error> {
     let bare: Vec<f64> = (0..20_000)
         .map(|k| {
             let [q, v, _] = motion.at(f64::from(k) / RATE);
-            printed_filtered(&q, &v)[2][place.0][place.1]
+            printed_filtered(&q, &v, 1.0)[2][place.0][place.1]
         })
         .collect();
     let mut passed = Vec::new();
@@ -219,7 +221,7 @@ fn names(places: &[Place]) -> String {
 /// # Errors
 /// Those of [`without_filter`].
 pub fn rows(motion: &Sines) -> Result<Vec<Row>, Error> {
-    let found = compare();
+    let found = compare(false);
     let gravity = without_filter(motion, (6, 1))?;
     let turning = without_filter(motion, (1, 1))?;
     Ok(vec![

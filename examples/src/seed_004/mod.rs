@@ -1,9 +1,11 @@
 //! PHANTOM
+pub mod contact;
+pub mod control;
 pub mod device;
 pub mod equations;
+pub mod fits;
 pub mod plant;
 pub mod rig;
+pub mod shares;
+pub mod tracing;
 pub mod truth;
-
-/// Its energies.
-pub const SPEC: &str = include_str!("phantom.robot");

@@ -109,6 +109,13 @@ impl Sines {
     }
 }
 
+/// So many poses of a room by chance.
+pub fn poses(room: &Room, count: usize, seed: u64) -> Vec<Three> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut pose = || std::array::from_fn(|j| random.random_range(room.low[j]..room.high[j]));
+    (0..count).map(|_| pose()).collect()
+}
+
 /// A sum of sines, differentiated so many times.
 fn sum(tones: &[[f64; 3]], order: i32, t: f64) -> f64 {
     let shift = f64::from(order) * std::f64::consts::FRAC_PI_2;
@@ -234,11 +241,26 @@ pub fn followed(pi: &Pi, motion: &Sines, seconds: f64, seed: u64) -> Record {
 /// # Errors
 /// That of [`Plant::advance`].
 pub fn run(
+    plant: Plant,
+    motion: &Sines,
+    gains: &Gains,
+    seconds: f64,
+    seed: u64,
+) -> Result<Record, Error> {
+    pushed(plant, motion, gains, seconds, seed, |_, _| [0.0; 3])
+}
+
+/// As [`run`], with a torque from outside that depends on time and pose.
+///
+/// # Errors
+/// That of [`Plant::advance`].
+pub fn pushed(
     mut plant: Plant,
     motion: &Sines,
     gains: &Gains,
     seconds: f64,
     seed: u64,
+    outside: impl Fn(f64, &Three) -> Three,
 ) -> Result<Record, Error> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut velocities = [Velocity::new(100.0); 3];
@@ -256,7 +278,9 @@ pub fn run(
         for j in 0..3 {
             record.read(j, q[j], 0.5 * (held[j] + tau[j]), &mut random);
         }
-        plant.advance(&tau, 1.0 / RATE)?;
+        let from_outside = outside(t, &plant.q());
+        let all: Three = std::array::from_fn(|j| tau[j] + from_outside[j]);
+        plant.advance(&all, 1.0 / RATE)?;
         held = tau;
     }
     Ok(record)

@@ -88,3 +88,36 @@ pub const GRAVITY: f64 = 9.81;
 
 /// Lengths of the links, m: `L1` of section 4.2; `L2` of Cavusoglu, Feygin and Tendick, rounded.
 pub const LINKS: [f64; 2] = [0.216, 0.170];
+
+/// `pi7` and `pi8` of UR as section 4.2 has them, N m.
+pub const TABLE_1_UR_GRAVITY: [f64; 2] = [-0.01923, -0.10996];
+
+/// Section 4.2.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights {
+    /// Gimbal, kg.
+    pub tool: f64,
+    /// Its lever on the forearm, m.
+    pub tool_lever: f64,
+    /// The manufacturer's counterweight on motor 2, kg.
+    pub upper: f64,
+    /// Lever of counterweights, m.
+    pub lever: f64,
+    /// `pi7'` and `pi8'`, N m.
+    pub moments: [f64; 2],
+    /// What is recommended for motors 2 and 3, kg.
+    pub recommended: [f64; 2],
+}
+
+/// Section 4.2.
+pub const WEIGHTS: Weights = Weights {
+    tool: 0.09,
+    tool_lever: 0.195,
+    upper: 0.216,
+    lever: 0.075,
+    moments: [0.0223, 0.0622],
+    recommended: [0.248, 0.091],
+};
+
+/// `K_P` and `K_D` of figures 14, 15 and 16.
+pub const CONTROL_GAINS: [[f64; 2]; 3] = [[625.0, 35.0], [1200.0, 80.0], [100.0, 14.0]];
