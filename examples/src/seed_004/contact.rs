@@ -8,7 +8,7 @@ use robot_model::control::ContactForce;
 use robot_model::signal::{Bands, FirstOrder, prepare};
 use robot_model::{Points as _, State, Vector};
 
-use super::device::{Phantom, phantom};
+use super::device::phantom;
 use super::fits::STIFF;
 use super::plant::{Plant, Three};
 use super::rig::{self, ROOM, Sines};

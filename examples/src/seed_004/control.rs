@@ -1,10 +1,12 @@
 //! Section 4.3: inverse dynamics with half of the friction, a square wave on joint 3.
 
+use std::collections::VecDeque;
+
 use robot_model::control::{ComputedTorque, Friction, Gains, Status};
 use robot_model::{State, Vector};
 
 use super::device::phantom;
-use super::plant::{Plant, Three};
+use super::plant::{Plant, Three, bias};
 use super::rig::{ENCODER, RATE, Velocity, rounded};
 use super::truth::Pi;
 use crate::paper::Error;
@@ -13,6 +15,9 @@ use crate::paper::Error;
 const PERIOD: f64 = 4.0;
 const ENDS: [f64; 2] = [0.15, 0.45];
 const POSE: [f64; 2] = [0.0, 0.1];
+
+/// Samples from a command to its torque. The paper has none; those of ours are what ends the gains where its own end.
+const DELAY: usize = 8;
 
 /// A velocity that is smaller is none: a filtered one never gets to zero.
 const STANDSTILL: f64 = 1e-3;
@@ -61,6 +66,7 @@ pub fn square(truth: &Pi, known: &Pi, [kp, kd]: [f64; 2]) -> Result<Square, Erro
     };
     let samples = (PERIOD * RATE) as usize;
     let step = ENDS[1] - ENDS[0];
+    let mut waiting = VecDeque::from([None; DELAY]);
     let (mut late, mut ended) = (0.0_f64, [0.0_f64; 3]);
     for k in 0..samples {
         let t = k as f64 / RATE;
@@ -74,7 +80,12 @@ pub fn square(truth: &Pi, known: &Pi, [kp, kd]: [f64; 2]) -> Result<Square, Erro
         let measured = State::new(Vector::from(q), Vector::from(dq), Vector::zeros());
         let desired = State::at_rest(Vector::from([POSE[0], POSE[1], end]));
         let command = control.torque(&measured, &desired);
-        let is_moving = plant.advance(&command.torque.into(), 1.0 / RATE).is_ok();
+        waiting.push_back(Some(command.torque));
+        let torque: Three = waiting
+            .pop_front()
+            .flatten()
+            .map_or_else(|| at_start(known), Into::into);
+        let is_moving = plant.advance(&torque, 1.0 / RATE).is_ok();
         let true_q = plant.q();
         if command.status != Status::Normal || !is_moving || true_q.iter().any(|q| q.abs() > 3.0) {
             found.is_stable = false;
@@ -100,6 +111,11 @@ pub fn square(truth: &Pi, known: &Pi, [kp, kd]: [f64; 2]) -> Result<Square, Erro
     found.steady_percent = 100.0 * late / counted / step;
     found.is_stable &= ended.iter().all(|sum| (sum / counted).sqrt() < SWINGS);
     Ok(found)
+}
+
+/// Gravity at the start, until the first command arrives.
+fn at_start(known: &Pi) -> Three {
+    bias(known, &[POSE[0], POSE[1], ENDS[0]], &[0.0; 3])
 }
 
 /// Damping of the sweep, within the paper's 0.7 to 1.2.

@@ -220,8 +220,7 @@ fn names(places: &[Place]) -> String {
 ///
 /// # Errors
 /// Those of [`without_filter`].
-pub fn rows(motion: &Sines) -> Result<Vec<Row>, Error> {
-    let found = compare(false);
+pub fn rows(found: &Comparison, motion: &Sines) -> Result<Vec<Row>, Error> {
     let gravity = without_filter(motion, (6, 1))?;
     let turning = without_filter(motion, (1, 1))?;
     Ok(vec![

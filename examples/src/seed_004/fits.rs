@@ -81,7 +81,11 @@ pub fn all(motion: &Sines) -> Result<Vec<Installation>, Error> {
         .collect()
 }
 
-fn fit(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
+/// Through `Y_L`.
+///
+/// # Errors
+/// Those of identification.
+pub fn fit(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
     Ok(Identify::default().fit_filtered(model, std::slice::from_ref(log), Some(CORNER))?)
 }
 

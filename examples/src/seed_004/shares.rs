@@ -2,7 +2,7 @@
 
 use robot_model::control::counterbalance::{Weight, lever, mass, moment};
 use robot_model::control::{ControlError, Dissection};
-use robot_model::{Mechanics as _, State, Vector};
+use robot_model::{RobotModel as _, State, Vector};
 
 use super::device::phantom;
 use super::plant::Three;

@@ -30,7 +30,7 @@ pub struct Traces {
 const VISCOUS: [f64; 3] = [0.4e-3, 0.3e-3, 0.3e-3];
 
 /// Part of dry friction which is gone beyond a speed, and that speed, rad/s.
-const FALLING: [f64; 2] = [0.3, 0.6];
+const FALLING: [f64; 2] = [1.0, 0.3];
 
 /// Traces.
 ///
