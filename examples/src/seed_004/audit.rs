@@ -3,9 +3,9 @@
 use robot_model_cli::audit::{Check, audit};
 
 use super::device::{SPEC, by_name, compiled, within};
+use super::fits::STIFF;
 use super::plant::Plant;
 use super::rig::{self, ROOM, Sines};
-use super::fits::STIFF;
 use super::truth::{Pi, piece_wise, table_1};
 use crate::paper::Error;
 
@@ -60,7 +60,9 @@ pub struct Audits {
 pub fn all() -> Result<Audits, Error> {
     let room = within(ROOM.low, ROOM.high);
     let each = |text: &str, change: fn(Pi) -> Pi| -> Result<Vec<Audited>, Error> {
-        (0..5).map(|k| Audited::of(text, &change(table_1(k)))).collect()
+        (0..5)
+            .map(|k| Audited::of(text, &change(table_1(k))))
+            .collect()
     };
     let positive = |mut pi: Pi| {
         for fv in &mut pi[8..11] {
@@ -77,7 +79,8 @@ pub fn all() -> Result<Audits, Error> {
     let moved = (0..5).map(|k| {
         let plant = Plant::new(table_1(k), motion.at(0.0)[0]);
         let run = rig::run(plant, &motion, &STIFF, 40.0, 45);
-        run.err().map_or_else(String::new, |error| error.to_string())
+        run.err()
+            .map_or_else(String::new, |error| error.to_string())
     });
     Ok(Audits {
         moved: moved.collect(),

@@ -40,9 +40,15 @@ fn printed_jacobian(q: &Three) -> Matrix3<f64> {
     let [l1, l2] = LINKS;
     let across = q[1] - q[2];
     Matrix3::new(
-        l1 * q[1].cos() + l2 * q[2].sin(), 0.0, 0.0,
-        0.0, l1 * across.cos(), 0.0,
-        0.0, -l1 * across.sin(), l2,
+        l1 * q[1].cos() + l2 * q[2].sin(),
+        0.0,
+        0.0,
+        0.0,
+        l1 * across.cos(),
+        0.0,
+        0.0,
+        -l1 * across.sin(),
+        l2,
     )
 }
 
@@ -118,7 +124,12 @@ pub fn felt(known: &Pi, motion: &Sines) -> Result<Felt, Error> {
     let inside: Vec<usize> = (0..prepared.motion.time.len())
         .filter(|&k| (BORDER..SECONDS - BORDER).contains(&prepared.motion.time[k]))
         .collect();
-    Ok(evaluate(&prepared.motion.time, &filtered, &inside, turned.matrix()))
+    Ok(evaluate(
+        &prepared.motion.time,
+        &filtered,
+        &inside,
+        turned.matrix(),
+    ))
 }
 
 fn evaluate(
@@ -127,7 +138,8 @@ fn evaluate(
     inside: &[usize],
     turned: &Matrix3<f64>,
 ) -> Felt {
-    let rows = |axes: &[Vec<f64>; 3]| DMatrix::from_fn(inside.len(), 3, |row, j| axes[j][inside[row]]);
+    let rows =
+        |axes: &[Vec<f64>; 3]| DMatrix::from_fn(inside.len(), 3, |row, j| axes[j][inside[row]]);
     let (sensor, by_model, bare) = (rows(sensor), rows(by_model), rows(bare));
     // Section 4.4 registers the frame of the sensor by least squares.
     let normal = sensor.transpose() * &sensor;

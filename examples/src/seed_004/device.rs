@@ -99,7 +99,10 @@ pub fn with_effect(effect: &str) -> String {
 #[must_use]
 pub fn within(low: [f64; 3], high: [f64; 3]) -> String {
     let lines = SPEC.lines().map(|line| {
-        let joint = (0..3).find(|j| line.trim_start().starts_with(&format!("limits theta{}", j + 1)));
+        let joint = (0..3).find(|j| {
+            line.trim_start()
+                .starts_with(&format!("limits theta{}", j + 1))
+        });
         joint.map_or(line.to_owned(), |j| {
             format!(
                 "limits theta{} {{ position = {} .. {}; velocity = 3.5 rad/s; }}",

@@ -153,14 +153,24 @@ pub fn compare(is_repaired: bool) -> Comparison {
         for k in 0..8 {
             for joint in 0..3 {
                 let off = printed[k][joint] - derived[k][joint];
-                note(&mut found.regressor, &mut found.regressor_rest, off, (k, joint));
+                note(
+                    &mut found.regressor,
+                    &mut found.regressor_rest,
+                    off,
+                    (k, joint),
+                );
                 if (k, joint) == SIGN {
                     found.regressor_sign = found.regressor_sign.max((off - sign).abs());
                 }
                 // `Y_L = w (p - L{p}) - L{drift}`
                 let off = filtered[k][joint] + bare[k][joint] + drift[k][joint];
                 let off = off.abs() + (printed_momentum[k][joint] - momentum[k][joint]).abs();
-                note(&mut found.filtered, &mut found.filtered_rest, off, (k, joint));
+                note(
+                    &mut found.filtered,
+                    &mut found.filtered_rest,
+                    off,
+                    (k, joint),
+                );
                 if (k, joint) == SIGN {
                     found.filtered_sign = found.filtered_sign.max((off - sign.abs()).abs());
                 }

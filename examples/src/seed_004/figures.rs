@@ -12,7 +12,7 @@ use super::truth::CORNER;
 use crate::paper::{Error, Figure, Mark};
 
 /// Every so manieth sample is drawn.
-const THINNED: usize = 50;
+const THINNED: usize = 100;
 
 /// Samples at the ends that are not drawn, and those either way of a velocity.
 const SETTLED: usize = 1000;
@@ -20,7 +20,12 @@ const SPAN: usize = 10;
 
 pub(super) fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
     let mut all = vec![
-        residual(results, "figure_5", &device::without_friction(), "without friction")?,
+        residual(
+            results,
+            "figure_5",
+            &device::without_friction(),
+            "without friction",
+        )?,
         residual(results, "figure_7", SPEC, "with friction")?,
     ];
     let ur = &results.shares[0];
@@ -37,7 +42,11 @@ pub(super) fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
     let one = &results.controlled[0];
     let [ours, other] = &one.squares;
     let line = |q: &[f64], time: &[f64]| -> Vec<(f64, f64)> {
-        time.iter().copied().zip(q.iter().copied()).step_by(10).collect()
+        time.iter()
+            .copied()
+            .zip(q.iter().copied())
+            .step_by(10)
+            .collect()
     };
     all.push(
         Figure::new(
@@ -65,7 +74,10 @@ pub(super) fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
 }
 
 fn joints(rms: &Three) -> Vec<(f64, f64)> {
-    (1..).zip(rms).map(|(j, x)| (f64::from(j), 1e3 * x)).collect()
+    (1..)
+        .zip(rms)
+        .map(|(j, x)| (f64::from(j), 1e3 * x))
+        .collect()
 }
 
 /// What is left of the torque of joints over their speeds, by a model that was fitted to the same log.

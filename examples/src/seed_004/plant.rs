@@ -65,10 +65,8 @@ pub struct Plant {
 #[must_use]
 pub fn inertia(pi: &Pi, q: &Three) -> Matrix3 {
     let [_, t2, t3] = *q;
-    let first = pi[0]
-        + pi[1] * (2.0 * t2).cos()
-        + pi[2] * (2.0 * t3).cos()
-        + pi[3] * t2.cos() * t3.sin();
+    let first =
+        pi[0] + pi[1] * (2.0 * t2).cos() + pi[2] * (2.0 * t3).cos() + pi[3] * t2.cos() * t3.sin();
     let across = -0.5 * pi[3] * (t2 - t3).sin();
     [
         [first, 0.0, 0.0],

@@ -33,7 +33,9 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
         (0..samples).map(at).collect()
     };
     let all = states(motion).into_iter();
-    let fastest = all.flat_map(|[_, v, _]| v).fold(0.0, |top: f64, v| top.max(v.abs()));
+    let fastest = all
+        .flat_map(|[_, v, _]| v)
+        .fold(0.0, |top: f64, v| top.max(v.abs()));
     let motion = motion.clone().at_pace(FASTEST / fastest);
     let mut sums = [[0.0; 3]; 5];
     let (mut torque, mut off) = ([0.0; 3], 0.0_f64);
@@ -42,9 +44,19 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
         let found = Dissection::new(&arm, &State::new(q, v, a));
         let whole = arm.inverse_dynamics(&q, &v, &a);
         off = off.max((found.sum() - whole).amax());
-        let mut parts = [found.inertia, found.coriolis, found.gravity, Vector::zeros(), Vector::zeros()];
+        let mut parts = [
+            found.inertia,
+            found.coriolis,
+            found.gravity,
+            Vector::zeros(),
+            Vector::zeros(),
+        ];
         for effect in found.effects() {
-            let place = if effect.name.ends_with("viscous_friction") { 3 } else { 4 };
+            let place = if effect.name.ends_with("viscous_friction") {
+                3
+            } else {
+                4
+            };
             parts[place] += effect.torque;
         }
         for j in 0..3 {
@@ -98,7 +110,10 @@ pub fn balance(lever: f64) -> Result<Balance, ControlError> {
     ];
     Ok(Balance {
         moments: [moment(pi7, GRAVITY, &[tool(LINKS[0]), upper]), loaded[1]],
-        masses: [mass(loaded[0], GRAVITY, lever)?, mass(loaded[1], GRAVITY, lever)?],
+        masses: [
+            mass(loaded[0], GRAVITY, lever)?,
+            mass(loaded[1], GRAVITY, lever)?,
+        ],
     })
 }
 

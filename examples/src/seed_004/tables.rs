@@ -37,12 +37,16 @@ fn errors(results: &Results) -> Table {
         ["joint", "UR", "GCW", "FS", "USD", "USD+GCW"],
     );
     for (j, printed) in TABLE_2.iter().enumerate() {
-        let cells = results.installations.iter().zip(printed).map(|(one, printed)| {
-            format!(
-                "{printed}, {:.2}, {:.1}",
-                one.rms[j], one.rms_without_friction[j]
-            )
-        });
+        let cells = results
+            .installations
+            .iter()
+            .zip(printed)
+            .map(|(one, printed)| {
+                format!(
+                    "{printed}, {:.2}, {:.1}",
+                    one.rms[j], one.rms_without_friction[j]
+                )
+            });
         table.push(std::iter::once((j + 1).to_string()).chain(cells));
     }
     table
@@ -56,7 +60,9 @@ fn parts(results: &Results) -> Table {
     for (k, name) in shares::NAMES.iter().enumerate() {
         let cells = results.shares.iter().map(|one| {
             let joints = one.rms[k].iter().zip(one.torque);
-            let joints: Vec<String> = joints.map(|(x, all)| format!("{:.0}", 100.0 * x / all)).collect();
+            let joints: Vec<String> = joints
+                .map(|(x, all)| format!("{:.0}", 100.0 * x / all))
+                .collect();
             joints.join(" / ")
         });
         table.push(std::iter::once((*name).to_owned()).chain(cells));
@@ -81,7 +87,10 @@ fn control(results: &Results) -> Table {
             CONFIGURATIONS[one.installation].to_owned(),
             format!("{}, {}", one.gains[0], one.gains[1]),
             format!("{:.1}, {:.1}", ours.steady_percent, other.steady_percent),
-            format!("{:.1}, {:.1}", ours.overshoot_percent, other.overshoot_percent),
+            format!(
+                "{:.1}, {:.1}",
+                ours.overshoot_percent, other.overshoot_percent
+            ),
             format!("{:.1}, {:.1}", 1e3 * ours.rms, 1e3 * other.rms),
         ]);
     }
