@@ -7,7 +7,7 @@ use robot_model::{State, Vector};
 
 use super::device::phantom;
 use super::plant::{Plant, Three, bias};
-use super::rig::{ENCODER, RATE, Velocity, rounded};
+use super::rig::{ENCODER, RATE, Velocity, rounded, samples};
 use super::truth::Pi;
 use crate::paper::Error;
 
@@ -64,7 +64,7 @@ pub fn square(truth: &Pi, known: &Pi, [kp, kd]: [f64; 2]) -> Result<Square, Erro
         overshoot_percent: 0.0,
         is_stable: true,
     };
-    let samples = (PERIOD * RATE) as usize;
+    let samples = samples(PERIOD);
     let step = ENDS[1] - ENDS[0];
     let mut waiting = VecDeque::from([None; DELAY]);
     let (mut late, mut ended) = (0.0_f64, [0.0_f64; 3]);

@@ -182,9 +182,10 @@ impl Plant {
     /// # Errors
     /// [`NoMotion`] where the inertia is not positive definite: from there on no motion follows from a torque.
     pub fn advance(&mut self, tau: &Three, seconds: f64) -> Result<(), NoMotion> {
-        let steps = (seconds / STEP).ceil();
-        for _ in 0..steps as usize {
-            self.step(tau, seconds / steps)?;
+        let end = self.time + seconds;
+        let step = seconds / (seconds / STEP).ceil();
+        while self.time < end - 0.5 * step {
+            self.step(tau, step)?;
         }
         Ok(())
     }

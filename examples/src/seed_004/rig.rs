@@ -103,13 +103,25 @@ impl Sines {
         std::array::from_fn(|order| {
             std::array::from_fn(|j| {
                 let center = if order == 0 { self.center[j] } else { 0.0 };
-                center + sum(&self.tones[j], order as i32, t)
+                center + sum(&self.tones[j], [0, 1, 2][order], t)
             })
         })
     }
 }
 
+/// Samples of the rig in so many seconds.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a minute at the most"
+)]
+#[must_use]
+pub fn samples(seconds: f64) -> usize {
+    (seconds * RATE) as usize
+}
+
 /// So many poses of a room by chance.
+#[must_use]
 pub fn poses(room: &Room, count: usize, seed: u64) -> Vec<Three> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut pose = || std::array::from_fn(|j| random.random_range(room.low[j]..room.high[j]));
@@ -219,7 +231,7 @@ impl Velocity {
 pub fn followed(pi: &Pi, motion: &Sines, seconds: f64, seed: u64) -> Record {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut record = Record::default();
-    for k in 0..(seconds * RATE) as usize {
+    for k in 0..samples(seconds) {
         let t = k as f64 / RATE;
         let [q, v, a] = motion.at(t);
         let (m, bias) = (inertia(pi, &q), bias(pi, &q, &v));
@@ -266,7 +278,7 @@ pub fn pushed(
     let mut velocities = [Velocity::new(100.0); 3];
     let mut record = Record::default();
     let mut held = [0.0; 3];
-    for k in 0..(seconds * RATE) as usize {
+    for k in 0..samples(seconds) {
         let t = k as f64 / RATE;
         let [wanted, speed, _] = motion.at(t);
         let q = plant.q().map(|q| rounded(q, ENCODER));
