@@ -14,9 +14,6 @@ use crate::paper::Error;
 /// Energies, workspace and friction.
 pub const SPEC: &str = include_str!("phantom.robot");
 
-/// Equation (4) as it is printed, as effects.
-pub const PRINTED: &str = include_str!("printed.robot");
-
 const FRICTION: &str = "effects { viscous_friction on all; coulomb_friction on all; }";
 
 /// The device for a controller.
@@ -87,12 +84,6 @@ pub fn momentum(text: &str) -> Result<InterpretedMomentum, Error> {
 #[must_use]
 pub fn without_friction() -> String {
     SPEC.replace(FRICTION, "")
-}
-
-/// The spec with a law of friction more.
-#[must_use]
-pub fn with_effect(effect: &str) -> String {
-    SPEC.replace(FRICTION, &FRICTION.replace('}', &format!("{effect}; }}")))
 }
 
 /// The spec with other limits of the positions, rad.
