@@ -8,5 +8,6 @@ pub mod seed_000;
 pub mod seed_001;
 pub mod seed_002;
 pub mod seed_003;
+pub mod seed_004;
 
 pub use paper::Paper;

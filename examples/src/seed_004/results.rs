@@ -1,0 +1,108 @@
+//! All that is computed.
+
+use super::audit::{self, Audits};
+use super::contact::{self, Felt};
+use super::control::{self, Square};
+use super::device::{self, SPEC};
+use super::equations::{self, Comparison};
+use super::fits::{self, Installation};
+use super::rig::{ROOM, Sines};
+use super::shares::{self, Balance, Shares};
+use super::tracing::{self, Traces};
+use super::truth::{COMMAND_GAIN, CONTROL_GAINS, WEIGHTS, piece_wise, table_1};
+use crate::paper::Error;
+
+/// One setting of section 4.3 with identified and with piece-wise parameters.
+#[derive(Debug, Clone)]
+pub struct Controlled {
+    /// Installation, from 0.
+    pub installation: usize,
+    /// `K_P` and `K_D`.
+    pub gains: [f64; 2],
+    /// With identified and with piece-wise parameters.
+    pub squares: [Square; 2],
+}
+
+/// Everything.
+#[derive(Debug, Clone)]
+pub struct Results {
+    /// The motion of section 3.1.
+    pub motion: Sines,
+    /// Equations (4) and (13), as printed and with the sign put right.
+    pub equations: [Comparison; 2],
+    /// Tables 1 and 2.
+    pub installations: Vec<Installation>,
+    /// Figures 5 and 7.
+    pub traces: Traces,
+    /// Table 1, audited.
+    pub audits: Audits,
+    /// Figures 10 and 11.
+    pub shares: Vec<Shares>,
+    /// Section 4.2 with the printed lever, and with that of the printed moment.
+    pub balances: [Balance; 2],
+    /// That lever, m.
+    pub lever: f64,
+    /// Figures 14 to 16.
+    pub controlled: Vec<Controlled>,
+    /// Largest `K_P` of UR with identified and with piece-wise parameters.
+    pub largest_gains: [f64; 2],
+    /// Section 4.4.
+    pub felt: Felt,
+    /// Difference of (21) from the spec's point, m^2.
+    pub jacobian_off: f64,
+    /// Largest relative difference of parameters from a log of commands that the spec scales.
+    pub scaled_off: f64,
+}
+
+/// Computes it.
+///
+/// # Errors
+/// Those of the libraries.
+pub fn results() -> Result<Results, Error> {
+    let motion = Sines::new(10, &ROOM, 4);
+    let installations = fits::all(&motion)?;
+    let known = |k: usize| device::values(&installations[k].estimate);
+    let controlled = [0, 0, 4].into_iter().zip(CONTROL_GAINS).map(|(k, gains)| {
+        let square = |known| control::square(&table_1(k), known, gains);
+        Ok(Controlled {
+            installation: k,
+            gains,
+            squares: [square(&known(k))?, square(&piece_wise())?],
+        })
+    });
+    let controlled = controlled.collect::<Result<Vec<_>, Error>>()?;
+    let lever = shares::lever_of_print()?;
+    Ok(Results {
+        equations: [equations::compare(false), equations::compare(true)],
+        traces: tracing::all(&installations[0].halves.train, &motion)?,
+        audits: audit::all()?,
+        shares: (0..5).map(|k| shares::shares(k, &motion)).collect(),
+        balances: [shares::balance(WEIGHTS.lever)?, shares::balance(lever)?],
+        lever,
+        controlled,
+        largest_gains: [
+            control::largest_gain(&table_1(0), &known(0))?,
+            control::largest_gain(&table_1(0), &piece_wise())?,
+        ],
+        felt: contact::felt(&known(2), &motion)?,
+        jacobian_off: contact::jacobian_off(),
+        scaled_off: scaled_off(&installations[0])?,
+        installations,
+        motion,
+    })
+}
+
+/// A log of commands instead of torques, by a spec that has the gain.
+fn scaled_off(installation: &Installation) -> Result<f64, Error> {
+    let velocity = "velocity = 3.5 rad/s;";
+    let gain = format!("{velocity} actuator_gain = {};", 1.0 / COMMAND_GAIN);
+    let model = device::momentum(&SPEC.replace(velocity, &gain))?;
+    let mut log = installation.halves.train.clone();
+    for tau in log.tau.iter_mut().flatten() {
+        *tau *= COMMAND_GAIN;
+    }
+    let scaled = device::values(&fits::fit(&model, &log)?);
+    let own = device::values(&installation.estimate);
+    let off = scaled.iter().zip(own).map(|(x, y)| ((x - y) / y).abs());
+    Ok(off.fold(0.0, f64::max))
+}

@@ -1,0 +1,131 @@
+//! Sections 3.2, 4.1 and 4.2: shares of the torque, where friction changes over, weights.
+
+use robot_model::control::counterbalance::{Weight, lever, mass, moment};
+use robot_model::control::{ControlError, Dissection};
+use robot_model::{RobotModel as _, State, Vector};
+
+use super::device::phantom;
+use super::plant::Three;
+use super::rig::{RATE, Sines};
+use super::truth::{FASTEST, GRAVITY, LINKS, TABLE_1_UR_GRAVITY, WEIGHTS, table_1};
+
+/// Shares in the order of figure 10.
+pub const NAMES: [&str; 5] = ["inertia", "Coriolis", "gravity", "viscous", "Coulomb"];
+
+/// Root mean squares of the shares of one installation, `[share][joint]`, N m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shares {
+    /// One a name of [`NAMES`].
+    pub rms: [Three; 5],
+    /// Of the whole torque.
+    pub torque: Three,
+    /// Largest difference of the sum of all shares from the torque, N m.
+    pub off: f64,
+}
+
+/// Of one installation along a motion, whose fastest joint reaches [`FASTEST`].
+#[must_use]
+pub fn shares(installation: usize, motion: &Sines) -> Shares {
+    let arm = phantom(&table_1(installation));
+    let samples = 2000;
+    let states = |motion: &Sines| -> Vec<[Three; 3]> {
+        let at = |k| motion.at(f64::from(k) * 20.0 / RATE);
+        (0..samples).map(at).collect()
+    };
+    let all = states(motion).into_iter();
+    let fastest = all
+        .flat_map(|[_, v, _]| v)
+        .fold(0.0, |top: f64, v| top.max(v.abs()));
+    let motion = motion.clone().at_pace(FASTEST / fastest);
+    let mut sums = [[0.0; 3]; 5];
+    let (mut torque, mut off) = ([0.0; 3], 0.0_f64);
+    for [q, v, a] in states(&motion) {
+        let (q, v, a) = (Vector::from(q), Vector::from(v), Vector::from(a));
+        let found = Dissection::new(&arm, &State::new(q, v, a));
+        let whole = arm.inverse_dynamics(&q, &v, &a);
+        off = off.max((found.sum() - whole).amax());
+        let mut parts = [
+            found.inertia,
+            found.coriolis,
+            found.gravity,
+            Vector::zeros(),
+            Vector::zeros(),
+        ];
+        for effect in found.effects() {
+            let place = if effect.name.ends_with("viscous_friction") {
+                3
+            } else {
+                4
+            };
+            parts[place] += effect.torque;
+        }
+        for j in 0..3 {
+            torque[j] += whole[j] * whole[j];
+            for (sum, part) in sums.iter_mut().zip(&parts) {
+                sum[j] += part[j] * part[j];
+            }
+        }
+    }
+    let root = |sum: Three| sum.map(|x| (x / f64::from(samples)).sqrt());
+    Shares {
+        rms: sums.map(root),
+        torque: root(torque),
+        off,
+    }
+}
+
+/// Speed at which viscous friction is as much as dry friction, UR, deg/s.
+#[must_use]
+pub fn crossover() -> Three {
+    let pi = table_1(0);
+    std::array::from_fn(|j| (pi[11 + j] / pi[8 + j]).abs().to_degrees())
+}
+
+/// Section 4.2 with one lever of the counterweights.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Balance {
+    /// `pi7'` and `pi8'` of (16) and (17), N m.
+    pub moments: [f64; 2],
+    /// Masses of (18) and (19), kg.
+    pub masses: [f64; 2],
+}
+
+/// Equations (16) to (19).
+///
+/// # Errors
+/// A lever that is not positive.
+pub fn balance(lever: f64) -> Result<Balance, ControlError> {
+    let tool = |lever| Weight {
+        mass: WEIGHTS.tool,
+        lever,
+    };
+    let upper = Weight {
+        mass: WEIGHTS.upper,
+        lever: -lever,
+    };
+    let [pi7, pi8] = TABLE_1_UR_GRAVITY;
+    let loaded = [
+        moment(pi7, GRAVITY, &[tool(LINKS[0])]),
+        moment(pi8, GRAVITY, &[tool(WEIGHTS.tool_lever)]),
+    ];
+    Ok(Balance {
+        moments: [moment(pi7, GRAVITY, &[tool(LINKS[0]), upper]), loaded[1]],
+        masses: [
+            mass(loaded[0], GRAVITY, lever)?,
+            mass(loaded[1], GRAVITY, lever)?,
+        ],
+    })
+}
+
+/// The lever by which the manufacturer's weight makes the printed `pi7'`, m.
+///
+/// # Errors
+/// A moment on the other side of the axis.
+pub fn lever_of_print() -> Result<f64, ControlError> {
+    let tool = Weight {
+        mass: WEIGHTS.tool,
+        lever: LINKS[0],
+    };
+    let loaded = moment(TABLE_1_UR_GRAVITY[0], GRAVITY, &[tool]);
+    lever(loaded - WEIGHTS.moments[0], GRAVITY, WEIGHTS.upper)
+}

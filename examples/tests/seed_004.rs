@@ -1,0 +1,166 @@
+//! Seed 004, row by row: the figures that a reproduction has to show, findings that come out, and findings that go away once what is
+//! wrong is repaired.
+
+use std::sync::LazyLock;
+
+use robot_model::trace::Outcome;
+use robot_model_examples::Paper;
+use robot_model_examples::paper::Status;
+use robot_model_examples::seed_004::paper;
+use robot_model_examples::seed_004::results::{Results, results};
+use robot_model_examples::seed_004::truth::{LEAST_EIGENVALUE, WEIGHTS};
+
+const PAGE: &str = include_str!("../../docs/papers/seed_004.md");
+
+static RESULTS: LazyLock<(Results, Paper)> = LazyLock::new(|| {
+    let results = results().unwrap_or_else(|error| panic!("{error}"));
+    let paper = paper(&results).unwrap_or_else(|error| panic!("{error}"));
+    (results, paper)
+});
+
+#[test]
+fn the_page_says_what_the_program_says() {
+    let paper = &RESULTS.1;
+    assert_eq!(paper.differences(PAGE), [""; 0]);
+    let of = |wanted: fn(&Status) -> bool| -> Vec<&str> {
+        let rows = paper.rows.iter().filter(|row| wanted(&row.status));
+        rows.map(|row| row.item).collect()
+    };
+    assert_eq!(
+        of(|status| matches!(status, Status::NotReached(_))),
+        ["4.5.viscous", "4.5.loop", "4.6.dropped"],
+        "{paper}"
+    );
+    assert_eq!(
+        of(|status| matches!(status, Status::Impossible(_))),
+        [
+            "4.1.sign",
+            "4.2.sign",
+            "4.2.L",
+            "4.viscous",
+            "4.definite",
+            "4.definite.motion",
+            "4.10"
+        ]
+    );
+    assert_eq!(paper.rows.len(), 26);
+    for figure in &paper.figures {
+        let svg = figure.svg();
+        assert!(
+            svg.contains("<polyline") || svg.contains("<circle"),
+            "{}",
+            figure.name
+        );
+    }
+}
+
+#[test]
+fn one_sign_of_the_regressor_is_wrong_and_nothing_once_it_is_turned() {
+    let [printed, repaired] = &RESULTS.0.equations;
+    assert_eq!(
+        (&*printed.regressor, &*printed.filtered),
+        (&[(3, 2)][..], &[(3, 2)][..])
+    );
+    assert!(printed.regressor_sign < 1e-12 && printed.filtered_sign < 1e-12);
+    assert!(printed.regressor_rest < 1e-12 && printed.filtered_rest < 1e-12);
+    assert!(repaired.regressor.is_empty() && repaired.filtered.is_empty());
+    // Entries without the filter, whichever the sign.
+    assert_eq!(printed.bare.len(), 4);
+}
+
+#[test]
+fn five_installations_are_found_again() {
+    for one in &RESULTS.0.installations {
+        assert_eq!(one.estimate.rank, 14);
+        assert!(one.estimate.condition < 20.0);
+        assert!(one.off(&one.turning, 0..8) < 1.0);
+        assert!(one.off(&one.turning, 11..14) < 1.0);
+        assert!(one.deviations_off(&one.turning, 8..11) < 4.0);
+        assert!(one.off(&one.estimate, 0..8) < 4.0);
+        for j in 0..3 {
+            assert!(one.rms[j] < 1.0, "{:?}", one.rms);
+            assert!(one.rms_without_friction[j] > 10.0 * one.rms[j]);
+        }
+    }
+}
+
+#[test]
+fn the_tracer_names_friction_and_then_nothing() {
+    let traces = &RESULTS.0.traces;
+    let found = &traces.without_friction.findings;
+    let mut joints: Vec<usize> = found.iter().flat_map(|one| one.joints.clone()).collect();
+    joints.sort_unstable();
+    assert_eq!(joints, [0, 1, 2]);
+    for one in found {
+        assert_eq!(one.kind, "coulomb-friction");
+        assert!(one.evidence.p_value < 1e-6);
+    }
+    assert_eq!(traces.with_friction.outcome, Outcome::NothingMissing);
+    // Positive viscous friction beside friction that falls with speed is fitted as negative.
+    let falling = traces.true_viscous.iter().zip(traces.falling_viscous);
+    assert!(
+        falling
+            .clone()
+            .all(|(own, fitted)| *own > 0.0 && fitted < 0.0)
+    );
+    assert!(
+        traces
+            .falling
+            .findings
+            .iter()
+            .any(|one| one.kind == "stribeck")
+    );
+}
+
+#[test]
+fn table_one_is_no_device_over_the_workspace() {
+    let audits = &RESULTS.0.audits;
+    let signs = audits.printed.iter().map(|one| one.findings("signs").len());
+    assert_eq!(signs.collect::<Vec<_>>(), [3, 1, 2, 2, 1]);
+    for k in 0..5 {
+        assert_eq!(audits.printed[k].findings("inertia").len(), 1, "{k}");
+        assert_eq!(audits.in_room[k].findings("inertia"), [""; 0], "{k}");
+        assert_eq!(audits.positive[k].findings("signs"), [""; 0], "{k}");
+        let least = audits.in_room[k].least_eigenvalue();
+        assert!(least > 0.0 && least < LEAST_EIGENVALUE, "{least}");
+    }
+    for check in ["inertia", "signs", "friction"] {
+        assert_eq!(audits.piece_wise.findings(check), [""; 0], "{check}");
+    }
+    let stopped = audits
+        .moved
+        .iter()
+        .filter(|said| said.contains("not positive definite"));
+    assert!(stopped.count() >= 3, "{:?}", audits.moved);
+}
+
+#[test]
+fn shares_sum_to_the_torque_and_weights_come_of_another_lever() {
+    let results = &RESULTS.0;
+    assert!(results.shares.iter().all(|one| one.off < 1e-12));
+    let [printed, repaired] = &results.balances;
+    assert!((printed.moments[0] - 0.01255).abs() < 1e-5);
+    assert!((printed.masses[0] - 0.2331).abs() < 1e-4 && (printed.masses[1] - 0.0845).abs() < 1e-4);
+    assert!((results.lever - 0.0704).abs() < 5e-5, "{}", results.lever);
+    assert!((repaired.moments[0] - WEIGHTS.moments[0]).abs() < 1e-9);
+    assert!((repaired.moments[1] - WEIGHTS.moments[1]).abs() < 5e-5);
+    assert!((repaired.masses[0] - WEIGHTS.recommended[0]).abs() < 5e-4);
+    assert!((repaired.masses[1] - 0.090).abs() < 5e-4);
+}
+
+#[test]
+fn identified_parameters_control_better_and_feel_better() {
+    let results = &RESULTS.0;
+    for one in &results.controlled {
+        let [ours, other] = &one.squares;
+        assert!(ours.is_stable && ours.rms < other.rms, "{:?}", one.gains);
+        assert!(ours.steady_percent < other.steady_percent);
+        assert!(ours.overshoot_percent < other.overshoot_percent);
+    }
+    let [ours, other] = results.largest_gains;
+    assert!(ours > 1.1 * other, "{ours} {other}");
+    let felt = &results.felt;
+    assert!(felt.rms[0] < 0.1 * felt.rms[1], "{:?}", felt.rms);
+    assert!(felt.frame_off < 0.05);
+    assert!(results.jacobian_off < 1e-12 && results.scaled_off < 1e-9);
+}
