@@ -1,10 +1,9 @@
 //! The three laws of friction, named in the spec's text and compiled while the program runs.
 
-use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::amend::{Amendment, amend};
 
-use super::words::InWords;
+use super::words::{InWords, in_words};
 use crate::paper::Error;
 
 /// The rigid arm and the three laws, none of which it declares.
@@ -70,10 +69,7 @@ impl Law {
     /// # Errors
     /// As [`Self::compiled`].
     pub fn plant(self, values: &[f64]) -> Result<InWords, Error> {
-        let compiled = self.compiled()?;
-        let ones = vec![1.0; compiled.base.kept.len()];
-        let plant = InterpretedPlant::new(compiled.clone(), &ones, &[])?;
-        InWords::new(plant, &compiled.base.names, values)
+        in_words(self.compiled()?, values)
     }
 }
 

@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::{
     Adjustable, Drive, Instant, Integrator, Plant, SimulateError, Slopes, Tangent, Tolerances, Work,
 };
-use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_spec::amend::{Amendment, amend};
 
 use super::data::Data;
@@ -13,7 +12,7 @@ use super::plant::{Arm, Experiment};
 use super::truth::{
     ARM, BACK_EMF, FIGURE_7, FIGURE_7_C1, FIGURE_8, FIGURE_9_C1, FIGURE_10, RATE, SAMPLES,
 };
-use super::words::InWords;
+use super::words::{InWords, in_words};
 use crate::paper::Error;
 
 /// Positions at samples, and what the motion took.
@@ -128,9 +127,7 @@ pub fn turns(experiment: &Experiment) -> Result<[Turns; 2], Error> {
         shapes: Vec::new(),
     });
     let spec = compiled(&amend("shoulder.robot", SHOULDER, &effects)?)?;
-    let ones = vec![1.0; spec.base.kept.len()];
-    let plant = InterpretedPlant::new(spec.clone(), &ones, &[])?;
-    let plant = InWords::new(plant, &spec.base.names, &[ARM.as_slice(), &[DRY]].concat())?;
+    let plant = in_words(spec, &[ARM.as_slice(), &[DRY]].concat())?;
     Ok([plain, of(plant, &path, &drive)?])
 }
 

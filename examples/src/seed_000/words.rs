@@ -1,8 +1,9 @@
 //! The compiler's base parameters `1/beta`, `alpha/beta`, `c/beta` said in the paper's words `alpha`, `beta`, `c`.
 
-use nalgebra::{DMatrix, DVector};
-use robot_model::simulate::{Adjustable, Instant, Jumps, ParameterSlopes, Plant, Slopes};
+use nalgebra::DMatrix;
+use robot_model::simulate::{Functions, Through};
 use robot_model_cli::interpreted::InterpretedPlant;
+use robot_model_codegen::Compiled;
 
 use crate::paper::Error;
 
@@ -14,54 +15,57 @@ pub const GRAVITY: &str = "alpha*beta^-1";
 /// A plant whose parameters are `alpha`, `beta` and constants of friction: those of equation (2.4), over which the paper's search goes.
 ///
 /// Steps of Levenberg and Marquardt depend on which words are used, so iterates are comparable in the same ones only.
+pub type InWords = Through<InterpretedPlant, Words>;
+
+/// The plant of a spec at `[alpha, beta, c..]`.
+///
+/// # Errors
+/// Where the compiler has found other rigid parameters than `1/beta` and `alpha/beta`.
+pub fn in_words(spec: Compiled, values: &[f64]) -> Result<InWords, Error> {
+    let words = Words::of(&spec.base.names)?;
+    let plant = InterpretedPlant::new(spec, &words.own(values), &[])?;
+    Ok(Through::new(plant, words, values.to_vec()))
+}
+
+/// Base parameters as functions of `[alpha, beta, c..]`.
 #[derive(Debug, Clone)]
-pub struct InWords {
-    plant: InterpretedPlant,
+pub struct Words {
     /// Places of `1/beta` and of `alpha/beta`.
     rigid: [usize; 2],
     /// Places of `c/beta`, in order.
     friction: Vec<usize>,
-    values: Vec<f64>,
 }
 
-impl InWords {
-    /// A plant with base parameters of these names, and `[alpha, beta, c..]`.
-    ///
-    /// # Errors
-    /// Where the compiler has found other rigid parameters than `1/beta` and `alpha/beta`.
-    pub fn new(plant: InterpretedPlant, names: &[String], values: &[f64]) -> Result<Self, Error> {
+impl Words {
+    /// Of base parameters of these names.
+    fn of(names: &[String]) -> Result<Self, Error> {
         let place = |name: &str| names.iter().position(|known| known == name);
         let (Some(inertia), Some(gravity)) = (place(INERTIA), place(GRAVITY)) else {
             return Err(format!("base parameters are {names:?}").into());
         };
         let rigid = [inertia, gravity];
-        let mut found = Self {
-            plant,
+        Ok(Self {
             friction: (0..names.len()).filter(|k| !rigid.contains(k)).collect(),
             rigid,
-            values: values.to_vec(),
-        };
-        found.adjust(values);
-        Ok(found)
+        })
     }
+}
 
-    /// The base parameters that these values make.
-    #[must_use]
-    pub fn base(&self) -> Vec<f64> {
-        let (alpha, beta) = (self.values[0], self.values[1]);
-        let mut base = vec![0.0; self.values.len()];
+impl Functions for Words {
+    fn own(&self, values: &[f64]) -> Vec<f64> {
+        let (alpha, beta) = (values[0], values[1]);
+        let mut base = vec![0.0; values.len()];
         base[self.rigid[0]] = 1.0 / beta;
         base[self.rigid[1]] = alpha / beta;
-        for (&place, c) in self.friction.iter().zip(&self.values[2..]) {
+        for (&place, c) in self.friction.iter().zip(&values[2..]) {
             base[place] = c / beta;
         }
         base
     }
 
-    /// `d base / d (alpha, beta, c..)`
-    fn jacobian(&self) -> DMatrix<f64> {
-        let beta = self.values[1];
-        let base = self.base();
+    fn slopes(&self, values: &[f64]) -> DMatrix<f64> {
+        let beta = values[1];
+        let base = self.own(values);
         let mut slopes = DMatrix::zeros(base.len(), base.len());
         for (place, value) in base.iter().enumerate() {
             slopes[(place, 1)] = -value / beta;
@@ -71,62 +75,5 @@ impl InWords {
             slopes[(place, 2 + k)] = 1.0 / beta;
         }
         slopes
-    }
-}
-
-impl Adjustable for InWords {
-    fn values(&self) -> Vec<f64> {
-        self.values.clone()
-    }
-
-    fn prepare(&mut self) {
-        self.plant.prepare();
-    }
-
-    fn adjust(&mut self, values: &[f64]) {
-        self.values.copy_from_slice(values);
-        self.plant.adjust(&self.base());
-    }
-
-    fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
-        self.plant.parameter_slopes(at, slopes);
-        let jacobian = self.jacobian();
-        for matrix in [&mut slopes.torque, &mut slopes.rates, &mut slopes.arguments] {
-            *matrix = &*matrix * &jacobian;
-        }
-    }
-}
-
-impl Plant for InWords {
-    fn dof(&self) -> usize {
-        self.plant.dof()
-    }
-
-    fn switches(&self) -> usize {
-        self.plant.switches()
-    }
-
-    fn is_affine(&self) -> bool {
-        self.plant.is_affine()
-    }
-
-    fn is_timed(&self) -> bool {
-        self.plant.is_timed()
-    }
-
-    fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-        self.plant.torque(at, torque, inertia);
-    }
-
-    fn arguments(&mut self, at: &Instant<'_>, arguments: &mut [f64]) {
-        self.plant.arguments(at, arguments);
-    }
-
-    fn jumps(&mut self, at: &Instant<'_>, jumps: &mut Jumps) {
-        self.plant.jumps(at, jumps);
-    }
-
-    fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes) {
-        self.plant.slopes(at, slopes);
     }
 }

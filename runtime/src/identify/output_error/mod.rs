@@ -9,12 +9,15 @@
 //! industrial robot identification, on closed loops.
 
 mod equations;
+mod error;
 mod estimate;
 mod identifiable;
 mod law;
 mod parts;
+mod problem;
 mod ratios;
 mod recording;
+mod run;
 mod search;
 mod starts;
 mod sums;
@@ -23,11 +26,9 @@ mod tests;
 mod turns;
 mod window;
 
-use nalgebra::DVector;
-use thiserror::Error;
+use crate::simulate::Adjustable;
 
-use crate::simulate::{Adjustable, SimulateError};
-
+pub use error::OutputErrorError;
 pub use estimate::{Comparison, Distance, OutputEstimate};
 pub use identifiable::{Direction, Identifiability};
 pub use law::{JointLaw, Law, Tap};
@@ -37,7 +38,8 @@ pub use search::{Ending, Iterate, Search};
 
 use estimate::{comparison, result};
 use parts::Parts;
-use window::{Rows, Run, Window};
+use problem::{Place, Problem};
+use window::Window;
 
 /// By how much the sum of the logarithms of errors has to be less where torque is held between samples, for that to be told from means.
 const FITS_BETTER: f64 = 1e-3;
@@ -64,194 +66,6 @@ pub struct OutputError {
     pub held_starts: Option<Vec<Vec<f64>>>,
     /// Iterations at most of each part of the search; none are 100.
     pub iterations: Option<usize>,
-}
-
-/// Why there is no estimate.
-#[derive(Debug, Clone, PartialEq, Error)]
-#[non_exhaustive]
-pub enum OutputErrorError {
-    /// The arm cannot be simulated where the search starts.
-    #[error(
-        "{log}: with the parameters that the search starts from: {error}; start nearer to the arm, cut the log into windows, or simulate its controller too"
-    )]
-    Start {
-        /// The log.
-        log: String,
-        /// What happened.
-        error: SimulateError,
-    },
-    /// An arm with given parameters does not stay near its log.
-    #[error(
-        "{log}: with these parameters the simulated arm runs away from it: {error}; windows that are shorter keep it near"
-    )]
-    Away {
-        /// The log.
-        log: String,
-        /// What happened.
-        error: SimulateError,
-    },
-    /// Positions are the same all along.
-    #[error(
-        "no joint moves in these logs, so that simulated positions say nothing of the arm: move it"
-    )]
-    Still,
-    /// A controller remembers across windows.
-    #[error("a controller is simulated along whole logs; leave the window out")]
-    WindowedLaw,
-    /// Starts that are held are those of whole logs.
-    #[error("starts that are held are those of whole logs; leave the window out")]
-    WindowedStarts,
-    /// Parts have other sizes than the arm.
-    #[error("{what}: {found} for an arm with {expected}")]
-    Size {
-        /// What it is.
-        what: &'static str,
-        /// How many there are.
-        found: usize,
-        /// How many there should be.
-        expected: usize,
-    },
-    /// A start outside of its bounds.
-    #[error("parameter {name} starts at {value}, outside of its bounds {low} .. {high}")]
-    Outside {
-        /// The parameter.
-        name: String,
-        /// Where it starts.
-        value: f64,
-        /// Its least value.
-        low: f64,
-        /// Its largest.
-        high: f64,
-    },
-    /// A log lacks what its controller reads.
-    #[error("{log}: it has no column `{channel}`, which the controller reads")]
-    NoChannel {
-        /// The log.
-        log: String,
-        /// The channel.
-        channel: String,
-    },
-    /// A window without room for a motion.
-    #[error("windows of {seconds} s have too few samples for a motion; make them longer")]
-    Short {
-        /// Its length, s.
-        seconds: f64,
-    },
-}
-
-/// A place of the search: parameters, and where each window starts.
-#[derive(Debug, Clone)]
-struct Place {
-    values: Vec<f64>,
-    starts: Vec<DVector<f64>>,
-}
-
-/// All windows with what they are fitted by.
-struct Problem<'a, P> {
-    plant: P,
-    windows: Vec<Window<'a>>,
-    law: Option<&'a Law>,
-    hold: Hold,
-    /// Where windows start, if that is not fitted.
-    held_starts: Option<&'a [Vec<f64>]>,
-    /// One a joint.
-    scale: Vec<f64>,
-    /// Iterations of a search.
-    most: usize,
-}
-
-impl<P: Adjustable + Clone> Problem<'_, P> {
-    fn run(
-        &mut self,
-        place: &Place,
-        with_slopes: bool,
-    ) -> Result<Vec<Run>, (usize, SimulateError)> {
-        self.plant.adjust(&place.values);
-        let windows = self.windows.iter().zip(&place.starts).enumerate();
-        windows
-            .map(|(k, (window, start))| {
-                let run = window.run(&self.plant, start, self.law, self.hold, with_slopes);
-                run.map_err(|error| (k, error))
-            })
-            .collect()
-    }
-
-    /// These parameters, and starts as logs have them.
-    fn place(&mut self, values: &[f64]) -> Place {
-        self.plant.adjust(values);
-        let starts = if let Some(held) = self.held_starts {
-            let held = held.iter();
-            held.map(|start| DVector::from_column_slice(start))
-                .collect()
-        } else {
-            let windows = self.windows.iter();
-            windows.map(|window| window.start(&self.plant)).collect()
-        };
-        Place {
-            starts,
-            values: values.to_vec(),
-        }
-    }
-
-    /// Windows that begin where one of another problem does start as that was found to.
-    fn start_as(&self, place: &mut Place, other: &Self, known: &Place) {
-        for (start, window) in place.starts.iter_mut().zip(&self.windows) {
-            let same = other
-                .windows
-                .iter()
-                .position(|other| other.begins_as(window));
-            if let Some(same) = same {
-                start.clone_from(&known.starts[same]);
-            }
-        }
-    }
-
-    fn rows(&self, runs: &[Run]) -> Vec<Rows> {
-        let runs = self.windows.iter().zip(runs);
-        let rows = runs.map(|(window, run)| {
-            let mut rows = window.rows(run, &self.scale);
-            if self.held_starts.is_some() {
-                rows.by_start.fill(0.0);
-            }
-            rows
-        });
-        rows.collect()
-    }
-
-    fn cost(&self, runs: &[Run]) -> f64 {
-        let rows = self.windows.iter().zip(runs);
-        let squares = rows.map(|(window, run)| window.squares(run, &self.scale));
-        0.5 * squares.flatten().sum::<f64>()
-    }
-
-    /// Root mean square of the errors of each joint.
-    fn spread(&self, runs: &[Run]) -> Vec<f64> {
-        let ones = vec![1.0; self.scale.len()];
-        let mut sums = vec![0.0; ones.len()];
-        let mut samples = 0;
-        for (window, run) in self.windows.iter().zip(runs) {
-            samples += window.counted();
-            let squares = window.squares(run, &ones);
-            sums.iter_mut().zip(squares).for_each(|(sum, x)| *sum += x);
-        }
-        let root = |sum: f64| (sum / samples.max(1) as f64).sqrt();
-        sums.into_iter().map(root).collect()
-    }
-
-    /// Samples of all joints that count.
-    fn samples(&self) -> usize {
-        let counted = self.windows.iter().map(Window::counted);
-        self.scale.len() * counted.sum::<usize>()
-    }
-
-    /// What joints are weighed by: their errors, but none by less than a share of the largest, so that one that is exact does not drown the
-    /// others.
-    fn scales(&self, runs: &[Run]) -> Vec<f64> {
-        let spread = self.spread(runs);
-        let largest = spread.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        let scales = spread.into_iter();
-        scales.map(|scale| scale.max(1e-3 * largest)).collect()
-    }
 }
 
 impl OutputError {

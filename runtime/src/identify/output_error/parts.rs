@@ -1,8 +1,11 @@
 //! The parts of a search: with short windows, with those that are asked for, and with torque that goes the other way between samples.
 
+use super::problem::{Place, Problem};
+use super::run::Run;
 use super::search::{self, Found};
-use super::{Iterate, OutputError, OutputErrorError, Place, Problem, Recording, SimulateError};
+use super::{Iterate, OutputError, OutputErrorError, Recording};
 use crate::simulate::Adjustable;
+use crate::simulate::SimulateError;
 
 /// Half the change of torque from sample to sample, over the torque, roots of mean squares: below, it does not matter how torque goes between
 /// samples.
@@ -97,7 +100,7 @@ impl<P: Adjustable + Clone> Part<'_, P> {
 
 impl<P: Adjustable + Clone> Problem<'_, P> {
     /// Sum of the logarithms of the joints' errors.
-    pub fn error(&self, runs: &[super::Run]) -> f64 {
+    pub fn error(&self, runs: &[Run]) -> f64 {
         let spread = self.spread(runs).into_iter();
         spread.map(|x| x.max(f64::MIN_POSITIVE).ln()).sum()
     }

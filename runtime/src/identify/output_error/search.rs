@@ -11,8 +11,8 @@ use nalgebra::{DMatrix, DVector};
 
 use super::equations::{Equations, Reduced, triangle};
 use super::identifiable::audible;
-use super::window::Run;
-use super::{Place, Problem};
+use super::problem::{Place, Problem};
+use super::run::Run;
 use crate::simulate::{Adjustable, SimulateError};
 
 /// Iterations at most of a search that is to end.

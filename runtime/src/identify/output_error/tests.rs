@@ -1,5 +1,8 @@
 //! A block on a table, that is pushed.
 
+mod controller;
+mod upright;
+
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -293,134 +296,6 @@ fn a_late_torque_is_taken_from_where_it_belongs() {
     for (found, expected) in pairs.take(390) {
         assert!((found - expected).abs() < 1e-9, "{found} {expected}");
     }
-}
-
-/// A controller that is simulated, too: it holds the block on its way, so that even a wrong start is near.
-#[test]
-fn the_controller_of_the_experiment_takes_part() {
-    let reference = |t: f64| 0.3 * (2.0 * t).sin() + 0.1 * (5.0 * t).cos();
-    let law = JointLaw {
-        position: vec![-1400.0, 0.0, 1000.0],
-        torque: vec![0.2],
-        channels: vec![
-            Tap {
-                channel: "wish".to_owned(),
-                weights: vec![400.0],
-                is_optional: false,
-            },
-            Tap {
-                channel: "pulse".to_owned(),
-                weights: vec![3.0],
-                is_optional: true,
-            },
-        ],
-        limit: Some(6.0),
-    };
-    let mut block =
-        Integrator::new(Block(TRUTH), &[0.1], &[0.6], Tolerances::default()).expect("sound");
-    let mut log = log(0.2);
-    (log.time, log.q[0], log.tau[0]) = (Vec::new(), Vec::new(), Vec::new());
-    let mut wish = Vec::new();
-    let mut cut = 0;
-    for k in 0..300_u32 {
-        let t = STEP * f64::from(k);
-        log.time.push(t);
-        log.q[0].push(block.q()[0]);
-        wish.push(reference(t));
-        let at = |back: usize| log.q[0][log.q[0].len().saturating_sub(1 + back)];
-        let before = log.tau[0].last().copied().unwrap_or(0.0);
-        let torque = -1400.0 * at(0) + 1000.0 * at(2) + 0.2 * before + 400.0 * reference(t);
-        cut += u32::from(torque.abs() > 6.0);
-        log.tau[0].push(torque.clamp(-6.0, 6.0));
-        block.drive(Drive {
-            torque: vec![torque.clamp(-6.0, 6.0)],
-            ..Drive::default()
-        });
-        block.advance(t + STEP).expect("a motion");
-    }
-    assert!(cut > 5 && cut < 250, "{cut} of 300 samples at the limit");
-    log.extra = vec![Channel {
-        name: "wish".to_owned(),
-        values: wish,
-    }];
-    let settings = OutputError {
-        law: Some(Law { joints: vec![law] }),
-        ..HELD
-    };
-    let found = fit(&settings, &log);
-    for k in 0..3 {
-        let (value, truth) = (found.values[k], TRUTH[k]);
-        assert!((value - truth).abs() < 1e-4 * truth, "{value} {truth}");
-    }
-    let torque = found.fit.torque.as_ref().expect("a controller made it")[0];
-    assert!(torque.relative_percent < 0.01, "{torque:?}");
-    // A log without what the controller reads is refused by name.
-    log.extra.clear();
-    let recording = Recording::new(&log, &[1.0], 0.0, Vec::new());
-    let refusal = settings.compare(&Block(TRUTH), &TRUTH, &[recording]);
-    assert_eq!(
-        refusal,
-        Err(OutputErrorError::NoChannel {
-            log: "block.csv".to_owned(),
-            channel: "wish".to_owned()
-        })
-    );
-}
-
-/// A rod that stands upright, `ddq = k q + tau`: it stays there, and by no start that is near.
-#[derive(Debug, Clone)]
-struct Upright([f64; 1]);
-
-impl Plant for Upright {
-    fn dof(&self) -> usize {
-        1
-    }
-
-    fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-        torque[0] = at.ddq[0] - self.0[0] * at.q[0];
-        inertia[(0, 0)] = 1.0;
-    }
-
-    fn slopes(&mut self, _: &Instant<'_>, slopes: &mut Slopes) {
-        slopes.torque[0][(0, 0)] = -self.0[0];
-        slopes.torque[1][(0, 0)] = 0.0;
-    }
-}
-
-impl Adjustable for Upright {
-    fn values(&self) -> Vec<f64> {
-        self.0.to_vec()
-    }
-
-    fn adjust(&mut self, values: &[f64]) {
-        self.0.copy_from_slice(values);
-    }
-
-    fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
-        slopes.torque[(0, 0)] = -at.q[0];
-    }
-}
-
-#[test]
-fn what_the_least_change_moves_without_bounds_has_run_away() {
-    let mut still = log(4.0);
-    still.q[0].fill(0.0);
-    still.tau[0].fill(0.0);
-    // A log in which nothing moves is refused as such.
-    *still.q[0].last_mut().expect("samples") = 1e-6;
-    let recording = || [Recording::new(&still, &[1.0], 0.0, Vec::new())];
-    let found = |settings: &OutputError| {
-        let (start, names) = ([400.0], ["k".to_owned()]);
-        settings.fit(&Upright(start), &names, &start, &recording(), &mut |_| ())
-    };
-    let error = found(&HELD).expect_err("it falls");
-    let OutputErrorError::Start { error, .. } = error else {
-        panic!("{error}");
-    };
-    assert!(
-        matches!(error, SimulateError::Sensitive { joint: 1, .. }),
-        "{error}"
-    );
 }
 
 /// The log of a block that is moved along a given way: its torque jumps at turns, between two samples.

@@ -8,9 +8,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::Hold;
 use super::equations::Reduced;
-use super::window::{Rows, Run};
-use super::{Hold, Place, Problem};
+use super::problem::{Place, Problem};
+use super::run::Run;
+use super::window::Rows;
 use crate::simulate::Adjustable;
 
 /// By how much parameters move from one extreme to the other: of each joint one column a window.

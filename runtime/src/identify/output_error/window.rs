@@ -7,52 +7,25 @@ use nalgebra::{DMatrix, DVector};
 use super::OutputErrorError;
 use super::equations::Start;
 use super::law::{JointLaw, Law};
-use super::recording::{Hold, Recording};
+use super::recording::Recording;
+use super::run::Run;
 use crate::signal::resample::whole_steps;
-use crate::simulate::{
-    Adjustable, Drive, Instant, Integrator, Plant, SimulateError, Tangent, Tolerances,
-};
-
-/// How exact simulated motions are: far better than encoders.
-const TOLERANCES: Tolerances = Tolerances {
-    relative: 1e-8,
-    absolute: 1e-9,
-    floor: 1e-6,
-};
+use crate::simulate::{Instant, Plant};
 
 /// Samples from which an initial velocity is guessed, and fewest that a window has.
 const GUESS: usize = 21;
 
-/// A simulation that is so many ranges of its log away from it, and so many rad or m, has run away: what follows says nothing, and takes long.
-const FAR: f64 = 10.0;
-
-/// So has one whose position would move by so many rad or m where its start moves by one, or a parameter by all of it: the tolerances of
-/// simulations alone move it by as much as a motion is long.
-const SENSITIVE: f64 = 1e8;
-
 /// Some samples of a recording, with a start that is fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Window<'a> {
-    recording: &'a Recording,
-    samples: Range<usize>,
+    pub(super) recording: &'a Recording,
+    pub(super) samples: Range<usize>,
     /// Samples that count, from the start of the window.
     counted: Vec<usize>,
     /// Values of the controller's taps, `[joint][tap]`; none of a channel that may be missing.
-    taps: Vec<Vec<Option<&'a [f64]>>>,
+    pub(super) taps: Vec<Vec<Option<&'a [f64]>>>,
     /// A joint that is driven otherwise behind some samples, by what torque.
     driven: Option<(usize, Vec<(usize, f64)>)>,
-}
-
-/// A simulated window.
-#[derive(Debug, Clone)]
-pub(super) struct Run {
-    /// `[joint][sample]`, with the torques that a controller made.
-    pub q: Vec<Vec<f64>>,
-    torque: Vec<Vec<f64>>,
-    /// `d q / d (parameters, start)`, joint after joint, sample after sample.
-    slopes: Option<DMatrix<f64>>,
-    /// Columns of the start.
-    starts: usize,
 }
 
 /// Weighted equations of a window: errors, and their slopes by its start and by the parameters.
@@ -174,7 +147,7 @@ impl<'a> Window<'a> {
     }
 
     /// What else than the recording drives a joint behind a sample.
-    fn driven(&self, joint: usize, sample: usize) -> Option<f64> {
+    pub(super) fn driven(&self, joint: usize, sample: usize) -> Option<f64> {
         let (other, torques) = self.driven.as_ref()?;
         let found = torques.binary_search_by_key(&sample, |(k, _)| *k);
         (*other == joint).then_some(())?;
@@ -215,142 +188,10 @@ impl<'a> Window<'a> {
         DVector::from_vec([q, dq].concat())
     }
 
-    fn inputs_at(&self, sample: usize) -> Vec<f64> {
+    pub(super) fn inputs_at(&self, sample: usize) -> Vec<f64> {
         let extra = &self.recording.log.extra;
         let inputs = self.recording.inputs.iter();
         inputs.map(|&k| extra[k].values[sample]).collect()
-    }
-
-    /// A plant at the start, and how its state moves with parameters and start.
-    fn stand<P: Adjustable + Clone>(
-        &self,
-        plant: &P,
-        start: &DVector<f64>,
-        with_slopes: bool,
-    ) -> Result<(Integrator<P>, Option<Tangent>), SimulateError> {
-        let (dof, states) = (plant.dof(), plant.states());
-        let (q, dq) = start.as_slice().split_at(dof);
-        let tangent = with_slopes.then(|| {
-            let unknowns = plant.parameters();
-            let mut state = DMatrix::zeros(2 * dof + states, unknowns + 2 * dof);
-            for k in 0..2 * dof {
-                state[(k, unknowns + k)] = 1.0;
-            }
-            Tangent::new(plant, state)
-        });
-        let arm = Integrator::new(plant.clone(), q, dq, TOLERANCES)?;
-        let time = self.recording.log.time[self.samples.start];
-        Ok((arm.begun_at(time), tangent))
-    }
-
-    /// Simulates it.
-    pub fn run<P: Adjustable + Clone>(
-        &self,
-        plant: &P,
-        start: &DVector<f64>,
-        law: Option<&Law>,
-        hold: Hold,
-        with_slopes: bool,
-    ) -> Result<Run, SimulateError> {
-        let log = &self.recording.log;
-        let (mut arm, mut tangent) = self.stand(plant, start, with_slopes)?;
-        let (n, count) = (plant.joints(), self.samples.len());
-        let columns = tangent.as_ref().map_or(0, |tangent| tangent.state.ncols());
-        let mut run = Run {
-            q: vec![Vec::with_capacity(count); n],
-            torque: vec![Vec::with_capacity(count); n],
-            slopes: tangent
-                .is_some()
-                .then(|| DMatrix::zeros(n * count, columns)),
-            starts: start.len(),
-        };
-        let mut drives: Vec<DMatrix<f64>> = vec![DMatrix::zeros(count, columns); n];
-        let whole = plant.values().into_iter().map(|x| x.abs().max(1e-6));
-        let whole: Vec<f64> = whole.chain(vec![1.0; start.len()]).collect();
-        let far: Vec<f64> = log.q.iter().map(|q| FAR * (1.0 + range(q))).collect();
-        for k in 0..count {
-            for joint in 0..n {
-                let measured = log.q[joint][self.samples.start + k];
-                let away = (arm.q()[joint] - measured).abs();
-                if away.is_nan() || away > far[joint] {
-                    return Err(SimulateError::Unbounded {
-                        time: arm.time(),
-                        joint: joint + 1,
-                    });
-                }
-                run.q[joint].push(arm.q()[joint]);
-                if let (Some(slopes), Some(tangent)) = (&mut run.slopes, &tangent) {
-                    let moves = tangent.state.row(joint);
-                    let mut moves = moves.iter().zip(&whole);
-                    if !moves.all(|(slope, whole)| (slope * whole).abs() < SENSITIVE) {
-                        return Err(SimulateError::Sensitive {
-                            time: arm.time(),
-                            joint: joint + 1,
-                        });
-                    }
-                    slopes.set_row(joint * count + k, &tangent.state.row(joint));
-                }
-            }
-            let sample = self.samples.start + k;
-            for joint in 0..n {
-                let torque = match law {
-                    None => {
-                        let torque = &self.recording.torque[joint];
-                        let logged = match hold {
-                            Hold::Sample => torque[sample],
-                            Hold::Mean => {
-                                0.5 * (torque[sample] + torque[(sample + 1).min(torque.len() - 1)])
-                            }
-                        };
-                        self.driven(joint, k).unwrap_or(logged)
-                    }
-                    Some(law) => {
-                        let (law, taps) = (&law.joints[joint], &self.taps[joint]);
-                        let first = self.samples.start;
-                        let channel = |tap: usize, k: usize| {
-                            taps[tap].map_or(0.0, |values| values[first + k])
-                        };
-                        let (torque, is_cut) =
-                            law.torque(k, &run.q[joint], &run.torque[joint], channel);
-                        if let (Some(slopes), false) = (&run.slopes, is_cut) {
-                            let mut drive = DMatrix::zeros(1, columns);
-                            for (i, weight) in law.position.iter().enumerate() {
-                                drive += slopes.row(joint * count + k.saturating_sub(i)) * *weight;
-                            }
-                            for (i, weight) in law.torque.iter().enumerate().take(k) {
-                                drive += drives[joint].row(k - 1 - i) * *weight;
-                            }
-                            drives[joint].set_row(k, &drive.row(0));
-                        }
-                        torque
-                    }
-                };
-                run.torque[joint].push(torque);
-                if let (Some(tangent), Some(_)) = (&mut tangent, law) {
-                    tangent.drive.set_row(joint, &drives[joint].row(k));
-                }
-            }
-            if k + 1 == count {
-                break;
-            }
-            let (now, next) = (log.time[sample], log.time[sample + 1]);
-            let (inputs, after) = (self.inputs_at(sample), self.inputs_at(sample + 1));
-            let rates = inputs
-                .iter()
-                .zip(after)
-                .map(|(x, y)| (y - x) / (next - now));
-            arm.drive(Drive {
-                torque: run.torque.iter().map(|torque| torque[k]).collect(),
-                input_rates: rates.collect(),
-                inputs,
-                since: now,
-            });
-            match &mut tangent {
-                Some(tangent) => arm.advance_with(next, tangent)?,
-                None => arm.advance(next)?,
-            }
-        }
-        Ok(run)
     }
 
     /// Measured and simulated positions of a joint.
