@@ -97,6 +97,8 @@ pub fn close(
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
     if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
         faults.push(smoothed);
+    } else if let Some(late) = data_gate::late_position(estimate) {
+        faults.push(late);
     } else if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
         faults.push(late);
         // What turns look like is asked of them anew.
@@ -224,9 +226,9 @@ fn amendment(finding: &Finding, arm: &InterpretedArm) -> Amendment {
     }
 }
 
-/// What a spec says of a fault of the logs; bad samples are none of its business.
+/// What a spec says of a fault of the logs: all torques may be late; bad samples and late encoders are none of its business.
 fn of_fault(fault: &DataFault) -> Option<Amendment> {
-    let (seconds, _) = fault.delay?;
+    let (seconds, _) = fault.delay.filter(|_| fault.joints.is_empty())?;
     Some(Amendment {
         effect: "time_delay".to_owned(),
         joints: Vec::new(),

@@ -1,9 +1,9 @@
 //! The data gate: what is wrong with logs, before anything may be wrong with the model.
 //!
-//! Spikes, bursts, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before their residual
-//! is traced, and both are told.
+//! Spikes, bursts, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before
+//! their residual is traced, and both are told. Logs with the position of one joint late are not traced.
 
-use robot_model::identify::{Estimate, Identify, IdentifyError};
+use robot_model::identify::{Delay, Estimate, Identify, IdentifyError, LateChannel};
 use robot_model::log::{Fault, Log, Mended};
 
 use crate::interpreted::InterpretedArm;
@@ -22,9 +22,11 @@ const APART: f64 = 0.1;
 pub struct DataFault {
     /// Kebab-case name, as effects have.
     pub kind: &'static str,
+    /// Joints whose channel has it, from 0; none where that is all of them.
+    pub joints: Vec<usize>,
     /// What was found, for people.
     pub told: String,
-    /// Seconds by which torque is late and their standard deviation, of a `time-delay`.
+    /// Seconds by which torque or a joint's position is late and their standard deviation, of a `time-delay`.
     pub delay: Option<(f64, f64)>,
     /// Whether nothing can be asked of logs that have it.
     pub is_last: bool,
@@ -84,6 +86,7 @@ pub(crate) fn corrupt(
     }
     Ok((!told.is_empty()).then(|| DataFault {
         kind: "corrupt-samples",
+        joints: Vec::new(),
         told: told.join("; "),
         delay: None,
         is_last: false,
@@ -118,10 +121,30 @@ pub(crate) fn smoothed(
     }
     Ok((!told.is_empty()).then(|| DataFault {
         kind: "corrupt-samples",
+        joints: Vec::new(),
         told: told.join("; "),
         delay: None,
         is_last: true,
     }))
+}
+
+/// The position of one joint that is late against all else: no spec declares that, and all that moves with it is wrong.
+pub(crate) fn late_position(estimate: &Estimate) -> Option<DataFault> {
+    let mut delays = estimate.delays.iter();
+    let found = delays.find(|delay| delay.channel == LateChannel::Position)?;
+    let (ms, std) = (1e3 * found.seconds, 1e3 * found.std);
+    Some(DataFault {
+        kind: "time-delay",
+        joints: vec![found.joint],
+        told: format!(
+            "the position of {} is late against all other channels by {ms:.2} +- {std:.2} ms, without which its error is {:.0} % less: move \
+             its column in the log by that",
+            estimate.joints[found.joint],
+            100.0 * found.gain
+        ),
+        delay: Some((found.seconds, found.std)),
+        is_last: true,
+    })
 }
 
 /// One delay of all torques, where the joints that tell theirs agree and no joint is worse off without it. With it the logs as they
@@ -134,7 +157,8 @@ pub(crate) fn delay(
     if arm.compiled().delay().is_some() {
         return None;
     }
-    let told = &estimate.torque_delays;
+    let is_torque = |delay: &&Delay| delay.channel == LateChannel::Torque;
+    let told: Vec<Delay> = estimate.delays.iter().filter(is_torque).copied().collect();
     let weights: f64 = told.iter().map(|joint| joint.std.powi(-2)).sum();
     if told.is_empty() || !weights.is_finite() {
         return None;
@@ -166,6 +190,7 @@ pub(crate) fn delay(
     let joints: Vec<String> = joints.collect();
     let fault = DataFault {
         kind: "time-delay",
+        joints: Vec::new(),
         told: format!("torque is late against position: {}", joints.join(", ")),
         delay: Some((seconds, std)),
         is_last: false,

@@ -70,7 +70,7 @@ fn every_case_is_identified() {
             assert!(numbers, "{}: {parameter:?}", case.name);
         }
         let late = if case.name == "D011" { case.dof } else { 0 };
-        let delays = &estimate.torque_delays;
+        let delays = &estimate.delays;
         assert_eq!(delays.len(), late, "{}: {delays:?}", case.name);
         for delay in delays {
             let off = (delay.seconds - 0.01).abs();

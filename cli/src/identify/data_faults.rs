@@ -1,5 +1,6 @@
 //! Faults of logs as JSON has them: what is said, and the numbers in it.
 
+use robot_model::identify::{Estimate, LateChannel};
 use robot_model::log::{Fault, Stretches};
 use serde::Serialize;
 
@@ -74,6 +75,11 @@ impl Numbers {
             | Fault::Dropouts { at, .. }
             | Fault::Bursts { at, .. }
             | Fault::Gaps { at } => Self::of_stretches(at),
+            Fault::Wrapped { times, first, .. } => Self {
+                times: Some(times),
+                first: Some(first),
+                ..none
+            },
             Fault::Slips {
                 times,
                 first,
@@ -97,7 +103,7 @@ impl Numbers {
                 }),
                 ..none
             },
-            Fault::TorqueLate { delay, std, .. } => Self {
+            Fault::TorqueLate { delay, std, .. } | Fault::PositionLate { delay, std, .. } => Self {
                 delay: Some(Measured {
                     value: delay,
                     std: Some(std),
@@ -132,6 +138,33 @@ impl Numbers {
             ..Self::default()
         }
     }
+}
+
+/// Channels that are not of the time of the others.
+pub(super) fn late(estimate: &Estimate) -> Vec<Fault> {
+    let late = estimate.delays.iter();
+    let faults = late.map(|found| {
+        let joint = estimate.joints[found.joint].clone();
+        let number = found.joint + 1;
+        let (delay, std, gain) = (found.seconds, found.std, found.gain);
+        match found.channel {
+            LateChannel::Torque => Fault::TorqueLate {
+                channel: format!("tau{number}"),
+                joint,
+                delay,
+                std,
+                gain,
+            },
+            LateChannel::Position => Fault::PositionLate {
+                channel: format!("q{number}"),
+                joint,
+                delay,
+                std,
+                gain,
+            },
+        }
+    });
+    faults.collect()
 }
 
 /// Faults with the logs that they are of.

@@ -1,5 +1,6 @@
 //! `robot-model identify`: parameters from measured logs.
 
+mod brief;
 mod data_faults;
 mod doubts;
 mod drive_gains;
@@ -203,7 +204,7 @@ impl IdentifyArguments {
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
-        faults.extend(self.late_torques(&estimate, &progress));
+        faults.extend(self.late_channels(&estimate, &progress));
         drop(progress);
 
         if let Some(file) = json {
@@ -323,6 +324,7 @@ impl IdentifyArguments {
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));
+        all.extend(brief::doubt(estimate));
         let resting = doubts::resting(form.model(), logs);
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
         match apart {
@@ -353,19 +355,11 @@ impl IdentifyArguments {
         Ok(mended.log)
     }
 
-    /// Torques that are not of the time of the positions; told of all logs at once.
-    fn late_torques(&self, estimate: &Estimate, progress: &Progress) -> Vec<(String, Fault)> {
+    /// Channels that are not of the time of the others; told of all logs at once.
+    fn late_channels(&self, estimate: &Estimate, progress: &Progress) -> Vec<(String, Fault)> {
         let logs = self.logs.iter().map(|path| path.display().to_string());
         let logs = logs.collect::<Vec<_>>().join(", ");
-        let late = estimate.torque_delays.iter();
-        let faults = late.map(|found| Fault::TorqueLate {
-            channel: format!("tau{}", found.joint + 1),
-            joint: estimate.joints[found.joint].clone(),
-            delay: found.seconds,
-            std: found.std,
-            gain: found.gain,
-        });
-        let faults: Vec<Fault> = faults.collect();
+        let faults = data_faults::late(estimate);
         for fault in &faults {
             progress.note(&format!("note: {logs}: {fault}"));
         }

@@ -144,7 +144,7 @@ impl IdentifyArguments {
         let validation = logs.validate.as_ref();
         let validation = validation.map(|log| form.errors(&found.loaded, log));
         let mut faults = logs.faults.clone();
-        faults.extend(self.late_torques(&found.estimate, progress));
+        faults.extend(self.late_channels(&found.estimate, progress));
         Ok(Judged {
             faults,
             train: errors_of_all(&found.estimate, form, &logs.unloaded)?,

@@ -282,7 +282,7 @@ fn fault(fault: &DataFault) -> EffectReport<'_> {
     EffectReport {
         kind: fault.kind,
         effect: None,
-        joints: Joints::new(&[]),
+        joints: Joints::new(&fault.joints),
         parameters: delay.collect(),
         evidence: None,
     }

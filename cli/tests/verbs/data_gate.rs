@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::common::{CART, Folder, cart_log, cart_with, json};
-use crate::delays::late;
+use crate::delays::{late, late_columns};
 
 const TRACE: [&str; 9] = [
     "trace",
@@ -59,6 +59,30 @@ fn torque_that_is_late_is_a_delay_and_no_effect_of_the_arm() {
     );
     let again = folder.succeed(&["trace", "found.robot", "log.csv"]);
     assert!(again.starts_with("nothing missing"), "{again}");
+}
+
+/// No effect of the arm, and nothing that a spec could declare.
+#[test]
+fn a_late_encoder_is_a_fault_of_the_log() {
+    let folder = crate::payload::folder("");
+    let log = folder.read("empty.csv");
+    folder.write(
+        "late.csv",
+        &late_columns(&log, 20, |name| name.ends_with("q2")),
+    );
+    let told = folder.succeed(&["trace", "arm.robot", "late.csv", "--json", "out.json"]);
+    assert!(
+        told.contains("time-delay: the position of") && told.contains("is late against"),
+        "{told}"
+    );
+    let out = json(&folder.read("out.json"));
+    let [effect] = &out["effects"].as_array().expect("a list")[..] else {
+        panic!("{out}");
+    };
+    assert_eq!(
+        (&effect["kind"], &effect["joint"]),
+        (&"time-delay".into(), &2.into())
+    );
 }
 
 #[test]

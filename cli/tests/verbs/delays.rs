@@ -6,6 +6,11 @@ use crate::common::{CART, Folder, cart_log, json};
 
 /// A log whose torques are so many samples late, or early where that is negative.
 pub(crate) fn late(log: &str, samples: isize) -> String {
+    late_columns(log, samples, |name| name.starts_with("tau"))
+}
+
+/// A log with some of its columns so many samples late.
+pub(crate) fn late_columns(log: &str, samples: isize, is_late: impl Fn(&str) -> bool) -> String {
     let mut rows = log.lines().map(|row| row.split(',').collect::<Vec<&str>>());
     let header = rows.next().expect("a header");
     let rows: Vec<Vec<&str>> = rows.collect();
@@ -15,7 +20,7 @@ pub(crate) fn late(log: &str, samples: isize) -> String {
         if let Some(before) = before {
             let fields = header.iter().zip(row.iter().zip(before));
             let of = |(name, (now, before)): (&&str, (&&str, &&str))| {
-                if name.starts_with("tau") {
+                if is_late(name) {
                     (*before).to_owned()
                 } else {
                     (*now).to_owned()
@@ -89,6 +94,61 @@ fn torque_that_is_late_by_far_is_told_with_its_delay() {
             let number = |key: &str| fault["delay"][key].as_f64().expect("a number");
             let (found, std) = (number("value"), number("std"));
             assert!((found - delay).abs() < 4.0 * std && std < 5e-3, "{fault}");
+        }
+    }
+}
+
+/// Kind, channel, delay and deviation of the faults that an identification tells.
+fn told(folder: &Folder, log: &str) -> Vec<(String, String, f64, f64)> {
+    folder.write("late.csv", log);
+    folder.succeed(&["identify", "arm.robot", "late.csv", "--json", "out.json"]);
+    let faults = json(&folder.read("out.json"))["data_faults"].clone();
+    let faults = faults.as_array().expect("a list").iter();
+    let of = |fault: &serde_json::Value| {
+        let text = |key: &str| fault[key].as_str().expect("a word").to_owned();
+        let number = |key: &str| fault["delay"][key].as_f64().unwrap_or(f64::NAN);
+        (
+            text("kind"),
+            text("channel"),
+            number("value"),
+            number("std"),
+        )
+    };
+    faults.map(of).collect()
+}
+
+/// One channel alone, near and far: a position that is late makes torques seem early, each by another time.
+#[test]
+fn a_channel_that_is_late_alone_is_told_as_what_it_is() {
+    let folder = crate::payload::folder("");
+    let log = folder.read("empty.csv");
+    let times = log.lines().skip(1).take(2);
+    let times: Vec<f64> = times
+        .map(|row| row.split(',').next().expect("a column"))
+        .map(|time| time.parse().expect("a number"))
+        .collect();
+    let period = times[1] - times[0];
+    for (channel, kind) in [
+        ("tau1", "late-torque"),
+        ("tau2", "late-torque"),
+        ("q1", "late-position"),
+        ("q2", "late-position"),
+    ] {
+        for delay in [0.05, 0.1, 0.15, 0.2] {
+            let samples = (1..1000_i16).find(|k| f64::from(*k) * period > delay - 0.5 * period);
+            let samples = samples.expect("so many");
+            let delay = f64::from(samples) * period;
+            let log = late_columns(&log, samples.into(), |name| {
+                // An encoder's velocity comes with its position.
+                name.trim_start_matches('d') == channel
+            });
+            let found = told(&folder, &log);
+            let [(of_kind, of, value, std)] = &found[..] else {
+                panic!("{channel} {delay}: {found:?}");
+            };
+            assert_eq!((of_kind.as_str(), of.as_str()), (kind, channel), "{delay}");
+            let within = (value - delay).abs() < 4.0 * std && *std < 0.02;
+            assert!(within, "{channel} {delay}: {found:?}");
         }
     }
 }

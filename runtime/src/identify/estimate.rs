@@ -7,7 +7,7 @@ use crate::signal::{Bands, Prepared, prepare};
 
 use super::errors::Errors;
 use super::instruments::Hausman;
-use super::late::TorqueDelay;
+use super::late::Delay;
 use super::least_squares::Solution;
 use super::possible::Possible;
 use super::stack::{Stack, norm, percent, rows_at, torque_of};
@@ -103,8 +103,8 @@ pub struct Estimate {
     pub bootstrap: Option<Bootstrap>,
     /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
     pub essential: Option<Essential>,
-    /// Joints whose torque is late or early against their position, in logs without a payload; none of a [`Factor`](super::Factor).
-    pub torque_delays: Vec<TorqueDelay>,
+    /// Torques that are late or early against positions, or the position that is instead, in logs without a payload; none of a [`Factor`](super::Factor).
+    pub delays: Vec<Delay>,
 }
 
 /// How rows were fitted.
@@ -208,7 +208,7 @@ impl Estimate {
             effective_samples: fitted.effective_samples,
             bootstrap: None,
             essential: None,
-            torque_delays: Vec::new(),
+            delays: Vec::new(),
         }
     }
 

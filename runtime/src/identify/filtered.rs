@@ -68,7 +68,7 @@ impl Identify {
             Ok(Stack::new(&filtered, &wanted, &shapes))
         })?;
         Ok(Estimate {
-            torque_delays: self.torque_delays_of_logs(arm, logs, &bands, &shapes),
+            delays: self.delays_of_logs(arm, logs, &bands, &shapes),
             ..estimate
         })
     }

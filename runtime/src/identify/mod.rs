@@ -62,7 +62,7 @@ pub use estimate::{Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock, FactorRows};
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
-pub use late::{TorqueDelay, is_delay};
+pub use late::{Delay, LateChannel, is_delay};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 use logs::update_load;
 pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};
@@ -153,8 +153,7 @@ impl Identify {
         let shapes = solved.1.clone();
         let solved = self.deviated(arm, &prepared, solved);
         let found = solved.solution.estimate.clone();
-        let torque_delays =
-            self.torque_delays(arm, &prepared, solved.stack.clone(), (&shapes, &found));
+        let delays = self.delays(arm, &prepared, solved.stack.clone(), (&shapes, &found));
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
             let wanted = self.wanted(logs)?;
             let mut wanted = prepare_all(&wanted, &bands)?;
@@ -165,10 +164,7 @@ impl Identify {
         let estimate = self.estimate(arm, Form::Acceleration, bands, solved, &|| {
             instruments(&shapes)
         })?;
-        Ok(Estimate {
-            torque_delays,
-            ..estimate
-        })
+        Ok(Estimate { delays, ..estimate })
     }
 
     /// Shapes that are not looked for.

@@ -221,7 +221,7 @@ fn no_machine_has_late_torques() {
         for log in logs {
             let estimate = Identify::default().fit(&arm, &[machine.log(log)]);
             let estimate = estimate.unwrap_or_else(|error| panic!("{error}"));
-            assert_eq!(estimate.torque_delays, [], "{name} {log}");
+            assert_eq!(estimate.delays, [], "{name} {log}");
         }
     }
 }

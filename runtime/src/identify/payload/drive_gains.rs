@@ -199,7 +199,7 @@ impl Search<'_> {
             fitted,
         );
         estimate.shape_std.clone_from(&alone.shape_std);
-        estimate.torque_delays.clone_from(&alone.torque_delays);
+        estimate.delays.clone_from(&alone.delays);
         estimate.parameters.truncate(self.unknowns());
         estimate.rank = self.unknowns() - estimate.unexcited.len();
         let mut loaded = alone;

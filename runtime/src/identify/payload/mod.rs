@@ -115,7 +115,7 @@ impl Identify {
             fitted,
         );
         estimate.shape_std.clone_from(&alone.shape_std);
-        estimate.torque_delays.clone_from(&alone.torque_delays);
+        estimate.delays.clone_from(&alone.delays);
         let mut loaded = alone;
         for (parameter, value) in loaded.parameters.iter_mut().zip(shares.loaded(&values)) {
             parameter.value = value;

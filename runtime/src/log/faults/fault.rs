@@ -1,9 +1,7 @@
 //! What can be wrong with the data of a log, and the words for it.
 
-use std::f64::consts::TAU;
 use std::fmt;
 
-use super::velocity;
 use crate::log::Note;
 
 /// What is wrong with the data of a log.
@@ -42,7 +40,16 @@ pub enum Fault {
         /// How often and how long.
         at: Stretches,
     },
-    /// A position that jumps and stays; the log has a hole there.
+    /// An angle that begins its turn again; whole turns were taken out.
+    Wrapped {
+        /// Name of the channel.
+        channel: String,
+        /// How often.
+        times: usize,
+        /// Time of the first, s.
+        first: f64,
+    },
+    /// A position that jumps and stays; the log has a hole there, and positions behind it were moved back by the jump.
     Slips {
         /// Name of the channel.
         channel: String,
@@ -92,6 +99,19 @@ pub enum Fault {
     },
     /// A torque that is not of the time of the position, as an identification tells it; no log is mended of it.
     TorqueLate {
+        /// Name of the channel.
+        channel: String,
+        /// Name of the joint.
+        joint: String,
+        /// By how much it is late, s; negative where it is early.
+        delay: f64,
+        /// Its standard deviation, s.
+        std: f64,
+        /// By which share the joint's error is less without it.
+        gain: f64,
+    },
+    /// A position that is not of the time of all other channels, as an identification tells it; no log is mended of it.
+    PositionLate {
         /// Name of the channel.
         channel: String,
         /// Name of the joint.
@@ -193,6 +213,7 @@ impl Fault {
             Self::Held { .. } => "held",
             Self::Dropouts { .. } => "dropouts",
             Self::Bursts { .. } => "bursts",
+            Self::Wrapped { .. } => "wrapped",
             Self::Slips { .. } => "slips",
             Self::Coincident { .. } => "coincident",
             Self::Jitter { .. } => "jitter",
@@ -200,6 +221,7 @@ impl Fault {
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
             Self::TorqueLate { .. } => "late-torque",
+            Self::PositionLate { .. } => "late-position",
             Self::VelocityScale { .. } => "velocity-scale",
             Self::Still { .. } => "still",
             Self::Constant { .. } => "constant",
@@ -214,118 +236,16 @@ impl Fault {
             | Self::Held { channel, .. }
             | Self::Dropouts { channel, .. }
             | Self::Bursts { channel, .. }
+            | Self::Wrapped { channel, .. }
             | Self::Slips { channel, .. }
             | Self::Clipped { channel, .. }
             | Self::VelocityLate { channel, .. }
             | Self::TorqueLate { channel, .. }
+            | Self::PositionLate { channel, .. }
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
             | Self::Constant { channel, .. } => channel,
             Self::Coincident { .. } | Self::Jitter { .. } | Self::Gaps { .. } => "time",
-        }
-    }
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Spikes {
-                channel,
-                samples,
-                first,
-            } => write!(
-                f,
-                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
-            ),
-            Self::Held { channel, at } => {
-                write!(f, "{channel} stands still while the arm moves on, {at}")
-            }
-            Self::Dropouts { channel, at } => {
-                write!(f, "{channel} jumps to a constant and back, {at}")
-            }
-            Self::Bursts { channel, at } => {
-                write!(f, "{channel} jumps far away and back, {at}")
-            }
-            Self::Slips {
-                channel,
-                times,
-                first,
-                largest,
-            } => {
-                let way_out = if (largest.abs() / TAU - 1.0).abs() < 0.01 {
-                    "it is a whole turn: unwrap the angle"
-                } else {
-                    "an encoder slipped or was set anew: split the log there and leave out what is wrong"
-                };
-                write!(
-                    f,
-                    "{channel} jumps and stays {times} times, the first at {first:.3} s, by {largest:.4} at most; nothing is fitted around \
-                     it, but positions before and behind do not have the same zero; {way_out}"
-                )
-            }
-            Self::Coincident { samples, first } => write!(
-                f,
-                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
-            ),
-            Self::Jitter { step, rms, largest } => write!(
-                f,
-                "time stamps are not uniform: steps differ from their median of {:.4} ms by {:.4} ms RMS, {:.4} ms at most; the log was \
-                 resampled",
-                1e3 * step,
-                1e3 * rms,
-                1e3 * largest
-            ),
-            Self::Gaps { at } => write!(f, "samples are missing, {at}"),
-            Self::Clipped {
-                channel,
-                value,
-                share,
-            } => write!(
-                f,
-                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
-                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
-                100.0 * share
-            ),
-            Self::VelocityLate { channel, delay } => {
-                let word = if *delay > 0.0 { "late" } else { "early" };
-                write!(
-                    f,
-                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
-                    delay.abs()
-                )
-            }
-            Self::TorqueLate {
-                channel,
-                joint,
-                delay,
-                std,
-                gain,
-            } => {
-                let word = if *delay > 0.0 { "late" } else { "early" };
-                write!(
-                    f,
-                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {word} against the position, and friction and inertia are found with it; \
-                     its error is {:.0} % less without that: `time_delay;` among the effects finds one delay of all joints, up to 0.03 s, \
-                     longer ones are to be taken out of the log",
-                    delay.abs(),
-                    100.0 * gain
-                )
-            }
-            Self::VelocityScale { channel, factor } => {
-                write!(
-                    f,
-                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
-                    velocity::unit(*factor)
-                )
-            }
-            Self::Still { channel } => write!(
-                f,
-                "{channel} is the same at all times: the joint does not move"
-            ),
-            Self::Constant { channel, value } => write!(
-                f,
-                "{channel} is {value} at all times: nothing was logged, or the drive was off"
-            ),
         }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! In: a [`Log`]. Out: the log without what can be mended, and a list of what was found. Spikes, dropouts, bursts and holds are replaced by
 //! straight lines; around longer ones, and where a position jumps and stays, the log has a [hole](Log::holes), of which no row of
-//! identification knows. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is
+//! identification knows. What such a jump adds to all that follows is taken out, as no arm jumps, and so are whole turns. Velocities are compared with the slopes of positions and used for nothing; a torque that stands at its limit is
 //! told, and [where](Log::clipped). The thresholds are wide, so that sound logs have hardly any.
 
 mod bursts;
@@ -14,6 +14,8 @@ mod pushes;
 mod slips;
 mod spikes;
 mod velocity;
+mod words;
+mod wraps;
 
 use std::ops::Range;
 
@@ -85,6 +87,12 @@ impl Log {
     /// steep beside those slopes: so a slip has to be one before holds are bridged, too.
     fn mend_position(&mut self, joint: usize, q: &mut [f64]) -> Vec<Fault> {
         let channel = || format!("q{}", joint + 1);
+        let wraps = wraps::take_out(q);
+        let wraps = wraps.first().map(|&first| Fault::Wrapped {
+            channel: channel(),
+            times: wraps.len(),
+            first: self.time[first + 1],
+        });
         let at = self.cut_out(q, dropouts::of_position(q));
         let dropouts = at.map(|at| Fault::Dropouts {
             channel: channel(),
@@ -104,8 +112,8 @@ impl Log {
         });
         let mut slips = slips::find(q);
         slips.retain(|slip| jumps.binary_search(slip).is_ok());
-        let slips = self.mask_slips(q, &slips, channel());
-        let found = [dropouts, bursts, spikes, held, slips];
+        let slips = self.close_slips(q, &slips, channel());
+        let found = [wraps, dropouts, bursts, spikes, held, slips];
         found.into_iter().flatten().collect()
     }
 
@@ -156,15 +164,28 @@ impl Log {
         })
     }
 
-    /// Holes over jumps that stay.
-    fn mask_slips(&mut self, values: &[f64], found: &[usize], channel: String) -> Option<Fault> {
+    /// Holes over jumps that stay, and what follows moved back by them: filters would carry a jump far beyond its hole.
+    fn close_slips(
+        &mut self,
+        values: &mut [f64],
+        found: &[usize],
+        channel: String,
+    ) -> Option<Fault> {
         let first = *found.first()?;
-        let size = |k: usize| values[k + 1] - values[k];
-        let larger = |a: &&usize, b: &&usize| size(**a).abs().total_cmp(&size(**b).abs());
-        let largest = size(*found.iter().max_by(larger)?);
+        // The joint moves on meanwhile.
+        let jump = |k: usize| {
+            let step = |k: usize| values[k + 1] - values[k];
+            step(k) - 0.5 * (step(k - 1) + step(k + 1))
+        };
+        let jumps: Vec<f64> = found.iter().map(|&k| jump(k)).collect();
+        let larger = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
+        let largest = jumps.iter().copied().max_by(larger)?;
         let after = |sample: usize| sample as f64 / self.rate_hz();
         let holes: Vec<Range<f64>> = found.iter().map(|&k| after(k)..after(k + 1)).collect();
         self.holes.extend(holes);
+        for (&k, jump) in found.iter().zip(jumps) {
+            values[k + 1..].iter_mut().for_each(|value| *value -= jump);
+        }
         Some(Fault::Slips {
             channel,
             times: found.len(),

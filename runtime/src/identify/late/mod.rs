@@ -1,4 +1,4 @@
-//! Torque that comes later than positions, or earlier: a filter in the drive, a bus, another clock.
+//! Torque that comes later than positions, or earlier: a filter in the drive, a bus, another clock. Or the position of a joint does.
 //!
 //! A log whose torque is late by `d` has at `t` the torque of `t - d`, so `tau(t + d) = W beta`. About a delay that is known so far,
 //! `tau + s dtau/dt = W beta`: the rest `s` of each joint is the parameter of a column beside the others, and the torque is shifted by it and
@@ -7,6 +7,11 @@
 //! Friction that a model lacks looks like a delay where a joint swings at one speed, and a joint that sticks where it turns round lets go
 //! later than the sign of its velocity says. So each joint has three more columns, viscous friction, dry friction and the slope of that, and
 //! free shapes have theirs: what is told is told apart from all of them, and of other torques than dry friction.
+
+mod nearest;
+mod position;
+
+use nearest::nearest;
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
@@ -25,6 +30,12 @@ const HELD: f64 = 1.25;
 /// to a twelfth, a coupling of a short log by up to a fifth.
 const SHARE: f64 = 0.25;
 
+/// Rows for an unknown below which any delay would be found.
+const FEWEST: usize = 5;
+
+/// What has to be left of a joint's torque, %, for a position to be asked whether it is late where no torque is.
+const POOR: f64 = 3.0;
+
 /// A joint whose delay is that of one that is sure, within so many deviations of both, is told without that.
 const ALIKE: f64 = 3.0;
 
@@ -33,20 +44,28 @@ const ALIKE: f64 = 3.0;
 const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
 
-/// Delays that are tried first, s.
-const STARTS: [f64; 8] = [-0.04, -0.02, 0.02, 0.04, 0.07, 0.11, 0.17, 0.25];
+/// Which channel of a joint is not of the time of the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LateChannel {
+    /// Its torque.
+    Torque,
+    /// Its position, and what is computed from it.
+    Position,
+}
 
-/// A joint whose torque is not of the time of its position.
+/// A channel that is not of the time of the others.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
-pub struct TorqueDelay {
+pub struct Delay {
+    /// Which one of the joint.
+    pub channel: LateChannel,
     /// The joint, from 0.
     pub joint: usize,
-    /// By how much its torque is late, s; negative where it is early.
+    /// By how much it is late, s; negative where it is early.
     pub seconds: f64,
     /// Standard deviation, s, from the errors' own series as those of parameters.
     pub std: f64,
-    /// By which share the root mean square of its residual is less without the delay.
+    /// By which share the root mean square of the joint's residual is less without the delay.
     pub gain: f64,
 }
 
@@ -81,39 +100,62 @@ struct Found {
     residuals: Vec<f64>,
 }
 
+/// Late torques that are told, and the sum of the logarithms of what is left without all delays of torques.
+struct Torques {
+    told: Vec<Delay>,
+    left: f64,
+}
+
 impl Identify {
-    /// Joints whose torque is late or early, for an estimate on its own stack; none where the logs do not say so.
-    pub(super) fn torque_delays(
+    /// Torques that are late or early, or the one position that is instead, for an estimate on its own stack; none where the logs do not
+    /// say so.
+    pub(super) fn delays(
         &self,
         arm: &dyn Arm,
         logs: &[Prepared],
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
-    ) -> Vec<TorqueDelay> {
-        let rows = Rows::new(
-            arm,
-            logs,
-            with_slopes(
-                arm,
-                &|shapes| self.rows(arm, logs, shapes),
-                shapes,
-                0..shapes.len(),
-                stack,
-                estimate,
-            ),
-            self.leave_out_turns,
-        );
-        self.delays_of(&rows).unwrap_or_default()
+    ) -> Vec<Delay> {
+        let is_poor = stack
+            .relative_percent(estimate)
+            .iter()
+            .any(|percent| *percent > POOR);
+        let rows = self.late_rows(arm, logs, stack, (shapes, estimate));
+        let counted: usize = rows.stack.counts().iter().sum();
+        if counted < FEWEST * rows.stack.unknowns.len() {
+            return Vec::new();
+        }
+        let Some(torques) = self.late_torques(&rows) else {
+            return Vec::new();
+        };
+        // Positions take long, as all columns move with them.
+        let position = (is_poor || !torques.told.is_empty())
+            .then(|| self.late_position(&rows, (shapes, estimate), torques.left));
+        position
+            .flatten()
+            .map_or(torques.told, |position| vec![position])
+    }
+
+    fn late_rows<'a>(
+        &self,
+        arm: &'a dyn Arm,
+        logs: &'a [Prepared],
+        stack: Stack,
+        (shapes, estimate): (&[f64], &[f64]),
+    ) -> Rows<'a> {
+        let rows = |shapes: &[f64]| self.rows(arm, logs, shapes);
+        let stack = with_slopes(arm, &rows, shapes, 0..shapes.len(), stack, estimate);
+        Rows::new(arm, logs, stack, self.leave_out_turns)
     }
 
     /// The same of logs by the equations with accelerations, for an estimate that has done without; none where these cannot be solved.
-    pub(super) fn torque_delays_of_logs(
+    pub(super) fn delays_of_logs(
         &self,
         arm: &dyn Arm,
         logs: &[Log],
         bands: &Bands,
         shapes: &[f64],
-    ) -> Vec<TorqueDelay> {
+    ) -> Vec<Delay> {
         let Ok(mut prepared) = prepare_all(logs, bands) else {
             return Vec::new();
         };
@@ -121,54 +163,38 @@ impl Identify {
         else {
             return Vec::new();
         };
-        self.torque_delays(arm, &prepared, stack, (&shapes, &solution.estimate))
+        self.delays(arm, &prepared, stack, (&shapes, &solution.estimate))
     }
 
-    /// `None` where the rows are too few for more unknowns.
-    fn delays_of(&self, rows: &Rows<'_>) -> Option<Vec<TorqueDelay>> {
+    /// Torques that are late or early; `None` where the rows are too few for more unknowns.
+    fn late_torques(&self, rows: &Rows<'_>) -> Option<Torques> {
         let dof = rows.arm.dof();
         let period = longest_period(rows.logs);
-        let mut delays = vec![self.nearest(rows)?; dof];
+        let mut delays = nearest(rows);
+        let mut left = f64::INFINITY;
         for _ in 0..ROUNDS {
             let found = self.further(&rows.shifted(&delays))?;
             for (delay, step) in delays.iter_mut().zip(&found.step) {
                 *delay += step.clamp(-MOST, MOST);
             }
+            left = left.min(logarithm(&found.residuals));
             let is_far = |joint: &usize| {
                 let (delay, std) = (delays[*joint], found.std[*joint]);
                 delay.abs() > DEVIATIONS * std && is_delay(delay, period)
             };
             let far: Vec<usize> = (0..dof).filter(is_far).collect();
-            if far.is_empty() {
-                return Some(Vec::new());
-            }
             let has_settled = |joint: &usize| found.step[*joint].abs() < found.std[*joint];
             if far.iter().all(has_settled) {
-                return self.told(rows, &delays, &found, far);
+                let told = self.told(rows, &delays, &found, far)?;
+                let left = logarithm(&found.residuals);
+                return Some(Torques { told, left });
             }
         }
-        None
-    }
-
-    /// Of some delays of all torques the one that leaves least; a slope alone does not lead to what is far away.
-    fn nearest(&self, rows: &Rows<'_>) -> Option<f64> {
-        let left = |delay: f64| -> Option<f64> {
-            let mut stack = rows.shifted(&vec![delay; rows.arm.dof()]);
-            stack.truncate(rows.stack.unknowns.len());
-            let solution = self.solve_stack(&stack).ok()?;
-            let residuals = stack.residuals(&solution.estimate);
-            let sizes = residuals.iter().map(|r| norm(r)).filter(|size| *size > 0.0);
-            Some(sizes.map(f64::ln).sum())
-        };
-        let mut best = (left(0.0)?, 0.0);
-        for delay in STARTS {
-            if let Some(left) = left(delay)
-                && left < best.0
-            {
-                best = (left, delay);
-            }
-        }
-        Some(best.1)
+        // No delay of torques is the answer.
+        Some(Torques {
+            told: Vec::new(),
+            left,
+        })
     }
 
     /// Of delays that are far from nothing those that matter.
@@ -178,23 +204,24 @@ impl Identify {
         delays: &[f64],
         found: &Found,
         far: Vec<usize>,
-    ) -> Option<Vec<TorqueDelay>> {
+    ) -> Option<Vec<Delay>> {
         let solution = self.solve_stack(&rows.stack).ok()?;
         let before = rows.stack.residuals(&solution.estimate);
-        let told = far.into_iter().map(|joint| TorqueDelay {
+        let told = far.into_iter().map(|joint| Delay {
+            channel: LateChannel::Torque,
             joint,
             seconds: delays[joint],
             std: found.std[joint],
             gain: 1.0 - found.residuals[joint] / norm(&before[joint]),
         });
-        let told: Vec<TorqueDelay> = told.collect();
-        let sure: Vec<TorqueDelay> = told
+        let told: Vec<Delay> = told.collect();
+        let sure: Vec<Delay> = told
             .iter()
             .filter(|told| told.gain > SHARE)
             .copied()
             .collect();
         // One bus or clock makes all torques late by the same, whatever else a joint's error has.
-        let is_alike = |told: &TorqueDelay| {
+        let is_alike = |told: &Delay| {
             let mut sure = sure.iter();
             sure.any(|sure| (told.seconds - sure.seconds).abs() < ALIKE * told.std.hypot(sure.std))
         };
@@ -280,21 +307,36 @@ impl<'a> Rows<'a> {
         all
     }
 
+    /// What a joint's torque of so much later has more than that of now, as rows have it.
+    fn moved(&self, joint: usize, delay: f64) -> Vec<f64> {
+        let gain = self.arm.actuator_gain()[joint];
+        self.filtered(joint, |log| {
+            let later = log.motion.late(&log.tau[joint], -delay);
+            let pairs = later.into_iter().zip(&log.tau[joint]);
+            pairs.map(|(later, now)| gain * (later - now)).collect()
+        })
+    }
+
+    /// Rows that were left out say nothing of columns that came later, either.
+    fn leave_out(&self, stack: &mut Stack) {
+        clipped::clear_again(stack);
+        if self.leave_out_turns {
+            turns::leave_out(stack);
+        }
+    }
+
     /// The same equations for the torque of so much later, and behind their columns the slopes of that torque.
     fn shifted(&self, delays: &[f64]) -> Stack {
         let mut stack = self.stack.clone();
         let mut slopes = Vec::new();
         for (joint, delay) in delays.iter().enumerate() {
-            let gain = self.arm.actuator_gain()[joint];
             let later = |log: &Prepared| log.motion.late(&log.tau[joint], -delay);
-            let moved = self.filtered(joint, |log| {
-                let pairs = later(log).into_iter().zip(&log.tau[joint]);
-                pairs.map(|(later, now)| gain * (later - now)).collect()
-            });
+            let moved = self.moved(joint, *delay);
             let rows = &mut stack.joints[joint];
             for values in [&mut rows.tau, &mut rows.target] {
                 values.iter_mut().zip(&moved).for_each(|(x, by)| *x += by);
             }
+            let gain = self.arm.actuator_gain()[joint];
             slopes.push(self.filtered(joint, |log| {
                 let mut slope = Vec::new();
                 derivative(&later(log), 1.0 / log.rate_hz, &mut slope);
@@ -302,20 +344,19 @@ impl<'a> Rows<'a> {
             }));
         }
         append(&mut stack, slopes);
-        clipped::clear_again(&mut stack);
-        if self.leave_out_turns {
-            turns::leave_out(&mut stack);
-        }
+        self.leave_out(&mut stack);
         stack
     }
 }
 
+/// Sum of the logarithms of lengths of residuals, of which joints that say nothing have none.
+fn logarithm(residuals: &[f64]) -> f64 {
+    let sizes = residuals.iter().filter(|size| **size > 0.0);
+    sizes.map(|size| size.ln()).sum()
+}
+
 /// A column for each joint.
 fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
-    let unknown = Unknown {
-        name: String::new(),
-        nonnegative: false,
-    };
     let entries = columns.into_iter().enumerate();
     let entries = entries.map(|(joint, values)| Entry {
         joint,
@@ -323,5 +364,12 @@ fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
         values,
     });
     let entries: Vec<Entry> = entries.collect();
-    stack.append(&vec![unknown; entries.len()], &entries);
+    stack.append(&vec![nameless(); entries.len()], &entries);
+}
+
+fn nameless() -> Unknown {
+    Unknown {
+        name: String::new(),
+        nonnegative: false,
+    }
 }

@@ -1,0 +1,53 @@
+//! Logs that are too short for their deviations to be believed.
+
+use robot_model::identify::Estimate;
+
+/// Independent samples of all joints for a parameter. On simulated logs of two joints with 8 of them intervals of 95 % held the truth in
+/// 87 % of the cases, with 5 in 86 %, with 3 in 80 %, with 2 in 69 %; with 50 in 94 %.
+const ENOUGH: f64 = 10.0;
+
+/// With fewer values themselves are noise.
+const TOO_FEW: f64 = 3.0;
+
+/// What is said of logs with few independent samples.
+pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
+    let independent: f64 = estimate.effective_samples.as_ref()?.iter().sum();
+    said(independent, estimate.rank)
+}
+
+fn said(independent: f64, parameters: usize) -> Option<String> {
+    let share = independent / parameters.max(1) as f64;
+    if share >= ENOUGH {
+        return None;
+    }
+    let verdict = if share < TOO_FEW {
+        "too short: values are of noise, and deviations do not say it"
+    } else {
+        "short: deviations are somewhat small"
+    };
+    Some(format!(
+        "the logs are {verdict}; {independent:.0} independent samples for {parameters} parameters, {:.0} would do: log {:.0} times as long",
+        ENOUGH * parameters as f64,
+        (ENOUGH / share).ceil().min(1e3)
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_logs_are_told_by_how_much() {
+        assert_eq!(said(100.0, 10), None);
+        let short = said(45.0, 10).expect("few");
+        assert!(
+            short.contains("somewhat small") && short.contains("3 times as long"),
+            "{short}"
+        );
+        let too_short = said(18.0, 10).expect("fewer");
+        assert!(
+            too_short.contains("too short") && too_short.contains("6 times as long"),
+            "{too_short}"
+        );
+    }
+}

@@ -1,0 +1,140 @@
+//! What is said of faults.
+
+use std::fmt;
+
+use super::{Fault, velocity};
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Spikes {
+                channel,
+                samples,
+                first,
+            } => write!(
+                f,
+                "{channel}: {samples} samples are far from both their neighbors, the first at {first:.3} s; they were replaced by straight lines"
+            ),
+            Self::Held { channel, at } => {
+                write!(f, "{channel} stands still while the arm moves on, {at}")
+            }
+            Self::Dropouts { channel, at } => {
+                write!(f, "{channel} jumps to a constant and back, {at}")
+            }
+            Self::Bursts { channel, at } => {
+                write!(f, "{channel} jumps far away and back, {at}")
+            }
+            Self::Wrapped {
+                channel,
+                times,
+                first,
+            } => write!(
+                f,
+                "{channel} begins its turn again {times} times, the first at {first:.3} s; whole turns were taken out"
+            ),
+            Self::Slips {
+                channel,
+                times,
+                first,
+                largest,
+            } => write!(
+                f,
+                "{channel} jumps and stays {times} times, the first at {first:.3} s, by {largest:.4} at most: an encoder slipped or was set \
+                 anew; nothing is fitted around it, and positions behind it were moved back by it, as an arm does not jump: if those before \
+                 it are wrong, leave them out of the log"
+            ),
+            Self::Coincident { samples, first } => write!(
+                f,
+                "{samples} samples nearly coincide in time with the one before, the first at {first:.3} s; their mean stands for both"
+            ),
+            Self::Jitter { step, rms, largest } => write!(
+                f,
+                "time stamps are not uniform: steps differ from their median of {:.4} ms by {:.4} ms RMS, {:.4} ms at most; the log was \
+                 resampled",
+                1e3 * step,
+                1e3 * rms,
+                1e3 * largest
+            ),
+            Self::Gaps { at } => write!(f, "samples are missing, {at}"),
+            Self::Clipped {
+                channel,
+                value,
+                share,
+            } => write!(
+                f,
+                "{channel} stands at its limit of {value:.4} for {:.1} % of the samples: the drive gave no more; `identify` leaves the joint's \
+                 samples there out unless `torque_saturation` is declared; log a motion that asks for less",
+                100.0 * share
+            ),
+            Self::VelocityLate { channel, delay } => {
+                let word = late_or_early(*delay);
+                write!(
+                    f,
+                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
+                    delay.abs()
+                )
+            }
+            Self::TorqueLate { .. } | Self::PositionLate { .. } => self.fmt_late(f),
+            Self::VelocityScale { channel, factor } => {
+                write!(
+                    f,
+                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+                    velocity::unit(*factor)
+                )
+            }
+            Self::Still { channel } => write!(
+                f,
+                "{channel} is the same at all times: the joint does not move"
+            ),
+            Self::Constant { channel, value } => write!(
+                f,
+                "{channel} is {value} at all times: nothing was logged, or the drive was off"
+            ),
+        }
+    }
+}
+
+impl Fault {
+    /// Channels that an identification finds late.
+    fn fmt_late(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Self::TorqueLate {
+            channel,
+            joint,
+            delay,
+            std,
+            gain,
+        }
+        | Self::PositionLate {
+            channel,
+            joint,
+            delay,
+            std,
+            gain,
+        }) = self
+        else {
+            return Ok(());
+        };
+        let (found_with_it, way_out) = if matches!(self, Self::TorqueLate { .. }) {
+            (
+                "the position, and friction and inertia are found with it",
+                "`time_delay;` among the effects finds one delay of all joints, up to 0.03 s, longer ones are to be taken out of the log",
+            )
+        } else {
+            (
+                "all other channels, and all that depends on it is found with it",
+                "move the column by so much",
+            )
+        };
+        write!(
+            f,
+            "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {found_with_it}; its error is {:.0} % less without that: {way_out}",
+            delay.abs(),
+            late_or_early(*delay),
+            100.0 * gain
+        )
+    }
+}
+
+fn late_or_early(delay: f64) -> &'static str {
+    if delay > 0.0 { "late" } else { "early" }
+}
