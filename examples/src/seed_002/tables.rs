@@ -32,7 +32,7 @@ fn friction(results: &Results) -> Table {
     table.push(cells("jump at 0.01 rad/s, N m", &results.jumps[0]));
     table.push(cells("falls from, rad/s", &results.peaks));
     let drives: Vec<f64> = (0..6)
-        .map(|k| results.table_1[1].drives_from(k).unwrap_or(f64::NAN))
+        .map(|k| results.drives_from(1, k).unwrap_or(f64::NAN))
         .collect();
     table.push(cells("drives from, rad/s", &drives));
     table
