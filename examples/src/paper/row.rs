@@ -111,7 +111,8 @@ impl Row {
 
     /// As an entry of a list in Markdown.
     pub(super) fn markdown(&self) -> String {
-        let start = format!("- **{}**, {}\n", self.item, escaped(&self.what));
+        let start = format!("- **{}**, {}", self.item, escaped(&self.what));
+        let start = wrapped(&start, LINE).join("\n  ") + "\n";
         let parts = self.parts().map(|(word, part)| {
             let lines = wrapped(&format!("{word}: {}", escaped(&part)), LINE);
             format!("  - {}\n", lines.join("\n    "))

@@ -5,7 +5,7 @@ use robot_model::identify::output_error::OutputEstimate;
 use super::plant::{Position, degrees};
 use super::releases::{Batch, BoxPlot};
 use super::search::Found;
-use super::truth::{HEIGHTS, NAMES, STEP};
+use super::truth::{HEIGHTS, NAMES, PULSE, STEP};
 use super::validation::Validation;
 use crate::paper::{Figure, Mark};
 
@@ -84,9 +84,23 @@ fn band(batch: &Batch, link: usize, height: usize) -> Figure {
         link + 1,
         HEIGHTS[height].angle
     );
+    let times = enlarged(&deviation, &mean);
+    let enlarged = deviation.iter().map(|std| times * std).collect();
+    // Nothing is seen after the arm has come to rest but for a pulse.
+    let last = mean.iter().rposition(|angle| angle.abs() > PULSE);
+    let end = last.map_or(0.0, |sample| (sample as f64 + 200.0) * STEP);
+    let moving = |points: Vec<(f64, f64)>| points.into_iter().filter(move |(t, _)| *t <= end);
     Figure::new(name(4 + 5 * link + height), title, TIME, ANGLE)
-        .with_band("a standard deviation to each side", between)
-        .with("mean", Mark::Line, line(mean.clone()))
+        .with_band(
+            "a standard deviation to each side",
+            between.filter(|[t, ..]| *t <= end),
+        )
+        .with("mean", Mark::Line, moving(line(mean.clone())))
+        .with(
+            format!("deviation, {times} times as large"),
+            Mark::Line,
+            moving(line(enlarged)),
+        )
 }
 
 fn beside(own: &Validation, number: usize, what: &str, model: &[Position]) -> Figure {

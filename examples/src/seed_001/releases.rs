@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::plant::{Position, release, with_dry};
-use super::truth::{ESTIMATED, Height, PULSE, RELEASES, STEP, Starts};
+use super::truth::{ESTIMATED, Height, PULSE, RELEASES, Starts};
 use crate::paper::{normal, rounded};
 
 /// Dry friction differs from release to release by so much of itself, one standard deviation.
@@ -22,8 +22,8 @@ pub struct Batch {
     pub mean: Vec<Position>,
     /// Standard deviation over releases.
     pub deviation: Vec<Position>,
-    /// When each release has ended, s; none where its arm still moves after the last sample.
-    pub ends: Vec<Option<f64>>,
+    /// Whether the arm of each release stands after the last sample.
+    pub ends: Vec<bool>,
 }
 
 /// What a box plot shows.
@@ -127,9 +127,7 @@ impl Batch {
                 at(link, side * start),
                 height.samples,
             );
-            let last = positions.iter().rposition(|q| *q != arm.position());
-            let end = last.map_or(0.0, |sample| (sample + 1) as f64 * STEP);
-            ends.push(arm.is_at_rest().then_some(end));
+            ends.push(arm.is_at_rest());
             for (sample, q) in positions.iter().enumerate() {
                 for joint in 0..2 {
                     let angle = side * seen(q[joint].to_degrees()).to_radians();

@@ -112,6 +112,17 @@ fn ablation(results: &Results) -> Table {
         let cells = pair.into_iter().flatten();
         table.push(std::iter::once((*name).to_owned()).chain(cells));
     }
+    let [plain, plain_weighted, modified, modified_weighted] = &results.without_ripple;
+    let from = mean(&plain.rmse);
+    let cell = |fit: &Fit| {
+        let own = mean(&fit.rmse);
+        [format!("{own:.3}"), format!("{:.0} %", drop(from, own))]
+    };
+    let pairs = [[plain, modified], [plain_weighted, modified_weighted]];
+    for ((name, ..), pair) in WEIGHTS.iter().zip(pairs) {
+        let cells = pair.map(cell).into_iter().flatten();
+        table.push(std::iter::once(format!("{name}, no ripple on joint 2")).chain(cells));
+    }
     table
 }
 
