@@ -31,7 +31,7 @@ pub fn agree(one: &str, other: &str) -> bool {
 pub fn have_same_words(one: &str, other: &str) -> bool {
     let (one, other) = (words(one), words(other));
     let mut pairs = one.iter().zip(&other);
-    let unsigned = |text: &str| text.trim_end_matches('-').to_owned();
+    let unsigned = |text: &str| text.trim_end_matches(['-', '+']).to_owned();
     one.len() == other.len()
         && pairs.all(|pair| match pair {
             (Piece::Text(one), Piece::Text(other)) => unsigned(one) == unsigned(other),
@@ -131,7 +131,7 @@ mod tests {
         ] {
             assert!(!agree(one, other), "{one} / {other}");
         }
-        assert!(have_same_words("| 1 | 14.50, 0.02 |", "| 9 | 2.1, 3. |"));
+        assert!(have_same_words("| 1 | 14.50, 0.02 |", "| 9 | 2.1, 3.0 |"));
         assert!(!have_same_words("| 1 | cost 14.50 |", "| 9 | 2.1 |"));
     }
 }
