@@ -135,8 +135,7 @@ fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor) {
         Mark::Line => area.draw(&swatch(1, 1.0)),
         Mark::Broad => area.draw(&swatch(3, PALE)),
         Mark::Bars => area.draw(&swatch(4, 1.0)),
-        Mark::Band => area.draw(&swatch(4, PALE)),
-        Mark::Boxes => area.draw(&swatch(4, PALE)),
+        Mark::Band | Mark::Boxes => area.draw(&swatch(4, PALE)),
         Mark::Dots => area.draw(&Circle::new((x + 7, y), 2, color.filled())),
     }
     .expect(DRAWN);

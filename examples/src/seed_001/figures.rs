@@ -97,7 +97,7 @@ fn band(batch: &Batch, link: usize, height: usize) -> Figure {
         )
         .with("mean", Mark::Line, moving(line(mean.clone())))
         .with(
-            format!("deviation, {times} times as large"),
+            sized("deviation", times),
             Mark::Line,
             moving(line(enlarged)),
         )
@@ -110,11 +110,6 @@ fn beside(own: &Validation, number: usize, what: &str, model: &[Position]) -> Fi
     let error: Vec<f64> = error.collect();
     let times = enlarged(&error, &measured);
     let error = line(error.into_iter().map(|error| times * error).collect());
-    let of_error = if times > 1.0 {
-        format!("error, {times} times as large")
-    } else {
-        "error".to_owned()
-    };
     let title = format!(
         "model {what}, link {}, {} degrees",
         link + 1,
@@ -123,7 +118,16 @@ fn beside(own: &Validation, number: usize, what: &str, model: &[Position]) -> Fi
     Figure::new(name(number), title, TIME, ANGLE)
         .with("mean of releases", Mark::Broad, line(measured))
         .with("model", Mark::Line, line(model))
-        .with(of_error, Mark::Line, error)
+        .with(sized("error", times), Mark::Line, error)
+}
+
+/// A name in the key of what is enlarged.
+fn sized(name: &str, times: f64) -> String {
+    if times > 1.0 {
+        format!("{name}, {times} times as large")
+    } else {
+        name.to_owned()
+    }
 }
 
 /// A power of ten by which errors are seen beside what they are of.
