@@ -1,12 +1,15 @@
 //! The pneumatic arm of two joints: what was to come out does, and what is wrong in the paper is found, and is not found once it is mended.
 
+mod common;
+
 use std::sync::OnceLock;
 
-use robot_model::identify::output_error::{Ending, OutputErrorError, OutputEstimate};
-use robot_model_examples::paper::Status;
+use robot_model::identify::output_error::{Ending, OutputEstimate};
 use robot_model_examples::seed_001::rows::Results;
 use robot_model_examples::seed_001::truth::{BOUNDS, ESTIMATED, HEIGHTS, NAMES};
 use robot_model_examples::seed_001::{audit, paper, releases, results};
+
+use common::agrees;
 
 fn found() -> &'static Results {
     static FOUND: OnceLock<Results> = OnceLock::new();
@@ -22,18 +25,8 @@ fn searches() -> impl Iterator<Item = &'static OutputEstimate> {
 fn every_item_has_the_outcome_of_its_page() {
     let paper = paper(found()).expect("a paper");
     let page = include_str!("../../docs/papers/seed_001.md");
-    assert_eq!(paper.differences(page), Vec::<String>::new());
-    let reached = [
-        "1.1", "1.2", "1.fc", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.rest",
-    ];
-    for item in reached {
-        let row = paper.row(item).expect(item);
-        assert_eq!(row.status, Status::Reached, "{row:?}");
-    }
-    for item in ["1.bounds", "1.errors", "1.rank", "1.cost", "1.friction"] {
-        let row = paper.row(item).expect(item);
-        assert!(matches!(row.status, Status::Impossible(_)), "{row:?}");
-    }
+    let wrong = ["1.bounds", "1.errors", "1.rank", "1.cost"];
+    agrees(&paper, "seed_001", page, [&[], &wrong]);
     assert_eq!(paper.rows.len(), 16);
 }
 
@@ -63,8 +56,9 @@ fn searches_stay_within_the_bounds_and_their_costs_fall() {
 fn twenty_releases_start_where_the_paper_says() {
     for (batches, height) in found().found.batches.iter().zip(&HEIGHTS) {
         for (link, batch) in batches.iter().enumerate() {
+            // Inputs, which are left as they are on the way into the plots.
             let (own, printed) = (releases::BoxPlot::new(&batch.starts), &height.starts[link]);
-            assert_eq!(batch.starts.len(), 20);
+            assert_eq!((batch.starts.len(), batch.ends.len()), (20, 20));
             assert!((own.least - printed.least).abs() < 1e-9);
             assert!((own.most - printed.most).abs() < 1e-9);
             assert!((own.mode - printed.mode).abs() < 1e-9);
@@ -83,6 +77,7 @@ fn models_are_far_before_and_near_after_estimation() {
         assert!(own.apart < 1e-4, "{}", own.apart);
         assert!(own.exact_after >= 99.0, "{}", own.exact_after);
         assert!(own.after.nrmse > 90.0, "{:?}", own.after);
+        assert!(own.itself > 90.0, "{}", own.itself);
         assert!(own.after.nrmse > own.before.nrmse, "{:?}", own.after);
         assert!(own.after.mae < own.before.mae, "{:?}", own.after);
         if own.link == 0 {
@@ -176,19 +171,13 @@ fn friction_moves_otherwise_where_its_names_are_exchanged() {
 }
 
 #[test]
-fn a_search_for_angles_is_refused_and_one_for_parameters_is_not() {
-    let said = audit::look_for_angles(&found().arm).expect("releases");
-    let Err(OutputErrorError::Size {
-        what,
-        found: count,
-        expected,
-    }) = said
-    else {
-        panic!("{said:?}");
-    };
-    assert_eq!((what, expected), ("values to start from", 11));
-    assert_eq!(count, 4 * HEIGHTS[3].samples);
-    assert_eq!(found().found.exact.ending, Ending::Converged);
+fn there_are_more_angles_than_values_of_the_tables() {
+    assert_eq!(audit::angles(), 4 * HEIGHTS[3].samples);
+    let own = &found().found.exact;
+    assert_eq!(
+        (own.values.len(), own.ending),
+        (NAMES.len(), Ending::Converged)
+    );
 }
 
 #[test]
@@ -213,6 +202,19 @@ fn arms_stand_where_dry_friction_holds_them_and_creep_without_it() {
             assert!(rest.smooth[joint].to_degrees().abs() < 1e-3, "{rest:?}");
         }
     }
+    // Dry friction of Table 2 holds link 2 far from where the arm ends, which is why its fit is below zero.
+    let own = found()
+        .validations
+        .iter()
+        .find(|own| own.link == 1 && own.height == 0);
+    let own = own.expect("10 degrees");
+    let [mean, cad] = own.ends();
+    assert!(
+        own.before.nrmse < 0.0 && own.before_by_dry > 50.0,
+        "{}",
+        own.before_by_dry
+    );
+    assert!((cad - mean).abs() > 1.0, "{cad} {mean}");
     let far = |rest: &audit::Rest| rest.library.iter().any(|q| q.to_degrees().abs() > 0.01);
     assert!(rests.iter().all(far));
 }

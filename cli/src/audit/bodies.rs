@@ -4,7 +4,7 @@ use robot_model::Inertial;
 use robot_model_codegen::Compiled;
 use robot_model_spec::parameter::Owner;
 
-use super::Check;
+use super::{Check, Finding, Quantity};
 use crate::interpreted::{payloads, possible_arms};
 use crate::output::{counted, rounded};
 use crate::parameters::Values;
@@ -36,32 +36,40 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
         return Some(of_base(compiled, &values.beta, scope));
     };
     let links = chain.links.iter().zip(standard.chunks(10));
-    let links = links.map(|(link, ten)| (format!("link `{}`", link.name), ten.to_vec()));
+    let links = links.map(|(link, ten)| ("link ", link.name.clone(), ten.to_vec()));
     let payloads = payloads(compiled).into_iter().map(|payload| {
         let ten = payload.parameters.map(|k| standard[k]);
-        (format!("`{}`", payload.name), ten.to_vec())
+        ("", payload.name, ten.to_vec())
     });
-    let findings = links.chain(payloads).filter_map(|(name, ten)| {
+    let findings = links.chain(payloads).filter_map(|(kind, name, ten)| {
         let ten: Option<Vec<f64>> = ten.into_iter().collect();
         let ten: [f64; 10] = ten?.try_into().ok()?;
-        impossible(&Inertial::from(ten)).map(|reason| format!("{name}: {reason}"))
+        let (reason, what, value, unit) = impossible(&Inertial::from(ten))?;
+        let said = format!("{kind}`{name}`: {reason}");
+        Some((said, vec![Quantity::of(what, &name, value, unit)]))
     });
     let findings = findings.collect();
     let scope = format!("{count}: mass spread over space");
     Some(Check::new("bodies", scope, findings))
 }
 
-/// Why no body has these parameters.
-fn impossible(inertial: &Inertial) -> Option<String> {
+/// Why no body has these parameters, and the number that shows it.
+fn impossible(inertial: &Inertial) -> Option<(String, &'static str, f64, &'static str)> {
     let mass = inertial.mass;
     let [ixx, _, _, iyy, _, izz] = inertial.inertia;
     if mass < 0.0 {
-        return Some(format!("a mass of {} kg", rounded(mass)));
+        return Some((
+            format!("a mass of {} kg", rounded(mass)),
+            "mass",
+            mass,
+            "kg",
+        ));
     }
     let first = inertial.first_moments;
     let Some(moments) = inertial.second_moments() else {
         let is_nothing = first.iter().chain(&inertial.inertia).all(|x| *x == 0.0);
-        return (!is_nothing).then(|| "no mass, and moments of mass all the same".to_owned());
+        let said = "no mass, and moments of mass all the same".to_owned();
+        return (!is_nothing).then_some((said, "mass", mass, "kg"));
     };
     let spread = moments.symmetric_eigenvalues();
     let about_origin = inertial.pseudo_inertia().fixed_view::<3, 3>(0, 0).norm();
@@ -82,10 +90,9 @@ fn impossible(inertial: &Inertial) -> Option<String> {
     } else {
         "about the center of mass a moment of inertia exceeds the sum of the other two".to_owned()
     };
-    Some(format!(
-        "{why}: least second moment of mass {:.3e} kg m^2",
-        spread.min()
-    ))
+    let least = spread.min();
+    let said = format!("{why}: least second moment of mass {least:.3e} kg m^2");
+    Some((said, "least_second_moment", least, "kg m^2"))
 }
 
 /// Base parameters that would have to be others, were every link a body.
@@ -130,7 +137,7 @@ fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
 }
 
 /// A search that has come to no end says nothing of the values.
-fn judged(scope: String, findings: Option<Vec<String>>) -> Check {
+fn judged(scope: String, findings: Option<Vec<Finding>>) -> Check {
     match findings {
         Some(findings) => Check::new("bodies", scope, findings),
         None => Check::undecided(
@@ -148,24 +155,26 @@ fn missed(
     [beta, nearest, deviations]: [&[f64]; 3],
     least: f64,
     is_rigid: &dyn Fn(usize) -> bool,
-) -> Vec<String> {
+) -> Vec<Finding> {
     let pairs = beta.iter().zip(nearest).zip(deviations);
     let missed = pairs.map(|((value, near), deviation)| (value - near).abs() / deviation);
     let mut missed: Vec<(f64, usize)> = missed.zip(0..).collect();
     missed.retain(|&(missed, column)| missed > least && is_rigid(column));
     missed.sort_by(|x, y| y.0.total_cmp(&x.0));
-    let mut findings: Vec<String> = missed
+    let mut findings: Vec<Finding> = missed
         .iter()
         .take(SHOWN)
         .map(|&(_, k)| {
-            format!(
-                "`{}` is {:.4}; of arms whose links have bodies the nearest has {:.4}",
-                compiled.base.names[k], beta[k], nearest[k]
-            )
+            let name = &compiled.base.names[k];
+            let said = format!(
+                "`{name}` is {:.4}; of arms whose links have bodies the nearest has {:.4}",
+                beta[k], nearest[k]
+            );
+            (said, vec![Quantity::of("nearest", name, nearest[k], "")])
         })
         .collect();
     if missed.len() > SHOWN {
-        findings.push(format!("and {} more", missed.len() - SHOWN));
+        findings.push((format!("and {} more", missed.len() - SHOWN), Vec::new()));
     }
     findings
 }
@@ -179,6 +188,9 @@ mod tests {
         let passed = |findings| judged(String::new(), findings).passed;
         assert_eq!(passed(None), None);
         assert_eq!(passed(Some(Vec::new())), Some(true));
-        assert_eq!(passed(Some(vec!["`a.mx`".to_owned()])), Some(false));
+        assert_eq!(
+            passed(Some(vec![("`a.mx`".to_owned(), Vec::new())])),
+            Some(false)
+        );
     }
 }

@@ -3,8 +3,8 @@
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::JointKind;
 
-use super::Check;
 use super::friction::{Effects, fastest};
+use super::{Check, Quantity};
 use crate::parameters::Values;
 
 /// `None` where the spec has no torque limits.
@@ -23,10 +23,13 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
             JointKind::Revolute => "N m",
         };
         (hold > most).then(|| {
-            format!(
-                "joint `{}` is held by {hold:.4} {unit} of friction, and its motor has {most:.4} {unit}: it would not move",
-                joint.name
-            )
+            let name = &joint.name;
+            let said = format!(
+                "joint `{name}` is held by {hold:.4} {unit} of friction, and its motor has {most:.4} {unit}: it would not move"
+            );
+            let own = [("friction", hold), ("largest_torque", most)];
+            let own = own.map(|(what, value)| Quantity::of(what, name, value, unit));
+            (said, own.to_vec())
         })
     });
     let findings = findings.collect();

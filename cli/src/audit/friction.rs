@@ -8,8 +8,8 @@ use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::states::StateProgram;
 use robot_model_spec::model::JointKind;
 
-use super::Check;
 use super::inertia::{pose, workspace};
+use super::{Check, Quantity};
 use crate::interpreted::states;
 use crate::parameters::Values;
 
@@ -58,12 +58,16 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
         let mut alone = vec![0.0; joints.len()];
         alone[joint] = fastest[joint];
         if let Some(Gain { share, power }) = worst(&alone) {
-            findings.push(format!(
-                "joint `{}` is driven by its effects from {:.3} {} on: up to {power:.3e} W there and back",
-                declared.name,
-                share * fastest[joint],
+            let (name, from) = (&declared.name, share * fastest[joint]);
+            let said = format!(
+                "joint `{name}` is driven by its effects from {from:.3} {} on: up to {power:.3e} W there and back",
                 unit(joint)
-            ));
+            );
+            let own = [
+                Quantity::of("driven_from", name, from, unit(joint)),
+                Quantity::of("power", name, power, "W"),
+            ];
+            findings.push((said, own.to_vec()));
         }
     }
     // Joints that are no trouble alone may drive each other.
@@ -78,10 +82,16 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
                 .iter()
                 .map(|speed| format!("{:.3}", share * speed))
                 .collect();
-            findings.push(format!(
+            let said = format!(
                 "joints drive each other where they move together at [{}]: up to {power:.3e} W there and back",
                 speeds.join(", ")
-            ));
+            );
+            let each = direction.iter().enumerate().map(|(joint, speed)| {
+                let name = &joints[joint].name;
+                Quantity::of("driven_from", name, share * speed, unit(joint))
+            });
+            let power = Quantity::of_all("power", power, "W");
+            findings.push((said, each.chain([power]).collect()));
         }
     }
     let scope: Vec<String> = fastest

@@ -6,7 +6,7 @@ use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Program;
 use robot_model_spec::model::JointKind;
 
-use super::Check;
+use super::{Check, Quantity};
 use crate::parameters::Values;
 
 /// Poses that are looked at, and the worst of them from which the search goes on.
@@ -49,16 +49,22 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     let findings = if least > rounding {
         Vec::new()
     } else if least >= -rounding {
-        vec![format!(
-            "the inertia is singular: nothing resists some motion at q = [{}]",
-            at.join(", ")
-        )]
+        let at = at.join(", ");
+        let said = format!("the inertia is singular: nothing resists some motion at q = [{at}]");
+        vec![(said, Vec::new())]
     } else {
-        vec![format!(
+        let said = format!(
             "the inertia is not positive definite: least eigenvalue {found}; an arm there would run away from what pushes it"
-        )]
+        );
+        vec![(said, Vec::new())]
     };
-    Check::new("inertia", scope, findings)
+    let mut check = Check::new("inertia", scope, findings);
+    // Told whether it speaks against the arm or not; units differ where slides are among the joints.
+    let least = Quantity::of_all("least_eigenvalue", least, "");
+    let joints = compiled.model.joints.iter().zip(&pose);
+    let at = joints.map(|(joint, q)| Quantity::of("position", &joint.name, *q, ""));
+    check.quantities = std::iter::once(least).chain(at).collect();
+    check
 }
 
 /// Ranges of the joints.

@@ -10,8 +10,8 @@ use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::states::StateProgram;
 use robot_model_spec::model::JointKind;
 
-use super::Check;
 use super::friction::fastest;
+use super::{Check, Quantity};
 use crate::interpreted::states;
 use crate::parameters::Values;
 
@@ -70,12 +70,13 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
             JointKind::Prismatic => ("m", "m/s"),
             JointKind::Revolute => ("rad", "rad/s"),
         };
-        Some(format!(
-            "joint `{}` is driven by what its effects remember: over and over {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \
+        let name = &joints[joint].name;
+        let said = format!(
+            "joint `{name}` is driven by what its effects remember: over and over {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \
              they give {gain:.2e} J a turn",
-            joints[joint].name,
             speed / SLOWER as f64
-        ))
+        );
+        Some((said, vec![Quantity::of("work", name, gain, "J")]))
     });
     let findings = findings.collect();
     let scope = format!(

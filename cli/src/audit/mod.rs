@@ -43,7 +43,7 @@ struct Report<'a> {
 }
 
 /// One question, and what speaks against it.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
     /// `bodies`, `signs`, `inertia`, `friction`, `memory`, `drives`, `rank`.
     pub name: &'static str,
@@ -53,7 +53,44 @@ pub struct Check {
     pub scope: String,
     /// What is wrong; of `rank` what cannot be known.
     pub findings: Vec<String>,
+    /// The numbers that these sentences say, unrounded.
+    pub quantities: Vec<Quantity>,
 }
+
+/// A number of a [`Check`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Quantity {
+    /// `mass`, `least_second_moment`, `nearest` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
+    /// (friction); `work` (memory); `friction`, `largest_torque` (drives); `base_parameters`, `parameters` (rank).
+    pub what: &'static str,
+    /// The link, joint or parameter that it is of; none where it is of the whole arm.
+    pub of: Option<String>,
+    /// In SI units.
+    pub value: f64,
+    /// Of the value; empty where it has none or the spec's parameter says it.
+    pub unit: &'static str,
+}
+
+impl Quantity {
+    fn of(what: &'static str, of: &str, value: f64, unit: &'static str) -> Self {
+        Self {
+            of: Some(of.to_owned()),
+            ..Self::of_all(what, value, unit)
+        }
+    }
+
+    fn of_all(what: &'static str, value: f64, unit: &'static str) -> Self {
+        Self {
+            what,
+            of: None,
+            value,
+            unit,
+        }
+    }
+}
+
+/// A sentence and the numbers in it.
+type Finding = (String, Vec<Quantity>);
 
 /// All checks of an arm with parameters by name, standard or all base parameters; nominal values of the spec for those that are
 /// not given.
@@ -79,12 +116,15 @@ fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
 }
 
 impl Check {
-    fn new(name: &'static str, scope: String, findings: Vec<String>) -> Self {
+    fn new(name: &'static str, scope: String, findings: Vec<Finding>) -> Self {
+        let (findings, quantities): (Vec<String>, Vec<Vec<Quantity>>) =
+            findings.into_iter().unzip();
         Self {
             name,
             passed: Some(findings.is_empty()),
             scope,
             findings,
+            quantities: quantities.into_iter().flatten().collect(),
         }
     }
 
@@ -94,7 +134,16 @@ impl Check {
             passed: None,
             scope,
             findings: vec![reason.to_owned()],
+            quantities: Vec::new(),
         }
+    }
+
+    /// The number of this kind, of a link, joint or parameter or of the whole arm.
+    #[must_use]
+    pub fn quantity(&self, what: &str, of: Option<&str>) -> Option<f64> {
+        let mut quantities = self.quantities.iter();
+        let found = quantities.find(|one| one.what == what && one.of.as_deref() == of)?;
+        Some(found.value)
     }
 }
 
@@ -161,8 +210,9 @@ fn signs(compiled: &Compiled, values: &Values) -> Check {
     };
     let findings = all.iter().filter_map(|&k| {
         let value = value(k).filter(|value| *value < 0.0)?;
-        let value = rounded(value);
-        Some(format!("`{}` is {value}", compiled.standard[k].name))
+        let name = &compiled.standard[k].name;
+        let said = format!("`{name}` is {}", rounded(value));
+        Some((said, vec![Quantity::of("value", name, value, "")]))
     });
     let findings = findings.collect();
     let scope = format!(
@@ -200,6 +250,10 @@ fn rank(compiled: &Compiled) -> Check {
             counted(known, "parameter")
         ),
         findings,
+        quantities: vec![
+            Quantity::of_all("base_parameters", base.kept.len() as f64, ""),
+            Quantity::of_all("parameters", known as f64, ""),
+        ],
     }
 }
 

@@ -1,31 +1,20 @@
-//! Figures as SVG: lines and dots between axes, with a key.
-
-use std::ops::Range;
-
-use plotters::prelude::*;
-
-const SIZE: (u32, u32) = (720, 440);
-const GRID: RGBColor = RGBColor(225, 225, 225);
-/// Told apart by those who do not see all colors (Okabe & Ito 2008).
-const COLORS: [RGBColor; 6] = [
-    RGBColor(0, 114, 178),
-    RGBColor(213, 94, 0),
-    RGBColor(0, 158, 115),
-    RGBColor(204, 121, 167),
-    RGBColor(86, 180, 233),
-    RGBColor(80, 80, 80),
-];
-
-/// A string takes whatever is drawn on it.
-const DRAWN: &str = "drawing on a string does not fail";
+//! A figure: series between two axes, drawn by `drawing.rs`.
 
 /// How points of a series are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// A line through them.
     Line,
+    /// A broad, pale line through them, on which another one is seen.
+    Broad,
     /// A dot at each.
     Dots,
+    /// A bar from zero to each.
+    Bars,
+    /// The area that they enclose.
+    Band,
+    /// A box plot for every five: least value, quartiles, largest value at one place.
+    Boxes,
 }
 
 /// Points that belong together.
@@ -42,7 +31,7 @@ pub struct Series {
 /// One drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// Name of its file, without an extension.
+    /// Name of its file, without an extension: `figure_NN`, or a word.
     pub name: String,
     /// What it shows.
     pub title: String,
@@ -50,7 +39,7 @@ pub struct Figure {
     pub x: String,
     /// What stands along the axis upward, with its unit.
     pub y: String,
-    /// What is drawn.
+    /// What is drawn, the first one below the others.
     pub series: Vec<Series>,
 }
 
@@ -87,91 +76,27 @@ impl Figure {
         self
     }
 
-    /// The drawing; points that are not finite are left out.
+    /// The figure with the area between two curves: `[place, low, high]`.
     #[must_use]
-    pub fn svg(&self) -> String {
-        let points = || self.series.iter().flat_map(|series| finite(&series.points));
-        let (x, y) = (roomy(points().map(|p| p.0)), roomy(points().map(|p| p.1)));
-        let mut text = String::new();
-        {
-            let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-            root.fill(&WHITE).expect(DRAWN);
-            let mut chart = ChartBuilder::on(&root)
-                .caption(&self.title, ("sans-serif", 16))
-                .margin(10)
-                .x_label_area_size(40)
-                .y_label_area_size(64)
-                .build_cartesian_2d(x, y)
-                .expect(DRAWN);
-            chart
-                .configure_mesh()
-                .light_line_style(TRANSPARENT)
-                .bold_line_style(GRID)
-                .axis_style(BLACK.mix(0.5))
-                .x_desc(&self.x)
-                .y_desc(&self.y)
-                .label_style(("sans-serif", 12))
-                .draw()
-                .expect(DRAWN);
-            for (k, series) in self.series.iter().enumerate() {
-                let color = COLORS[k % COLORS.len()];
-                let points = finite(&series.points);
-                let drawn = match series.mark {
-                    Mark::Line => chart
-                        .draw_series(LineSeries::new(points, color.stroke_width(2)))
-                        .expect(DRAWN),
-                    Mark::Dots => chart
-                        .draw_series(points.map(|at| Circle::new(at, 2, color.filled())))
-                        .expect(DRAWN),
-                };
-                drawn.label(&series.name).legend(move |(x, y)| {
-                    Rectangle::new([(x, y - 1), (x + 14, y + 2)], color.filled())
-                });
-            }
-            chart
-                .configure_series_labels()
-                .background_style(WHITE.mix(0.8))
-                .border_style(GRID)
-                .label_font(("sans-serif", 12))
-                .draw()
-                .expect(DRAWN);
-            root.present().expect(DRAWN);
-        }
-        text
+    pub fn with_band(
+        self,
+        name: impl Into<String>,
+        between: impl IntoIterator<Item = [f64; 3]>,
+    ) -> Self {
+        let between: Vec<[f64; 3]> = between.into_iter().collect();
+        let above = between.iter().map(|[x, _, high]| (*x, *high));
+        let below = between.iter().rev().map(|[x, low, _]| (*x, *low));
+        self.with(name, Mark::Band, above.chain(below).collect::<Vec<_>>())
     }
-}
 
-fn finite(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
-    let points = points.iter().copied();
-    points.filter(|(x, y)| x.is_finite() && y.is_finite())
-}
-
-/// The values with some room.
-fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
-    if low > high {
-        return 0.0..1.0;
-    }
-    let room = (0.05 * (high - low)).max(1e-9 * high.abs().max(1.0));
-    low - room..high + room
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_figure_says_what_it_shows_and_leaves_out_what_is_no_number() {
-        let figure = Figure::new("fall", "a fall", "time, s", "angle, rad")
-            .with("measured", Mark::Dots, [(0.0, 1.0), (1.0, f64::NAN)])
-            .with("simulated", Mark::Line, [(0.0, 1.0), (1.0, 0.5)]);
-        let svg = figure.svg();
-        for word in ["a fall", "time, s", "angle, rad", "measured", "simulated"] {
-            assert!(svg.contains(word), "{word}");
-        }
-        assert_eq!(svg.matches("<circle").count(), 1, "{svg}");
-        assert!(!svg.contains("NaN"));
+    /// The figure with box plots: a place, and least value, quartiles and largest value there.
+    #[must_use]
+    pub fn with_boxes(
+        self,
+        name: impl Into<String>,
+        boxes: impl IntoIterator<Item = (f64, [f64; 5])>,
+    ) -> Self {
+        let points = boxes.into_iter().flat_map(|(x, five)| five.map(|y| (x, y)));
+        self.with(name, Mark::Boxes, points.collect::<Vec<_>>())
     }
 }

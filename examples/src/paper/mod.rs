@@ -1,17 +1,26 @@
 //! What a paper says beside what came out here, on a terminal, as Markdown, and drawn.
 
+mod audited;
+mod drawing;
 mod figure;
 mod integrator;
+pub mod numbers;
+mod page;
 mod program;
 mod row;
+mod sensor;
+mod spec;
 mod table;
 
 use std::fmt;
 
+pub use audited::Audited;
 pub use figure::{Figure, Mark, Series};
 pub use integrator::rk4;
 pub use program::main;
 pub use row::{Row, Status};
+pub use sensor::{normal, rounded};
+pub use spec::{compiled, interpreted};
 pub use table::Table;
 
 /// An error of any of the libraries.
@@ -31,48 +40,28 @@ pub struct Paper {
 }
 
 impl Paper {
-    /// As text for `docs/papers`.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        let tables: Vec<String> = self.tables.iter().map(Table::markdown).collect();
-        format!(
-            "{}\n{}",
-            tables.join("\n"),
-            row::table(&self.rows).markdown()
-        )
-    }
-
-    /// What a page of the docs says otherwise than the program: items with another outcome, or without a line of the table.
-    ///
-    /// A line is `| item | what | printed | here | outcome |`; numbers may differ in their last digits from one machine to
-    /// another, outcomes may not.
-    #[must_use]
-    pub fn differences(&self, page: &str) -> Vec<String> {
-        let lines = || page.lines().filter(|line| line.starts_with('|'));
-        let says = |row: &&Row| {
-            let outcome = format!("| {} |", row.status);
-            let item = format!("| {} |", row.item);
-            lines().any(|line| line.starts_with(&item) && line.ends_with(&outcome))
-        };
-        let otherwise = self.rows.iter().filter(|row| !says(row));
-        otherwise
-            .map(|row| format!("{}: {}", row.item, row.status))
-            .collect()
-    }
-
     /// The row with this number.
     #[must_use]
     pub fn row(&self, item: &str) -> Option<&Row> {
         self.rows.iter().find(|row| row.item == item)
     }
+
+    /// Numbers of the rows that are not reached, and of those that are impossible as printed.
+    #[must_use]
+    pub fn failing(&self) -> [Vec<&'static str>; 2] {
+        let of = |wanted: fn(&Status) -> bool| {
+            let rows = self.rows.iter().filter(|row| wanted(&row.status));
+            rows.map(|row| row.item).collect()
+        };
+        [
+            of(|status| matches!(status, Status::NotReached(_))),
+            of(|status| matches!(status, Status::Impossible(_))),
+        ]
+    }
 }
 
 impl fmt::Display for Paper {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{}\n", self.title)?;
-        for table in &self.tables {
-            writeln!(f, "{table}")?;
-        }
-        write!(f, "{}", row::table(&self.rows))
+        f.write_str(&self.text())
     }
 }

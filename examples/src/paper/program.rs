@@ -1,7 +1,7 @@
 //! What the program of every paper does: run, print, draw.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
@@ -17,6 +17,9 @@ struct Options {
     /// Print tables as Markdown, as the docs have them.
     #[arg(long)]
     markdown: bool,
+    /// Write the tables, the items and the figures that this page of the docs shows anew.
+    #[arg(long, value_name = "FILE.md")]
+    page: Option<PathBuf>,
 }
 
 /// Runs the paper of this name and prints it. Returns the exit code: 1 where a library or a file says no.
@@ -40,6 +43,9 @@ pub fn main(name: &str, run: impl Fn() -> Result<Paper, Error>) -> ExitCode {
                 figure.svg(),
             )?;
         }
+        if let Some(page) = &options.page {
+            rewrite(page, name, &paper)?;
+        }
         Ok(paper)
     });
     match done {
@@ -51,4 +57,17 @@ pub fn main(name: &str, run: impl Fn() -> Result<Paper, Error>) -> ExitCode {
         }
     }
     ExitCode::SUCCESS
+}
+
+/// The figures of a page stand beside it, `figures/NAME_FIGURE.svg`.
+fn rewrite(page: &Path, name: &str, paper: &Paper) -> Result<(), Error> {
+    let text = paper.rewritten(&fs::read_to_string(page)?);
+    for figure in &paper.figures {
+        let file = format!("figures/{name}_{}.svg", figure.name);
+        if text.contains(&format!("({file})")) {
+            fs::write(page.with_file_name(file), figure.svg())?;
+        }
+    }
+    fs::write(page, text)?;
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::Table;
+use super::table::wrapped;
 
 /// What became of an item.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,12 +16,24 @@ pub enum Status {
     Impossible(String),
 }
 
+impl Status {
+    /// In two or three words.
+    #[must_use]
+    pub fn short(&self) -> &'static str {
+        match self {
+            Self::Reached => "reached",
+            Self::NotReached(_) => "not reached",
+            Self::Impossible(_) => "impossible as printed",
+        }
+    }
+}
+
 impl fmt::Display for Status {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.short())?;
         match self {
-            Self::Reached => f.write_str("reached"),
-            Self::NotReached(why) => write!(f, "not reached: {why}"),
-            Self::Impossible(why) => write!(f, "impossible as printed: {why}"),
+            Self::Reached => Ok(()),
+            Self::NotReached(why) | Self::Impossible(why) => write!(f, ": {why}"),
         }
     }
 }
@@ -86,22 +99,54 @@ impl Row {
             status,
         }
     }
+
+    /// What is told of it, each under a word.
+    fn parts(&self) -> [(&'static str, String); 3] {
+        [
+            ("printed", self.printed.clone()),
+            ("here", self.ours.clone()),
+            ("outcome", self.status.to_string()),
+        ]
+    }
+
+    /// As an entry of a list in Markdown.
+    pub(super) fn markdown(&self) -> String {
+        let start = format!("- **{}**, {}", self.item, escaped(&self.what));
+        let start = wrapped(&start, LINE).join("\n  ") + "\n";
+        let parts = self.parts().map(|(word, part)| {
+            let lines = wrapped(&format!("{word}: {}", escaped(&part)), LINE);
+            format!("  - {}\n", lines.join("\n    "))
+        });
+        start + &parts.concat()
+    }
+
+    /// As a block for a terminal.
+    pub(super) fn block(&self) -> String {
+        let width = super::table::WIDTH - INDENT.len();
+        let what = format!("{}  {}", self.item, self.what);
+        let what = wrapped(&what, width).join(&format!("\n{INDENT}"));
+        let parts = self.parts().map(|(word, part)| {
+            let lines = wrapped(&format!("{word}: {part}"), width);
+            format!("{INDENT}{}\n", lines.join(&format!("\n{INDENT}  ")))
+        });
+        format!("  {what}\n{}", parts.concat())
+    }
 }
 
-/// All items as a table.
+/// Letters of a line in Markdown, and what comes before a line of a block.
+const LINE: usize = 120;
+const INDENT: &str = "    ";
+
+/// What Markdown would take for emphasis.
+fn escaped(text: &str) -> String {
+    text.replace('*', "\\*")
+}
+
+/// All items and their outcomes as a table.
 pub(super) fn table(rows: &[Row]) -> Table {
-    let mut table = Table::new(
-        "Item by item",
-        ["item", "what", "printed", "here", "outcome"],
-    );
+    let mut table = Table::new("Item by item", ["item", "what", "outcome"]);
     for row in rows {
-        table.push([
-            row.item.to_owned(),
-            row.what.clone(),
-            row.printed.clone(),
-            row.ours.clone(),
-            row.status.to_string(),
-        ]);
+        table.push([row.item, &row.what, row.status.short()]);
     }
     table
 }

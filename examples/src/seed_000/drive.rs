@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::calibrate::StaticGain;
 
 use super::plant::{POSITION_NOISE, POSITION_STEPS, differences};
 use super::truth::{RATE, SAMPLES};
-use crate::paper::Error;
+use crate::paper::{Error, normal, rounded};
 
 /// Torque of the joint over the current, N m/A. The paper prints none; this is of the size of a PUMA's second joint.
 pub const GAIN: f64 = 24.0;
@@ -31,11 +30,6 @@ pub struct Static {
     pub line: StaticGain,
 }
 
-fn noise(random: &mut ChaCha8Rng, size: f64) -> f64 {
-    let x: f64 = StandardNormal.sample(random);
-    size * x
-}
-
 /// Forces of the blocked, level arm at a dozen currents.
 ///
 /// # Errors
@@ -43,7 +37,7 @@ fn noise(random: &mut ChaCha8Rng, size: f64) -> f64 {
 pub fn calibrated(seed: u64) -> Result<Static, Error> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let current: Vec<f64> = (1..=12).map(|k| 0.3 * f64::from(k)).collect();
-    let force = |i: &f64| GAIN * i / DISTANCE + noise(&mut random, GAUGE_NOISE);
+    let force = |i: &f64| GAIN * i / DISTANCE + GAUGE_NOISE * normal(&mut random);
     let torque: Vec<f64> = current.iter().map(force).map(|f| DISTANCE * f).collect();
     let line = StaticGain::fit(&current, &torque)?;
     Ok(Static {
@@ -60,7 +54,7 @@ pub fn noise_gain(seed: u64) -> f64 {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let step = TAU / POSITION_STEPS;
     let y: Vec<f64> = (0..SAMPLES)
-        .map(|_| (noise(&mut random, POSITION_NOISE) / step).round() * step)
+        .map(|_| rounded(POSITION_NOISE * normal(&mut random), step))
         .collect();
     let size = |values: &[f64]| {
         let mean = values.iter().sum::<f64>() / values.len() as f64;

@@ -2,7 +2,7 @@
 
 use super::Findings;
 use super::fits::digits;
-use super::motion::Change;
+use super::sensitivity::Change;
 use super::truth::RATE;
 use crate::paper::{Figure, Mark, Table};
 
@@ -58,7 +58,7 @@ pub fn figures(findings: &Findings) -> Vec<Figure> {
         let pairs = data.time.iter().copied().zip(values.iter().copied());
         pairs.collect()
     };
-    let name = |number: u32| format!("seed_000_{number:02}");
+    let name = |number: u32| format!("figure_{number:02}");
     let forces = statics.current.iter().copied();
     let line = [0.0, 4.0].map(|i| (i, statics.line.torque(i).value));
     let mut figures = vec![

@@ -7,7 +7,7 @@ use robot_model::identify::output_error::{
 use super::data::Data;
 use super::law::{LAWS, Law};
 use super::truth::{Line, TABLE_1, TABLE_2};
-use crate::paper::{Error, Table};
+use crate::paper::{Error, Table, rounded};
 
 /// Iterations at most: the paper's longest search has 14.
 const ITERATIONS: usize = 20;
@@ -40,6 +40,10 @@ pub fn listed(values: &[f64]) -> String {
 #[must_use]
 pub fn digits(cost: f64) -> String {
     match cost {
+        1000.0.. => {
+            let unit = 10_f64.powf(cost.log10().floor() - 2.0);
+            format!("{:.0}.", rounded(cost, unit))
+        }
         100.0.. => format!("{cost:.0}."),
         1.0.. => format!("{cost:.2}"),
         0.01.. => format!("{cost:.3}"),
@@ -195,7 +199,8 @@ impl Tables {
     #[must_use]
     pub fn beside(&self) -> Vec<Table> {
         let first = self.first.iter().zip(TABLE_1);
-        let first = first.map(|(fit, lines)| fit.table("Table 1, model (5.1)", lines));
+        // The upright arm multiplies rounding, which differs from machine to machine.
+        let first = first.map(|(fit, lines)| fit.table("Table 1, model (5.1)", lines).rough());
         let second = self.second.iter().zip(TABLE_2);
         let second = second.map(|(fit, lines)| fit.table("Table 2, model (5.2)", lines));
         first.chain(second).collect()

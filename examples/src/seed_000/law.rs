@@ -1,10 +1,10 @@
 //! The three laws of friction, named in the spec's text and compiled while the program runs.
 
-use robot_model_codegen::{Compiled, compile_model};
+use robot_model_codegen::Compiled;
 use robot_model_spec::amend::{Amendment, amend};
 
 use super::words::{InWords, in_words};
-use crate::paper::Error;
+use crate::paper::{Error, compiled};
 
 /// The rigid arm and the three laws, none of which it declares.
 pub const SHOULDER: &str = include_str!("shoulder.robot");
@@ -61,7 +61,8 @@ impl Law {
             joints: vec!["th".to_owned()],
             shapes: Vec::new(),
         };
-        compiled(&amend("shoulder.robot", SHOULDER, &[amendment])?)
+        let text = amend("shoulder.robot", SHOULDER, &[amendment])?;
+        compiled("shoulder.robot", &text)
     }
 
     /// The same as a plant, with `[alpha, beta, c..]`.
@@ -71,15 +72,4 @@ impl Law {
     pub fn plant(self, values: &[f64]) -> Result<InWords, Error> {
         in_words(self.compiled()?, values)
     }
-}
-
-/// Text to equations.
-///
-/// # Errors
-/// Mistakes of the text.
-pub fn compiled(text: &str) -> Result<Compiled, Error> {
-    Ok(compile_model(&robot_model_spec::load(
-        "shoulder.robot",
-        text,
-    )?))
 }

@@ -3,10 +3,9 @@
 //! Which sum of friction and back-EMF a voltage tells is the compiler's to say: of `motor.robot` it makes base parameters, and these are
 //! compared.
 
-use super::law::compiled;
 use super::truth::{ARM, BACK_EMF, ROUNDING, TABLE_1, TABLE_2};
 use super::words::{GRAVITY, INERTIA};
-use crate::paper::{Error, Table};
+use crate::paper::{Error, Table, compiled};
 
 const MOTOR: &str = include_str!("motor.robot");
 
@@ -25,7 +24,7 @@ pub struct Pair {
 
 /// Base parameters of the motor's spec for `[alpha, beta, c1, c2]` of model (5.1), in the paper's words.
 fn of_model_5_2([alpha, beta, c1, c2]: [f64; 4]) -> Result<Vec<(String, f64)>, Error> {
-    let motor = compiled(MOTOR)?;
+    let motor = compiled("motor.robot", MOTOR)?;
     let standard = motor.standard.iter().map(|parameter| {
         let name = parameter.name.as_str();
         match name {

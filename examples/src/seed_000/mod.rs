@@ -14,7 +14,10 @@ mod motion;
 mod plant;
 mod rows;
 mod scale;
+mod sensitivity;
+mod slopes;
 mod truth;
+mod turns;
 mod words;
 
 pub use data::Data;
@@ -22,10 +25,12 @@ pub use drive::{GAIN, Static, calibrated, noise_gain, white_gain};
 pub use fits::{Fit, Tables, cost};
 pub use law::{LAWS, Law};
 pub use misprint::{Pair, pairs, start};
-pub use motion::{Change, Turns, changes, slope_errors, turns, upright_rate};
 pub use plant::Experiment;
 pub use scale::{FACTORS, Told, costs_by_factor, told};
+pub use sensitivity::{Change, changes};
+pub use slopes::{slope_errors, upright_rate};
 pub use truth::{ARM, BACK_EMF, TABLE_1, TABLE_2};
+pub use turns::{Turns, turns};
 
 use crate::paper::{Error, Paper};
 

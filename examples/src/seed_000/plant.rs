@@ -5,10 +5,9 @@ use std::ops::Range;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
 use super::truth::{ARM, BACK_EMF, RATE, SAMPLES, WINDOW};
-use crate::paper::rk4;
+use crate::paper::{normal, rk4, rounded};
 
 /// The commanded voltage, V. It is not printed; with it the arm passes 1.67 s at about 0.76 rad/s, the velocity of Figure 10.
 pub const VOLTS: f64 = 1.75;
@@ -122,10 +121,6 @@ impl Experiment {
     /// The same under a voltage of one's own, by time and angle at each sample.
     pub fn under(seed: u64, mut command: impl FnMut(f64, f64) -> f64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let mut noise = |size: f64| -> f64 {
-            let x: f64 = StandardNormal.sample(&mut random);
-            size * x
-        };
         let mut done = Self::default();
         let mut state = [0.0, 0.0];
         for k in 0..SAMPLES {
@@ -136,9 +131,9 @@ impl Experiment {
             done.angle.push(angle);
             done.velocity.push(velocity);
             done.command.push(v);
-            let y = angle + noise(POSITION_NOISE);
+            let y = angle + POSITION_NOISE * normal(&mut random);
             done.y.push(rounded(y, TAU / POSITION_STEPS));
-            let u = v - BACK_EMF * velocity + noise(VOLTAGE_NOISE);
+            let u = v - BACK_EMF * velocity + VOLTAGE_NOISE * normal(&mut random);
             done.u.push(rounded(u, VOLTAGE_STEP));
             state = SHOULDER.sample_later(state, v);
         }
@@ -151,10 +146,6 @@ impl Experiment {
         let before = |edge: f64| self.time.iter().filter(|t| **t < edge - 0.5 / RATE).count();
         before(WINDOW[0])..before(WINDOW[1]) + 1
     }
-}
-
-fn rounded(x: f64, step: f64) -> f64 {
-    (x / step).round() * step
 }
 
 /// `(y_k - y_(k-1)) / t_s`, 0 at the first sample: the paper's velocity.

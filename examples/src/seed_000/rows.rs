@@ -2,7 +2,7 @@
 
 use super::drive::{GAIN, white_gain};
 use super::fits::{Fit, digits, listed};
-use super::truth::{ARM, BACK_EMF, STATIC_R, TABLE_1, TABLE_2};
+use super::truth::{ARM, BACK_EMF, RATE, STATIC_R, TABLE_1, TABLE_2};
 use super::words::{GRAVITY, INERTIA};
 use super::{Findings, Law};
 use crate::paper::{Error, Row};
@@ -10,9 +10,14 @@ use crate::paper::{Error, Row};
 /// A cost that no search of model (5.1) comes below, and all of model (5.2) do.
 const FAILED: f64 = 100.0;
 
-fn costs(fits: &[Fit]) -> String {
+fn costs(fits: &[Fit], digits: fn(f64) -> String) -> String {
     let costs: Vec<String> = fits.iter().map(|fit| digits(fit.cost())).collect();
     costs.join(", ")
+}
+
+/// A cost of model (5.1), of which rounding leaves one digit.
+fn rough(cost: f64) -> String {
+    format!("{cost:.0e}")
 }
 
 /// All items.
@@ -37,12 +42,9 @@ fn model(found: &Findings) -> Result<Vec<Row>, Error> {
     let [plain, dry] = &found.turns;
     let is_through = |turns: &super::Turns| turns.apart < 1e-6 && turns.steps < 100.0;
     let slope = found.slope_errors.iter().copied().fold(0.0, f64::max);
-    let falls = |fits: &[Fit]| {
-        let iterates = fits.iter().map(|fit| &fit.iterates);
-        iterates
-            .flat_map(|iterates| iterates.windows(2))
-            .all(|pair| pair[1].cost <= pair[0].cost)
-    };
+    let all = found.tables.first.iter().chain(second);
+    let steps = all.flat_map(|fit| fit.iterates.windows(2));
+    let rises = steps.filter(|pair| pair[1].cost > pair[0].cost).count();
     let data = &found.data;
     let free = found.tables.free.found.clone()?;
     let truth = found.experiment.velocity[data.window.start];
@@ -84,8 +86,11 @@ fn model(found: &Findings) -> Result<Vec<Row>, Error> {
             "0.4",
             "Levenberg-Marquardt with exact slopes; their error beside differences",
             "finite differences",
-            format!("{slope:.0e} of the largest; costs of iterates fall"),
-            slope < 1e-3 && falls(&found.tables.first) && falls(second),
+            format!(
+                "{slope:.0e} of the largest; costs of iterates rise in {rises} steps of {} searches",
+                found.tables.first.len() + second.len()
+            ),
+            slope < 1e-3 && rises == 0,
             "slopes are off, or a step went up",
         ),
         Row::holds(
@@ -135,7 +140,7 @@ fn searches(found: &Findings) -> Vec<Row> {
             printed(TABLE_1),
             format!(
                 "{}; directional in windows of 1 s: {}",
-                costs(first),
+                costs(first, rough),
                 digits(windowed)
             ),
             first.iter().all(|fit| fit.cost() > FAILED) && windowed < 0.1,
@@ -147,7 +152,7 @@ fn searches(found: &Findings) -> Vec<Row> {
             printed(TABLE_2),
             format!(
                 "{}; {}; directional ends at {}",
-                costs(second),
+                costs(second, digits),
                 steps.join(", "),
                 listed(values)
             ),
@@ -217,10 +222,42 @@ fn measurements(found: &Findings) -> Vec<Row> {
     ]
 }
 
-/// What is wrong, and what to beware of.
-fn audit(found: &Findings) -> Vec<Row> {
+/// The number of Table 1 that is off.
+fn misprint(found: &Findings) -> Row {
     let wrong = &found.misprints.1;
     let is_that = wrong.len() == 1 && wrong[0].name == "c2" && (wrong[0].off - 1.0).abs() < 0.02;
+    Row::wrong_in_print(
+        "0.misprint",
+        "c2 where Table 1 starts, law (6.3)",
+        "4.87",
+        wrong
+            .iter()
+            .map(|pair| {
+                let start = super::start();
+                format!(
+                    "{} makes {:.2} .. {:.2} of it for {:.2}: {:+.2}, so {:.2}",
+                    pair.name,
+                    pair.made[0],
+                    pair.made[1],
+                    pair.printed,
+                    pair.off,
+                    start[3] - pair.off
+                )
+            })
+            .collect::<Vec<_>>()
+            .join("; "),
+        is_that,
+        &format!(
+            "{:.2} - {BACK_EMF} * {} is {:.2}; all other numbers of both starts agree with Table 2 within rounding",
+            ARM[3],
+            ARM[1],
+            ARM[3] - BACK_EMF * ARM[1]
+        ),
+    )
+}
+
+/// What is wrong, and what to beware of.
+fn audit(found: &Findings) -> Vec<Row> {
     let [held, straight, measured, short] = &found.told[..] else {
         unreachable!("told of four");
     };
@@ -229,7 +266,11 @@ fn audit(found: &Findings) -> Vec<Row> {
         (told.factor() - 1.0).abs() > 0.2 && ratios.iter().all(|x| (x - 1.0).abs() < 0.05)
     };
     let conditions = [held, straight, measured].map(super::Told::condition);
-    let is_flagged = conditions.iter().all(|x| x.is_some_and(|x| x * x > 1e3));
+    let is_flagged = conditions.iter().all(Option::is_some) && short.common_factor().is_none();
+    let list = |digits: fn(f64) -> String| -> String {
+        let all = conditions.map(|x| x.map_or("none".to_owned(), digits));
+        all.join(", ")
+    };
     let ratios = &held.found.ratios;
     let told: Vec<String> = ratios
         .iter()
@@ -239,44 +280,21 @@ fn audit(found: &Findings) -> Vec<Row> {
     let (few, many) = (found.by_factor[0].1, found.by_factor[3].1);
     let deviation = measured.found.std[1].unwrap_or(f64::INFINITY);
     vec![
-        Row::wrong_in_print(
-            "0.misprint",
-            "c2 where Table 1 starts, law (6.3)",
-            "4.87",
-            wrong
-                .iter()
-                .map(|pair| {
-                    let start = super::start();
-                    format!(
-                        "{} makes {:.2} .. {:.2} of it for {:.2}: {:+.2}, so {:.2}",
-                        pair.name,
-                        pair.made[0],
-                        pair.made[1],
-                        pair.printed,
-                        pair.off,
-                        start[3] - pair.off
-                    )
-                })
-                .collect::<Vec<_>>()
-                .join("; "),
-            is_that,
-            "36.00 - 1.5 * 21.42 is 3.87; all other numbers of both starts agree with Table 2 within rounding",
-        ),
+        misprint(found),
         Row::wrong_in_print(
             "0.scale",
             "alpha and beta of Table 2 by themselves",
             "12.05, 21.42",
             format!(
-                "beta is {:.2}, {:.2}, {:.2} times the true one by how the input goes between samples; common factor flagged, condition \
-                 {}, of the Hessian the square; told are {}; short swings: {:.2}, {}",
+                "beta is {:.2}, {:.2}, {:.2} times the true one by how the input goes between samples; {} of these fits flagged for a \
+                 common factor; condition of the sensitivities {}, below 1e3 in {}, of the Hessian {}; told are {}; short swings: {:.2}, {}",
                 held.factor(),
                 straight.factor(),
                 measured.factor(),
-                conditions
-                    .iter()
-                    .map(|x| x.map_or("none".to_owned(), |x| format!("{x:.0}")))
-                    .collect::<Vec<_>>()
-                    .join(", "),
+                conditions.iter().flatten().count(),
+                list(|x| format!("{x:.0}")),
+                conditions.iter().flatten().filter(|x| **x < 1e3).count(),
+                list(|x| format!("{:.0e}", x * x)),
                 told.join(", "),
                 short.factor(),
                 if short.common_factor().is_none() {
@@ -286,7 +304,10 @@ fn audit(found: &Findings) -> Vec<Row> {
                 },
             ),
             is_flagged && is_off(straight) && is_off(measured) && ratios.len() == 3,
-            "with 35 1/s of damping at 30 Hz a common factor of alpha, beta and the damping hardly shows; only their ratios do",
+            &format!(
+                "with {:.0} 1/s of damping at {RATE} Hz a common factor of alpha, beta and the damping hardly shows; only their ratios do",
+                0.5 * (ARM[2] + ARM[3])
+            ),
         ),
         Row::holds(
             "0.quadratic",
@@ -296,9 +317,9 @@ fn audit(found: &Findings) -> Vec<Row> {
             (quadratic.values()[1] / ARM[1] - 1.0).abs() > 0.2,
             "they stay",
         ),
-        Row::wrong_in_print(
+        Row::holds(
             "0.feedback",
-            "measured velocity in the input, v = u + k dy/dt",
+            "a caution, no misprint: with a measured velocity in the input, v = u + k dy/dt, the fit is nearly one of equation error",
             "output error",
             format!(
                 "cost of the wrong law (6.1), nothing fitted: {} at k = 1.5, {} at k = 12; with k = 1.5 and law (6.3) fitted beta is {:.2} +- {deviation:.2}",
@@ -307,8 +328,7 @@ fn audit(found: &Findings) -> Vec<Row> {
                 measured.found.values[1],
             ),
             many < 0.1 * few && (measured.found.values[1] - ARM[1]).abs() > 3.0 * deviation,
-            "the measured velocity leads the simulated arm, so the fit is one of equation error: its cost falls with k whatever the law, \
-             and noise and lag of differences are in the input",
+            "the cost of a wrong law does not fall with k, or beta is right",
         ),
     ]
 }

@@ -101,7 +101,10 @@ pub fn told(data: &Data) -> Result<Vec<Told>, Error> {
 #[must_use]
 pub fn table(told: &[Told]) -> Table {
     let mut table = Table::new(
-        "Law (6.3) in model (5.2), start fitted: alpha, beta, c1, c2 of the arm are 12.05, 21.42, 34.72, 36.00",
+        format!(
+            "Law (6.3) in model (5.2), start fitted: alpha, beta, c1, c2 of the arm are {}",
+            super::fits::listed(&ARM)
+        ),
         [
             "input",
             "alpha, beta, c1, c2",

@@ -150,17 +150,12 @@ pub fn fit_of(arm: &Arm, physical: &Physical) -> Result<[f64; 2], Error> {
     Ok([fit(0)?, fit(1)?])
 }
 
-/// What the library says of a search for `lambda`, which (10) looks for and the text calls the measured angles: there are as many values to
-/// start from as measured ones.
-///
-/// # Errors
-/// Those of the library: that is what is asked for.
-pub fn look_for_angles(arm: &Arm) -> Result<Result<(), OutputErrorError>, Error> {
-    let last = &exact(&HEIGHTS[HEIGHTS.len() - 1]);
-    let recordings = [recording(&last[0])?, recording(&last[1])?];
-    let angles: Vec<f64> = last.iter().flatten().flatten().copied().collect();
-    let found = look(&settings(), arm, &names(), &angles, &recordings);
-    Ok(found.map(|_| ()))
+/// How many values (10) looks for in the text, which calls what it looks for, `lambda`, the measured angles: those of both joints in both
+/// releases from the last height.
+#[must_use]
+pub fn angles() -> usize {
+    let releases = exact(&HEIGHTS[HEIGHTS.len() - 1]);
+    releases.iter().flatten().flatten().count()
 }
 
 /// Equations (7) and (8) where both `y` are outputs of the system, as the text has them, and where one is the model's.

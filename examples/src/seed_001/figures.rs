@@ -3,9 +3,9 @@
 use robot_model::identify::output_error::OutputEstimate;
 
 use super::plant::{Position, degrees};
-use super::releases::Batch;
+use super::releases::{Batch, BoxPlot};
 use super::search::Found;
-use super::truth::{HEIGHTS, NAMES, STEP};
+use super::truth::{HEIGHTS, NAMES, PULSE, STEP};
 use super::validation::Validation;
 use crate::paper::{Figure, Mark};
 
@@ -49,9 +49,15 @@ pub fn all(found: &Found, validations: &[Validation]) -> Vec<Figure> {
 
 fn starts(found: &Found, link: usize) -> Figure {
     let batches = found.batches.iter().zip(&HEIGHTS);
-    let points = batches.flat_map(|(batch, height)| {
-        let starts = batch[link].starts.iter();
-        starts.map(|start| (height.angle, start - height.angle))
+    let boxes = batches.clone().map(|(batch, height)| {
+        let own = BoxPlot::new(&batch[link].starts);
+        let [low, middle, high] = own.quartiles;
+        let five = [own.least, low, middle, high, own.most];
+        (height.angle, five.map(|start| start - height.angle))
+    });
+    let means = batches.map(|(batch, height)| {
+        let own = BoxPlot::new(&batch[link].starts);
+        (height.angle, own.mean - height.angle)
     });
     let title = format!("initial angles of twenty releases, link {}", link + 1);
     Figure::new(
@@ -60,7 +66,8 @@ fn starts(found: &Found, link: usize) -> Figure {
         "height, degrees",
         "initial angle less height, degrees",
     )
-    .with("releases", Mark::Dots, points)
+    .with_boxes("least, quartiles, largest of 20 releases", boxes)
+    .with("mean", Mark::Dots, means)
 }
 
 fn band(batch: &Batch, link: usize, height: usize) -> Figure {
@@ -70,31 +77,68 @@ fn band(batch: &Batch, link: usize, height: usize) -> Figure {
         let pairs = mean.iter().zip(&deviation);
         line(pairs.map(|(mean, std)| mean + sign * std).collect())
     };
+    let edges = edge(-1.0).into_iter().zip(edge(1.0));
+    let between = edges.map(|((t, low), (_, high))| [t, low, high]);
     let title = format!(
         "mean and deviation of twenty releases, link {}, {} degrees",
         link + 1,
         HEIGHTS[height].angle
     );
+    let times = enlarged(&deviation, &mean);
+    let enlarged = deviation.iter().map(|std| times * std).collect();
+    // Nothing is seen after the arm has come to rest but for a pulse.
+    let last = mean.iter().rposition(|angle| angle.abs() > PULSE);
+    let end = last.map_or(0.0, |sample| (sample as f64 + 200.0) * STEP);
+    let moving = |points: Vec<(f64, f64)>| points.into_iter().filter(move |(t, _)| *t <= end);
     Figure::new(name(4 + 5 * link + height), title, TIME, ANGLE)
-        .with("mean", Mark::Line, line(mean.clone()))
-        .with("mean + deviation", Mark::Line, edge(1.0))
-        .with("mean - deviation", Mark::Line, edge(-1.0))
+        .with_band(
+            "a standard deviation to each side",
+            between.filter(|[t, ..]| *t <= end),
+        )
+        .with("mean", Mark::Line, moving(line(mean.clone())))
+        .with(
+            sized("deviation", times),
+            Mark::Line,
+            moving(line(enlarged)),
+        )
 }
 
 fn beside(own: &Validation, number: usize, what: &str, model: &[Position]) -> Figure {
     let (link, measured) = (own.link, degrees(&own.measured, own.link));
     let model = degrees(model, link);
     let error = measured.iter().zip(&model).map(|(y, model)| y - model);
-    let error = line(error.collect());
+    let error: Vec<f64> = error.collect();
+    let times = enlarged(&error, &measured);
+    let error = line(error.into_iter().map(|error| times * error).collect());
     let title = format!(
         "model {what}, link {}, {} degrees",
         link + 1,
         HEIGHTS[own.height].angle
     );
     Figure::new(name(number), title, TIME, ANGLE)
+        .with("mean of releases", Mark::Broad, line(measured))
         .with("model", Mark::Line, line(model))
-        .with("mean of releases", Mark::Line, line(measured))
-        .with("error", Mark::Line, error)
+        .with(sized("error", times), Mark::Line, error)
+}
+
+/// A name in the key of what is enlarged.
+fn sized(name: &str, times: f64) -> String {
+    if times > 1.0 {
+        format!("{name}, {times} times as large")
+    } else {
+        name.to_owned()
+    }
+}
+
+/// A power of ten by which errors are seen beside what they are of.
+fn enlarged(error: &[f64], beside: &[f64]) -> f64 {
+    let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let share = most(beside) / most(error);
+    if share.is_finite() {
+        10_f64.powf(share.log10().floor()).max(1.0)
+    } else {
+        1.0
+    }
 }
 
 fn both(validations: &[Validation], height: usize, number: usize, is_after: bool) -> Figure {
@@ -111,14 +155,14 @@ fn both(validations: &[Validation], height: usize, number: usize, is_after: bool
             let link = own.link + 1;
             figure
                 .with(
+                    format!("mean, link {link}"),
+                    Mark::Broad,
+                    line(degrees(&own.measured, own.link)),
+                )
+                .with(
                     format!("model, link {link}"),
                     Mark::Line,
                     line(degrees(model, own.link)),
-                )
-                .with(
-                    format!("mean, link {link}"),
-                    Mark::Line,
-                    line(degrees(&own.measured, own.link)),
                 )
         },
     )

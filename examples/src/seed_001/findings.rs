@@ -1,31 +1,45 @@
 //! What is wrong in the paper, item by item, as the library shows it.
 
-use robot_model::identify::output_error::{OutputErrorError, OutputEstimate};
+use robot_model::identify::output_error::{Ending, OutputEstimate, Ratio};
 use robot_model::simulate::Functions as _;
 
 use super::audit::{self, Rest};
 use super::rows::Results;
-use super::truth::{BOUNDS, CAD, NAMES, Printed};
-use crate::paper::{Error, Row};
+use super::truth::{BOUNDS, CAD, ESTIMATED, HEIGHTS, NAMES, Printed, SHARE};
+use crate::paper::Row;
 
 impl Results {
     pub(super) fn metrics_of_text(&self) -> Row {
         let own = self.validations.iter();
         let pairs = own.map(|own| audit::metrics(&own.measured, &own.cad, own.link));
         let pairs: Vec<[Printed; 2]> = pairs.collect();
-        let is_void = |[as_said, mended]: &[Printed; 2]| {
-            as_said.mae < 1e-12 && (as_said.nrmse - 100.0).abs() < 1e-9 && mended.mae > 1e-3
-        };
         let [as_said, mended] = pairs[0];
+        let is_blind = pairs.iter().all(|pair| pair[0] == as_said);
+        let heights = HEIGHTS.iter();
+        let printed = heights.flat_map(|height| height.before.iter().chain(&height.after));
+        let printed: Vec<&Printed> = printed.collect();
+        // To the digits that are printed.
+        let near = |x: f64, y: f64, digits: f64| (x - y).abs() < digits;
+        let same = |one: &&&Printed| {
+            near(one.mae, as_said.mae, 1e-4) || near(one.nrmse, as_said.nrmse, 1e-2)
+        };
+        let same = printed.iter().filter(same).count();
         Row::wrong_in_print(
             "1.errors",
-            "(7), (8): y and y-bar are both the output of the system in the text",
-            "MAE 1.0932, NRMSE 35.47 at 10 degrees",
+            "(7), (8): y and y-bar are both the output of the system in the text (a comparison with Tables 3, 4, 7 and 8, no check of the tool)",
             format!(
-                "so {} and {} % whatever the model; with the model's output {:.4} and {:.2} %",
-                as_said.mae, as_said.nrmse, mended.mae, mended.nrmse
+                "MAE {}, NRMSE {} at {} degrees",
+                printed[0].mae, printed[0].nrmse, HEIGHTS[0].angle
             ),
-            pairs.iter().all(is_void),
+            format!(
+                "so {} and {} % whatever the model, which {same} of {} printed pairs are; with the model's output {:.4} and {:.2} %",
+                as_said.mae,
+                as_said.nrmse,
+                printed.len(),
+                mended.mae,
+                mended.nrmse
+            ),
+            is_blind && same == 0 && pairs.iter().any(|pair| pair[1] != mended),
             "one of the two is the model's output",
         )
     }
@@ -63,61 +77,70 @@ impl Results {
                 && null <= 1.3e-6
                 && moved.len() == 10
                 && told == ["l1"],
-            "five sums of products and friction times any factor move alike, so no mass, center, inertia or friction has a value",
+            &format!(
+                "{} sums of products and friction times any factor move alike, so no mass, center, inertia or friction has a value",
+                self.differences.base.len()
+            ),
         )
     }
 
-    pub(super) fn cost_of_text(&self) -> Result<Row, Error> {
-        let said = audit::look_for_angles(&self.arm)?;
-        let is_size = matches!(
-            said,
-            Err(OutputErrorError::Size { expected: 11, found, .. }) if found > 11
-        );
-        Ok(Row::wrong_in_print(
+    pub(super) fn cost_of_text(&self) -> Row {
+        let (angles, values) = (audit::angles(), NAMES.len());
+        let own = &self.found.exact;
+        let ending = if own.ending == Ending::Converged {
+            "converges"
+        } else {
+            "does not converge"
+        };
+        Row::wrong_in_print(
             "1.cost",
-            "(9), (10): the text looks for lambda, the measured angles, and calls theta the parameters",
+            "(9), (10): the text looks for lambda, the measured angles, and calls theta the parameters (a comparison of counts, no check of \
+             the tool)",
             "lambda-hat = arg min of (9)",
-            said.map_or_else(|error| error.to_string(), |()| "accepted".to_owned()),
-            is_size,
+            format!(
+                "lambda has {angles} values at {} degrees, Tables 6 and 11 have {values}; a search for these {ending}",
+                HEIGHTS[HEIGHTS.len() - 1].angle
+            ),
+            angles != values && own.values.len() == values && own.ending == Ending::Converged,
             "lambda and theta are exchanged in the text",
-        ))
+        )
     }
 
     pub(super) fn friction(&self) -> Row {
         let told = &self.told;
-        let ratio = told
-            .base
-            .ratios
-            .iter()
-            .find(|ratio| ratio.name.contains("q2.coulomb"));
-        let is_refused = told.eleven.std[7..].iter().all(Option::is_none);
-        let cad = self.model.constants.own(&CAD.values());
-        let of_cad = |name: &String| {
+        let [cad, truth] = [CAD, ESTIMATED].map(|arm| self.model.constants.own(&arm.values()));
+        let of = |values: &[f64], name: &str| {
             let place = told.names.iter().position(|other| other == name);
-            place.map_or(f64::NAN, |place| cad[place])
+            place.map_or(f64::NAN, |place| values[place])
         };
+        let ratio =
+            |values: &[f64], ratio: &Ratio| of(values, &ratio.name) / of(values, &ratio.reference);
         let frictions = told.base.ratios.iter();
-        let frictions = frictions.filter(|ratio| ratio.name.contains("friction"));
-        let is_less = frictions.clone().count() == 4
-            && frictions
-                .into_iter()
-                .all(|ratio| ratio.value < of_cad(&ratio.name) / of_cad(&ratio.reference));
-        Row::wrong_in_print(
+        let frictions: Vec<&Ratio> = frictions
+            .filter(|ratio| ratio.name.contains("friction"))
+            .collect();
+        let values = told.eleven.std[7..].iter().flatten().count();
+        let is_right = |one: &&Ratio| (one.value / ratio(&truth, one) - 1.0).abs() < 0.03;
+        let said = frictions.iter().map(|one| {
+            format!(
+                "{} {:.4} ({:.4}, {:.4})",
+                one.name,
+                one.value,
+                ratio(&truth, one),
+                ratio(&cad, one)
+            )
+        });
+        Row::holds(
             "1.friction",
-            "friction \"determined experimentally\" as 0.35, and found oversized by the estimation",
+            "a caution, no misprint: what releases tell of friction, \"determined experimentally\" and then found oversized",
             "0.35 -> 0.335, 0.279, 0.203, 0.076",
             format!(
-                "no value of f_c, f_d is told; {}",
-                ratio.map_or("nor a ratio".to_owned(), |ratio| format!(
-                    "{} / {} = {:.4}, by Table 2 {:.4}",
-                    ratio.name,
-                    ratio.reference,
-                    ratio.value,
-                    of_cad(&ratio.name) / of_cad(&ratio.reference)
-                ))
+                "{values} of four values in newton meters; over {} (Table 6, of the arm that is let go; Table 2): {}",
+                frictions.first().map_or("", |one| &one.reference),
+                said.collect::<Vec<_>>().join(", ")
             ),
-            is_refused && is_less,
-            "a release tells friction over gravity's moment only; all four such ratios are less than Table 2 has them",
+            values == 0 && frictions.len() == 4 && frictions.iter().all(is_right),
+            "friction has a value, or its ratios are off",
         )
     }
 
@@ -141,7 +164,7 @@ impl Results {
             "arms do not stop at 0 degrees: they stand where dry friction holds gravity",
             "not at 0 in any case",
             format!(
-                "up to {largest:.2} degrees from 0, gravity at most {share:.2} of dry friction, {apart:.0e} degrees from the motion by hand; with tanh in its place all end within {smooth:.0e} degrees of 0"
+                "up to {largest:.2} degrees from 0, gravity at most {share:.2} of dry friction, {apart:.0e} degrees from the motion by hand; with tanh in its place they end within {smooth:.0e} degrees of 0"
             ),
             share <= 1.0 && apart < 1e-3 && largest > 0.1 && smooth < 1e-3,
             "arms stand elsewhere",
@@ -160,11 +183,15 @@ pub(super) fn bounds_of_text() -> Row {
         .collect();
     Row::wrong_in_print(
         "1.bounds",
-        "Table 5 is said to be 30 % less and more than Table 2",
-        "+- 30 %",
+        "Table 5 is said to be 30 % less and more than Table 2 (a comparison, no check of the tool)",
+        format!("+- {:.0} %", 100.0 * SHARE),
         names.join("; "),
         off.iter().map(|off| off.name).eq(["m1", "m2", "l1", "c1"]),
-        "four of the seven bounds are others",
+        &format!(
+            "{} of the {} bounds are others",
+            off.len(),
+            audit::said().len()
+        ),
     )
 }
 

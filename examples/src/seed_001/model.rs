@@ -4,11 +4,11 @@ use robot_model::identify::output_error::Distance;
 use robot_model::simulate::{Adjustable, Plant};
 use robot_model::simulate::{Functions, Integrator, SimulateError, Through, Tolerances};
 use robot_model_cli::interpreted::{Constants, InterpretedPlant};
-use robot_model_codegen::{Compiled, compile_model};
+use robot_model_codegen::Compiled;
 
 use super::plant::{Position, degrees};
 use super::truth::{Physical, Printed, STEP};
-use crate::paper::Error;
+use crate::paper::{Error, compiled};
 
 const ENERGIES: &str = include_str!("arm.robot");
 const CHAIN: &str = include_str!("arm_dh.robot");
@@ -89,10 +89,6 @@ impl Model {
 pub fn chain(l1: f64) -> Result<Compiled, Error> {
     let length = format!("a = {l1};");
     compiled("arm_dh.robot", &CHAIN.replace("a = 0.615;", &length))
-}
-
-fn compiled(name: &str, spec: &str) -> Result<Compiled, Error> {
-    Ok(compile_model(&robot_model_spec::load(name, spec)?))
 }
 
 /// Positions at every sample of an arm of the library that is let go at `q`.

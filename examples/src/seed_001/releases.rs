@@ -5,10 +5,10 @@ use std::array;
 use rand::seq::SliceRandom;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 
 use super::plant::{Position, release, with_dry};
 use super::truth::{ESTIMATED, Height, PULSE, RELEASES, Starts};
+use crate::paper::{normal, rounded};
 
 /// Dry friction differs from release to release by so much of itself, one standard deviation.
 const SPREAD: f64 = 0.05;
@@ -22,6 +22,8 @@ pub struct Batch {
     pub mean: Vec<Position>,
     /// Standard deviation over releases.
     pub deviation: Vec<Position>,
+    /// Whether the arm of each release stands after the last sample.
+    pub ends: Vec<bool>,
 }
 
 /// What a box plot shows.
@@ -74,10 +76,10 @@ impl BoxPlot {
 
 /// The nearest angle that the encoder knows, degrees.
 fn seen(angle: f64) -> f64 {
-    (angle / PULSE).round() * PULSE
+    rounded(angle, PULSE)
 }
 
-/// Initial angles with the printed least, largest and most frequent value, and others between.
+/// Initial angles, which are an input of the simulation: with the printed least, largest and most frequent value, and others between.
 fn initial(starts: &Starts, random: &mut ChaCha8Rng) -> Vec<f64> {
     let pulses = |angle: f64| (angle / PULSE).round();
     let [least, most, mode] = [starts.least, starts.most, starts.mode].map(pulses);
@@ -116,17 +118,16 @@ impl Batch {
         let starts = initial(&height.starts[link], &mut random);
         let mut sums = vec![[0.0; 2]; height.samples];
         let mut squares = sums.clone();
+        let mut ends = Vec::with_capacity(starts.len());
         for (k, &start) in starts.iter().enumerate() {
             let side = if k % 2 == 0 { 1.0 } else { -1.0 };
-            let factors = array::from_fn(|_| {
-                let normal: f64 = StandardNormal.sample(&mut random);
-                1.0 + SPREAD * normal
-            });
-            let (positions, _) = release(
+            let factors = array::from_fn(|_| 1.0 + SPREAD * normal(&mut random));
+            let (positions, arm) = release(
                 with_dry(ESTIMATED, factors),
                 at(link, side * start),
                 height.samples,
             );
+            ends.push(arm.is_at_rest());
             for (sample, q) in positions.iter().enumerate() {
                 for joint in 0..2 {
                     let angle = side * seen(q[joint].to_degrees()).to_radians();
@@ -147,6 +148,7 @@ impl Batch {
                 .collect(),
             mean: sums.iter().map(|sum| sum.map(|x| x / count)).collect(),
             starts,
+            ends,
         }
     }
 }

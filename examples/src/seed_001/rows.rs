@@ -6,9 +6,8 @@ use super::audit::{self, Rest, Told};
 use super::equations::Differences;
 use super::findings::bounds_of_text;
 use super::model::{Arm, Model};
-use super::releases::BoxPlot;
 use super::search::Found;
-use super::truth::{CAD, ESTIMATED, HEIGHTS, STEP};
+use super::truth::{CAD, ESTIMATED, HEIGHTS, Height, Printed, RELEASES, STEP};
 use super::validation::Validation;
 use crate::paper::{Error, Row};
 
@@ -53,7 +52,7 @@ impl Results {
             self.link(0),
             self.link(1),
             self.rank(),
-            self.cost_of_text()?,
+            self.cost_of_text(),
             self.friction(),
             self.rest(),
         ])
@@ -71,9 +70,10 @@ impl Results {
             "equations (3), (4) from energies and from DH frames, at 1000 states with Tables 2 and 6",
             "M, C, G",
             format!(
-                "largest difference {:.0e} and {:.0e} of the largest torque; five base parameters: {}",
+                "largest difference {:.0e} and {:.0e} of the largest torque; {} base parameters: {}",
                 own.energies,
                 own.chain,
+                own.base.len(),
                 own.base.join(", ")
             ),
             own.energies < ROUNDING && own.chain < ROUNDING && own.base == lumps,
@@ -84,20 +84,23 @@ impl Results {
     fn cad(&self) -> Row {
         let nominal = self.model.constants.nominal();
         let of_spec: Vec<f64> = nominal.iter().copied().flatten().collect();
-        let starts = self.found.means.iter().chain([&self.found.exact]);
+        let searches = self.found.means.iter().chain([&self.found.exact]);
+        let searches: Vec<&OutputEstimate> = searches.collect();
         let from_cad = |estimate: &OutputEstimate| {
             let first = estimate.iterates.first();
             first.is_some_and(|first| first.values == CAD.values())
         };
+        let there = searches.iter().filter(|one| from_cad(one)).count();
         Row::holds(
             "1.2",
             "Table 2 is where searches start",
             "11 values",
             format!(
-                "all five searches start there; {} are nominal values of the spec",
+                "{there} of {} searches start there; {} are nominal values of the spec",
+                searches.len(),
                 of_spec.len()
             ),
-            of_spec == CAD.values()[..7] && starts.into_iter().all(from_cad),
+            of_spec == CAD.values()[..7] && there == searches.len(),
             "a search starts elsewhere",
         )
     }
@@ -135,67 +138,69 @@ impl Results {
         let searches = || self.found.means.iter().chain([&self.found.exact]);
         let steps: usize = searches().map(|estimate| estimate.iterates.len()).sum();
         let held = searches().map(|estimate| estimate.bound.len());
+        let within = searches().filter(|one| audit::stays_within(one)).count();
         Row::holds(
             "1.4",
             "the trust region stays within the bounds of Table 5",
             "11 bounds",
             format!(
-                "all {steps} places of 5 searches; {} parameters end on a bound",
+                "{within} of {} searches, with {steps} places in all, stay within; {} parameters end on a bound",
+                searches().count(),
                 held.sum::<usize>()
             ),
-            searches().all(audit::stays_within),
+            within == searches().count(),
             "a step leaves them",
         )
     }
 
     fn data(&self) -> Row {
-        let batches = self.found.batches.iter().zip(&HEIGHTS);
-        let same = |one: f64, other: f64| (one - other).abs() < 1e-9;
-        let is_as_printed = batches.clone().all(|(batches, height)| {
-            let links = batches.iter().zip(&height.starts);
-            links.into_iter().all(|(batch, printed)| {
-                let own = BoxPlot::new(&batch.starts);
-                same(own.least, printed.least)
-                    && same(own.most, printed.most)
-                    && same(own.mode, printed.mode)
-                    && batch.mean.len() == height.samples
-            })
-        });
+        let pairs = self.found.batches.iter().zip(&HEIGHTS);
+        let ends = pairs
+            .clone()
+            .flat_map(|(both, _)| both.iter().flat_map(|batch| &batch.ends));
+        let releases = ends.clone().count();
+        let moving = ends.filter(|stands| !**stands).count();
         let widest = |link: usize| -> Vec<String> {
-            let batches = batches.clone().map(|(batches, _)| {
+            let batches = pairs.clone().map(|(batches, _)| {
                 let band = batches[link].deviation.iter().map(|std| std[link]);
                 format!("{:.2}", band.fold(0.0, f64::max).to_degrees())
             });
             batches.collect()
         };
+        let itself = self.validations.iter().map(|own| own.itself);
+        let itself = itself.fold(f64::INFINITY, f64::min);
+        let samples: Vec<String> = HEIGHTS.map(|height| height.samples.to_string()).to_vec();
         Row::holds(
             "1.5",
-            "20 releases a height and link, mean and band; least, largest and most frequent initial angle",
-            "K = 2100, 3182, 4546, 5028 at 5 ms",
+            "20 releases a height and link, mean and band, box plots of initial angles (which are inputs of the simulation)",
+            format!("K = {} at {} ms", samples.join(", "), 1e3 * STEP),
             format!(
-                "K as printed at {} ms; the band is at most {} degrees (link 1), {} degrees (link 2) wide to a side",
-                1e3 * STEP,
+                "the band is at most {} degrees (link 1), {} degrees (link 2) wide to a side; the arm let go where a mean starts fits it by \
+                 {itself:.1} % or more; {moving} of {releases} arms have not quite come to rest after K samples",
                 widest(0).join(", "),
                 widest(1).join(", ")
             ),
-            is_as_printed,
-            "initial angles are others",
+            releases == 2 * HEIGHTS.len() * RELEASES && itself > 90.0,
+            "the mean is not that of the arm",
         )
     }
 
     fn search(&self) -> Row {
         let searches = || self.found.means.iter().chain([&self.found.exact]);
         let own = self.last();
+        let falling = searches().filter(|one| audit::falls(one)).count();
         let parts = own.iterates.last().map_or(0, |last| last.stage + 1);
         Row::holds(
             "1.6",
             "trust region of Algorithm 1: the cost falls from step to step, and parameters are traced (figures 31, 32)",
             "0, 2, 0.25, 0.25, 0.5",
             format!(
-                "it falls in all parts of 5 searches; that of 40 degrees has {} places in {parts} parts",
+                "it falls in {falling} of {} searches; that of {} degrees has {} places in {parts} parts",
+                searches().count(),
+                HEIGHTS[HEIGHTS.len() - 1].angle,
                 own.iterates.len()
             ),
-            searches().all(audit::falls) && own.iterates.len() > 2,
+            falling == searches().count() && own.iterates.len() > 2,
             "the cost rises",
         )
     }
@@ -208,8 +213,12 @@ impl Results {
             "1.7",
             "MAE (7) in degrees and NRMSE (8) in percent, by the library's distances",
             "both, each link and height",
-            "both better after estimation in all eight cases",
-            own.clone().count() == 8 && own.clone().all(is_less),
+            format!(
+                "both better after estimation in {} of {} cases",
+                own.clone().filter(|own| is_less(own)).count(),
+                own.len()
+            ),
+            own.len() == 8 && own.clone().all(is_less),
             "an error grows",
         )
     }
@@ -220,26 +229,44 @@ impl Results {
             let values = own.clone().map(|own| format!("{:.digits$}", value(own)));
             values.collect::<Vec<_>>().join(", ")
         };
-        let heights = HEIGHTS.iter();
-        let printed = heights
-            .map(|height| format!("{}", height.after[link].nrmse))
-            .collect::<Vec<_>>();
+        let printed = |of: fn(&Height) -> &[Printed; 2]| {
+            let fits = HEIGHTS
+                .each_ref()
+                .map(|height| of(height)[link].nrmse.to_string());
+            fits.join(", ")
+        };
         let is_found = own.clone().all(|own| own.exact_after >= 99.0);
         let is_cad = |own: &Validation| (54.0..=56.0).contains(&own.exact_before[1]);
+        let worst = own
+            .clone()
+            .min_by(|one, other| one.before.nrmse.total_cmp(&other.before.nrmse));
+        let worst = worst.map_or(String::new(), |own| {
+            let [mean, cad] = own.ends();
+            format!(
+                "; furthest before from {} degrees, where the mean ends at {mean:.2} degrees and Table 2 stands at {cad:.2}, and with the dry \
+                 friction of Table 6 in Table 2 the fit is {:.1} %",
+                HEIGHTS[own.height].angle, own.before_by_dry
+            )
+        });
         Row::holds(
             ["1.8", "1.9"][link],
             format!(
                 "link {}: NRMSE before and after, start at Table 2, Table 6 is measured",
                 link + 1
             ),
-            format!("after {} %", printed.join(", ")),
             format!(
-                "means of 20: before {}, after {}; without noise: before {} (first 5 s {}), after {} %",
+                "before {}, after {} %",
+                printed(|height| &height.before),
+                printed(|height| &height.after)
+            ),
+            format!(
+                "means of 20: before {}, after {}; without noise: before {} of all and {} of the first 5 s, after {} %{}",
                 list(|own| own.before.nrmse, 1),
                 list(|own| own.after.nrmse, 1),
                 list(|own| own.exact_before[0], 1),
                 list(|own| own.exact_before[1], 1),
-                list(|own| own.exact_after, 2)
+                list(|own| own.exact_after, 2),
+                if link == 1 { worst } else { String::new() }
             ),
             is_found && (link > 0 || own.clone().all(is_cad)),
             "the search does not find the arm",

@@ -13,7 +13,7 @@ use super::model::Arm;
 use super::plant::{Position, release};
 use super::releases::{Batch, at};
 use super::truth::{BOUNDS, CAD, ESTIMATED, HEIGHTS, Height, NAMES, STEP};
-use crate::paper::Error;
+use crate::paper::{Error, rounded};
 
 /// Every so many samples is read: 20 ms are a fortieth of the fastest swing.
 const EVERY: usize = 4;
@@ -72,7 +72,7 @@ pub fn recording(positions: &[Position]) -> Result<Recording, Error> {
 pub fn exact(height: &Height) -> [Vec<Position>; 2] {
     [0, 1].map(|link| {
         let (positions, _) = release(ESTIMATED, at(link, height.angle), height.samples);
-        let round = |x: f64| (x / DIGITS).round() * DIGITS;
+        let round = |x: f64| rounded(x, DIGITS);
         positions.iter().map(|q| q.map(round)).collect()
     })
 }

@@ -134,7 +134,8 @@ pub fn silent(told: &Told) -> Table {
     for direction in &told.eleven.identifiability.directions {
         table.push([direction.to_string()]);
     }
-    table
+    // Any mixture of them is one: rounding chooses.
+    table.rough()
 }
 
 /// Ratios of base parameters, which releases do tell.

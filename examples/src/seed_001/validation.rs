@@ -4,7 +4,7 @@ use super::model::{Arm, errors, simulate, with};
 use super::plant::{Position, release};
 use super::releases::at;
 use super::search::{Found, exact, in_threads};
-use super::truth::{CAD, ESTIMATED, HEIGHTS, Printed};
+use super::truth::{CAD, ESTIMATED, HEIGHTS, Physical, Printed};
 use crate::paper::Error;
 
 /// Samples after which the fit of Table 2 is told besides: 5 s.
@@ -25,6 +25,8 @@ pub struct Validation {
     pub fitted: Vec<Position>,
     /// Errors of Table 2.
     pub before: Printed,
+    /// Fit of Table 2 with the dry friction of Table 6, percent.
+    pub before_by_dry: f64,
     /// Errors of the estimate.
     pub after: Printed,
     /// Fit of the arm that was measured, let go once where the mean starts, percent: no model is nearer than that by being right.
@@ -35,6 +37,15 @@ pub struct Validation {
     pub exact_after: f64,
     /// How far the library's motion of Table 6 is from the one by hand, degrees at most.
     pub apart: f64,
+}
+
+impl Validation {
+    /// Where the link hangs at the end, degrees: in the mean of releases, and by Table 2.
+    #[must_use]
+    pub fn ends(&self) -> [f64; 2] {
+        let end = |path: &[Position]| path[path.len() - 1][self.link].to_degrees();
+        [end(&self.measured), end(&self.cad)]
+    }
 }
 
 /// Both links from all heights.
@@ -53,6 +64,11 @@ fn one(arm: &Arm, found: &Found, height: usize, link: usize) -> Result<Validatio
     let run = |values: &[f64], q: Position| simulate(&with(arm, values), q, samples);
     let cad = run(&CAD.values(), measured[0])?;
     let fitted = run(&found.means[height].values, measured[0])?;
+    let lighter = Physical {
+        dry: ESTIMATED.dry,
+        ..CAD
+    };
+    let lighter = run(&lighter.values(), measured[0])?;
     let own = at(link, HEIGHTS[height].angle);
     let truth = &exact(&HEIGHTS[height])[link];
     let cad_beside = run(&CAD.values(), own)?;
@@ -66,6 +82,7 @@ fn one(arm: &Arm, found: &Found, height: usize, link: usize) -> Result<Validatio
         height,
         link,
         before: errors(&measured, &cad, link),
+        before_by_dry: errors(&measured, &lighter, link).nrmse,
         itself: errors(&measured, &release(ESTIMATED, measured[0], samples).0, link).nrmse,
         after: errors(&measured, &fitted, link),
         exact_before: [errors(truth, &cad_beside, link).nrmse, first.nrmse],

@@ -1,33 +1,13 @@
-//! The arm of the specs in this folder, compiled, with numbers.
+//! The arm of the specs in this folder, with numbers.
 
 use std::collections::BTreeMap;
 
-use robot_model_cli::interpreted::InterpretedArm;
-use robot_model_codegen::{Compiled, compile_model};
-
 use super::truth::{FRICTION, LINKS};
-use crate::paper::Error;
 
 /// With the law of the publication on all joints.
 pub const ROKAE: &str = include_str!("rokae.robot");
 /// With Coulomb and viscous friction.
 pub const CONVENTIONAL: &str = include_str!("conventional.robot");
-
-/// A spec, compiled.
-///
-/// # Errors
-/// What the language says of it.
-pub fn compiled(name: &str, text: &str) -> Result<Compiled, Error> {
-    Ok(compile_model(&robot_model_spec::load(name, text)?))
-}
-
-/// The same behind the traits of the runtime.
-///
-/// # Errors
-/// Those of [`compiled`].
-pub fn interpreted(name: &str, text: &str) -> Result<InterpretedArm, Error> {
-    Ok(InterpretedArm::new(compiled(name, text)?))
-}
 
 /// Standard parameters of the simulated arm by name, those of its friction law among them.
 #[must_use]
@@ -48,14 +28,7 @@ pub fn truth() -> BTreeMap<String, f64> {
         put("iyz", -m * y * z);
         put("izz", izz + m * (x * x + y * y));
         put("motor_inertia.ia", link.rotor);
-        let rows = [
-            ("fc1", FRICTION.fc1),
-            ("fc2", FRICTION.fc2),
-            ("fv1", FRICTION.fv1),
-            ("fv2", FRICTION.fv2),
-            ("fv3", FRICTION.fv3),
-        ];
-        for (name, row) in rows {
+        for (name, row) in FRICTION.by_name() {
             put(&format!("rokae.{name}"), row[k]);
         }
     }

@@ -5,14 +5,13 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 use rand::{RngExt as _, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use robot_model::columns::{Arm as _, Columns as _};
-use robot_model::identify::{Identify, JointRows, Method, Segment, Stack};
+use robot_model::identify::{Identify, Method};
 use robot_model::motion::{Kinematics, Motion};
-use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Operand;
 
+use super::stacked::{Standard, stack};
 use crate::paper::Error;
 
 /// Rows of a column whose part outside of the others is below this share of it are sums of the others.
@@ -128,29 +127,7 @@ fn normalized(matrix: &DMatrix<f64>) -> (DMatrix<f64>, Vec<f64>) {
 
 /// Rank of the columns of all parameters by the runtime's own least squares.
 fn identified(compiled: &Compiled, motion: &Motion) -> Result<usize, Error> {
-    let arm = InterpretedArm::new(compiled.ungrouped());
-    let mut joints = vec![JointRows::default(); arm.dof()];
-    for entry in arm.entries(motion, &[]) {
-        let rows = &mut joints[entry.joint];
-        rows.target.resize(entry.values.len(), 0.0);
-        for (tau, x) in rows.target.iter_mut().zip(&entry.values) {
-            *tau += x;
-        }
-        rows.columns.push((entry.column, entry.values));
-    }
-    for rows in &mut joints {
-        rows.tau.clone_from(&rows.target);
-        rows.columns.sort_by_key(|(column, _)| *column);
-    }
-    let stack = Stack {
-        unknowns: arm.unknowns().to_vec(),
-        joints,
-        segments: vec![Segment {
-            start: 0,
-            time: motion.time.clone(),
-        }],
-        ..Stack::default()
-    };
+    let stack = stack(&Standard::new(compiled), motion, &|_| 1.0);
     let identify = Identify {
         method: Method::Ls,
         ..Identify::default()

@@ -11,7 +11,7 @@ use robot_model_codegen::base::shape_values;
 use robot_model_codegen::{Compiled, Nominal, RivalColumns};
 
 use super::experiment::Wanted;
-use super::truth::{HARMONICS, PERIOD, SAMPLES};
+use super::truth::{HARMONICS, PERIOD};
 use crate::paper::Error;
 
 /// Speeds, rad/s. The publication has none. Its Table II has: the cube of joint 1 explains `sqrt(1.159^2 - 1.123^2)` = 0.29 N m, and the
@@ -134,12 +134,6 @@ pub fn objectives(compiled: &Compiled, scaling: Scaling) -> Result<Objectives, E
         found.log_det.push(design);
     }
     Ok(found)
-}
-
-/// `ln` of the product of sums of equation 29 at a motion, over all samples of a period.
-#[must_use]
-pub fn log_of_product(design: &Design, columns: usize) -> f64 {
-    design.quality.hadamard + columns as f64 * (SAMPLES as f64).ln()
 }
 
 /// What the motion wants of each joint.

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::log::Log;
 
 use super::plant::{Joints, Moving, rigid_torque};
-use crate::paper::Error;
+use super::truth::SAMPLES;
+use crate::paper::{Error, normal, rounded};
 
 /// Cycle of the controller, s.
 pub const CYCLE: f64 = 1e-3;
@@ -23,12 +23,19 @@ const COUNTS: f64 = 1_048_576.0;
 /// Noise of the torque, N m.
 pub const NOISE: Joints = [0.4, 0.6, 0.3, 0.12, 0.1, 0.08];
 
-/// What the drive of joint 2 adds to its torque: amplitude, N m, and periods a turn. No model knows of it unless it declares it.
+/// What the drive of joint 2 takes of its torque: amplitude, N m, and periods a turn. No model knows of it unless it declares it.
 ///
 /// The publication has 15 to 16 N m root mean square on joint 2 by all three methods, and errors on other joints that weights take
 /// away. So joint 2 has a torque of that size that no parameter explains, and least squares explains it by what joints share. What
 /// it is, the publication does not say: a ripple is one of many.
 pub const RIPPLE_2: [f64; 2] = [21.0, 5.0];
+
+/// What moves the joints where this torque is commanded: the drive of joint 2 takes a ripple of this amplitude, N m, from its own.
+#[must_use]
+pub fn delivered(mut command: Joints, q: &Joints, ripple: f64) -> Joints {
+    command[1] -= ripple * (RIPPLE_2[1] * q[1]).cos();
+    command
+}
 
 /// Gains of the position loop: inertia of each joint, kg m^2, and frequency, rad/s.
 const INERTIA: Joints = [4.0, 5.0, 2.0, 0.4, 0.3, 0.13];
@@ -40,7 +47,7 @@ const CORNER: f64 = TAU * 50.0;
 /// A position as an encoder has it, rad.
 #[must_use]
 pub fn encoded(q: f64) -> f64 {
-    (q / TAU * COUNTS).round() / COUNTS * TAU
+    rounded(q, TAU / COUNTS)
 }
 
 /// What a controller knows of the motion.
@@ -76,14 +83,14 @@ impl Sensors {
 /// Position, velocity and acceleration of every joint, `[joint][order]`.
 pub type Wanted = [[f64; 3]; 6];
 
-/// The arm along a motion that begins at rest: one sample a cycle.
+/// The arm along a motion that begins at rest: one sample a cycle. The ripple of joint 2 has this amplitude, N m.
 ///
 /// # Errors
 /// None are expected of such a log; those of [`Log::from_samples`].
 pub fn measure(
     name: &str,
-    wanted: &dyn Fn(f64) -> Wanted,
-    samples: usize,
+    wanted: &(dyn Fn(f64) -> Wanted + Sync),
+    ripple: f64,
     seed: u64,
 ) -> Result<Log, Error> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -94,7 +101,7 @@ pub fn measure(
     let mut sensors = Sensors::new(&arm.q);
     let (mut time, mut last) = (Vec::new(), None);
     let (mut q, mut tau) = (vec![Vec::new(); 6], vec![Vec::new(); 6]);
-    for cycle in 0..samples {
+    for cycle in 0..SAMPLES {
         let t = cycle as f64 * CYCLE;
         sensors.read(&arm.q);
         let wanted = wanted(t);
@@ -108,14 +115,11 @@ pub fn measure(
         let before = last.unwrap_or(command);
         time.push(t);
         for k in 0..6 {
-            let noise: f64 = StandardNormal.sample(&mut random);
             q[k].push(sensors.q[k]);
-            tau[k].push(f64::midpoint(before[k], command[k]) + NOISE[k] * noise);
+            tau[k].push(f64::midpoint(before[k], command[k]) + NOISE[k] * normal(&mut random));
         }
-        let [size, periods] = RIPPLE_2;
-        tau[1][cycle] += size * (periods * arm.q[1]).cos();
         last = Some(command);
-        arm = arm.after(CYCLE, STEPS, &|_, _| command);
+        arm = arm.after(CYCLE, STEPS, &|_, now| delivered(command, &now.q, ripple));
     }
     Ok(Log::from_samples(name, time, q, tau)?)
 }

@@ -1,12 +1,12 @@
 //! Figures of the publication, from our runs.
 
-use super::arm::{CONVENTIONAL, ROKAE, interpreted};
+use super::arm::{CONVENTIONAL, ROKAE};
 use super::excitation::wanted;
 use super::law::curve;
 use super::results::Results;
 use super::table_two::Fit;
 use super::truth::PERIOD;
-use crate::paper::{Error, Figure, Mark};
+use crate::paper::{Error, Figure, Mark, interpreted};
 
 /// Points of a curve.
 const POINTS: usize = 500;
@@ -18,9 +18,9 @@ const POINTS: usize = 500;
 pub fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
     let mut figures = vec![law(), excitation(results)];
     let fits = [
-        ("figure_6", "TFLS", CONVENTIONAL, &results.conventional[0]),
-        ("figure_7", "MFLS", ROKAE, &results.modified[0]),
-        ("figure_8", "MFWLS", ROKAE, &results.modified[1]),
+        ("figure_06", "TFLS", CONVENTIONAL, &results.conventional[0]),
+        ("figure_07", "MFLS", ROKAE, &results.modified[0]),
+        ("figure_08", "MFWLS", ROKAE, &results.modified[1]),
     ];
     for (name, method, spec, fit) in fits {
         figures.push(validation(results, [name, method, spec], fit)?);
@@ -37,13 +37,13 @@ fn law() -> Figure {
         "torque, N m",
     )
     .with("equations 3 and 4", Mark::Line, curve(2))
-    .with("no friction", Mark::Line, [(-1.7, 0.0), (1.7, 0.0)])
+    .with("no friction", Mark::Line, [(-1.9, 0.0), (1.9, 0.0)])
 }
 
 fn excitation(results: &Results) -> Figure {
     let motion = &results.designs[0].motion;
     let figure = Figure::new(
-        "figure_1",
+        "figure_01",
         "One period by Hadamard's bound",
         "time, s",
         "position, rad",
@@ -78,7 +78,7 @@ fn validation(
     Ok(Figure::new(name, title, "time, s", "torque, N m")
         .with(
             "measured",
-            Mark::Line,
+            Mark::Broad,
             thinned(&test.time, &test.tau[JOINT]),
         )
         .with(
@@ -93,7 +93,7 @@ fn guiding(results: &Results) -> [Figure; 2] {
     const JOINT: usize = 2;
     let [tfls, mfwls] = &results.guided;
     let torque = Figure::new(
-        "figure_10a",
+        "figure_10_motor",
         "Joint 3 led by hand: torque of the motor",
         "time, s",
         "torque, N m",
@@ -105,7 +105,7 @@ fn guiding(results: &Results) -> [Figure; 2] {
         thinned(&mfwls.time, &mfwls.motor[JOINT]),
     );
     let hand = Figure::new(
-        "figure_10b",
+        "figure_10_hand",
         "Joint 3 led by hand: torque of the hand",
         "time, s",
         "torque, N m; velocity, 0.1 rad/s",

@@ -8,7 +8,7 @@ use robot_model::effects::{CoulombFriction, MotorInertia, Rokae, ViscousFriction
 use robot_model::identify::Estimate;
 use robot_model::{FromParameters, Link, RobotModel, State, Vector};
 
-use super::experiment::{CYCLE, STEPS, Sensors};
+use super::experiment::{CYCLE, RIPPLE_2, STEPS, Sensors, delivered};
 use super::plant::{Joints, Moving, gravity_torque};
 use crate::paper::Error;
 
@@ -150,7 +150,7 @@ where
         );
         let motor: Joints = control.torque(&measured).torque.into();
         if guided.time.is_empty() {
-            let gravity = gravity_torque(&POSE);
+            let (gravity, motor) = (gravity_torque(&POSE), delivered(motor, &POSE, RIPPLE_2[0]));
             guided.at_rest = array::from_fn(|k| motor[k] - gravity[k]);
         }
         guided.time.push(t);
@@ -161,7 +161,7 @@ where
             guided.motor[k].push(motor[k]);
         }
         now = now.after(CYCLE, STEPS, &|since, now| {
-            let pulled = hand(t + since, now);
+            let (pulled, motor) = (hand(t + since, now), delivered(motor, &now.q, RIPPLE_2[0]));
             array::from_fn(|k| motor[k] + pulled[k])
         });
         t += CYCLE;

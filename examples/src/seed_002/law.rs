@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::columns::Candidate;
 use robot_model::log::Log;
 use robot_model::simulate::{Instant, Jumps, Plant as _};
@@ -14,10 +13,9 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::base::shape_values;
 use robot_model_codegen::expr::Symbol;
 
-use super::arm::{compiled, interpreted};
 use super::plant::friction;
 use super::truth::{EPS, FRICTION};
-use crate::paper::Error;
+use crate::paper::{Error, compiled, interpreted, normal};
 
 /// One joint with the law as printed.
 pub const PRINTED: &str = include_str!("law.robot");
@@ -28,17 +26,10 @@ const DECLARED: &str = "rokae(eps = 0.01) on j;";
 
 /// Base parameters of a joint of one of these specs with the friction of joint `k` of the arm, whatever its effect is called.
 fn values(compiled: &Compiled, k: usize) -> Vec<f64> {
-    let rows = [
-        ("fc1", FRICTION.fc1),
-        ("fc2", FRICTION.fc2),
-        ("fv1", FRICTION.fv1),
-        ("fv2", FRICTION.fv2),
-        ("fv3", FRICTION.fv3),
-        ("izz", [1.0; 6]),
-    ];
     let value = |name: &str| {
         let end = name.rsplit('.').next().unwrap_or_default();
-        let row = rows.iter().find(|(name, _)| *name == end);
+        let mut rows = FRICTION.by_name().into_iter().chain([("izz", [1.0; 6])]);
+        let row = rows.find(|(name, _)| *name == end);
         row.map_or(0.0, |(_, row)| row[k])
     };
     let standard = compiled.standard.iter();
@@ -64,7 +55,12 @@ pub fn compiled_friction(spec: &str, k: usize) -> Result<impl Fn(f64) -> f64, Er
     })
 }
 
-/// Largest difference of the compiled law from the printed one, N m, over all joints and speeds up to 5 rad/s.
+/// Speeds at which laws are compared, to both sides and at rest, rad/s.
+pub fn speeds() -> impl Iterator<Item = f64> + Clone {
+    (-5003_i32..=5003).map(|step| 1e-3 * f64::from(step))
+}
+
+/// Largest difference of the compiled law from the printed one, N m, over all joints and [`speeds`].
 ///
 /// # Errors
 /// Those of [`compiled_friction`].
@@ -72,8 +68,7 @@ pub fn difference() -> Result<f64, Error> {
     let mut most: f64 = 0.0;
     for k in 0..6 {
         let law = compiled_friction(PRINTED, k)?;
-        for step in -5003_i32..=5003 {
-            let v = 1e-3 * f64::from(step);
+        for v in speeds() {
             most = most.max((law(v) - friction(k, v)).abs());
         }
     }
@@ -180,10 +175,7 @@ fn falling() -> Result<Log, Error> {
         let (v, dv) = (wave(t, 1), wave(t, 2));
         dv + friction(JOINT, v) + RISE * (-(v / FALL).powi(2)).exp() * v.signum() + 0.1 * noise
     };
-    let tau = time.iter().map(|&t| {
-        let noise: f64 = StandardNormal.sample(&mut random);
-        torque(t, noise)
-    });
+    let tau = time.iter().map(|&t| torque(t, normal(&mut random)));
     let tau = tau.collect();
     Ok(Log::from_samples("a joint", time, vec![q], vec![tau])?)
 }
@@ -191,7 +183,7 @@ fn falling() -> Result<Log, Error> {
 /// The simulated arm's friction of a joint over its speed, for a figure.
 #[must_use]
 pub fn curve(k: usize) -> Vec<(f64, f64)> {
-    let steps = -170_i32..=170;
+    let steps = -190_i32..=190;
     steps
         .map(|step| 0.01 * f64::from(step))
         .map(|v| (v, friction(k, v)))

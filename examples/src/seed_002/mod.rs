@@ -15,6 +15,7 @@ pub mod law;
 pub mod plant;
 pub mod results;
 mod rows;
+pub mod stacked;
 pub mod streaming;
 pub mod table_one;
 pub mod table_two;

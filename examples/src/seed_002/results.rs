@@ -1,19 +1,21 @@
 //! All that is computed, once.
 
+use std::thread;
+
 use robot_model::excite::Design;
 use robot_model::log::Log;
 
-use super::arm::{CONVENTIONAL, ROKAE, interpreted};
+use super::arm::{CONVENTIONAL, ROKAE};
 use super::base::{Base, base};
 use super::excitation::{Objectives, designs, objectives, request, violation, wanted};
 use super::experiment::{RIPPLE_2, measure, test_motion};
 use super::guiding::{Conventional, Guided, Modified, guide, identified};
 use super::law;
-use super::streaming::{Streamed, stream};
-use super::table_one::{Audited, ours, printed};
+use super::stacked::Standard;
+use super::streaming::{Streamed, stream, sums_of_squares};
+use super::table_one::{ours, printed};
 use super::table_two::{Fit, WEIGHTS, fit};
-use super::truth::SAMPLES;
-use crate::paper::Error;
+use crate::paper::{Audited, Error, interpreted};
 use robot_model::excite::{Criterion, Scaling};
 
 /// What comes out.
@@ -45,14 +47,27 @@ pub struct Results {
     pub modified: Vec<Fit>,
     /// By torque norm, with the publication's friction and what joint 2 has besides.
     pub with_ripple: Fit,
+    /// The same four fits as of Table II and its missing one of an arm whose joint 2 has no ripple: conventional friction, then the
+    /// publication's, each without weights and with those by torque norm.
+    pub without_ripple: [Fit; 4],
     /// Audits of Table I: as printed, with magnitudes.
     pub table_1: [Audited; 2],
     /// Audits of the simulated arm: with the friction of Table I, without square and cube.
     pub ours: [Audited; 2],
     /// Hand guiding by TFLS and MFWLS.
     pub guided: [Guided; 2],
-    /// Streaming.
-    pub streamed: Streamed,
+    /// Streaming all 96 columns, and those of base parameters.
+    pub streamed: [Streamed; 2],
+    /// What equation 29 multiplies, a column.
+    pub sums: Vec<f64>,
+}
+
+impl Results {
+    /// Speed from which on the friction of Table I drives a joint, rad/s: as printed (0), with magnitudes (1).
+    #[must_use]
+    pub fn drives_from(&self, table: usize, joint: usize) -> Option<f64> {
+        self.table_1[table].drives_from(&format!("j{}", joint + 1))
+    }
 }
 
 /// Each joint's.
@@ -62,6 +77,18 @@ fn each(of: impl Fn(usize) -> Result<f64, Error>) -> Result<[f64; 6], Error> {
         *one = of(k)?;
     }
     Ok(all)
+}
+
+/// Two results at once.
+fn both<R: Send>(
+    one: impl FnOnce() -> Result<R, Error> + Send,
+    other: impl FnOnce() -> Result<R, Error> + Send,
+) -> Result<[R; 2], Error> {
+    thread::scope(|scope| {
+        let later = scope.spawn(other);
+        let first = one()?;
+        Ok([first, later.join().expect("a simulation does not panic")?])
+    })
 }
 
 /// Computes everything.
@@ -76,9 +103,14 @@ pub fn results() -> Result<Results, Error> {
     let limits = request(rokae, Criterion::Hadamard, Scaling::Raw);
     let of_hadamard = &designs[0].motion;
 
-    let train = |t: f64| wanted(of_hadamard, t);
-    let train = measure("train", &train, SAMPLES, 1)?;
-    let test = measure("test", &test_motion, SAMPLES, 2)?;
+    let of_design = |t: f64| wanted(of_hadamard, t);
+    let [loud, quiet] = [RIPPLE_2[0], 0.0].map(|ripple| {
+        both(
+            || measure("train", &of_design, ripple, 1),
+            || measure("test", &test_motion, ripple, 2),
+        )
+    });
+    let ([train, test], quiet) = (loud?, quiet?);
     let fits = |arm| -> Result<Vec<Fit>, Error> {
         let all = 0..WEIGHTS.len();
         all.map(|weights| fit(arm, [&train, &test], weights))
@@ -92,6 +124,14 @@ pub fn results() -> Result<Results, Error> {
     let rippled = ROKAE.replace("motor_inertia on all;", &ripple);
     let rippled = interpreted("rokae.robot", &rippled)?;
     let with_ripple = fit(&rippled, [&train, &test], 1)?;
+    let [train_quiet, test_quiet] = &quiet;
+    let of_quiet = |arm, weights| fit(arm, [train_quiet, test_quiet], weights);
+    let without_ripple = [
+        of_quiet(&plain, 0)?,
+        of_quiet(&plain, 1)?,
+        of_quiet(&arm, 0)?,
+        of_quiet(&arm, 1)?,
+    ];
     let tfls: Conventional = identified(&conventional[0].estimate);
     let mfwls: Modified = identified(&modified[1].estimate);
 
@@ -123,10 +163,15 @@ pub fn results() -> Result<Results, Error> {
         conventional,
         modified,
         with_ripple,
+        without_ripple,
         table_1: [audited(printed(false))?, audited(printed(true))?],
         ours: [audited(ours(true))?, audited(ours(false))?],
-        guided: [guide(tfls)?, guide(mfwls)?],
-        streamed: stream(&arm, of_hadamard)?,
+        guided: both(|| guide(tfls), || guide(mfwls))?,
+        streamed: [
+            stream(&Standard::new(rokae), of_hadamard)?,
+            stream(&arm, of_hadamard)?,
+        ],
+        sums: sums_of_squares(&arm, of_hadamard),
         logs: [train, test],
         designs,
     })

@@ -1,15 +1,16 @@
-//! 120 000 rows piece by piece: time and memory of what the publication keeps as one matrix.
+//! 120 000 rows piece by piece: time and memory of what the publication keeps as one matrix, with all 96 columns and with the 70 of base
+//! parameters.
 
 use std::thread;
 use std::time::Instant;
 
-use robot_model::columns::{Arm as _, Columns as _};
+use robot_model::columns::Arm;
 use robot_model::excite::Fourier;
-use robot_model::identify::{Factor, JointRows, Method, Segment, Stack};
+use robot_model::identify::{Factor, Method, Stack};
 use robot_model::motion::Motion;
 use robot_model::signal::Bands;
-use robot_model_cli::interpreted::InterpretedArm;
 
+use super::stacked::stack;
 use super::truth::SAMPLES;
 use crate::paper::Error;
 
@@ -24,12 +25,14 @@ const RUNS: usize = 3;
 pub struct Streamed {
     /// Rows of all joints, and columns.
     pub size: [usize; 2],
+    /// How many columns the triangle that is left tells apart.
+    pub rank: usize,
     /// s, from positions to an estimate.
     pub seconds: f64,
     /// Rows of a piece: the most that is in memory.
     pub piece: usize,
-    /// Largest relative error of the parameters that the rows were made with.
-    pub error: f64,
+    /// Largest relative error of the parameters that the rows were made with, where all are told apart.
+    pub error: Option<f64>,
 }
 
 /// A parameter that the rows are made with.
@@ -38,55 +41,49 @@ fn value(column: usize) -> f64 {
 }
 
 /// Rows of a piece of a motion.
-fn piece(arm: &InterpretedArm, motion: &Fourier, first: usize) -> Stack {
+fn piece(arm: &dyn Arm, motion: &Fourier, first: usize) -> Stack {
     let time: Vec<f64> = (first..first + PIECE).map(|k| 1e-3 * k as f64).collect();
     let kinematics = motion.motion(&time);
     let motion = Motion {
-        time: time.clone(),
+        time,
         wide: kinematics.clone(),
         smooth: kinematics,
         ..Motion::default()
     };
-    let mut joints = vec![JointRows::default(); arm.dof()];
-    for entry in arm.entries(&motion, &[]) {
-        let rows = &mut joints[entry.joint];
-        rows.target.resize(entry.values.len(), 0.0);
-        for (tau, x) in rows.target.iter_mut().zip(&entry.values) {
-            *tau += value(entry.column) * x;
-        }
-        rows.columns.push((entry.column, entry.values));
-    }
-    for (joint, rows) in joints.iter_mut().enumerate() {
+    stack(arm, &motion, &value)
+}
+
+/// The same with a noise that repeats from run to run.
+fn noisy_piece(arm: &dyn Arm, motion: &Fourier, first: usize) -> Stack {
+    let mut stack = piece(arm, motion, first);
+    for (joint, rows) in stack.joints.iter_mut().enumerate() {
         for (k, tau) in rows.target.iter_mut().enumerate() {
             *tau += 0.1 * (12.9898 * ((first + k) * (joint + 3)) as f64).sin();
         }
         rows.tau.clone_from(&rows.target);
     }
-    Stack {
-        unknowns: arm.unknowns().to_vec(),
-        joints,
-        segments: vec![Segment { start: 0, time }],
-        ..Stack::default()
-    }
+    stack
 }
 
 /// Reduces one period of a motion at 1 kHz on two threads.
 ///
 /// # Errors
 /// Those of the runtime.
-pub fn stream(arm: &InterpretedArm, motion: &Fourier) -> Result<Streamed, Error> {
+pub fn stream(arm: &dyn Arm, motion: &Fourier) -> Result<Streamed, Error> {
+    let columns = arm.unknowns().len();
     let mut streamed = Streamed {
-        size: [SAMPLES * arm.dof(), arm.unknowns().len()],
+        size: [SAMPLES * arm.dof(), columns],
+        rank: 0,
         seconds: f64::INFINITY,
         piece: PIECE * arm.dof(),
-        error: 0.0,
+        error: None,
     };
     for _ in 0..RUNS {
         let start = Instant::now();
         let half = |from: usize| -> Result<Factor, Error> {
             let mut factor = Factor::new(arm, Bands::DEFAULT)?;
             for first in (from..from + SAMPLES / 2).step_by(PIECE) {
-                factor.push_rows(&piece(arm, motion, first));
+                factor.push_rows(&noisy_piece(arm, motion, first));
             }
             Ok(factor)
         };
@@ -95,10 +92,12 @@ pub fn stream(arm: &InterpretedArm, motion: &Fourier) -> Result<Streamed, Error>
         first.merge(second.clone())?;
         let estimate = first.estimate(arm, Method::Wls, false)?;
         streamed.seconds = streamed.seconds.min(start.elapsed().as_secs_f64());
+        streamed.rank = estimate.rank;
         let values = estimate.values();
         let errors = values.iter().enumerate();
         let errors = errors.map(|(column, found)| (found / value(column) - 1.0).abs());
-        streamed.error = errors.fold(0.0, f64::max);
+        let error = errors.fold(0.0, f64::max);
+        streamed.error = (estimate.rank == columns).then_some(error);
     }
     Ok(streamed)
 }
@@ -112,4 +111,18 @@ fn half_by_half(
         let first = half(0)?;
         Ok([first, later.join().expect("reducing rows does not panic")?])
     })
+}
+
+/// Sums of squares of the columns over one period of a motion at 1 kHz: what equation 29 multiplies.
+#[must_use]
+pub fn sums_of_squares(arm: &dyn Arm, motion: &Fourier) -> Vec<f64> {
+    let mut sums = vec![0.0; arm.unknowns().len()];
+    for first in (0..SAMPLES).step_by(PIECE) {
+        for rows in piece(arm, motion, first).joints {
+            for (column, values) in rows.columns {
+                sums[column] += values.iter().map(|x| x * x).sum::<f64>();
+            }
+        }
+    }
+    sums
 }

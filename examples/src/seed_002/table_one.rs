@@ -2,12 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use robot_model_cli::audit::{Check, audit};
-use robot_model_codegen::Compiled;
-
 use super::arm::truth;
 use super::truth::TABLE_1;
-use crate::paper::Error;
 
 /// Table I by name; `fc2` as printed, or as the magnitude that equation 3 wants.
 #[must_use]
@@ -38,37 +34,4 @@ pub fn ours(with_cubes: bool) -> BTreeMap<String, f64> {
         }
     }
     values
-}
-
-/// What the audit says of values, check by check.
-#[derive(Debug, Clone)]
-pub struct Audited(Vec<Check>);
-
-impl Audited {
-    /// Asks.
-    ///
-    /// # Errors
-    /// Values without a parameter of the arm's.
-    pub fn of(compiled: &Compiled, values: &BTreeMap<String, f64>) -> Result<Self, Error> {
-        Ok(Self(audit(compiled, values)?))
-    }
-
-    /// What speaks against the values in one check.
-    #[must_use]
-    pub fn findings(&self, check: &str) -> &[String] {
-        let mut checks = self.0.iter();
-        checks
-            .find(|one| one.name == check)
-            .map_or(&[], |one| &one.findings)
-    }
-
-    /// Speed from which on a joint's friction drives it, rad/s.
-    #[must_use]
-    pub fn drives_from(&self, joint: usize) -> Option<f64> {
-        let name = format!("`j{}`", joint + 1);
-        let mut findings = self.findings("friction").iter();
-        let said = findings.find(|said| said.contains(&name))?;
-        let (_, number) = said.split_once(" from ")?;
-        number.split(' ').next()?.parse().ok()
-    }
 }

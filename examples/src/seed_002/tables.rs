@@ -32,7 +32,7 @@ fn friction(results: &Results) -> Table {
     table.push(cells("jump at 0.01 rad/s, N m", &results.jumps[0]));
     table.push(cells("falls from, rad/s", &results.peaks));
     let drives: Vec<f64> = (0..6)
-        .map(|k| results.table_1[1].drives_from(k).unwrap_or(f64::NAN))
+        .map(|k| results.drives_from(1, k).unwrap_or(f64::NAN))
         .collect();
     table.push(cells("drives from, rad/s", &drives));
     table
@@ -111,6 +111,17 @@ fn ablation(results: &Results) -> Table {
         let pair = [&results.conventional[k], &results.modified[k]].map(cell);
         let cells = pair.into_iter().flatten();
         table.push(std::iter::once((*name).to_owned()).chain(cells));
+    }
+    let [plain, plain_weighted, modified, modified_weighted] = &results.without_ripple;
+    let from = mean(&plain.rmse);
+    let cell = |fit: &Fit| {
+        let own = mean(&fit.rmse);
+        [format!("{own:.3}"), format!("{:.0} %", drop(from, own))]
+    };
+    let pairs = [[plain, modified], [plain_weighted, modified_weighted]];
+    for ((name, ..), pair) in WEIGHTS.iter().zip(pairs) {
+        let cells = pair.map(cell).into_iter().flatten();
+        table.push(std::iter::once(format!("{name}, no ripple on joint 2")).chain(cells));
     }
     table
 }

@@ -41,6 +41,20 @@ pub struct Friction {
     pub fv3: [f64; 6],
 }
 
+impl Friction {
+    /// Rows by the names of the effect `rokae`.
+    #[must_use]
+    pub const fn by_name(&self) -> [(&'static str, [f64; 6]); 5] {
+        [
+            ("fc1", self.fc1),
+            ("fc2", self.fc2),
+            ("fv1", self.fv1),
+            ("fv2", self.fv2),
+            ("fv3", self.fv3),
+        ]
+    }
+}
+
 /// Table I, with `fc2` as a magnitude. The arm that is simulated has it.
 pub const FRICTION: Friction = Friction {
     fc1: [8.0499, 13.8660, 9.2687, 3.9203, 3.0459, 0.9669],

@@ -4,12 +4,11 @@ use std::f64::consts::TAU;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::log::Log;
 
 use super::plant::{Link, State};
 use super::truth;
-use crate::paper::Error;
+use crate::paper::{Error, normal, rounded};
 
 /// Steps of the integrator: one for each sample of the sensors.
 pub const STEP_S: f64 = 1.0 / truth::SENSOR_HZ;
@@ -140,10 +139,6 @@ pub fn sweep(link: &Link, wanted: f64, way: f64, held_by: Loop) -> Run {
     run
 }
 
-fn rounded(q: f64, step: f64) -> f64 {
-    step * (q / step).round()
-}
-
 impl Run {
     /// The last part of the way, from this share of it on, with time from 0.
     #[must_use]
@@ -166,10 +161,10 @@ impl Run {
     /// None is expected: that of a log.
     pub fn log(&self, name: &str, bits: i32, seed: u64) -> Result<Log, Error> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let current = self.torque.iter().map(|torque| {
-            let noise: f64 = StandardNormal.sample(&mut random);
-            torque / truth::TORQUE_CONSTANT + CURRENT_NOISE * noise
-        });
+        let current = self
+            .torque
+            .iter()
+            .map(|torque| torque / truth::TORQUE_CONSTANT + CURRENT_NOISE * normal(&mut random));
         let current = current.collect();
         let step = encoder_step(bits);
         let q = self.q.iter().map(|q| rounded(*q, step)).collect();

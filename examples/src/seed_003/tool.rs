@@ -11,24 +11,16 @@ use robot_model::motion::{Kinematics, Motion};
 use robot_model::simulate::Adjustable;
 use robot_model_cli::audit::{Check, audit};
 use robot_model_cli::interpreted::{InterpretedArm, InterpretedPlant};
-use robot_model_codegen::{Compiled, compile_model};
+use robot_model_codegen::Compiled;
 
 use super::plant::Friction;
 use super::truth;
-use crate::paper::Error;
+use crate::paper::{Error, compiled};
 
 /// The link without friction of bristles.
 pub const LINK: &str = include_str!("link.robot");
 /// The link with it.
 pub const BRISTLES: &str = include_str!("bristles.robot");
-
-/// A spec, compiled.
-///
-/// # Errors
-/// What is wrong in it.
-pub fn compiled(name: &str, text: &str) -> Result<Compiled, Error> {
-    Ok(compile_model(&robot_model_spec::load(name, text)?))
-}
 
 /// The friction curve of logs, and its law. The link's weight is known, as the paper computes `G`, unless it `is_fitted` beside.
 ///

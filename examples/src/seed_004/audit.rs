@@ -1,41 +1,15 @@
 //! Table 1, asked whether a device can have it.
 
-use robot_model_cli::audit::{Check, audit};
-
 use super::device::{SPEC, by_name, compiled, within};
 use super::fits::STIFF;
 use super::plant::Plant;
 use super::rig::{self, ROOM, Sines};
 use super::truth::{Pi, piece_wise, table_1};
+pub use crate::paper::Audited;
 use crate::paper::Error;
 
-/// What is found in a set of parameters.
-#[derive(Debug, Clone)]
-pub struct Audited(Vec<Check>);
-
-impl Audited {
-    fn of(text: &str, pi: &Pi) -> Result<Self, Error> {
-        Ok(Self(audit(&compiled(text)?, &by_name(pi))?))
-    }
-
-    fn check(&self, name: &str) -> Option<&Check> {
-        self.0.iter().find(|check| check.name == name)
-    }
-
-    /// What speaks against the values in one check.
-    #[must_use]
-    pub fn findings(&self, check: &str) -> &[String] {
-        self.check(check).map_or(&[], |check| &check.findings)
-    }
-
-    /// Least eigenvalue of the inertia as the check says it, kg m^2.
-    #[must_use]
-    pub fn least_eigenvalue(&self) -> f64 {
-        let scope = self.check("inertia").map_or("", |check| &check.scope);
-        let (_, number) = scope.split_once(": ").unwrap_or_default();
-        let number = number.split(' ').next().and_then(|word| word.parse().ok());
-        number.unwrap_or(f64::NAN)
-    }
+fn audited(text: &str, pi: &Pi) -> Result<Audited, Error> {
+    Audited::of(&compiled(text)?, &by_name(pi))
 }
 
 /// What is found in all installations.
@@ -60,9 +34,7 @@ pub struct Audits {
 pub fn all() -> Result<Audits, Error> {
     let room = within(ROOM.low, ROOM.high);
     let each = |text: &str, change: fn(Pi) -> Pi| -> Result<Vec<Audited>, Error> {
-        (0..5)
-            .map(|k| Audited::of(text, &change(table_1(k))))
-            .collect()
+        (0..5).map(|k| audited(text, &change(table_1(k)))).collect()
     };
     let positive = |mut pi: Pi| {
         for fv in &mut pi[8..11] {
@@ -87,6 +59,6 @@ pub fn all() -> Result<Audits, Error> {
         printed: each(SPEC, |pi| pi)?,
         in_room: each(&room, |pi| pi)?,
         positive: each(SPEC, positive)?,
-        piece_wise: Audited::of(SPEC, &piece_wise())?,
+        piece_wise: audited(SPEC, &piece_wise())?,
     })
 }

@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, Matrix3};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::control::ContactForce;
 use robot_model::signal::{Bands, FirstOrder, prepare};
 use robot_model::{Points as _, State, Vector};
@@ -13,7 +12,7 @@ use super::fits::STIFF;
 use super::plant::{Plant, Three};
 use super::rig::{self, ROOM, Sines};
 use super::truth::{CORNER, LINKS, Pi, table_1};
-use crate::paper::Error;
+use crate::paper::{Error, normal};
 
 /// Seconds of the run, and those at its ends that are not looked at.
 const SECONDS: f64 = 14.0;
@@ -106,7 +105,7 @@ pub fn felt(known: &Pi, motion: &Sines) -> Result<Felt, Error> {
         let bare = contact.at_point::<1>(&state.q, &tau, 0);
         let sensor = turned * Vector::from(hand(*t));
         for j in 0..3 {
-            let noise: f64 = StandardNormal.sample(&mut random);
+            let noise = normal(&mut random);
             forces[0][j].push(sensor[j] + NOISE * noise);
             // What acts on the device is the opposite of what it exerts.
             forces[1][j].push(-by_model.as_ref().map_or(f64::NAN, |found| found.force[j]));

@@ -6,7 +6,7 @@ use robot_model::effects::{CoulombFriction, ViscousFriction};
 use robot_model::identify::Estimate;
 use robot_model::{FromParameters as _, RobotModel, Vector};
 use robot_model_cli::interpreted::{InterpretedArm, InterpretedMomentum};
-use robot_model_codegen::{Compiled, compile_model};
+use robot_model_codegen::Compiled;
 
 use super::truth::{NAMES, Pi};
 use crate::paper::Error;
@@ -58,10 +58,7 @@ pub fn phantom(pi: &Pi) -> Phantom {
 /// # Errors
 /// Mistakes of the text.
 pub fn compiled(text: &str) -> Result<Compiled, Error> {
-    Ok(compile_model(&robot_model_spec::load(
-        "phantom.robot",
-        text,
-    )?))
+    crate::paper::compiled("phantom.robot", text)
 }
 
 /// A spec behind the traits of identification.

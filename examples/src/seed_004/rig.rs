@@ -2,12 +2,12 @@
 
 use rand::{RngExt as _, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Distribution, StandardNormal};
 use robot_model::log::Log;
 
 use super::plant::{Plant, Three, bias, inertia};
 use super::truth::Pi;
-use crate::paper::Error;
+pub use crate::paper::rounded;
+use crate::paper::{Error, normal};
 
 /// Rate of the controller and of the log, Hz.
 pub const RATE: f64 = 1000.0;
@@ -170,7 +170,7 @@ pub struct Record {
 impl Record {
     /// What encoder and converter make of a joint's position and torque.
     fn read(&mut self, joint: usize, q: f64, tau: f64, random: &mut ChaCha8Rng) {
-        let noise: f64 = StandardNormal.sample(random);
+        let noise = normal(random);
         self.q[joint].push(rounded(q, ENCODER));
         self.tau[joint].push(rounded(tau + NOISE * CONVERTER * noise, CONVERTER));
     }
@@ -190,12 +190,6 @@ impl Record {
             part(&self.tau),
         )?)
     }
-}
-
-/// The nearest multiple of a step.
-#[must_use]
-pub fn rounded(value: f64, step: f64) -> f64 {
-    (value / step).round() * step
 }
 
 /// A velocity from an encoder: differences through a low-pass.

@@ -57,7 +57,7 @@ fn pneumatic(name: &str) -> f64 {
     }
 }
 
-/// Equations (3) and (4) of the paper on the pneumatic arm, as printed.
+/// Equations (3) and (4) of the paper on the pneumatic arm, as printed. `examples/tests/seed_001.rs` has its chain, too.
 fn printed_pneumatic(state: &State) -> DMatrix<f64> {
     let [m1, m2, l1, c1, c2, i1, i2] = ["m1", "m2", "l1", "c1", "c2", "I1", "I2"].map(pneumatic);
     let g = 9.81;
@@ -90,49 +90,6 @@ fn pneumatic_arm_has_the_equations_of_the_paper() {
     }
     let base: Vec<&str> = arm.compiled.base.names.iter().map(String::as_str).collect();
     assert_eq!(base[..5], ["I1r", "I2r", "m1*c1r", "m2*c2", "m2*l1*c2"]);
-}
-
-/// The same arm as a chain: links along x from joints about z, the first one hanging where `q = 0`.
-#[test]
-fn chain_and_energies_of_one_arm_give_the_same_equations() {
-    let chain = "robot Pneumatic {
-        gravity = [0, -9.81, 0];
-        convention = standard_dh;
-        joint q1: revolute { a = 0.552; alpha = 0; d = 0; offset = -90 deg; }
-        joint q2: revolute { a = 0; alpha = 0; d = 0; }
-    }";
-    let chain = robot_model_spec::load("pneumatic.robot", chain).unwrap();
-    let chain = Interpreter::new(robot_model_codegen::compile_model(&chain));
-    let [m1, m2, l1, c1, c2, i1, i2] = ["m1", "m2", "l1", "c1", "c2", "I1", "I2"].map(pneumatic);
-    // The frame of the first link is at its end: its center of mass lies c1 - l1 from there.
-    let x1 = c1 - l1;
-    let of_chain: Vec<f64> = chain
-        .compiled
-        .standard
-        .iter()
-        .map(|parameter| match parameter.name.as_str() {
-            "q1.m" => m1,
-            "q1.mx" => m1 * x1,
-            "q1.izz" => i1 + m1 * x1 * x1,
-            "q2.m" => m2,
-            "q2.mx" => m2 * c2,
-            "q2.izz" => i2 + m2 * c2 * c2,
-            _ => 0.0,
-        })
-        .collect();
-    let energies = interpreter("pneumatic_arm");
-    let of_energies = standard(&energies, pneumatic);
-    let mut random = states::generator(2);
-    for _ in 0..20 {
-        let state = states::state(&mut random, 2);
-        let (left, right) = (
-            chain.forms(&of_chain, &state),
-            energies.forms(&of_energies, &state),
-        );
-        assert_close("M", &left.mass_matrix, &right.mass_matrix);
-        assert_close("C", &left.coriolis_matrix, &right.coriolis_matrix);
-        assert_close("G", &left.gravity, &right.gravity);
-    }
 }
 
 /// `J ddth - m g r sin(th) + f(dth) = u` and its three laws of friction.

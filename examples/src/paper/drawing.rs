@@ -1,0 +1,275 @@
+//! A figure as SVG: its key stands below the axes, where it covers nothing.
+
+use std::ops::Range;
+
+use plotters::coord::types::RangedCoordf64;
+use plotters::prelude::*;
+
+use super::figure::{Figure, Mark, Series};
+
+const WIDTH: u32 = 720;
+/// Of the title and the axes.
+const HEIGHT: u32 = 420;
+/// A line of the key.
+const LINE: u32 = 18;
+/// Where the key begins and ends, and the swatch before a name.
+const EDGE: u32 = 64;
+const SWATCH: u32 = 22;
+/// A letter of the key is so wide, or less.
+const LETTER: u32 = 7;
+
+const GRID: RGBColor = RGBColor(225, 225, 225);
+/// Told apart by those who do not see all colors (Okabe & Ito 2008).
+const COLORS: [RGBColor; 6] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(80, 80, 80),
+];
+/// How much of what lies below a broad line, a bar or a band hides.
+const PALE: f64 = 0.3;
+/// Half the width of a box or a bar, as a share of the way from one to the next.
+const HALF: f64 = 0.3;
+
+/// A string takes whatever is drawn on it.
+const DRAWN: &str = "drawing on a string does not fail";
+
+type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Figure {
+    /// The drawing; points that are not finite are left out.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        let key = places(&self.series);
+        let lines = key.last().map_or(0, |(_, line)| line + 1);
+        let size = (WIDTH, HEIGHT + LINE * lines + LINE / 2);
+        let mut text = String::new();
+        {
+            let root = SVGBackend::with_string(&mut text, size).into_drawing_area();
+            root.fill(&WHITE).expect(DRAWN);
+            let (axes, below) = root.split_vertically(HEIGHT);
+            self.axes(&axes);
+            for ((series, (x, line)), color) in self.series.iter().zip(key).zip(colors()) {
+                entry(&below, series, [x, line * LINE + LINE / 2], color);
+            }
+            root.present().expect(DRAWN);
+        }
+        text
+    }
+
+    fn axes(&self, area: &Area<'_>) {
+        let (x, y) = self.ranges();
+        let mut chart = ChartBuilder::on(area)
+            .caption(&self.title, ("sans-serif", 16))
+            .margin(10)
+            .x_label_area_size(40)
+            .y_label_area_size(64)
+            .build_cartesian_2d(x, y)
+            .expect(DRAWN);
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID)
+            .axis_style(BLACK.mix(0.5))
+            .x_desc(&self.x)
+            .y_desc(&self.y)
+            .label_style(("sans-serif", 12))
+            .draw()
+            .expect(DRAWN);
+        let bars = self.series.iter().filter(|one| one.mark == Mark::Bars);
+        let bars: Vec<&Series> = bars.collect();
+        for (series, color) in self.series.iter().zip(colors()) {
+            let place = bars.iter().position(|bar| std::ptr::eq(*bar, series));
+            draw(&mut chart, series, color, [place.unwrap_or(0), bars.len()]);
+        }
+    }
+
+    /// Of both axes: all points with some room; bars begin at zero and have a width, as boxes do.
+    fn ranges(&self) -> (Range<f64>, Range<f64>) {
+        let points = || self.series.iter().flat_map(|one| finite(&one.points));
+        let sides = self.series.iter().flat_map(|one| match one.mark {
+            Mark::Bars | Mark::Boxes => vec![0.5 * step(one), -0.5 * step(one)],
+            _ => Vec::new(),
+        });
+        let side = sides.fold(0.0, f64::max);
+        let has_bars = self.series.iter().any(|one| one.mark == Mark::Bars);
+        let ground = has_bars.then_some(0.0);
+        (
+            roomy(points().flat_map(|(x, _)| [x - side, x + side])),
+            roomy(points().map(|(_, y)| y).chain(ground)),
+        )
+    }
+}
+
+fn colors() -> impl Iterator<Item = RGBColor> {
+    COLORS.into_iter().cycle()
+}
+
+/// Where the name of each series stands in the key: its distance from the left, and its line.
+fn places(series: &[Series]) -> Vec<(u32, u32)> {
+    let (mut x, mut line) = (EDGE, 0);
+    let place = |one: &Series| {
+        let letters = u32::try_from(one.name.chars().count()).unwrap_or(u32::MAX / LETTER / 2);
+        let width = SWATCH + LETTER * letters + SWATCH / 2;
+        if x > EDGE && x + width > WIDTH {
+            (x, line) = (EDGE, line + 1);
+        }
+        let own = (x, line);
+        x += width;
+        own
+    };
+    series.iter().map(place).collect()
+}
+
+fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor) {
+    let [x, y] = at.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
+    let right = x + 14;
+    let swatch = |half: i32, share: f64| {
+        let corners = [(x, y - half), (right, y + half)];
+        Rectangle::new(corners, color.mix(share).filled())
+    };
+    match series.mark {
+        Mark::Line => area.draw(&swatch(1, 1.0)),
+        Mark::Broad => area.draw(&swatch(3, PALE)),
+        Mark::Bars => area.draw(&swatch(4, 1.0)),
+        Mark::Band | Mark::Boxes => area.draw(&swatch(4, PALE)),
+        Mark::Dots => area.draw(&Circle::new((x + 7, y), 2, color.filled())),
+    }
+    .expect(DRAWN);
+    let name = Text::new(series.name.clone(), (right + 5, y - 6), ("sans-serif", 12));
+    area.draw(&name).expect(DRAWN);
+}
+
+/// Draws a series; of bars, it is one of several at the same places.
+fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]: [usize; 2]) {
+    let points = finite(&series.points);
+    match series.mark {
+        Mark::Line => {
+            let line = LineSeries::new(points, color.stroke_width(2));
+            chart.draw_series(line).expect(DRAWN);
+        }
+        Mark::Broad => {
+            let line = LineSeries::new(points, color.mix(PALE).stroke_width(7));
+            chart.draw_series(line).expect(DRAWN);
+        }
+        Mark::Dots => {
+            let dots = points.map(|at| Circle::new(at, 2, color.filled()));
+            chart.draw_series(dots).expect(DRAWN);
+        }
+        Mark::Bars => {
+            let width = 2.0 * HALF * step(series) / of as f64;
+            let left = place as f64 * width - HALF * step(series);
+            let bars = points.map(|(x, y)| {
+                let corners = [(x + left, 0.0), (x + left + width, y)];
+                Rectangle::new(corners, color.filled())
+            });
+            chart.draw_series(bars).expect(DRAWN);
+        }
+        Mark::Band => {
+            let outline: Vec<(f64, f64)> = points.collect();
+            let area = Polygon::new(outline, color.mix(PALE).filled());
+            chart.draw_series([area]).expect(DRAWN);
+        }
+        Mark::Boxes => {
+            let half = HALF * step(series);
+            for five in series.points.chunks_exact(5) {
+                let x = five[0].0;
+                let [least, low, middle, high, most] = std::array::from_fn(|k| five[k].1);
+                let corners = [(x - half, low), (x + half, high)];
+                let area = Rectangle::new(corners, color.mix(PALE).filled());
+                chart.draw_series([area]).expect(DRAWN);
+                let outline = Rectangle::new(corners, color.stroke_width(1));
+                chart.draw_series([outline]).expect(DRAWN);
+                let across = |y: f64, half: f64| vec![(x - half, y), (x + half, y)];
+                let lines = [
+                    vec![(x, least), (x, low)],
+                    vec![(x, high), (x, most)],
+                    across(least, 0.5 * half),
+                    across(most, 0.5 * half),
+                    across(middle, half),
+                ];
+                let lines = lines.map(|line| PathElement::new(line, color.stroke_width(2)));
+                chart.draw_series(lines).expect(DRAWN);
+            }
+        }
+    }
+}
+
+/// The least way from one place to the next; one where there is a single place.
+fn step(series: &Series) -> f64 {
+    let places = finite(&series.points).map(|(x, _)| x);
+    let mut places: Vec<f64> = places.collect();
+    places.sort_by(f64::total_cmp);
+    places.dedup();
+    let ways = places.windows(2).map(|pair| pair[1] - pair[0]);
+    let least = ways.fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 1.0 }
+}
+
+fn finite(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+    let points = points.iter().copied();
+    points.filter(|(x, y)| x.is_finite() && y.is_finite())
+}
+
+/// The values with some room.
+fn roomy(values: impl Iterator<Item = f64>) -> Range<f64> {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+        (low.min(x), high.max(x))
+    });
+    if low > high {
+        return 0.0..1.0;
+    }
+    let room = (0.05 * (high - low)).max(1e-9 * high.abs().max(1.0));
+    low - room..high + room
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_figure_says_what_it_shows_and_leaves_out_what_is_no_number() {
+        let figure = Figure::new("fall", "a fall", "time, s", "angle, rad").with(
+            "simulated",
+            Mark::Line,
+            [(0.0, 1.0), (1.0, 0.5)],
+        );
+        let lines = figure.svg().matches("<circle").count();
+        let figure = figure.with("measured", Mark::Dots, [(0.0, 1.0), (1.0, f64::NAN)]);
+        let svg = figure.svg();
+        for word in ["a fall", "time, s", "angle, rad", "measured", "simulated"] {
+            assert!(svg.contains(word), "{word}");
+        }
+        // One in the axes and one in the key.
+        assert_eq!(svg.matches("<circle").count(), lines + 2, "{svg}");
+        assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn a_band_is_an_area_and_a_box_has_a_middle() {
+        let of = |figure: Figure| figure.svg();
+        let empty = Figure::new("spread", "spread", "time, s", "angle, rad");
+        let band = empty
+            .clone()
+            .with_band("band", [[0.0, 1.0, 2.0], [1.0, 1.5, 2.5]]);
+        assert_eq!(of(band).matches("<polygon").count(), 1);
+        let boxes = empty.with_boxes("boxes", [(10.0, [0.0, 1.0, 2.0, 3.0, 4.0])]);
+        assert!(of(boxes).matches("<polyline").count() >= 5);
+    }
+
+    #[test]
+    fn the_key_goes_on_in_a_new_line_where_it_is_too_wide() {
+        let points = [(0.0, 0.0)];
+        let series = (0..12).map(|k| Series {
+            name: format!("a series with a name {k}"),
+            mark: Mark::Line,
+            points: points.to_vec(),
+        });
+        let places = places(&series.collect::<Vec<_>>());
+        assert!(places.iter().all(|(x, _)| *x < WIDTH));
+        assert!(places[11].1 > 1);
+    }
+}

@@ -1,0 +1,22 @@
+//! Text of the language to equations.
+
+use robot_model_cli::interpreted::InterpretedArm;
+use robot_model_codegen::{Compiled, compile_model};
+
+use super::Error;
+
+/// A spec, compiled.
+///
+/// # Errors
+/// What the language says of it.
+pub fn compiled(name: &str, text: &str) -> Result<Compiled, Error> {
+    Ok(compile_model(&robot_model_spec::load(name, text)?))
+}
+
+/// The same behind the traits of the runtime.
+///
+/// # Errors
+/// Those of [`compiled`].
+pub fn interpreted(name: &str, text: &str) -> Result<InterpretedArm, Error> {
+    Ok(InterpretedArm::new(compiled(name, text)?))
+}
