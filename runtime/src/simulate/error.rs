@@ -34,7 +34,7 @@ pub enum SimulateError {
     },
     /// A position, velocity or state is no number, or has grown beyond all bounds.
     #[error(
-        "at {time:.6} s the motion of joint {joint} is beyond all bounds; make the controller softer or its rate higher, or look at the parameters"
+        "at {time:.6} s the motion of joint {joint} is beyond all bounds; look at the parameters, and where a controller drives the arm at its gains and rate"
     )]
     Unbounded {
         /// Time, s.
