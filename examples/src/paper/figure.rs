@@ -1,4 +1,4 @@
-//! Figures as SVG: lines and dots between axes, with a key.
+//! Figures as SVG: lines, dots and bars between axes, with a key.
 
 use std::ops::Range;
 
@@ -26,7 +26,12 @@ pub enum Mark {
     Line,
     /// A dot at each.
     Dots,
+    /// A bar from zero to each, beside those of other series at the same whole number.
+    Bars,
 }
+
+/// Room of all bars at one number.
+const BARS: f64 = 0.8;
 
 /// Points that belong together.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +95,7 @@ impl Figure {
     /// The drawing; points that are not finite are left out.
     #[must_use]
     pub fn svg(&self) -> String {
-        let points = || self.series.iter().flat_map(|series| finite(&series.points));
+        let points = || self.series.iter().flat_map(Series::reaches);
         let (x, y) = (roomy(points().map(|p| p.0)), roomy(points().map(|p| p.1)));
         let mut text = String::new();
         {
@@ -113,6 +118,9 @@ impl Figure {
                 .label_style(("sans-serif", 12))
                 .draw()
                 .expect(DRAWN);
+            let bars = self.series.iter().filter(|s| s.mark == Mark::Bars);
+            let width = BARS / bars.count().max(1) as f64;
+            let mut left = -0.5 * BARS;
             for (k, series) in self.series.iter().enumerate() {
                 let color = COLORS[k % COLORS.len()];
                 let points = finite(&series.points);
@@ -123,6 +131,16 @@ impl Figure {
                     Mark::Dots => chart
                         .draw_series(points.map(|at| Circle::new(at, 2, color.filled())))
                         .expect(DRAWN),
+                    Mark::Bars => {
+                        let from = left;
+                        left += width;
+                        chart
+                            .draw_series(points.map(|(x, y)| {
+                                let ends = [(x + from, 0.0), (x + from + width, y)];
+                                Rectangle::new(ends, color.filled())
+                            }))
+                            .expect(DRAWN)
+                    }
                 };
                 drawn.label(&series.name).legend(move |(x, y)| {
                     Rectangle::new([(x, y - 1), (x + 14, y + 2)], color.filled())
@@ -138,6 +156,20 @@ impl Figure {
             root.present().expect(DRAWN);
         }
         text
+    }
+}
+
+impl Series {
+    /// Points that have to be in the figure.
+    fn reaches(&self) -> impl Iterator<Item = (f64, f64)> {
+        let is_bars = self.mark == Mark::Bars;
+        finite(&self.points).flat_map(move |(x, y)| {
+            if is_bars {
+                vec![(x - 0.5, 0.0), (x + 0.5, y)]
+            } else {
+                vec![(x, y)]
+            }
+        })
     }
 }
 
@@ -173,5 +205,32 @@ mod tests {
         }
         assert_eq!(svg.matches("<circle").count(), 1, "{svg}");
         assert!(!svg.contains("NaN"));
+    }
+
+    #[test]
+    fn bars_stand_side_by_side_from_zero() {
+        let figure = Figure::new("parts", "parts", "joint", "torque")
+            .with("one", Mark::Bars, [(1.0, 2.0), (2.0, 1.0)])
+            .with("other", Mark::Bars, [(1.0, 1.0), (2.0, 2.0)]);
+        let svg = figure.svg();
+        let bars: Vec<[f64; 2]> = svg
+            .lines()
+            .filter(|line| line.starts_with("<rect") && line.contains("fill=\"#0072B2\""))
+            .map(|line| {
+                ["x=\"", "height=\""].map(|name| {
+                    let value = line
+                        .split(name)
+                        .nth(1)
+                        .and_then(|rest| rest.split('"').next());
+                    value
+                        .and_then(|value| value.parse().ok())
+                        .expect("a number")
+                })
+            })
+            .collect();
+        // Two of the first series, and its sign in the key.
+        assert_eq!(bars.len(), 3, "{svg}");
+        assert!(bars[1][0] > bars[0][0], "{bars:?}");
+        assert!((bars[0][1] / bars[1][1] - 2.0).abs() < 0.05, "{bars:?}");
     }
 }
