@@ -5,7 +5,8 @@ use robot_model_cli::audit::{Check, audit};
 use super::device::{SPEC, by_name, compiled, within};
 use super::fits::STIFF;
 use super::plant::Plant;
-use super::rig::{self, ROOM, Sines};
+use super::rig;
+use super::sines::{ROOM, Room, Sines};
 use super::truth::{Pi, piece_wise, table_1};
 use crate::paper::Error;
 
@@ -14,7 +15,11 @@ use crate::paper::Error;
 pub struct Audited(Vec<Check>);
 
 impl Audited {
-    fn of(text: &str, pi: &Pi) -> Result<Self, Error> {
+    /// Asks of one set.
+    ///
+    /// # Errors
+    /// Those of the text.
+    pub fn of(text: &str, pi: &Pi) -> Result<Self, Error> {
         Ok(Self(audit(&compiled(text)?, &by_name(pi))?))
     }
 
@@ -71,7 +76,7 @@ pub fn all() -> Result<Audits, Error> {
         pi
     };
     // The limits of the spec.
-    let whole = rig::Room {
+    let whole = Room {
         low: [-60.0, -30.0, -30.0].map(f64::to_radians),
         high: [60.0, 100.0, 75.0].map(f64::to_radians),
     };

@@ -15,7 +15,9 @@ pub mod plant;
 pub mod results;
 pub mod rig;
 mod rows;
+pub mod sensors;
 pub mod shares;
+pub mod sines;
 mod tables;
 pub mod tracing;
 pub mod truth;
@@ -39,7 +41,7 @@ pub fn paper(results: &results::Results) -> Result<Paper, Error> {
         title: "Taati, Tahmasebi and Hashtrudi-Zaad: a PHANTOM haptic device, identified without accelerations"
             .to_owned(),
         tables: tables::tables(results),
-        rows: rows::rows(results)?,
+        rows: rows::rows(results),
         figures: figures::figures(results)?,
     })
 }
