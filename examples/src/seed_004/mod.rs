@@ -4,6 +4,7 @@
 //! Every column of table 1 is a device here, simulated by equations that are written by hand (`plant.rs`), where such a device can
 //! move at all. What is said of it is said by the compiler, the runtime and the audit.
 
+mod applications;
 pub mod audit;
 pub mod contact;
 pub mod control;
