@@ -4,8 +4,9 @@ use robot_model::friction_curve::{Bristles, Curve, Law};
 use robot_model::log::Log;
 use robot_model_cli::audit::Check;
 
+use super::experiments::{self, Found, SENSORS, Sensors};
 use super::plant::{Friction, PRINTED};
-use super::{experiments, rig, tool, truth};
+use super::{nearest, rig, tool, truth};
 use crate::paper::Error;
 
 /// What a check says of the paper as printed and repaired: nothing where it passes.
@@ -97,7 +98,13 @@ pub fn deflection(log: &Log) -> Result<(Finding, [f64; 2]), Error> {
     Ok((Finding { printed, repaired }, stiffness))
 }
 
-/// The friction with damping that falls short of giving energy: `s2 F_c / (F_s - F_c)` is 0.0547.
+/// By how many times `s1` is above `s2 F_c / (F_s - F_c)`, beyond which bristles give energy.
+#[must_use]
+pub fn excess_of_damping(friction: &Friction) -> f64 {
+    friction.damping * (friction.breakaway - friction.coulomb) / friction.coulomb / friction.viscous
+}
+
+/// The friction with damping that falls short of giving energy.
 pub const PASSIVE: Friction = Friction {
     damping: 0.05,
     ..PRINTED
@@ -163,22 +170,79 @@ pub fn softness(curve: &Curve, law: &Law, printed: &Bristles) -> Result<Finding,
 ///
 /// # Errors
 /// Those of the libraries.
-pub fn differences(curve: &Curve, law: &Law) -> Result<Finding, Error> {
-    let logs = experiments::constant_speeds(
-        PRINTED,
-        experiments::Way::Free,
-        rig::Loop::Stiff,
-        rig::FINE_BITS,
-    )?;
-    let (fine, fine_law) = tool::curve(&logs, false)?;
+pub fn differences(found: &Found) -> Result<Finding, Error> {
+    let rise = found.rise.log("rise", rig::FINE_BITS, 31)?;
+    let fine = Sensors {
+        bits: rig::FINE_BITS,
+        ..SENSORS
+    };
+    let (fine, fine_law) = experiments::settled(&found.runs, &rise, fine)?;
     let said = |curve: &Curve, law: &Law| {
         (!law.is_told_by_differences(curve)).then(|| {
             format!("`friction`: one step of the encoder from sample to sample is {:.3} rad/s, above the Stribeck speed", curve.speed_step)
         })
     };
     Ok(Finding {
-        printed: said(curve, law),
+        printed: said(&found.curve, &found.law),
         repaired: said(&fine, &fine_law),
+    })
+}
+
+/// Whether the step that `friction` finds in logs of the encoder is one that it is said to have; repaired is that of its bits.
+#[must_use]
+pub fn encoder(curve: &Curve) -> Finding {
+    let step = (curve.speed_step / truth::LOOP_HZ).to_degrees();
+    let said = |claimed: f64| {
+        ((step / claimed - 1.0).abs() > SAME_STEP)
+            .then(|| format!("`friction` finds steps of {step:.4} degrees"))
+    };
+    Finding {
+        printed: said(truth::PRINTED_STEP_DEG),
+        repaired: said(360.0 / 2_f64.powi(truth::BITS)),
+    }
+}
+
+/// Steps are the same within this share.
+const SAME_STEP: f64 = 1e-3;
+
+/// A motion of the rod: rad, rad/s, and how long, s.
+const SWING: [f64; 2] = [1.0, 9.0];
+const SWING_S: f64 = 6.0;
+
+/// More than that is no rounding of the filters, %.
+const ROD_MISFIT: f64 = 1.0;
+
+/// Whether the rod's torque is that of equation (7) with its share of `m l^2`: what `identify` leaves of the torque of a uniform rod without
+/// friction, as printed and with a third.
+///
+/// # Errors
+/// Those of the libraries.
+pub fn third() -> Result<Finding, Error> {
+    let (inertia, weight) = (
+        truth::MASS * truth::LENGTH.powi(2) / 3.0,
+        truth::MASS * truth::GRAVITY * truth::LENGTH / 2.0,
+    );
+    let [size, rate] = SWING;
+    let time: Vec<f64> = (0..nearest(SWING_S * truth::LOOP_HZ))
+        .map(|k| k as f64 / truth::LOOP_HZ)
+        .collect();
+    let q: Vec<f64> = time.iter().map(|t| size * (rate * t).sin()).collect();
+    // The angle of the equation is that from the level.
+    let torque = q
+        .iter()
+        .map(|q| -rate * rate * inertia * q + weight * q.cos());
+    let torque = torque.collect();
+    let log = Log::from_samples("rod", time, vec![q], vec![torque])?;
+    let [_, (name, repaired)] = EQUATION_7;
+    let printed = repaired.replace("l^2/3", &format!("{}*l^2", truth::PRINTED_THIRD));
+    let said = |text: &str| -> Result<Option<String>, Error> {
+        let (_, misfit) = tool::least_squares(name, text, ["m", "m"], &log)?;
+        Ok((misfit > ROD_MISFIT)
+            .then(|| format!("`identify` leaves {misfit:.1} % of a uniform rod's torque")))
+    };
+    Ok(Finding {
+        printed: said(&printed)?,
+        repaired: said(repaired)?,
     })
 }
 

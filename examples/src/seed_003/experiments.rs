@@ -6,6 +6,7 @@ use robot_model::friction_curve::{Bristles, Curve, Law};
 use robot_model::log::Log;
 
 use super::plant::{Friction, Link};
+use super::refine::{self, Mixed};
 use super::rig::{self, Loop, Run, driven, range, sweep};
 use super::tool::{self, Dynamic};
 use super::truth;
@@ -16,10 +17,13 @@ use crate::paper::Error;
 const LEAST_SPEED: f64 = 0.1;
 const MOST_SPEED: f64 = 3.5;
 
-/// How far the link turns where nothing stops it, rad, and from which share of that on its log is kept: printed bristles slide on for some
-/// rad before they are as the speed has them.
-const FREE_WAY: f64 = 14.0;
-const KEPT: f64 = 0.65;
+/// Bristles have settled after so many of the ways at which they forget, `level / s0`; of a run that is shorter the last part of the range
+/// is taken.
+const FORGOTTEN: f64 = 8.0;
+const MOST_LEFT_OUT: f64 = 0.93;
+
+/// What is left out before anything is known of the bristles, as a share of the range.
+const FIRST_LEFT_OUT: f64 = 0.7;
 
 /// How fast the torque rises, N m/s.
 pub const RISE: f64 = 0.01;
@@ -27,15 +31,6 @@ pub const RISE: f64 = 0.01;
 /// Length of a shake, s, and its frequencies from the start to the end, Hz.
 const SHAKE_S: f64 = 1.5;
 const SHAKE_HZ: [f64; 2] = [0.4, 6.0];
-
-/// Where the link turns.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
-    /// Over the 280 degrees of the rig, from rest at one end.
-    Rig,
-    /// On, as if the support of the sensor were not there; the start is left out.
-    Free,
-}
 
 /// The twenty speeds, rad/s.
 #[must_use]
@@ -45,26 +40,70 @@ pub fn speeds() -> Vec<f64> {
     (0..truth::SPEEDS).map(speed).collect()
 }
 
-/// Logs of the link at the twenty speeds.
+/// How far the link may go, rad.
+fn length() -> f64 {
+    let [low, high] = range();
+    high - low
+}
+
+/// The link at the twenty speeds, from rest at one end of the range to the other.
+#[must_use]
+pub fn sweeps(friction: Friction, held_by: Loop) -> Vec<Run> {
+    let link = Link::hanging(friction);
+    let speeds = speeds().into_iter();
+    speeds
+        .map(|speed| sweep(&link, speed, length(), held_by))
+        .collect()
+}
+
+/// Bits of an encoder, and whether currents pass the transducer and the converter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sensors {
+    /// Of a turn.
+    pub bits: i32,
+    /// Otherwise currents are as they are.
+    pub has_chain: bool,
+}
+
+/// Those of the rig.
+pub const SENSORS: Sensors = Sensors {
+    bits: truth::BITS,
+    has_chain: true,
+};
+
+/// What is logged of runs at the twenty speeds, after a way that depends on the speed.
 ///
 /// # Errors
 /// Those of logs.
-pub fn constant_speeds(
-    friction: Friction,
-    way: Way,
-    held_by: Loop,
-    bits: i32,
+pub fn logs(
+    runs: &[Run],
+    sensors: Sensors,
+    left_out: impl Fn(f64) -> f64,
 ) -> Result<Vec<Log>, Error> {
-    let link = Link::hanging(friction);
-    let [low, high] = range();
-    let log = |(seed, speed): (u64, f64)| {
-        let run = match way {
-            Way::Rig => sweep(&link, speed, high - low, held_by),
-            Way::Free => sweep(&link, speed, FREE_WAY, held_by).last(KEPT),
-        };
-        run.log(&format!("{speed:.2} rad/s"), bits, seed)
+    let pairs = (1..).zip(runs.iter().zip(speeds()));
+    let log = |(seed, (run, speed)): (u64, (&Run, f64))| {
+        let kept = run.after(left_out(speed));
+        let name = format!("{speed:.2} rad/s");
+        if sensors.has_chain {
+            kept.log(&name, sensors.bits, seed)
+        } else {
+            kept.log_without_chain(&name, sensors.bits)
+        }
     };
-    (1..).zip(speeds()).map(log).collect()
+    pairs.map(log).collect()
+}
+
+/// The friction curve of runs whose start is left out until bristles have settled. How far that is the curve of their last parts tells, with
+/// the stiffness that a torque that rises has by it.
+///
+/// # Errors
+/// Those of the libraries.
+pub fn settled(runs: &[Run], rise: &Log, sensors: Sensors) -> Result<(Curve, Law), Error> {
+    let (curve, law) = tool::curve(&logs(runs, sensors, |_| FIRST_LEFT_OUT * length())?, false)?;
+    let stiffness = tool::bristles(&curve, &law, rise)?.stiffness.value;
+    let forgets = |speed: f64| (law.torque(speed) - law.viscous.value * speed) / stiffness;
+    let left_out = |speed: f64| (FORGOTTEN * forgets(speed)).min(MOST_LEFT_OUT * length());
+    tool::curve(&logs(runs, sensors, left_out)?, false)
 }
 
 /// A torque that rises slowly from rest until the joint breaks away or its range ends.
@@ -100,6 +139,8 @@ pub fn with_law(law: &Law) -> Friction {
 /// All that is found of a friction with a fine encoder.
 #[derive(Debug, Clone)]
 pub struct Found {
+    /// The twenty speeds.
+    pub runs: Vec<Run>,
     /// Points of the curve.
     pub curve: Curve,
     /// The static four.
@@ -112,7 +153,9 @@ pub struct Found {
     pub first: [f64; 2],
     /// The dynamic two, refined.
     pub dynamic: Dynamic,
-    /// The same with the encoder of the paper.
+    /// The same by the mixed cost (23).
+    pub mixed: Mixed,
+    /// By squares, with the encoder of the paper.
     pub coarse: Dynamic,
     /// The shake that they are from.
     pub shake: Run,
@@ -123,10 +166,11 @@ pub struct Found {
 /// # Errors
 /// Those of the libraries.
 pub fn find(friction: Friction) -> Result<Found, Error> {
-    let logs = constant_speeds(friction, Way::Free, Loop::Stiff, truth::BITS)?;
-    let (curve, law) = tool::curve(&logs, false)?;
+    let runs = sweeps(friction, Loop::Stiff);
     let rise = rise(friction, RISE, 100);
-    let bristles = tool::bristles(&curve, &law, &rise.log("rise", rig::FINE_BITS, 31)?)?;
+    let rise_log = rise.log("rise", rig::FINE_BITS, 31)?;
+    let (curve, law) = settled(&runs, &rise_log, SENSORS)?;
+    let bristles = tool::bristles(&curve, &law, &rise_log)?;
     let small = shake(friction, 0.1 * friction.breakaway);
     let small = small.log("small shake", rig::FINE_BITS, 32)?;
     let spec = include_str!("second_order.robot");
@@ -143,15 +187,24 @@ pub fn find(friction: Friction) -> Result<Found, Error> {
         ..with_law(&law)
     };
     let shake = shake(friction, 0.5 * friction.breakaway);
-    let dynamic = tool::dynamic(&start, &shake.log("shake", rig::FINE_BITS, 33)?)?;
+    let shake_log = shake.log("shake", rig::FINE_BITS, 33)?;
+    let dynamic = tool::dynamic(&start, &shake_log)?;
+    let of_squares = Friction {
+        stiffness: dynamic.stiffness.value,
+        damping: dynamic.damping.value,
+        ..start
+    };
+    let mixed = refine::mixed(&of_squares, [start.stiffness, start.damping], &shake_log)?;
     let coarse = tool::dynamic(&start, &shake.log("shake", truth::BITS, 33)?)?;
     Ok(Found {
+        runs,
         curve,
         law,
         rise,
         bristles,
         first,
         dynamic,
+        mixed,
         coarse,
         shake,
     })

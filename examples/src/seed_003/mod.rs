@@ -9,6 +9,7 @@ pub mod encoder;
 pub mod experiments;
 pub mod phenomena;
 pub mod plant;
+pub mod refine;
 pub mod results;
 pub mod rig;
 pub mod rows;

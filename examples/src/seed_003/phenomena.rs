@@ -41,6 +41,54 @@ pub struct Motion {
     pub torque: Vec<f64>,
 }
 
+/// A joint stands below this share of the speed at which it is pulled, and jumps above that many times it.
+const STANDS: f64 = 0.05;
+const JUMPS: f64 = 1.5;
+
+/// A joint that sticks stands for this share of the time: one that turns round after a jump passes through standstill, and does not stay.
+const STICKS: f64 = 0.15;
+
+/// How a joint moves over the last third of a pull; speeds are over that of the pull.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Late {
+    /// Least speed.
+    pub least: f64,
+    /// Largest speed.
+    pub largest: f64,
+    /// Share of the time for which it stands.
+    pub standing: f64,
+    /// How often it stood, and then jumped.
+    pub jumps: usize,
+    /// The speed that it is below for a third of the time.
+    pub creep: f64,
+}
+
+impl Late {
+    /// Whether it stands, and jumps, over and over.
+    #[must_use]
+    pub fn sticks(&self) -> bool {
+        self.standing > STICKS && self.jumps > 1
+    }
+
+    /// Whether it goes along evenly.
+    #[must_use]
+    pub fn is_even(&self) -> bool {
+        self.least > 0.99 && self.largest < 1.01
+    }
+
+    /// In a word.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        if self.sticks() {
+            "sticks"
+        } else if self.is_even() {
+            "even"
+        } else {
+            "swings"
+        }
+    }
+}
+
 /// A torque of time and angle that is held between samples.
 struct Pull<F>(F);
 
@@ -145,14 +193,29 @@ impl Motion {
         (work.sum(), width)
     }
 
-    /// Least and largest speed over the last third, over `speed`.
+    /// How a joint moves late, the end of whose spring moves at `speed`.
     #[must_use]
-    pub fn spread(&self, speed: f64) -> [f64; 2] {
-        let late = self.v[2 * self.v.len() / 3..].iter();
-        let (low, high) = late.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
-            (low.min(*v), high.max(*v))
-        });
-        [low / speed, high / speed]
+    pub fn late(&self, speed: f64) -> Late {
+        let late = &self.v[2 * self.v.len() / 3..];
+        let count = |is_so: &dyn Fn(f64) -> bool| late.iter().filter(|v| is_so(**v)).count() as f64;
+        let mut jumps = 0_usize;
+        let mut stood = false;
+        for v in late {
+            stood |= v.abs() < STANDS * speed;
+            if stood && *v > JUMPS * speed {
+                jumps += 1;
+                stood = false;
+            }
+        }
+        let mut sorted = late.to_vec();
+        sorted.sort_unstable_by(f64::total_cmp);
+        Late {
+            creep: sorted[sorted.len() / 3] / speed,
+            least: late.iter().copied().fold(f64::INFINITY, f64::min) / speed,
+            largest: late.iter().copied().fold(f64::NEG_INFINITY, f64::max) / speed,
+            standing: count(&|v| v.abs() < STANDS * speed) / late.len() as f64,
+            jumps,
+        }
     }
 
     /// Largest distance of two motions' angles, rad.

@@ -1,13 +1,13 @@
 //! Everything that the page shows, computed once.
 
-use robot_model::friction_curve::Law;
+use robot_model::friction_curve::{Curve, Law};
 
 use super::audit::{self, Finding};
 use super::encoder::{self, Trial};
-use super::experiments::{self, Found, Way};
-use super::phenomena::{self, Motion};
+use super::experiments::{self, Found, SENSORS, Sensors};
+use super::phenomena::{self, Late, Motion};
 use super::plant::{Friction, PRINTED};
-use super::rig::Loop;
+use super::rig::{Loop, Run};
 use super::{tool, truth};
 use crate::paper::Error;
 
@@ -46,8 +46,23 @@ pub struct Body {
 pub struct Shown {
     /// Whose they are.
     pub name: &'static str,
-    /// Least and largest speed over the pulled one, late, at each of [`PULLED`].
-    pub spread: Vec<[f64; 2]>,
+    /// How it moves late, at each of [`PULLED`].
+    pub late: Vec<Late>,
+    /// A pull to and fro by hand, and the runtime's distance from it, rad.
+    pub to_and_fro: (Motion, f64),
+    /// Pulls by hand at the first of [`BESIDE`], and the runtime's largest distance, rad.
+    pub slip: (Motion, f64),
+}
+
+/// The static four through the current.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// With the transducer and the converter.
+    pub law: Law,
+    /// With currents as they are.
+    pub without: Law,
+    /// Largest voltage on the converter, V.
+    pub volts: f64,
 }
 
 /// All results.
@@ -55,7 +70,7 @@ pub struct Shown {
 pub struct Results {
     /// The printed procedure on the printed friction.
     pub found: Found,
-    /// Static laws by protocol: free and over the range, of printed and of stiff bristles.
+    /// Static laws by protocol, of printed and of stiff bristles.
     pub protocols: Vec<Protocol>,
     /// The link.
     pub body: Body,
@@ -63,12 +78,10 @@ pub struct Results {
     pub settled: [f64; 2],
     /// Trials of encoders.
     pub encoders: Vec<Trial>,
-    /// A pull to and fro by hand, and the runtime's distance from it, rad.
-    pub to_and_fro: (Motion, f64),
-    /// Stick-slip by hand at the first of [`BESIDE`], and the runtime's largest distance, rad.
-    pub slip: (Motion, f64),
-    /// Which pulls stick and slip.
+    /// What pulls show: of the printed friction, of stiff bristles, of less damping.
     pub shown: Vec<Shown>,
+    /// Torques in kgf cm.
+    pub in_kgf_cm: Chain,
     /// What is wrong, by item.
     pub findings: Findings,
 }
@@ -78,6 +91,8 @@ pub struct Results {
 pub struct Findings {
     /// Gravity in equation (7).
     pub gravity: Finding,
+    /// The rod's share there.
+    pub third: Finding,
     /// The printed unit of the stiffness.
     pub unit: Finding,
     /// Equation (17), and the stiffness that it and its repair give.
@@ -94,6 +109,8 @@ pub struct Findings {
     pub softness: Finding,
     /// Speeds from differences.
     pub differences: Finding,
+    /// The encoder's step.
+    pub encoder: Finding,
 }
 
 /// Runs everything.
@@ -106,6 +123,7 @@ pub fn results() -> Result<Results, Error> {
     let (printed, passive) = (tool::checks(&PRINTED)?, tool::checks(&audit::PASSIVE)?);
     let findings = Findings {
         gravity: audit::dimensions(audit::EQUATION_7),
+        third: audit::third()?,
         unit: audit::dimensions(audit::EQUATION_8),
         deflection: audit::deflection(&rise)?,
         damping: audit::dimensions(audit::EQUATION_22),
@@ -113,51 +131,70 @@ pub fn results() -> Result<Results, Error> {
         friction: audit::check("friction", &printed, &passive),
         memory: audit::check("memory", &printed, &passive),
         softness: audit::softness(&found.curve, &found.law, &found.bristles)?,
-        differences: audit::differences(&found.curve, &found.law)?,
+        differences: audit::differences(&found)?,
+        encoder: audit::encoder(&found.curve),
     };
     Ok(Results {
         protocols: protocols(&found)?,
         body: body()?,
         settled: settled()?,
         encoders: encoder::study(&found.curve, &found.law)?,
-        to_and_fro: to_and_fro()?,
-        slip: slip()?,
-        shown: shown(),
+        shown: shown()?,
+        in_kgf_cm: in_kgf_cm()?,
         findings,
         found,
     })
 }
 
 fn protocols(found: &Found) -> Result<Vec<Protocol>, Error> {
-    let over = |name, friction: Friction, held_by| -> Result<Protocol, Error> {
-        let logs = experiments::constant_speeds(friction, Way::Rig, held_by, truth::BITS)?;
-        let (curve, law) = tool::curve(&logs, false)?;
-        Ok(Protocol {
-            name,
-            points: curve.points.len(),
-            law,
-        })
+    let of = |name, (curve, law): (Curve, Law)| Protocol {
+        name,
+        points: curve.points.len(),
+        law,
     };
-    let free = Protocol {
-        name: "printed bristles, 14 rad, the first 9 left out",
-        points: found.curve.points.len(),
-        law: found.law.clone(),
-    };
+    let from_rest = |runs: &[Run]| tool::curve(&experiments::logs(runs, SENSORS, |_| 0.0)?, false);
+    let held = |friction, held_by| from_rest(&experiments::sweeps(friction, held_by));
     Ok(vec![
-        free,
-        over("printed bristles, 280 degrees", PRINTED, Loop::Stiff)?,
-        over(
-            "printed bristles, 280 degrees, printed gains",
-            PRINTED,
-            Loop::Printed,
-        )?,
-        over("1001 N m/rad, 280 degrees", audit::stiff(), Loop::Stiff)?,
-        over(
-            "1001 N m/rad, 280 degrees, printed gains",
-            audit::stiff(),
-            Loop::Printed,
-        )?,
+        of(
+            "printed bristles, start left out",
+            (found.curve.clone(), found.law.clone()),
+        ),
+        of("printed bristles, from rest", from_rest(&found.runs)?),
+        of(
+            "printed bristles, from rest, printed gains",
+            held(PRINTED, Loop::Printed)?,
+        ),
+        of(
+            "1001 N m/rad, from rest",
+            held(audit::stiff(), Loop::Stiff)?,
+        ),
+        of(
+            "1001 N m/rad, from rest, printed gains",
+            held(audit::stiff(), Loop::Printed)?,
+        ),
     ])
+}
+
+/// The protocol with the printed torques in kgf cm, as the motor could give them.
+fn in_kgf_cm() -> Result<Chain, Error> {
+    let friction = audit::in_kgf_cm();
+    let runs = experiments::sweeps(friction, Loop::Stiff);
+    let rise = experiments::rise(friction, experiments::RISE * truth::KGF_CM, 100);
+    let rise = rise.log("rise", super::rig::FINE_BITS, 35)?;
+    let of = |has_chain| {
+        let sensors = Sensors {
+            has_chain,
+            ..SENSORS
+        };
+        experiments::settled(&runs, &rise, sensors)
+    };
+    // At the start the loop asks for more than friction takes.
+    let kept = runs.iter().map(|run| run.after(1.0).volts());
+    Ok(Chain {
+        law: of(true)?.1,
+        without: of(false)?.1,
+        volts: kept.fold(0.0, f64::max),
+    })
 }
 
 fn body() -> Result<Body, Error> {
@@ -192,60 +229,74 @@ fn settled() -> Result<[f64; 2], Error> {
     Ok(most)
 }
 
-fn to_and_fro() -> Result<(Motion, f64), Error> {
-    let (seconds, pull) = phenomena::to_and_fro(&PRINTED);
-    let motion = phenomena::by_hand(PRINTED, phenomena::LOADED, seconds, &pull);
-    let beside = phenomena::by_runtime(PRINTED, phenomena::LOADED, seconds, &pull)?;
+fn to_and_fro(friction: Friction) -> Result<(Motion, f64), Error> {
+    let (seconds, pull) = phenomena::to_and_fro(&friction);
+    let motion = phenomena::by_hand(friction, phenomena::LOADED, seconds, &pull);
+    let beside = phenomena::by_runtime(friction, phenomena::LOADED, seconds, &pull)?;
     let distance = motion.distance(&beside);
     Ok((motion, distance))
 }
 
-fn slip() -> Result<(Motion, f64), Error> {
+fn slip(friction: Friction) -> Result<(Motion, f64), Error> {
     let mut distance: f64 = 0.0;
     let mut motions = Vec::new();
     for speed in BESIDE {
         let pull = phenomena::pulled(speed);
-        let motion = phenomena::by_hand(PRINTED, phenomena::LOADED, PULL_S, &pull);
-        let beside = phenomena::by_runtime(PRINTED, phenomena::LOADED, PULL_S, &pull)?;
+        let motion = phenomena::by_hand(friction, phenomena::LOADED, PULL_S, &pull);
+        let beside = phenomena::by_runtime(friction, phenomena::LOADED, PULL_S, &pull)?;
         distance = distance.max(motion.distance(&beside));
         motions.push(motion);
     }
     Ok((motions.swap_remove(0), distance))
 }
 
-fn shown() -> Vec<Shown> {
+fn shown() -> Result<Vec<Shown>, Error> {
     let friction = [
         ("printed", PRINTED),
         ("stiff bristles", audit::stiff()),
         ("less damping", audit::PASSIVE),
     ];
     let of = |(name, friction): (&'static str, Friction)| {
-        let spread = PULLED.map(|speed| {
+        let late = PULLED.map(|speed| {
             let seconds = (PULL_RAD / speed).max(PULL_S);
-            phenomena::by_hand(
-                friction,
-                phenomena::LOADED,
-                seconds,
-                phenomena::pulled(speed),
-            )
-            .spread(speed)
+            let pull = phenomena::pulled(speed);
+            phenomena::by_hand(friction, phenomena::LOADED, seconds, pull).late(speed)
         });
-        Shown {
+        Ok(Shown {
             name,
-            spread: spread.to_vec(),
-        }
+            late: late.to_vec(),
+            to_and_fro: to_and_fro(friction)?,
+            slip: slip(friction)?,
+        })
     };
     friction.into_iter().map(of).collect()
 }
 
-/// Whether a joint that is pulled stands, or goes back, and then goes faster than it is pulled.
-#[must_use]
-pub fn sticks(spread: [f64; 2]) -> bool {
-    spread[0] < 0.05 && spread[1] > 1.5
-}
+impl Shown {
+    /// The speeds of [`PULLED`] at which that is so.
+    #[must_use]
+    pub fn speeds(&self, is_so: fn(&Late) -> bool) -> Vec<f64> {
+        let pairs = PULLED.iter().zip(&self.late);
+        pairs
+            .filter(|(_, late)| is_so(late))
+            .map(|(speed, _)| *speed)
+            .collect()
+    }
 
-/// Whether it goes along evenly.
-#[must_use]
-pub fn is_even(spread: [f64; 2]) -> bool {
-    spread[0] > 0.99 && spread[1] < 1.01
+    /// Whether the joint sticks and slips at speeds below one, and goes along evenly at all above. The slowest are no part of that: close to
+    /// rest the printed curve falls by less than `s2`.
+    #[must_use]
+    pub fn sticks_below_a_speed_only(&self) -> bool {
+        let slips = self.speeds(Late::sticks);
+        let even = self.speeds(Late::is_even);
+        let fastest = slips.iter().copied().fold(0.0, f64::max);
+        let slowest = slips.iter().copied().fold(f64::INFINITY, f64::min);
+        !slips.is_empty()
+            && PULLED.iter().any(|speed| *speed > fastest)
+            && PULLED.iter().all(|speed| {
+                *speed < slowest
+                    || slips.contains(speed)
+                    || (*speed > fastest && even.contains(speed))
+            })
+    }
 }

@@ -13,8 +13,11 @@ use crate::paper::{Error, normal, rounded};
 /// Steps of the integrator: one for each sample of the sensors.
 pub const STEP_S: f64 = 1.0 / truth::SENSOR_HZ;
 
-/// Noise of the current beside its resolution, A.
+/// Noise of the transducer's current, as of a motor behind a bridge, A.
 pub const CURRENT_NOISE: f64 = 0.01;
+
+/// What the transducer and its resistor make of a current, V/A.
+pub const VOLTS_PER_AMPERE: f64 = truth::TURNS * truth::RESISTOR;
 
 /// Bits of the encoder that is called fine.
 pub const FINE_BITS: i32 = 20;
@@ -139,12 +142,27 @@ pub fn sweep(link: &Link, wanted: f64, way: f64, held_by: Loop) -> Run {
     run
 }
 
+/// The current in a log: the transducer makes a voltage of the motor's, with its noise, the converter counts that, and the count is taken
+/// back through both. That the converter ends at 5 V is not in it: see `in_kgf_cm` of `audit`.
+fn through_the_chain(current: f64) -> f64 {
+    let step = 2.0 * truth::CONVERTER_VOLTS / 2_f64.powi(truth::CONVERTER_BITS);
+    rounded(VOLTS_PER_AMPERE * current, step) / VOLTS_PER_AMPERE
+}
+
 impl Run {
-    /// The last part of the way, from this share of it on, with time from 0.
+    /// Largest voltage on the converter, V.
     #[must_use]
-    pub fn last(&self, from: f64) -> Self {
-        let (first, end) = (self.q[0], self.q[self.q.len() - 1]);
-        let start = self.q.partition_point(|q| q - first < from * (end - first));
+    pub fn volts(&self) -> f64 {
+        let torques = self.torque.iter();
+        let most = torques.fold(0.0, |most: f64, torque| most.max(torque.abs()));
+        VOLTS_PER_AMPERE * most / truth::TORQUE_CONSTANT
+    }
+
+    /// What comes after so many rad, with time from 0.
+    #[must_use]
+    pub fn after(&self, way: f64) -> Self {
+        let first = self.q[0];
+        let start = self.q.partition_point(|q| q - first < way);
         Self {
             time: self.time[start..]
                 .iter()
@@ -161,11 +179,25 @@ impl Run {
     /// None is expected: that of a log.
     pub fn log(&self, name: &str, bits: i32, seed: u64) -> Result<Log, Error> {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
+        self.log_of(name, bits, |current| {
+            through_the_chain(current + CURRENT_NOISE * normal(&mut random))
+        })
+    }
+
+    /// The same with currents as they are.
+    ///
+    /// # Errors
+    /// As [`Self::log`].
+    pub fn log_without_chain(&self, name: &str, bits: i32) -> Result<Log, Error> {
+        self.log_of(name, bits, |current| current)
+    }
+
+    fn log_of(&self, name: &str, bits: i32, read: impl FnMut(f64) -> f64) -> Result<Log, Error> {
         let current = self
             .torque
             .iter()
-            .map(|torque| torque / truth::TORQUE_CONSTANT + CURRENT_NOISE * normal(&mut random));
-        let current = current.collect();
+            .map(|torque| torque / truth::TORQUE_CONSTANT);
+        let current = current.map(read).collect();
         let step = encoder_step(bits);
         let q = self.q.iter().map(|q| rounded(*q, step)).collect();
         Ok(Log::from_samples(

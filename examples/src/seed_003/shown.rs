@@ -5,7 +5,7 @@ use robot_model::friction_curve::{Law, Value};
 use super::encoder::{BITS, STIFFNESSES};
 use super::experiments::{self, rise, with_law};
 use super::plant::{Friction, PRINTED};
-use super::results::{self, PULLED, Protocol, Results, is_even, sticks};
+use super::results::{self, PULLED, Protocol, Results};
 use super::{tool, truth};
 use crate::paper::{Error, Figure, Mark, Table};
 
@@ -40,7 +40,11 @@ fn parameters(results: &Results) -> Table {
             unit.to_owned(),
             printed.to_string(),
             format!("{value:.4}"),
-            format!("{std:.4}"),
+            if std.is_nan() {
+                "-".to_owned()
+            } else {
+                format!("{std:.4}")
+            },
             format!("{:+.2} %", 100.0 * (value / printed - 1.0)),
         ]);
     };
@@ -56,6 +60,23 @@ fn parameters(results: &Results) -> Table {
     );
     push("s0", "N m/rad", truth::STIFFNESS, found.dynamic.stiffness);
     push("s1", "N m s/rad", truth::DAMPING, found.dynamic.damping);
+    let alone = |value| Value {
+        value,
+        std: f64::NAN,
+    };
+    let mixed = &found.mixed.found;
+    push(
+        "s0, cost (23)",
+        "N m/rad",
+        truth::STIFFNESS,
+        alone(mixed.stiffness),
+    );
+    push(
+        "s1, cost (23)",
+        "N m s/rad",
+        truth::DAMPING,
+        alone(mixed.damping),
+    );
     push(
         "s0, 12 bits",
         "N m/rad",
@@ -75,7 +96,7 @@ fn protocols(results: &Results) -> Table {
     let mut table = Table::new(
         "The static four by protocol",
         [
-            "twenty speeds of",
+            "twenty speeds over 280 degrees",
             "found",
             "F_c",
             "F_s",
@@ -124,21 +145,20 @@ fn encoders(results: &Results) -> Table {
 
 fn pulls(results: &Results) -> Table {
     let mut table = Table::new(
-        "Pulled by a spring of 2 N m/rad: least and largest speed over that of its end",
+        "Pulled by a spring of 2 N m/rad: least and largest speed over that of its end, share of the time for which the joint stands",
         ["speed, rad/s", "printed", "s0 1001", "s1 0.05"],
     );
     for (k, speed) in PULLED.iter().enumerate() {
-        let cell = |spread: [f64; 2]| {
-            let what = if sticks(spread) {
-                "sticks"
-            } else if is_even(spread) {
-                "even"
-            } else {
-                "swings"
-            };
-            format!("{:.2} .. {:.2} {what}", spread[0], spread[1])
-        };
-        let cells = results.shown.iter().map(|shown| cell(shown.spread[k]));
+        let cells = results.shown.iter().map(|shown| {
+            let late = &shown.late[k];
+            format!(
+                "{:.2} .. {:.2}, {:.0} %, {}",
+                late.least,
+                late.largest,
+                100.0 * late.standing,
+                late.word()
+            )
+        });
         table.push(std::iter::once(speed.to_string()).chain(cells));
     }
     table
@@ -178,7 +198,7 @@ fn curves(results: &Results) -> Result<Vec<Figure>, Error> {
         .collect();
     let simulated_rise = rise(refined, experiments::RISE, 100);
     Ok(vec![
-        stribeck("figure_6", "Stribeck curve: twenty speeds and their law")
+        stribeck("figure_06", "Stribeck curve: twenty speeds and their law")
             .with(
                 "law",
                 Mark::Line,
@@ -190,7 +210,7 @@ fn curves(results: &Results) -> Result<Vec<Figure>, Error> {
                 speeds().map(|v| (v, PRINTED.steady(v))),
             ),
         Figure::new(
-            "figure_7",
+            "figure_07",
             "Before sliding: a torque that rises by 0.01 N m/s",
             "time, s",
             "angle, rad",
@@ -205,7 +225,7 @@ fn curves(results: &Results) -> Result<Vec<Figure>, Error> {
             Mark::Line,
             thinned(&simulated_rise.time, &simulated_rise.q),
         ),
-        stribeck("figure_8", "Stribeck curve: experiment and simulation").with(
+        stribeck("figure_08", "Stribeck curve: experiment and simulation").with(
             "bristles that have settled",
             Mark::Line,
             simulated?,
@@ -214,11 +234,36 @@ fn curves(results: &Results) -> Result<Vec<Figure>, Error> {
 }
 
 fn phenomena(results: &Results) -> Vec<Figure> {
-    let pulled = &results.to_and_fro.0;
-    let slip = &results.slip.0;
-    let late = slip.time.partition_point(|t| *t < 15.0);
-    let (time, q) = (&slip.time[late..], &slip.q[late..]);
-    let end: Vec<f64> = time.iter().map(|t| results::BESIDE[0] * t).collect();
+    let [printed, stiff, _] = &results.shown[..] else {
+        return Vec::new();
+    };
+    let loop_of = |name: &str, what: &str, shown: &results::Shown| {
+        let pulled = &shown.to_and_fro.0;
+        Figure::new(
+            name,
+            format!("Pulled to and fro below breakaway: {what}"),
+            "angle, rad",
+            "torque, N m",
+        )
+        .with("by hand", Mark::Line, thinned(&pulled.q, &pulled.torque))
+    };
+    let pull_of = |name: &str, what: &str, shown: &results::Shown| {
+        let slip = &shown.slip.0;
+        let late = slip.time.partition_point(|t| *t < 15.0);
+        let (time, q) = (&slip.time[late..], &slip.q[late..]);
+        let end: Vec<f64> = time.iter().map(|t| results::BESIDE[0] * t).collect();
+        Figure::new(
+            name,
+            format!(
+                "Pulled by a spring whose end moves at {} rad/s: {what}",
+                results::BESIDE[0]
+            ),
+            "time, s",
+            "angle, rad",
+        )
+        .with("joint", Mark::Line, thinned(time, q))
+        .with("end of the spring", Mark::Line, thinned(time, &end))
+    };
     let through = |bits: i32| {
         let trials = results.encoders.iter();
         let trials = trials.filter(move |trial| trial.bits == bits);
@@ -231,21 +276,9 @@ fn phenomena(results: &Results) -> Vec<Figure> {
         "found over true",
     );
     vec![
-        Figure::new(
-            "figure_9a",
-            "Pulled to and fro below breakaway",
-            "angle, rad",
-            "torque, N m",
-        )
-        .with("by hand", Mark::Line, thinned(&pulled.q, &pulled.torque)),
-        Figure::new(
-            "figure_9b",
-            "Pulled by a spring whose end moves at 0.5 rad/s",
-            "time, s",
-            "angle, rad",
-        )
-        .with("joint", Mark::Line, thinned(time, q))
-        .with("end of the spring", Mark::Line, thinned(time, &end)),
+        loop_of("figure_09a", "printed bristles", printed),
+        pull_of("figure_09b", "bristles of 1001 N m/rad", stiff),
+        pull_of("figure_09c", "printed bristles", printed),
         BITS.iter().fold(encoders, |figure, bits| {
             figure.with(format!("{bits} bits"), Mark::Line, through(*bits))
         }),

@@ -71,7 +71,14 @@ fn measured(arm: &InterpretedArm) -> Measured<'_> {
 /// What is wrong in the spec.
 pub fn plant(friction: &Friction, inertia: Option<f64>) -> Result<InterpretedPlant, Error> {
     let text = inertia.map_or_else(|| BRISTLES.to_owned(), lying);
-    let compiled = compiled("bristles.robot", &text)?;
+    plant_of(compiled("bristles.robot", &text)?, friction)
+}
+
+/// As [`plant`], of a spec that is compiled.
+///
+/// # Errors
+/// None is expected: values that are not its own.
+pub fn plant_of(compiled: Compiled, friction: &Friction) -> Result<InterpretedPlant, Error> {
     let (beta, shapes) = numbers(&compiled, friction);
     Ok(InterpretedPlant::new(compiled, &beta, &shapes)?)
 }

@@ -58,5 +58,10 @@ pub const RESISTOR: f64 = 670.0;
 /// A.
 pub const LARGEST_CURRENT: f64 = 0.8;
 
+/// The converter, an ADS1256: it counts so many bits over twice this voltage.
+pub const CONVERTER_VOLTS: f64 = 5.0;
+/// Bits.
+pub const CONVERTER_BITS: i32 = 24;
+
 /// Torque of a current, N m/A: the paper has none, and this one makes of the largest current the largest torque.
 pub const TORQUE_CONSTANT: f64 = 1.3607;

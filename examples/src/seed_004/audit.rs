@@ -3,12 +3,16 @@
 use super::device::{SPEC, by_name, compiled, within};
 use super::fits::STIFF;
 use super::plant::Plant;
-use super::rig::{self, ROOM, Sines};
+use super::rig;
+use super::sines::{ROOM, Room, Sines};
 use super::truth::{Pi, piece_wise, table_1};
-pub use crate::paper::Audited;
-use crate::paper::Error;
+use crate::paper::{Audited, Error};
 
-fn audited(text: &str, pi: &Pi) -> Result<Audited, Error> {
+/// What the tool says of a set of parameters of a spec.
+///
+/// # Errors
+/// Those of the text.
+pub fn audited(text: &str, pi: &Pi) -> Result<Audited, Error> {
     Audited::of(&compiled(text)?, &by_name(pi))
 }
 
@@ -43,7 +47,7 @@ pub fn all() -> Result<Audits, Error> {
         pi
     };
     // The limits of the spec.
-    let whole = rig::Room {
+    let whole = Room {
         low: [-60.0, -30.0, -30.0].map(f64::to_radians),
         high: [60.0, 100.0, 75.0].map(f64::to_radians),
     };

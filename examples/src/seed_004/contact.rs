@@ -9,8 +9,9 @@ use robot_model::{Points as _, State, Vector};
 
 use super::device::phantom;
 use super::fits::STIFF;
-use super::plant::{Plant, Three};
-use super::rig::{self, ROOM, Sines};
+use super::plant::{Plant, Three, tip_jacobian};
+use super::rig;
+use super::sines::{ROOM, Sines, poses};
 use super::truth::{CORNER, LINKS, Pi, table_1};
 use crate::paper::{Error, normal};
 
@@ -55,7 +56,7 @@ fn printed_jacobian(q: &Three) -> Matrix3<f64> {
 #[must_use]
 pub fn jacobian_off() -> f64 {
     let arm = phantom(&table_1(2));
-    let poses = rig::poses(&ROOM, 100, 71).into_iter();
+    let poses = poses(&ROOM, 100, 71).into_iter();
     let off = poses.map(|q| {
         let [own] = arm.point_jacobians(&Vector::from(q));
         let printed = printed_jacobian(&q);
@@ -83,11 +84,10 @@ pub struct Felt {
 /// Those of the plant and of the filters.
 pub fn felt(known: &Pi, motion: &Sines) -> Result<Felt, Error> {
     let truth = table_1(2);
-    let device = phantom(&truth);
     let plant = Plant::new(truth, motion.at(0.0)[0]);
     let record = rig::pushed(plant, motion, &STIFF, SECONDS, 72, |t, q| {
-        let [jacobian] = device.point_jacobians(&Vector::from(*q));
-        (jacobian.transpose() * Vector::from(hand(t))).into()
+        let (jacobian, force) = (tip_jacobian(&LINKS, q), hand(t));
+        std::array::from_fn(|j| (0..3).map(|axis| jacobian[axis][j] * force[axis]).sum())
     })?;
     let log = record.log("pushed", 0.0, SECONDS)?;
     let prepared = prepare(&log, &Bands::for_log(&log))?;

@@ -7,7 +7,7 @@ use robot_model::{State, Vector};
 
 use super::device::phantom;
 use super::plant::{Plant, Three, bias};
-use super::rig::{ENCODER, RATE, Velocity, rounded, samples};
+use super::sensors::{ENCODER, RATE, Velocity, rounded, samples};
 use super::truth::Pi;
 use crate::paper::Error;
 
@@ -121,12 +121,15 @@ fn at_start(known: &Pi) -> Three {
 /// Damping of the sweep, within the paper's 0.7 to 1.2.
 const DAMPING: f64 = 1.0;
 
-/// The largest `K_P` of a sweep in steps of 5 % up to which the loop comes to rest.
+/// Where the sweep starts: beyond all gains of the paper.
+const LEAST_GAIN: f64 = 1500.0;
+
+/// The largest `K_P` of a sweep in steps of 5 % up to which the loop comes to rest; zero where it does not at the first.
 ///
 /// # Errors
 /// Those of [`square`].
 pub fn largest_gain(truth: &Pi, known: &Pi) -> Result<f64, Error> {
-    let mut kp = 100.0;
+    let mut kp = LEAST_GAIN;
     let mut largest = 0.0;
     while kp < 2e5 {
         if !square(truth, known, [kp, 2.0 * DAMPING * f64::sqrt(kp)])?.is_stable {

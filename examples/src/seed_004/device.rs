@@ -128,6 +128,6 @@ pub fn deviations(estimate: &Estimate) -> Pi {
 }
 
 /// Base parameters that are one lump have its name, with an `r` behind it.
-fn is_named(own: &str, name: &str) -> bool {
+pub(super) fn is_named(own: &str, name: &str) -> bool {
     own == name || own.strip_suffix('r') == Some(name)
 }

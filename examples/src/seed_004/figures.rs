@@ -1,14 +1,14 @@
-//! Figures 5, 7, 10, 14 and 17.
+//! Figures 4 to 11 and 14 to 17; 1 to 3, 12 and 13 are drawings and diagrams.
 
-use robot_model::identify::Identify;
+use robot_model::identify::Estimate;
 use robot_model::signal::FirstOrder;
 
 use super::device::{self, SPEC};
-use super::plant::Three;
-use super::results::Results;
-use super::rig::RATE;
+use super::fits::Installation;
+use super::results::{Controlled, Results};
+use super::sensors::RATE;
 use super::shares;
-use super::truth::CORNER;
+use super::truth::{self, CONFIGURATIONS, CORNER, NAMES};
 use crate::paper::{Error, Figure, Mark};
 
 /// Every so manieth sample is drawn.
@@ -18,47 +18,100 @@ const THINNED: usize = 100;
 const SETTLED: usize = 1000;
 const SPAN: usize = 10;
 
+/// Seconds of the motion that figures over time show.
+const SHOWN: std::ops::Range<usize> = 10_000..20_000;
+
 pub(super) fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
-    let mut all = vec![
-        residual(
-            results,
-            "figure_5",
-            &device::without_friction(),
-            "without friction",
-        )?,
-        residual(results, "figure_7", SPEC, "with friction")?,
-    ];
-    let ur = &results.shares[0];
-    let mut figure = Figure::new(
-        "figure_10",
-        "Shares of the torque, UR",
-        "joint",
-        "RMS, mN m",
-    );
-    for (name, rms) in shares::NAMES.iter().zip(ur.rms) {
-        figure = figure.with(*name, Mark::Line, joints(&rms));
-    }
-    all.push(figure);
-    let one = &results.controlled[0];
-    let [ours, other] = &one.squares;
-    let line = |q: &[f64], time: &[f64]| -> Vec<(f64, f64)> {
-        time.iter()
-            .copied()
-            .zip(q.iter().copied())
-            .step_by(10)
-            .collect()
+    let bare = device::momentum(&device::without_friction())?;
+    let whole = device::momentum(SPEC)?;
+    let [ur, .., usd_gcw] = &results.installations[..] else {
+        return Ok(Vec::new());
     };
-    all.push(
-        Figure::new(
-            "figure_14",
-            "Inverse dynamics with half of the friction, UR, K_P 625, K_D 35",
-            "time, s",
-            "joint 3, rad",
-        )
-        .with("wanted", Mark::Line, line(&ours.wanted, &ours.time))
-        .with("identified", Mark::Line, line(&ours.q3, &ours.time))
-        .with("piece-wise", Mark::Line, line(&other.q3, &other.time)),
+    let name = CONFIGURATIONS[0];
+    let mut all = Vec::new();
+    let by_parts = with_piece_wise(&ur.without_friction).predict(&bare, &ur.halves.train)?;
+    let without = ur.without_friction.predict(&bare, &ur.halves.train)?;
+    let with = ur.estimate.predict(&whole, &ur.halves.train)?;
+    all.extend(torques("figure_04", name, ur, &without, Some(&by_parts))?);
+    all.push(residual("figure_05", ur, &without, "without friction")?);
+    all.extend(torques("figure_06", name, ur, &with, None)?);
+    all.push(residual("figure_07", ur, &with, "with friction")?);
+    let with = usd_gcw.estimate.predict(&whole, &usd_gcw.halves.train)?;
+    all.extend(torques(
+        "figure_08",
+        CONFIGURATIONS[4],
+        usd_gcw,
+        &with,
+        None,
+    )?);
+    all.extend(shares_of_torque(results));
+    for (number, one) in (14..).zip(&results.controlled) {
+        all.push(square(&format!("figure_{number:02}"), one));
+    }
+    all.push(force(results));
+    Ok(all)
+}
+
+/// Every so manieth of points over time.
+fn line(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+    let pairs = time.iter().copied().zip(values.iter().copied());
+    pairs.step_by(10).collect()
+}
+
+/// Figures 9 to 11.
+fn shares_of_torque(results: &Results) -> [Figure; 3] {
+    let bars = |name: &str, title: &str, x: &str| Figure::new(name, title, x, "RMS, mN m");
+    let ur = &results.shares[0];
+    let (mut ninth, mut tenth) = (
+        bars("figure_09", "Viscous and dry friction, UR", "joint"),
+        bars("figure_10", "Shares of the torque, UR", "joint"),
     );
+    for (k, (name, rms)) in shares::NAMES.iter().zip(ur.rms).enumerate() {
+        if k >= 3 {
+            ninth = ninth.with(*name, Mark::Bars, counted(&rms));
+        }
+        tenth = tenth.with(*name, Mark::Bars, counted(&rms));
+    }
+    let installations = CONFIGURATIONS.iter().zip(1..);
+    let axis = installations.map(|(name, k)| format!("{k} {name}"));
+    let mut eleventh = bars(
+        "figure_11",
+        "Shares of the torque of joint 3",
+        &axis.collect::<Vec<_>>().join(", "),
+    );
+    for (k, name) in shares::NAMES.iter().enumerate() {
+        let third: Vec<f64> = results.shares.iter().map(|one| one.rms[k][2]).collect();
+        eleventh = eleventh.with(*name, Mark::Bars, counted(&third));
+    }
+    [ninth, tenth, eleventh]
+}
+
+/// In mN m, at 1, 2, 3 and so on.
+fn counted(rms: &[f64]) -> Vec<(f64, f64)> {
+    (1..)
+        .zip(rms)
+        .map(|(j, x)| (f64::from(j), 1e3 * x))
+        .collect()
+}
+
+/// Figures 14 to 16.
+fn square(name: &str, one: &Controlled) -> Figure {
+    let [ours, other] = &one.squares;
+    let [kp, kd] = one.gains;
+    let installation = CONFIGURATIONS[one.installation];
+    Figure::new(
+        name,
+        format!("Inverse dynamics with half of the friction, {installation}, K_P {kp}, K_D {kd}"),
+        "time, s",
+        "joint 3, rad",
+    )
+    .with("wanted", Mark::Line, line(&ours.time, &ours.wanted))
+    .with("identified", Mark::Line, line(&ours.time, &ours.q3))
+    .with("piece-wise", Mark::Line, line(&other.time, &other.q3))
+}
+
+/// Figure 17.
+fn force(results: &Results) -> Figure {
     let felt = &results.felt;
     let mut figure = Figure::new(
         "figure_17",
@@ -67,25 +120,63 @@ pub(super) fn figures(results: &Results) -> Result<Vec<Figure>, Error> {
         "force, N",
     );
     for (name, y) in ["sensor", "with the model", "without"].iter().zip(&felt.y) {
-        figure = figure.with(*name, Mark::Line, line(y, &felt.time));
+        figure = figure.with(*name, Mark::Line, line(&felt.time, y));
     }
-    all.push(figure);
-    Ok(all)
+    figure
 }
 
-fn joints(rms: &Three) -> Vec<(f64, f64)> {
-    (1..)
-        .zip(rms)
-        .map(|(j, x)| (f64::from(j), 1e3 * x))
-        .collect()
+/// An estimate with the piece-wise values in it.
+fn with_piece_wise(estimate: &Estimate) -> Estimate {
+    let mut estimate = estimate.clone();
+    for parameter in &mut estimate.parameters {
+        let mut names = NAMES.iter();
+        let place = names.position(|name| device::is_named(&parameter.name, name));
+        parameter.value = place.map_or(0.0, |place| truth::piece_wise()[place]);
+    }
+    estimate
+}
+
+/// Figures 4, 6 and 8, one a joint: filtered torque, that of a model fitted to the same log, and of the piece-wise parameters.
+fn torques(
+    name: &str,
+    configuration: &str,
+    one: &Installation,
+    predicted: &[Vec<f64>],
+    by_parts: Option<&[Vec<f64>]>,
+) -> Result<Vec<Figure>, Error> {
+    let log = &one.halves.train;
+    let filter = FirstOrder::new(CORNER, RATE)?;
+    let shown = |series: &[f64]| {
+        let mut passed = Vec::new();
+        filter.apply(series[0], series, &mut passed);
+        let points = SHOWN.step_by(20).map(|k| (log.time[k], 1e3 * passed[k]));
+        points.collect::<Vec<_>>()
+    };
+    let figures = (0..3).map(|j| {
+        let figure = Figure::new(
+            format!("{name}_joint_{}", j + 1),
+            format!("Filtered torque of joint {}, {configuration}", j + 1),
+            "time, s",
+            "torque, mN m",
+        )
+        .with("measured", Mark::Line, shown(&log.tau[j]))
+        .with("identified", Mark::Line, shown(&predicted[j]));
+        match by_parts {
+            Some(by_parts) => figure.with("piece-wise", Mark::Line, shown(&by_parts[j])),
+            None => figure,
+        }
+    });
+    Ok(figures.collect())
 }
 
 /// What is left of the torque of joints over their speeds, by a model that was fitted to the same log.
-fn residual(results: &Results, name: &str, text: &str, which: &str) -> Result<Figure, Error> {
-    let arm = device::arm(text)?;
-    let log = &results.installations[0].halves.train;
-    let estimate = Identify::default().fit(&arm, std::slice::from_ref(log))?;
-    let predicted = estimate.predict(&arm, log)?;
+fn residual(
+    name: &str,
+    one: &Installation,
+    predicted: &[Vec<f64>],
+    which: &str,
+) -> Result<Figure, Error> {
+    let log = &one.halves.train;
     let filter = FirstOrder::new(CORNER, RATE)?;
     let mut figure = Figure::new(
         name,

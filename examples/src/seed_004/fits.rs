@@ -6,7 +6,9 @@ use robot_model_cli::interpreted::InterpretedMomentum;
 
 use super::device::{self, SPEC};
 use super::plant::{Plant, Three};
-use super::rig::{self, Gains, Record, Sines};
+use super::rig::{self, Gains};
+use super::sensors::Record;
+use super::sines::Sines;
 use super::truth::{CORNER, Pi, table_1};
 use crate::paper::Error;
 
@@ -26,7 +28,7 @@ pub struct Halves {
 }
 
 impl Halves {
-    fn of(record: &Record) -> Result<Self, Error> {
+    pub(super) fn of(record: &Record) -> Result<Self, Error> {
         let [dropped, train, validate] = SECONDS;
         Ok(Self {
             train: record.log("train", dropped, dropped + train)?,
@@ -42,14 +44,16 @@ pub struct Installation {
     pub truth: Pi,
     /// The device in the loop of the rig.
     pub halves: Halves,
-    /// Identified from it, with friction.
+    /// Identified from it, with friction; rows at turns, where friction holds joints, are left out.
     pub estimate: Estimate,
+    /// The same with all rows.
+    pub with_turns: Estimate,
     /// RMS% of (15) on the other half, with friction.
     pub rms: Three,
-    /// The same of a model without friction, identified from the same half.
+    /// A model without friction, identified from the same half with all rows.
+    pub without_friction: Estimate,
+    /// RMS% of a model without friction, identified from the same half.
     pub rms_without_friction: Three,
-    /// Identified where every joint turns without standing, as (6) has it.
-    pub turning: Estimate,
 }
 
 /// Of all five.
@@ -66,30 +70,46 @@ pub fn all(motion: &Sines) -> Result<Vec<Installation>, Error> {
             let seed = 50 + k as u64;
             let plant = Plant::new(truth, motion.at(0.0)[0]);
             let halves = Halves::of(&rig::run(plant, motion, &STIFF, seconds, seed)?)?;
-            let turning = Halves::of(&rig::followed(&truth, motion, seconds, seed))?;
             let estimate = fit(&model, &halves.train)?;
-            let without = fit(&bare, &halves.train)?;
+            let without = fit_with_turns(&bare, &halves.train)?;
             Ok(Installation {
                 truth,
                 rms: rms(&estimate, &model, &halves.validate)?,
                 rms_without_friction: rms(&without, &bare, &halves.validate)?,
-                turning: fit(&model, &turning.train)?,
+                with_turns: fit_with_turns(&model, &halves.train)?,
                 halves,
                 estimate,
+                without_friction: without,
             })
         })
         .collect()
 }
 
-/// Through `Y_L`.
+/// Through `Y_L`, without rows at turns: what holds a joint that stands is not what (6) says.
 ///
 /// # Errors
 /// Those of identification.
 pub fn fit(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
+    let identify = Identify {
+        leave_out_turns: true,
+        ..Identify::default()
+    };
+    Ok(identify.fit_filtered(model, std::slice::from_ref(log), Some(CORNER))?)
+}
+
+/// Through `Y_L`, of all rows.
+///
+/// # Errors
+/// Those of identification.
+pub fn fit_with_turns(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
     Ok(Identify::default().fit_filtered(model, std::slice::from_ref(log), Some(CORNER))?)
 }
 
-fn rms(estimate: &Estimate, model: &InterpretedMomentum, log: &Log) -> Result<Three, Error> {
+/// RMS% of (15) of each joint.
+///
+/// # Errors
+/// Those of the filters.
+pub fn rms(estimate: &Estimate, model: &InterpretedMomentum, log: &Log) -> Result<Three, Error> {
     let errors = estimate.filtered_errors(model, log)?;
     Ok(std::array::from_fn(|j| errors.relative_percent[j]))
 }

@@ -91,6 +91,18 @@ pub fn bias(pi: &Pi, q: &Three, v: &Three) -> Three {
     ]
 }
 
+/// Velocities of the end point by those of the joints, `[axis][joint]`, m, with links of these lengths.
+#[must_use]
+pub fn tip_jacobian([l1, l2]: &[f64; 2], q: &Three) -> Matrix3 {
+    let [(s1, c1), (s2, c2), (s3, c3)] = q.map(f64::sin_cos);
+    let reach = l1 * c2 + l2 * s3;
+    [
+        [reach * c1, -l1 * s2 * s1, l2 * c3 * s1],
+        [0.0, l1 * c2, l2 * s3],
+        [-reach * s1, -l1 * s2 * c1, l2 * c3 * c1],
+    ]
+}
+
 impl Plant {
     /// At rest at a pose.
     #[must_use]

@@ -4,10 +4,10 @@ use super::audit::{self, Audits};
 use super::contact::{self, Felt};
 use super::control::{self, Square};
 use super::device::{self, SPEC};
-use super::equations::{self, Comparison};
+use super::equations::{self, Comparison, Off};
 use super::fits::{self, Installation};
-use super::rig::{ROOM, Sines};
 use super::shares::{self, Balance, Shares};
+use super::sines::{ROOM, Sines};
 use super::tracing::{self, Traces};
 use super::truth::{COMMAND_GAIN, CONTROL_GAINS, WEIGHTS, piece_wise, table_1};
 use crate::paper::Error;
@@ -30,6 +30,8 @@ pub struct Results {
     pub motion: Sines,
     /// Equations (4) and (13), as printed and with the sign put right.
     pub equations: [Comparison; 2],
+    /// Series of (13) that are off, with filters as printed and over all.
+    pub filters: [Vec<Off>; 2],
     /// Tables 1 and 2.
     pub installations: Vec<Installation>,
     /// Figures 5 and 7.
@@ -44,8 +46,8 @@ pub struct Results {
     pub lever: f64,
     /// Figures 14 to 16.
     pub controlled: Vec<Controlled>,
-    /// Largest `K_P` of UR with identified and with piece-wise parameters.
-    pub largest_gains: [f64; 2],
+    /// Largest `K_P` of each installation with identified and with piece-wise parameters.
+    pub largest_gains: Vec<[f64; 2]>,
     /// Section 4.4.
     pub felt: Felt,
     /// Difference of (21) from the spec's point, m^2.
@@ -62,6 +64,12 @@ pub fn results() -> Result<Results, Error> {
     let motion = Sines::new(10, &ROOM, 4);
     let installations = fits::all(&motion)?;
     let known = |k: usize| device::values(&installations[k].estimate);
+    let largest = |k: usize| -> Result<[f64; 2], Error> {
+        Ok([
+            control::largest_gain(&table_1(k), &known(k))?,
+            control::largest_gain(&table_1(k), &piece_wise())?,
+        ])
+    };
     let controlled = [0, 0, 4].into_iter().zip(CONTROL_GAINS).map(|(k, gains)| {
         let square = |known| control::square(&table_1(k), known, gains);
         Ok(Controlled {
@@ -74,22 +82,36 @@ pub fn results() -> Result<Results, Error> {
     let lever = shares::lever_of_print()?;
     Ok(Results {
         equations: [equations::compare(false), equations::compare(true)],
+        filters: [
+            equations::off_along(&motion, false)?,
+            equations::off_along(&motion, true)?,
+        ],
         traces: tracing::all(&installations[0].halves.train, &motion)?,
         audits: audit::all()?,
         shares: (0..5).map(|k| shares::shares(k, &motion)).collect(),
         balances: [shares::balance(WEIGHTS.lever)?, shares::balance(lever)?],
         lever,
         controlled,
-        largest_gains: [
-            control::largest_gain(&table_1(0), &known(0))?,
-            control::largest_gain(&table_1(0), &piece_wise())?,
-        ],
+        largest_gains: (0..5).map(largest).collect::<Result<_, Error>>()?,
         felt: contact::felt(&known(2), &motion)?,
         jacobian_off: contact::jacobian_off(),
         scaled_off: scaled_off(&installations[0])?,
         installations,
         motion,
     })
+}
+
+impl Results {
+    /// Largest `K_P pi6` of each installation, with the `pi6` that the controller knows, identified and piece-wise, N m/rad.
+    #[must_use]
+    pub fn largest_stiffness(&self) -> Vec<[f64; 2]> {
+        let pairs = self.largest_gains.iter().zip(&self.installations);
+        let of = |([ours, other], one): (&[f64; 2], &Installation)| {
+            let known = [device::values(&one.estimate)[5], piece_wise()[5]];
+            [ours * known[0], other * known[1]]
+        };
+        pairs.map(of).collect()
+    }
 }
 
 /// A log of commands instead of torques, by a spec that has the gain.

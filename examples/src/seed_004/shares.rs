@@ -6,7 +6,8 @@ use robot_model::{RobotModel as _, State, Vector};
 
 use super::device::phantom;
 use super::plant::Three;
-use super::rig::{RATE, Sines};
+use super::sensors::RATE;
+use super::sines::Sines;
 use super::truth::{FASTEST, GRAVITY, LINKS, TABLE_1_UR_GRAVITY, WEIGHTS, table_1};
 
 /// Shares in the order of figure 10.

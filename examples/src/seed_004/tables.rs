@@ -12,19 +12,20 @@ pub(super) fn tables(results: &Results) -> Vec<Table> {
         errors(results),
         parts(results),
         control(results),
+        gains(results),
     ]
 }
 
 fn parameters(results: &Results) -> Table {
     let mut table = Table::new(
-        "Table 1 times 1000: printed, identified in the loop, identified where joints turn without standing",
+        "Table 1 times 1000: printed, identified in the loop without rows at turns, with them",
         ["parameter", "UR", "GCW", "FS", "USD", "USD+GCW"],
     );
     for (k, name) in NAMES.iter().enumerate() {
         let cells = results.installations.iter().map(|one| {
-            let [loop_, turning] =
-                [&one.estimate, &one.turning].map(|estimate| 1e3 * device::values(estimate)[k]);
-            format!("{:.2}, {loop_:.3}, {turning:.3}", 1e3 * one.truth[k])
+            let [without, with] =
+                [&one.estimate, &one.with_turns].map(|estimate| 1e3 * device::values(estimate)[k]);
+            format!("{:.2}, {without:.3}, {with:.3}", 1e3 * one.truth[k])
         });
         table.push(std::iter::once((*name).to_owned()).chain(cells));
     }
@@ -94,5 +95,21 @@ fn control(results: &Results) -> Table {
             format!("{:.1}, {:.1}", 1e3 * ours.rms, 1e3 * other.rms),
         ]);
     }
+    table
+}
+
+fn gains(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Largest gains in the loop: identified, piece-wise",
+        ["of joint 3", "UR", "GCW", "FS", "USD", "USD+GCW"],
+    );
+    let pairs = |all: &[[f64; 2]], digits: usize| -> Vec<String> {
+        all.iter()
+            .map(|[ours, other]| format!("{ours:.digits$}, {other:.digits$}"))
+            .collect()
+    };
+    let first = |name: &str| std::iter::once(name.to_owned());
+    table.push(first("K_P, 1/s^2").chain(pairs(&results.largest_gains, 0)));
+    table.push(first("K_P pi6, N m/rad").chain(pairs(&results.largest_stiffness(), 2)));
     table
 }

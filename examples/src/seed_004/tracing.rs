@@ -1,14 +1,16 @@
 //! Figures 5 and 7: what is left of the torque with friction and without, as the tracer sees it.
 
-use robot_model::identify::Identify;
 use robot_model::log::Log;
 use robot_model::trace::{Trace, Verdict};
 
+use super::audit::audited;
 use super::device::{self, SPEC};
-use super::fits::{self, STIFF};
-use super::plant::{Plant, Stribeck};
-use super::rig::{self, Sines};
-use super::truth::{CORNER, table_1};
+use super::fits::{self, Halves, STIFF};
+use super::plant::{Plant, Stribeck, Three};
+use super::rig;
+use super::sensors::samples;
+use super::sines::Sines;
+use super::truth::{Pi, table_1};
 use crate::paper::Error;
 
 /// What the tracer says of the device.
@@ -22,6 +24,10 @@ pub struct Traces {
     pub falling: Verdict,
     /// Viscous coefficients that the whole model has for it, N m s/rad.
     pub falling_viscous: [f64; 3],
+    /// How many of the parameters of that fit `signs` of the audit finds below zero.
+    pub falling_signs: usize,
+    /// RMS% of (15) of that fit on the other half.
+    pub falling_rms: Three,
     /// The true ones.
     pub true_viscous: [f64; 3],
 }
@@ -29,8 +35,9 @@ pub struct Traces {
 /// Viscous friction, positive.
 const VISCOUS: [f64; 3] = [0.4e-3, 0.3e-3, 0.3e-3];
 
-/// Part of dry friction which is gone beyond a speed, and that speed, rad/s.
-const FALLING: [f64; 2] = [1.0, 0.3];
+/// What there is at rest beyond dry friction, as a part of that, and the speed beyond which it is gone, rad/s: large enough for errors as
+/// those of table 2.
+const FALLING: [f64; 2] = [1.5, 0.3];
 
 /// Traces.
 ///
@@ -38,21 +45,34 @@ const FALLING: [f64; 2] = [1.0, 0.3];
 /// Those of the plant and of the tracer.
 pub fn all(upright: &Log, motion: &Sines) -> Result<Traces, Error> {
     let [part, speed] = FALLING;
-    let (falling, falling_viscous) = falling(motion, part, speed)?;
+    let falling = falling(motion, part, speed)?;
     Ok(Traces {
         without_friction: trace(&device::without_friction(), upright)?,
         with_friction: trace(SPEC, upright)?,
-        falling,
-        falling_viscous,
+        falling_viscous: [8, 9, 10].map(|k| falling.fitted[k]),
+        falling_signs: audited(SPEC, &falling.fitted)?.findings("signs").len(),
+        falling_rms: falling.rms,
+        falling: falling.verdict,
         true_viscous: VISCOUS,
     })
 }
 
-/// The device with friction that falls with speed: what the tracer says, and its viscous coefficients by the whole model.
+/// A device with friction that falls with speed.
+#[derive(Debug, Clone)]
+pub struct Falling {
+    /// What the tracer says of it by the whole model.
+    pub verdict: Verdict,
+    /// The whole model's parameters.
+    pub fitted: Pi,
+    /// RMS% of (15) that they leave on the other half.
+    pub rms: Three,
+}
+
+/// UR with positive viscous friction, and with a part of dry friction that is gone beyond a speed.
 ///
 /// # Errors
 /// Those of the plant and of the tracer.
-pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<(Verdict, [f64; 3]), Error> {
+pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<Falling, Error> {
     let mut pi = table_1(0);
     pi[8..11].copy_from_slice(&VISCOUS);
     let stribeck = [0, 1, 2].map(|j| Stribeck {
@@ -60,18 +80,26 @@ pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<(Verdict, [f64; 
         vs: speed,
     });
     let plant = Plant::new(pi, motion.at(0.0)[0]).with_stribeck(stribeck);
-    let [dropped, seconds, _] = fits::SECONDS;
-    let record = rig::run(plant, motion, &STIFF, dropped + seconds, 61)?;
-    let log = record.log("falling", dropped, dropped + seconds)?;
+    let record = rig::run(plant, motion, &STIFF, fits::SECONDS.iter().sum(), 61)?;
+    let Halves { train, validate } = Halves::of(&record)?;
     let model = device::momentum(SPEC)?;
-    let logs = std::slice::from_ref(&log);
-    let fit = Identify::default().fit_filtered(&model, logs, Some(CORNER))?;
-    let values = device::values(&fit);
-    Ok((trace(SPEC, &log)?, [values[8], values[9], values[10]]))
+    let fit = fits::fit_with_turns(&model, &train)?;
+    Ok(Falling {
+        verdict: trace(SPEC, &train)?,
+        fitted: device::values(&fit),
+        rms: fits::rms(&fit, &model, &validate)?,
+    })
 }
+
+/// Seconds of a log that are traced: they tell enough.
+const TRACED: f64 = 20.0;
 
 fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
     let arm = device::arm(text)?;
+    let count = samples(TRACED).min(log.time.len());
+    let part = |all: &[Vec<f64>]| all.iter().map(|x| x[..count].to_vec()).collect();
+    let time = log.time[..count].to_vec();
+    let log = &Log::from_samples("traced", time, part(&log.q), part(&log.tau))?;
     let undeclared = arm.undeclared();
     let trace = Trace::new(undeclared.candidates());
     Ok(trace.run(&arm, std::slice::from_ref(log), &mut |_| ())?)

@@ -71,6 +71,9 @@ pub const TABLE_2: [[f64; 5]; 3] = [
 /// Corner of `L(s)`, rad/s: section 3.1.
 pub const CORNER: f64 = 10.0;
 
+/// Lowest and highest frequency of the sines, rad/s: section 3.1.
+pub const FREQUENCIES: [f64; 2] = [0.11, 5.0];
+
 /// Torque command per torque: section 2.
 pub const COMMAND_GAIN: f64 = 2.7;
 

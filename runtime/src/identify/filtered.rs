@@ -6,7 +6,8 @@
 //!
 //! The transient is no approximation: the difference of both sides decays as `exp(-w t)` and is zero at the start, since
 //! `L{Y_p}` starts at `Y_p` and the other filters at zero. They start where the filters of the motion have settled; before
-//! that both sides are zero.
+//! that both sides are zero. Where rows around turns of dry joints are left out they start anew behind each, which the same argument
+//! allows: `L` has a torque that no law says for as long as it remembers, not only while the joint stands.
 
 use crate::columns::{Arm, Columns, Entry, MomentumArm, Nominal, Shape, Unknown};
 use crate::log::Log;
@@ -18,14 +19,20 @@ use super::errors::Errors;
 use super::estimate::{Estimate, Form};
 use super::possible::PossibleArms;
 use super::stack::Stack;
-use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands};
+use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands, turns};
 
 /// An arm whose columns and torques have passed `L`.
 struct FilteredArm<'a> {
     arm: &'a dyn MomentumArm,
     bands: Bands,
     corner: f64,
+    /// Whether `L` starts anew behind each turn of a dry joint.
+    starts_anew: bool,
 }
+
+/// What filters of the motion spread a turn over, on either side, in periods of the smooth one's cutoff. A momentum that is taken there
+/// stays in all rows up to the next turn, so this is wider than what rows of the shared filter need.
+const SPREAD: f64 = 1.5;
 
 /// A sample of clipped torque is in `L{tau}` for so many time constants: a thousandth is left of it then.
 const TIME_CONSTANTS: f64 = 7.0;
@@ -55,7 +62,10 @@ impl Identify {
             Some(bands) => bands,
             None => self.choose_filtered_bands(arm, logs, corner)?,
         };
-        let filtered = FilteredArm::new(arm, bands, corner);
+        let filtered = FilteredArm {
+            starts_anew: self.leave_out_turns,
+            ..FilteredArm::new(arm, bands, corner)
+        };
         let mut prepared = filtered.prepare_all(logs)?;
         let solved = self.solve(&filtered, &mut prepared, self.given_shapes(&filtered)?)?;
         let form = Form::Filtered {
@@ -121,7 +131,18 @@ impl<'a> FilteredArm<'a> {
             arm,
             bands,
             corner: corner.unwrap_or_else(|| default_corner(&bands)),
+            starts_anew: false,
         }
+    }
+
+    /// Where a joint's rows start anew: samples near its turns, and what is left of one sample in the next. Nothing where they do not.
+    fn restarts(&self, motion: &Motion, joint: usize, rate_hz: f64) -> Option<(Vec<bool>, f64)> {
+        let is_dry = self.arm.dry_joints().contains(&joint);
+        (self.starts_anew && is_dry).then(|| {
+            let reach = whole_steps((SPREAD * rate_hz / self.bands.smooth_hz).ceil());
+            let near = turns::near(motion, joint, reach);
+            (near, f64::exp(-self.corner / rate_hz))
+        })
     }
 
     fn prepare_all(&self, logs: &[Log]) -> Result<Vec<Prepared>, IdentifyError> {
@@ -138,6 +159,14 @@ impl<'a> FilteredArm<'a> {
         for tau in &mut prepared.tau {
             after(start, tau, |tau, out| filter.apply(0.0, tau, out));
         }
+        // At the samples of the columns: one that is off by a sample is an error that stays up to the next turn.
+        if let Some(filter) = self.filter(&prepared.motion) {
+            for (tau, restart) in prepared.tau.iter_mut().zip(&filter.restarts) {
+                if let Some((near, kept)) = restart {
+                    turns::start_anew(tau, near, *kept);
+                }
+            }
+        }
         let reach = whole_steps(TIME_CONSTANTS * prepared.rate_hz / self.corner);
         for clipped in prepared.clipped.iter_mut().flatten() {
             clipped.end += reach;
@@ -145,39 +174,59 @@ impl<'a> FilteredArm<'a> {
         Ok(prepared)
     }
 
-    /// The filter on a motion's grid, and the sample at which it starts.
-    fn filter(&self, motion: &Motion) -> Option<(FirstOrder, usize)> {
+    /// The filter on a motion's grid, the sample at which it starts, and where those of joints start anew.
+    fn filter(&self, motion: &Motion) -> Option<Filter> {
         let &[first, .., last] = motion.time.as_slice() else {
             return None;
         };
         let rate_hz = (motion.time.len() - 1) as f64 / (last - first);
-        let filter = FirstOrder::new(self.corner, rate_hz).ok()?;
-        Some((filter, border(&self.bands, rate_hz)))
+        let joints = 0..self.arm.dof();
+        Some(Filter {
+            first_order: FirstOrder::new(self.corner, rate_hz).ok()?,
+            start: border(&self.bands, rate_hz),
+            restarts: joints
+                .map(|joint| self.restarts(motion, joint, rate_hz))
+                .collect(),
+        })
     }
 
-    /// `w (momentum - L{momentum}) - L{drift}` of series that belong together.
+    /// `w (momentum - L{momentum}) - L{drift}` of series of a joint that belong together.
     fn filtered(
         motion: &Motion,
-        filter: Option<(FirstOrder, usize)>,
+        filter: Option<&Filter>,
+        joint: usize,
         momentum: Option<&[f64]>,
         drift: Option<&[f64]>,
     ) -> Vec<f64> {
         let mut sum = vec![0.0; motion.time.len()];
         // A motion of one sample has nothing behind the start of the filter.
-        let Some((filter, start)) = filter else {
+        let Some(filter) = filter else {
             return sum;
         };
+        let (start, first_order) = (filter.start, filter.first_order);
         let mut out = Vec::new();
         if let Some(momentum) = momentum.and_then(|all| all.get(start..)) {
-            filter.apply_to_rate(momentum, &mut out);
+            first_order.apply_to_rate(momentum, &mut out);
             sum[start..].copy_from_slice(&out);
         }
         if let Some(drift) = drift.and_then(|all| all.get(start..)) {
-            filter.apply(0.0, drift, &mut out);
+            first_order.apply(0.0, drift, &mut out);
             sum[start..].iter_mut().zip(&out).for_each(|(s, d)| *s -= d);
+        }
+        if let Some((near, kept)) = &filter.restarts[joint] {
+            turns::start_anew(&mut sum, near, *kept);
         }
         sum
     }
+}
+
+/// `L` on the grid of a motion.
+struct Filter {
+    first_order: FirstOrder,
+    /// The sample at which it starts.
+    start: usize,
+    /// Where it starts anew, of each joint: see [`FilteredArm::restarts`].
+    restarts: Vec<Option<(Vec<bool>, f64)>>,
 }
 
 /// Filters what stands from `start` on; before it there is nothing.
@@ -232,7 +281,13 @@ impl Columns for FilteredArm<'_> {
             all.push(Entry {
                 joint: place.1,
                 column: place.0,
-                values: Self::filtered(motion, filter, p.as_deref(), h.as_deref()),
+                values: Self::filtered(
+                    motion,
+                    filter.as_ref(),
+                    place.1,
+                    p.as_deref(),
+                    h.as_deref(),
+                ),
             });
         }
         all
@@ -257,7 +312,10 @@ impl Arm for FilteredArm<'_> {
         let known = self.arm.known_momentum(motion, shapes);
         let series = known.iter().zip(self.arm.known_drift(motion, shapes));
         series
-            .map(|(p, h)| Self::filtered(motion, filter, Some(p), Some(&h)))
+            .enumerate()
+            .map(|(joint, (p, h))| {
+                Self::filtered(motion, filter.as_ref(), joint, Some(p), Some(&h))
+            })
             .collect()
     }
 
@@ -280,5 +338,160 @@ impl Arm for FilteredArm<'_> {
     /// Nothing that passed `L` reads a load.
     fn rigid_torque(&self, motion: &Motion, _: &[f64], _: &[f64]) -> Vec<Vec<f64>> {
         vec![vec![0.0; motion.time.len()]; self.arm.dof()]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `tau = J ddq + fv dq + fc sign(dq)`
+    struct Wheel([Unknown; 3], [String; 1]);
+
+    const TRUTH: [f64; 3] = [0.02, 0.05, 0.3];
+    const RATE: f64 = 500.0;
+    const CORNER: f64 = 5.0;
+
+    impl Wheel {
+        fn new() -> Self {
+            let unknown = |name: &str| Unknown {
+                name: name.to_owned(),
+                nonnegative: true,
+            };
+            let names = ["J", "fv", "fc"].map(unknown);
+            Self(names, ["wheel".to_owned()])
+        }
+    }
+
+    fn column(column: usize, values: Vec<f64>) -> Entry {
+        Entry {
+            joint: 0,
+            column,
+            values,
+        }
+    }
+
+    fn friction(motion: &Motion, sign: f64) -> [Entry; 2] {
+        let dq = &motion.wide.dq[0];
+        [
+            column(1, dq.iter().map(|dq| sign * dq).collect()),
+            column(2, dq.iter().map(|dq| sign * dq.signum()).collect()),
+        ]
+    }
+
+    fn nothing(motion: &Motion) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]]
+    }
+
+    impl Columns for Wheel {
+        fn unknowns(&self) -> &[Unknown] {
+            &self.0
+        }
+
+        fn shapes(&self) -> &[Shape] {
+            &[]
+        }
+
+        fn uses_rigid_torque(&self) -> bool {
+            false
+        }
+
+        fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+            let inertia = column(0, motion.smooth.ddq[0].clone());
+            [inertia].into_iter().chain(friction(motion, 1.0)).collect()
+        }
+    }
+
+    impl Arm for Wheel {
+        fn dof(&self) -> usize {
+            1
+        }
+
+        fn joints(&self) -> &[String] {
+            &self.1
+        }
+
+        fn actuator_gain(&self) -> &[f64] {
+            &[1.0]
+        }
+
+        fn known_torque(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+            nothing(motion)
+        }
+
+        fn rigid_torque(&self, motion: &Motion, _: &[f64], _: &[f64]) -> Vec<Vec<f64>> {
+            nothing(motion)
+        }
+
+        fn dry_joints(&self) -> &[usize] {
+            &[0]
+        }
+    }
+
+    impl MomentumArm for Wheel {
+        fn momentum(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+            vec![column(0, motion.smooth.dq[0].clone())]
+        }
+
+        fn drift(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+            friction(motion, -1.0).to_vec()
+        }
+
+        fn known_momentum(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+            nothing(motion)
+        }
+
+        fn known_drift(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+            nothing(motion)
+        }
+    }
+
+    /// The wheel under two tones of torque: friction holds it for a while at each turn, with whatever torque there is.
+    fn log() -> Log {
+        const STEPS: u32 = 20;
+        let [inertia, viscous, dry] = TRUTH;
+        let torque = |t: f64| 0.5 * (3.0 * t).sin() + 0.2 * (7.1 * t + 1.0).sin();
+        let step = 1.0 / (RATE * f64::from(STEPS));
+        let (mut q, mut v) = (0.0, 0.0_f64);
+        let (mut time, mut positions, mut torques) = (Vec::new(), Vec::new(), Vec::new());
+        for k in 0..20_000_u32 {
+            let at = |j: u32| f64::from(k) / RATE + step * f64::from(j);
+            time.push(at(0));
+            positions.push(q);
+            torques.push(torque(at(0)));
+            for j in 0..STEPS {
+                let tau = torque(at(j) + 0.5 * step);
+                let way = if v == 0.0 { tau.signum() } else { v.signum() };
+                let push = tau - way * dry - viscous * v;
+                let next = v + step * push / inertia;
+                // It stands where it would turn, and where dry friction holds it.
+                let stands = v * next < 0.0 || (v == 0.0 && tau.abs() < dry);
+                let next = if stands { 0.0 } else { next };
+                q += 0.5 * step * (v + next);
+                v = next;
+            }
+        }
+        Log::from_samples("wheel", time, vec![positions], vec![torques])
+            .expect("samples are in order")
+    }
+
+    /// What `L` remembers of stands is in rows long behind them, unless it starts anew there.
+    #[test]
+    fn what_holds_a_joint_that_stands_is_not_in_the_rows_behind_it() {
+        let wheel = Wheel::new();
+        let logs = [log()];
+        let off = |leave_out_turns: bool| {
+            let identify = Identify {
+                leave_out_turns,
+                ..Identify::default()
+            };
+            let found = identify.fit_filtered(&wheel, &logs, Some(CORNER));
+            let found = found.expect("a log that tells all").values();
+            let off = found.iter().zip(TRUTH).map(|(x, truth)| x / truth - 1.0);
+            off.fold(0.0, |most: f64, off| most.max(off.abs()))
+        };
+        let [kept, left_out] = [false, true].map(off);
+        assert!(kept > 0.02, "{kept}");
+        assert!(left_out < 0.002, "{left_out}");
     }
 }

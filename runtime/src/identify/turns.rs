@@ -5,6 +5,9 @@
 //! too large and viscous friction too small by several deviations. By how much an estimate moves when a joint's rows there are left out,
 //! as far as the shared filter spreads them, is in its deviations; or they are left out. Source of that practice: Swevers, Verdonck,
 //! De Schutter 2007, Dynamic model identification for industrial robots, who leave out samples of low velocity.
+//!
+//! The filter of the filtered form remembers a turn for much longer than the shared one spreads it, and starts anew behind each (see
+//! [`start_anew`]).
 
 use std::ops::Range;
 
@@ -12,6 +15,7 @@ use super::least_squares::{Factors, Solution};
 use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
 use crate::columns::Arm;
+use crate::motion;
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
@@ -45,7 +49,7 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     for (number, log) in logs.iter().enumerate() {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
-            let motion = Motion::new(log, joint);
+            let motion = Motion::new(&log.motion, joint);
             let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
             let mut near = motion.near_turns(reach);
             if motion.standing() > HELD {
@@ -67,6 +71,22 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
 /// Makes the rows zero that turns reach.
 pub(crate) fn leave_out(stack: &mut Stack) {
     clear_rows(&mut stack.joints, &stack.turns);
+}
+
+/// Which samples of a motion are within `reach` of one at which a joint turns or may stand.
+pub(super) fn near(motion: &motion::Motion, joint: usize, reach: usize) -> Vec<bool> {
+    Motion::new(motion, joint).near_turns(reach)
+}
+
+/// Starts a filter of the first order anew behind every turn, from zero, and leaves nothing of what is near one. Of a sample `kept` is left
+/// in the next. What a series that passed it has of the time before decays by that factor whatever comes in, so both sides of an equation
+/// stay equal.
+pub(super) fn start_anew(series: &mut [f64], near: &[bool], kept: f64) {
+    let mut had = 0.0;
+    for (value, is_near) in series.iter_mut().zip(near) {
+        had = if *is_near { *value } else { kept * had };
+        *value -= had;
+    }
 }
 
 /// Whether rows of a stack are at turns, `[joint][row]`.
@@ -126,8 +146,8 @@ struct Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    fn new(log: &'a Prepared, joint: usize) -> Self {
-        let (wide, smooth) = (&log.motion.wide.dq[joint], &log.motion.smooth.dq[joint]);
+    fn new(motion: &'a motion::Motion, joint: usize) -> Self {
+        let (wide, smooth) = (&motion.wide.dq[joint], &motion.smooth.dq[joint]);
         Self {
             wide,
             slow: standing(wide, smooth),

@@ -1,0 +1,171 @@
+//! Items of section 4: shares, weights, control, forces.
+
+use super::results::Results;
+use super::truth::{CROSSOVER, WEIGHTS};
+use crate::paper::Row;
+
+pub(super) fn rows(results: &Results) -> Vec<Row> {
+    [uses(results), controlled(results), contact(results)].concat()
+}
+
+fn uses(results: &Results) -> Vec<Row> {
+    let off = results.shares.iter().map(|one| one.off).fold(0.0, f64::max);
+    let ur = &results.shares[0];
+    let crossover = super::shares::crossover();
+    let [printed, repaired] = &results.balances;
+    let triple = |all: [f64; 3], digits: usize| all.map(|x| format!("{x:.digits$}")).join(", ");
+    vec![
+        Row::holds(
+            "4.8",
+            "shares of the torque up to 3.5 rad/s; they sum to it",
+            "joint 1 of UR: friction first; joint 3: gravity first",
+            format!(
+                "UR joint 1: inertia {:.0}, Coulomb {:.0} mN m; joint 3: gravity {:.0}, of {:.0}; sum within {off:.0e} N m",
+                1e3 * ur.rms[0][0],
+                1e3 * ur.rms[4][0],
+                1e3 * ur.rms[2][2],
+                1e3 * ur.torque[2],
+            ),
+            off < 1e-12
+                && ur.rms[4][0] > ur.rms[0][0]
+                && (0..5).all(|k| ur.rms[k][2] <= ur.rms[2][2]),
+            "shares are otherwise",
+        ),
+        Row::holds(
+            "4.9",
+            "fc / fv of UR, deg/s",
+            triple(CROSSOVER, 0),
+            triple(crossover, 0),
+            crossover
+                .iter()
+                .zip(CROSSOVER)
+                .all(|(x, y)| (x / y - 1.0).abs() < 0.02),
+            "more than rounding of table 1 apart",
+        ),
+        Row::wrong_in_print(
+            "4.10",
+            "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m",
+            format!("{:?}, {:?}", WEIGHTS.moments, WEIGHTS.recommended),
+            format!(
+                "{:.4}, {:.4}; {:.3}, {:.3}; with {:.4} m {:.4}; {:.3}, {:.3}",
+                printed.moments[0],
+                printed.moments[1],
+                printed.masses[0],
+                printed.masses[1],
+                results.lever,
+                repaired.moments[0],
+                repaired.masses[0],
+                repaired.masses[1],
+            ),
+            (printed.moments[0] - WEIGHTS.moments[0]).abs() > 5e-3
+                && (repaired.masses[0] - WEIGHTS.recommended[0]).abs() < 1e-3
+                && (repaired.masses[1] - WEIGHTS.recommended[1]).abs() < 1.5e-3,
+            &format!(
+                "the printed lever is rounded: its figures come from {:.4} m",
+                results.lever
+            ),
+        ),
+    ]
+}
+
+fn controlled(results: &Results) -> Vec<Row> {
+    let [ours, other] = &results.controlled[0].squares;
+    let lower = results.controlled.iter().filter(|one| {
+        let [ours, other] = &one.squares;
+        ours.rms < other.rms && ours.steady_percent < other.steady_percent
+    });
+    let lower = lower.count();
+    let gains = &results.largest_gains;
+    let count =
+        |is_larger: &dyn Fn(usize) -> bool| (0..gains.len()).filter(|k| is_larger(*k)).count();
+    let larger = count(&|k| gains[k][0] > gains[k][1]);
+    let stiffness = results.largest_stiffness();
+    let stiffer = count(&|k| stiffness[k][0] > stiffness[k][1]);
+    let listed = |all: &[[f64; 2]], digits: usize| {
+        let pairs = all
+            .iter()
+            .map(|[ours, other]| format!("{ours:.digits$}/{other:.digits$}"));
+        pairs.collect::<Vec<_>>().join(", ")
+    };
+    vec![
+        Row::holds(
+            "4.11",
+            "inverse dynamics with half of the friction: error of joint 3, identified against piece-wise",
+            "steady state 20 % and 25 %, UR, K_P 625",
+            format!(
+                "{:.1} % and {:.1} %; lower in {lower} of {} settings",
+                ours.steady_percent,
+                other.steady_percent,
+                results.controlled.len()
+            ),
+            lower == results.controlled.len(),
+            "identified parameters are not better",
+        ),
+        Row::holds(
+            "4.11.gain",
+            "largest K_P of the five in the loop of ours, identified/piece-wise",
+            "larger with identified parameters",
+            format!(
+                "{}; larger in {larger} of {}",
+                listed(gains, 0),
+                gains.len()
+            ),
+            larger == gains.len(),
+            &format!(
+                "K_P is an acceleration: where the piece-wise inertia is too small the same K_P is a softer loop; K_P pi6 is larger in {stiffer} of {}",
+                gains.len()
+            ),
+        ),
+        Row::holds(
+            "4.11.stiffness",
+            "largest stiffness of joint 3, K_P pi6, N m/rad, identified/piece-wise",
+            "stability for a larger range of gains",
+            format!(
+                "{}; larger in {stiffer} of {}",
+                listed(&stiffness, 2),
+                stiffness.len()
+            ),
+            stiffer == stiffness.len(),
+            "not larger",
+        ),
+    ]
+}
+
+fn contact(results: &Results) -> Vec<Row> {
+    let felt = &results.felt;
+    vec![
+        Row::holds(
+            "4.12",
+            "force at the end point, FS: RMS error against the registered sensor, with the model and without",
+            "with the model slightly better",
+            format!(
+                "{:.3} and {:.3} N; frame registered within {:.3}",
+                felt.rms[0], felt.rms[1], felt.frame_off
+            ),
+            felt.rms[0] < felt.rms[1] && felt.frame_off < 0.05,
+            "not better",
+        ),
+        Row::holds(
+            "4.12.J",
+            "Jacobian (21), in the frame of the end point",
+            "(21)",
+            format!(
+                "J^T J is that of the spec's point within {:.0e} m^2",
+                results.jacobian_off
+            ),
+            results.jacobian_off < 1e-12,
+            "it is another one",
+        ),
+        Row::holds(
+            "4.13",
+            "torque command per torque, in the spec",
+            "2.7",
+            format!(
+                "a log of commands has the same parameters within {:.0e}",
+                results.scaled_off
+            ),
+            results.scaled_off < 1e-9,
+            "it has others",
+        ),
+    ]
+}
