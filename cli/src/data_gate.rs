@@ -3,8 +3,8 @@
 //! Spikes, bursts, dropouts and held values are not the arm's, and torque that comes late is the recorder's. Logs are mended of both before
 //! their residual is traced, and both are told. Logs with the position of one joint late are not traced.
 
-use robot_model::identify::{Delay, Estimate, Identify, IdentifyError, LateChannel};
-use robot_model::log::{Fault, Log, Mended};
+use robot_model::identify::{Delay, Estimate, Identify, IdentifyError};
+use robot_model::log::{Fault, LateChannel, Log, Mended};
 
 use crate::interpreted::InterpretedArm;
 use crate::output::significant;

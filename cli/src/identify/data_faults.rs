@@ -1,6 +1,6 @@
 //! Faults of logs as JSON has them: what is said, and the numbers in it.
 
-use robot_model::identify::{Estimate, LateChannel};
+use robot_model::identify::Estimate;
 use robot_model::log::{Fault, Stretches};
 use serde::Serialize;
 
@@ -103,7 +103,7 @@ impl Numbers {
                 }),
                 ..none
             },
-            Fault::TorqueLate { delay, std, .. } | Fault::PositionLate { delay, std, .. } => Self {
+            Fault::Late { delay, std, .. } => Self {
                 delay: Some(Measured {
                     value: delay,
                     std: Some(std),
@@ -142,29 +142,15 @@ impl Numbers {
 
 /// Channels that are not of the time of the others.
 pub(super) fn late(estimate: &Estimate) -> Vec<Fault> {
-    let late = estimate.delays.iter();
-    let faults = late.map(|found| {
-        let joint = estimate.joints[found.joint].clone();
-        let number = found.joint + 1;
-        let (delay, std, gain) = (found.seconds, found.std, found.gain);
-        match found.channel {
-            LateChannel::Torque => Fault::TorqueLate {
-                channel: format!("tau{number}"),
-                joint,
-                delay,
-                std,
-                gain,
-            },
-            LateChannel::Position => Fault::PositionLate {
-                channel: format!("q{number}"),
-                joint,
-                delay,
-                std,
-                gain,
-            },
-        }
+    let late = estimate.delays.iter().map(|found| Fault::Late {
+        late: found.channel,
+        channel: found.channel.column(found.joint),
+        joint: estimate.joints[found.joint].clone(),
+        delay: found.seconds,
+        std: found.std,
+        gain: found.gain,
     });
-    faults.collect()
+    late.collect()
 }
 
 /// Faults with the logs that they are of.

@@ -62,7 +62,7 @@ pub use estimate::{Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock, FactorRows};
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
-pub use late::{Delay, LateChannel, is_delay};
+pub use late::{Delay, is_delay};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 use logs::update_load;
 pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};

@@ -25,7 +25,7 @@ use std::path::Path;
 
 pub use columns::{Column, Columns};
 pub use error::LogError;
-pub use faults::{Fault, Mended, Stretches};
+pub use faults::{Fault, LateChannel, Mended, Stretches};
 pub use note::Note;
 pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;

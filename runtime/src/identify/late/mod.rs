@@ -17,7 +17,7 @@ use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
 use super::{Identify, clipped, prepare_all, turns};
 use crate::columns::{Arm, Entry, Unknown};
-use crate::log::Log;
+use crate::log::{LateChannel, Log};
 use crate::signal::{Bands, Prepared, derivative};
 
 /// What is told: so many deviations, and so large a part of a log's sample. Torque that is set at a sample and holds until the next is early by
@@ -43,15 +43,6 @@ const ALIKE: f64 = 3.0;
 /// away. What does not settle is no delay.
 const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
-
-/// Which channel of a joint is not of the time of the others.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LateChannel {
-    /// Its torque.
-    Torque,
-    /// Its position, and what is computed from it.
-    Position,
-}
 
 /// A channel that is not of the time of the others.
 #[derive(Debug, Clone, Copy, PartialEq)]

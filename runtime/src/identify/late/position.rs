@@ -5,11 +5,12 @@
 //! column `d(W beta)/dd`, and the motion is moved by it and fitted again.
 
 use super::nearest::TRIED;
-use super::{DEVIATIONS, Delay, LateChannel, MOST, ROUNDS, Rows, SHARE};
+use super::{DEVIATIONS, Delay, MOST, ROUNDS, Rows, SHARE};
 use super::{is_delay, logarithm, longest_period, nameless};
 use crate::columns::Entry;
 use crate::identify::Identify;
 use crate::identify::stack::{Stack, norm};
+use crate::log::LateChannel;
 use crate::signal::Prepared;
 
 /// By how much the sum of the logarithms of residuals has to be less without it than without late torques, of which there are more.
@@ -50,6 +51,7 @@ impl Identify {
             Some((left, delay))
         });
         let (least, delay) = delays.min_by(|x, y| x.0.total_cmp(&y.0))?;
+        // What a drive's sampling makes early in a torque, it makes late in a position.
         let is_told = least < left - FITS_BETTER
             && delay.gain > SHARE
             && delay.seconds.abs() > DEVIATIONS * delay.std

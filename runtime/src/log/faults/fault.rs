@@ -4,6 +4,34 @@ use std::fmt;
 
 use crate::log::Note;
 
+/// Which channel of a joint is not of the time of the others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LateChannel {
+    /// Its torque, against the position.
+    Torque,
+    /// Its position and what is computed from it, against all others.
+    Position,
+}
+
+impl LateChannel {
+    /// Name of that column of a joint, from 0.
+    #[must_use]
+    pub fn column(self, joint: usize) -> String {
+        let name = match self {
+            Self::Torque => "tau",
+            Self::Position => "q",
+        };
+        format!("{name}{}", joint + 1)
+    }
+
+    const fn kind(self) -> &'static str {
+        match self {
+            Self::Torque => "late-torque",
+            Self::Position => "late-position",
+        }
+    }
+}
+
 /// What is wrong with the data of a log.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -97,21 +125,10 @@ pub enum Fault {
         /// By how much it is late, s; negative where it is early.
         delay: f64,
     },
-    /// A torque that is not of the time of the position, as an identification tells it; no log is mended of it.
-    TorqueLate {
-        /// Name of the channel.
-        channel: String,
-        /// Name of the joint.
-        joint: String,
-        /// By how much it is late, s; negative where it is early.
-        delay: f64,
-        /// Its standard deviation, s.
-        std: f64,
-        /// By which share the joint's error is less without it.
-        gain: f64,
-    },
-    /// A position that is not of the time of all other channels, as an identification tells it; no log is mended of it.
-    PositionLate {
+    /// A channel of a joint that is not of the time of the others, as an identification tells it; no log is mended of it.
+    Late {
+        /// Which one.
+        late: LateChannel,
         /// Name of the channel.
         channel: String,
         /// Name of the joint.
@@ -220,8 +237,7 @@ impl Fault {
             Self::Gaps { .. } => "gaps",
             Self::Clipped { .. } => "clipped",
             Self::VelocityLate { .. } => "velocity-late",
-            Self::TorqueLate { .. } => "late-torque",
-            Self::PositionLate { .. } => "late-position",
+            Self::Late { late, .. } => late.kind(),
             Self::VelocityScale { .. } => "velocity-scale",
             Self::Still { .. } => "still",
             Self::Constant { .. } => "constant",
@@ -240,8 +256,7 @@ impl Fault {
             | Self::Slips { channel, .. }
             | Self::Clipped { channel, .. }
             | Self::VelocityLate { channel, .. }
-            | Self::TorqueLate { channel, .. }
-            | Self::PositionLate { channel, .. }
+            | Self::Late { channel, .. }
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
             | Self::Constant { channel, .. } => channel,

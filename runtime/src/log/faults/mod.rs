@@ -19,7 +19,7 @@ mod wraps;
 
 use std::ops::Range;
 
-pub use fault::{Fault, Stretches};
+pub use fault::{Fault, LateChannel, Stretches};
 
 use super::Log;
 

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{Fault, velocity};
+use super::{Fault, LateChannel, velocity};
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -66,22 +66,35 @@ impl fmt::Display for Fault {
                  samples there out unless `torque_saturation` is declared; log a motion that asks for less",
                 100.0 * share
             ),
-            Self::VelocityLate { channel, delay } => {
-                let word = late_or_early(*delay);
+            Self::VelocityLate { channel, delay } => write!(
+                f,
+                "{channel} is {:.4} s {} against the slope of the position; it is not used, velocities are computed from positions",
+                delay.abs(),
+                late_or_early(*delay)
+            ),
+            Self::Late {
+                late,
+                channel,
+                joint,
+                delay,
+                std,
+                gain,
+            } => {
+                let (rest, way_out) = late.words();
                 write!(
                     f,
-                    "{channel} is {:.4} s {word} against the slope of the position; it is not used, velocities are computed from positions",
-                    delay.abs()
+                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} with it; its error is {:.0} % less without that: \
+                     {way_out}",
+                    delay.abs(),
+                    late_or_early(*delay),
+                    100.0 * gain
                 )
             }
-            Self::TorqueLate { .. } | Self::PositionLate { .. } => self.fmt_late(f),
-            Self::VelocityScale { channel, factor } => {
-                write!(
-                    f,
-                    "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
-                    velocity::unit(*factor)
-                )
-            }
+            Self::VelocityScale { channel, factor } => write!(
+                f,
+                "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+                velocity::unit(*factor)
+            ),
             Self::Still { channel } => write!(
                 f,
                 "{channel} is the same at all times: the joint does not move"
@@ -94,44 +107,19 @@ impl fmt::Display for Fault {
     }
 }
 
-impl Fault {
-    /// Channels that an identification finds late.
-    fn fmt_late(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (Self::TorqueLate {
-            channel,
-            joint,
-            delay,
-            std,
-            gain,
-        }
-        | Self::PositionLate {
-            channel,
-            joint,
-            delay,
-            std,
-            gain,
-        }) = self
-        else {
-            return Ok(());
-        };
-        let (found_with_it, way_out) = if matches!(self, Self::TorqueLate { .. }) {
-            (
-                "the position, and friction and inertia are found with it",
+impl LateChannel {
+    /// Against what it is late and what is found so, and the way out.
+    const fn words(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Torque => (
+                "the position, and friction and inertia are found",
                 "`time_delay;` among the effects finds one delay of all joints, up to 0.03 s, longer ones are to be taken out of the log",
-            )
-        } else {
-            (
-                "all other channels, and all that depends on it is found with it",
+            ),
+            Self::Position => (
+                "all other channels, and all that depends on it is found",
                 "move the column by so much",
-            )
-        };
-        write!(
-            f,
-            "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {found_with_it}; its error is {:.0} % less without that: {way_out}",
-            delay.abs(),
-            late_or_early(*delay),
-            100.0 * gain
-        )
+            ),
+        }
     }
 }
 
