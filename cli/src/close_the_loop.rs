@@ -1,7 +1,7 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
-use robot_model::columns::Arm;
-use robot_model::identify::{Errors, Estimate, Identify};
+use robot_model::columns::{Arm, Columns};
+use robot_model::identify::{Errors, Estimate, Identified, Identify};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
@@ -12,6 +12,7 @@ use robot_model_spec::load;
 use crate::Error;
 use crate::data_gate;
 pub use crate::data_gate::DataFault;
+use crate::identify::doubts;
 use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
 use crate::spec::clear;
@@ -52,6 +53,12 @@ impl Loop {
     #[must_use]
     pub fn after(&self) -> &Stage {
         self.changed.as_ref().unwrap_or(&self.before)
+    }
+
+    /// Parameters of the last model that no arm has below zero, and that are: what is missing hides in them.
+    pub fn impossible(&self) -> impl Iterator<Item = &Identified> {
+        let Stage { arm, estimate, .. } = self.after();
+        doubts::impossible(estimate, arm.unknowns())
     }
 
     /// How it ended: a fault of the logs that accounts for all that was missing explains it.

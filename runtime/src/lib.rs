@@ -29,6 +29,8 @@ pub mod simulate;
 pub mod solve;
 pub mod state;
 #[cfg(feature = "std")]
+mod threads;
+#[cfg(feature = "std")]
 pub mod trace;
 
 pub use link::{Inertial, Link};

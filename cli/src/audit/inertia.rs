@@ -7,7 +7,6 @@ use robot_model_codegen::interpreter::Program;
 use robot_model_spec::model::JointKind;
 
 use super::{Check, Quantity};
-use crate::parameters::Values;
 
 /// Poses that are looked at, and the worst of them from which the search goes on.
 const POSES: usize = 2000;
@@ -23,11 +22,13 @@ const ROUNDING: f64 = 1e-9;
 /// Part of a range at which the search ends.
 const FINE: f64 = 1e-5;
 
-pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
+/// Of all parameters, as [`Compiled::parameter_values`] gives them, and of shapes.
+pub(super) fn check(compiled: &Compiled, parameters: &[f64], shapes: &[f64]) -> Check {
     let workspace = workspace(compiled);
     let inertia = Inertia {
         program: compiled.inertia_at_rest(),
-        values,
+        parameters,
+        shapes,
     };
     let mut poses: Vec<(f64, Vec<f64>)> = (0..POSES)
         .map(|k| {
@@ -98,7 +99,8 @@ pub(super) fn pose(workspace: &[(f64, f64)], number: usize) -> Vec<f64> {
 
 struct Inertia<'a> {
     program: Program,
-    values: &'a Values,
+    parameters: &'a [f64],
+    shapes: &'a [f64],
 }
 
 impl Inertia<'_> {
@@ -111,8 +113,8 @@ impl Inertia<'_> {
     fn eigenvalues(&self, pose: &[f64]) -> (f64, f64) {
         let entries = self.program.eval(&|symbol| match symbol {
             Symbol::Q(joint) => pose[joint],
-            Symbol::Parameter(k) => self.values.parameters[k],
-            Symbol::Shape(k) => self.values.shapes[k],
+            Symbol::Parameter(k) => self.parameters[k],
+            Symbol::Shape(k) => self.shapes[k],
             _ => 0.0,
         });
         let matrix = DMatrix::from_row_slice(pose.len(), pose.len(), &entries);

@@ -102,11 +102,17 @@ pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<
     Ok(checks(compiled, &values))
 }
 
+/// What is wrong with the inertia of an arm with these base parameters and shapes: why it runs away when it is simulated.
+pub(crate) fn inertia_of(compiled: &Compiled, beta: &[f64], shapes: &[f64]) -> Option<String> {
+    let check = inertia::check(compiled, &compiled.parameter_values(beta), shapes);
+    check.findings.into_iter().next()
+}
+
 fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
     let all = [
         bodies::check(compiled, values),
         Some(signs(compiled, values)),
-        Some(inertia::check(compiled, values)),
+        Some(inertia::check(compiled, &values.parameters, &values.shapes)),
         Some(friction::check(compiled, values)),
         memory::check(compiled, values),
         drives::check(compiled, values),

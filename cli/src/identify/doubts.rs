@@ -1,7 +1,7 @@
 //! What looks like another unit, sign or order than the spec's.
 
 use robot_model::columns::{Shape, Unknown};
-use robot_model::identify::{Errors, Estimate};
+use robot_model::identify::{Errors, Estimate, Identified};
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
@@ -190,7 +190,22 @@ pub(super) fn at_ends(found: &[(String, f64)], shapes: &[Shape]) -> Vec<String> 
     told.collect()
 }
 
-/// Parameters that no arm has below zero, and that are so by more than three deviations.
+/// Below zero by more than three deviations, where no arm has it.
+fn is_impossible(value: f64, std: f64, unknown: &Unknown) -> bool {
+    unknown.nonnegative && value < 0.0 && value < -3.0 * std
+}
+
+/// Parameters that no arm has below zero, and that are so: they stand for something that the spec lacks.
+pub(crate) fn impossible<'a>(
+    estimate: &'a Estimate,
+    unknowns: &'a [Unknown],
+) -> impl Iterator<Item = &'a Identified> {
+    let found = estimate.parameters.iter().zip(unknowns);
+    let found = found.filter(|(found, unknown)| is_impossible(found.value, found.std, unknown));
+    found.map(|(found, _)| found)
+}
+
+/// The same, told.
 pub(super) fn negative(estimate: &Estimate, unknowns: &[Unknown]) -> Option<String> {
     let found = estimate.parameters.iter();
     let found = found.map(|found| (found.name.as_str(), found.value, found.std));
@@ -202,8 +217,7 @@ pub(super) fn below_zero<'a>(
     found: impl Iterator<Item = ((&'a str, f64, f64), &'a Unknown)>,
 ) -> Option<String> {
     let below: Vec<&str> = found
-        .filter(|((_, value, std), unknown)| unknown.nonnegative && *value < -3.0 * std)
-        .filter(|((_, value, _), _)| *value < 0.0)
+        .filter(|((_, value, std), unknown)| is_impossible(*value, *std, unknown))
         .map(|((name, ..), _)| name)
         .collect();
     if below.is_empty() {

@@ -2,7 +2,7 @@
 
 mod brief;
 mod data_faults;
-mod doubts;
+pub(crate) mod doubts;
 mod drive_gains;
 pub(crate) mod fit;
 mod likeness;

@@ -21,6 +21,7 @@ use robot_model_codegen::expr::Symbol;
 use super::fit::{ByAcceleration, Fit, errors_of_all};
 use super::{IdentifyArguments, doubts, twice};
 use crate::Error;
+use crate::audit;
 use crate::interpreted::{InterpretedArm, InterpretedPlant};
 use crate::output::{self, Files, names};
 use crate::parameters::{self, Values};
@@ -48,6 +49,22 @@ struct Judged {
 }
 
 impl Beginning {
+    /// Why nothing was found, with what is wrong with the arm that the search starts from.
+    fn refused(&self, compiled: &Compiled, error: &OutputErrorError) -> Error {
+        let start = &self.starts[0][..compiled.base.kept.len()];
+        let inertia = match error {
+            OutputErrorError::Start { .. } => audit::inertia_of(compiled, start, &self.shapes),
+            _ => None,
+        };
+        let Some(inertia) = inertia else {
+            return refused(error);
+        };
+        Error::Argument(format!(
+            "{error}\nno arm has the parameters that the search starts from: {inertia}; start from the nearest arm that can be: `--method \
+             physical --json start.json`, then `--start start.json`"
+        ))
+    }
+
     /// What is odd about what was found from it.
     fn doubts(&self, form: &ByAcceleration, logs: &[Log], found: &OutputEstimate) -> Vec<String> {
         // What its sign holds is as least squares would have it.
@@ -118,7 +135,7 @@ impl IdentifyArguments {
             &is_there,
             &progress,
         )
-        .map_err(|error| refused(&error))?;
+        .map_err(|error| beginning.refused(&compiled, &error))?;
         settings.hold = found.hold;
         if let (Some(asked), Some(taken)) = (settings.window, found.window)
             && taken < asked
@@ -290,6 +307,7 @@ impl IdentifyArguments {
             window: options.window.or(is_open.then_some(1.0)),
             held_starts: None,
             iterations: None,
+            below: None,
             law: law.transpose()?,
             bounds: bounds(
                 compiled,

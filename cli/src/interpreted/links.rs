@@ -90,6 +90,11 @@ impl Links {
         self.joints + self.springs.joints.len()
     }
 
+    /// Whether all links are where their joints are.
+    pub fn is_at_joints(&self) -> bool {
+        self.springs.joints.is_empty() && self.placed.is_empty()
+    }
+
     /// The joint of a degree of freedom.
     pub fn joint(&self, coordinate: usize) -> usize {
         let behind = coordinate.checked_sub(self.joints);

@@ -34,6 +34,8 @@ pub(crate) struct Report<'a> {
     structure_after: Vec<f64>,
     /// Of what the structure after is a function, for every joint where it matters.
     structure_where: Vec<WhereReport<'a>>,
+    /// Parameters of the last model that no arm has below zero, and that are by more than three deviations.
+    impossible: Vec<ParameterReport<'a>>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
     /// What was judged in every round, best first, and why it was refused.
@@ -187,6 +189,10 @@ impl<'a> Report<'a> {
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
+            impossible: closed
+                .impossible()
+                .map(|found| ParameterReport::new(&found.name, found.value, Some(found.std)))
+                .collect(),
             leads: leads
                 .map(|(k, lead)| effect(lead, closed, verdict.findings.len() + k))
                 .collect(),

@@ -87,6 +87,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             found.for_each(|one| out.push_str(&whereabouts(closed, one)));
         }
     }
+    out.push_str(&impossible(closed));
     out.push_str(&tried(closed));
     let change = diff(text, &closed.amended);
     if !change.is_empty() {
@@ -94,6 +95,23 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     }
     out.push('\n');
     out.push_str(&table(closed));
+    out
+}
+
+/// A line each for parameters that hide what is missing.
+fn impossible(closed: &Loop) -> String {
+    let mut out = String::new();
+    for found in closed.impossible() {
+        writeln!(
+            out,
+            "  {} = {:.4} +- {} is below zero, as no arm has it: something that the spec lacks moves as it does all along these logs, as friction \
+             does that falls with speed over the whole motion; runs at constant speeds tell a joint's friction (`robot-model friction`)",
+            found.name,
+            found.value,
+            significant(found.std, 2)
+        )
+        .expect("a string takes all");
+    }
     out
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::common::{CART, Folder, cart_log, close, json, numbers};
+use crate::common::{CART, Folder, cart_log, cart_with, close, json, numbers, tones};
 
 #[test]
 fn trace_closes_the_loop() {
@@ -178,4 +178,26 @@ fn a_report_has_the_verdict_the_errors_and_figures_on_one_page() {
     // A report that never comes leaves no folder behind.
     folder.refuse(&["trace", "cart.robot", "none.csv", "--report", "other"]);
     assert!(!folder.path("other").exists());
+}
+
+/// A declared parameter may take in what is missing, so that nothing of it is left to trace.
+#[test]
+fn what_hides_in_a_parameter_below_zero_is_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    for (drive, is_told) in [(0.0, false), (-9.0, true)] {
+        let log = cart_with(200, 40, &tones(0.0), |_, dq| drive * dq);
+        folder.write("log.csv", &log);
+        let told = folder.succeed(&["trace", "cart.robot", "log.csv", "--json", "out.json"]);
+        let out = json(&folder.read("out.json"));
+        assert_eq!(out["outcome"], "nothing-missing", "{told}");
+        let below = "is below zero, as no arm has it: something that the spec lacks";
+        assert_eq!(told.contains(below), is_told, "{told}");
+        let found = out["impossible"].as_array().expect("a list");
+        assert_eq!(found.len(), usize::from(is_told), "{out}");
+        if is_told {
+            assert_eq!(found[0]["name"], "rail.viscous_friction.fv");
+            assert!(found[0]["interval"][1].as_f64().expect("a number") < 0.0);
+        }
+    }
 }

@@ -97,7 +97,7 @@ pub fn find(arm: &Arm, releases: [&[Position]; 2]) -> Result<OutputEstimate, Err
 ///
 /// # Errors
 /// Those of the library.
-pub fn look<P: Adjustable + Clone>(
+pub fn look<P: Adjustable + Clone + Sync>(
     settings: &OutputError,
     arm: &P,
     names: &[String],

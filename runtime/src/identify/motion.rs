@@ -4,13 +4,11 @@
 //! smooth band adds noise of accelerations, and how sharply velocities turn decides over the pulses at reversals of dry friction. So the
 //! bands of predictions are those with which the errors on the fitted logs are least.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use super::{Errors, Estimate, IdentifyError};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
+use crate::threads;
 
 /// Wide bands that are tried, Hz, up to this share of the sample rate.
 const WIDE_HZ: [f64; 5] = [30.0, 45.0, 60.0, 90.0, 120.0];
@@ -73,35 +71,9 @@ impl Estimate {
             let told = errors.rmse.iter().filter(|rmse| **rmse > 0.0);
             Ok(told.map(|rmse| rmse.ln()).sum())
         };
-        let merits = in_threads(&bands, &merit).into_iter();
+        let merits = threads::map(&bands, merit).into_iter();
         let merits = merits.collect::<Result<Vec<f64>, _>>()?;
         let best = bands.iter().zip(merits).min_by(|a, b| a.1.total_cmp(&b.1));
         Ok(best.map_or(self.motion_bands, |(bands, _)| *bands))
     }
-}
-
-/// A function of every item, on all cores, in the order of the items.
-fn in_threads<T: Sync, R: Send>(items: &[T], of: &(dyn Fn(&T) -> R + Sync)) -> Vec<R> {
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(number) else {
-                return;
-            };
-            let result = of(item);
-            done.lock()
-                .expect("no panic while it is held")
-                .push((number, result));
-        }
-    };
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(work);
-        }
-    });
-    let mut done = done.into_inner().expect("no panic while it is held");
-    done.sort_by_key(|(number, _)| *number);
-    done.into_iter().map(|(_, result)| result).collect()
 }

@@ -7,8 +7,6 @@
 //! alike part further out, and shapes are refined between points of the grid: the count is doubled for both.
 
 use std::ops::Range;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use faer::Mat;
 use nalgebra::{DMatrix, SymmetricEigen};
@@ -19,6 +17,7 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::columns::{Candidate, Entry};
 use crate::motion::Motion;
+use crate::threads;
 
 use super::grid::Grid;
 use super::score::Present;
@@ -46,32 +45,15 @@ const LEAST_VARIANCE: f64 = 1e-9;
 pub(super) fn tests(present: &Present, grids: &[Grid], rows: &[Motion]) -> f64 {
     let blocks = present.equal_blocks(BLOCK_S, BLOCKS);
     let with_residual = present.block_products(&blocks);
-    let (next, all) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let work = || {
-        loop {
-            let number = next.fetch_add(1, Ordering::Relaxed);
-            let Some(grid) = grids.get(number) else {
-                return;
-            };
-            let mut points = Vec::new();
-            grid.each(rows, &mut |candidate, entries| {
-                let found = scores(present, &blocks, &with_residual, candidate, entries);
-                points.extend(found.map(|scores| whitened(&scores)));
-            });
-            let mut all = all.lock().expect("no panic while it is held");
-            all.push((number, points));
-        }
-    };
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    std::thread::scope(|scope| {
-        for _ in 0..workers {
-            scope.spawn(work);
-        }
+    let points = threads::map(grids, |grid| {
+        let mut points: Vec<Directions> = Vec::new();
+        grid.each(rows, &mut |candidate, entries| {
+            let found = scores(present, &blocks, &with_residual, candidate, entries);
+            points.extend(found.map(|scores| whitened(&scores)));
+        });
+        points
     });
-    let mut all = all.into_inner().expect("no panic while it is held");
-    // The same sums, whatever thread came to a grid first.
-    all.sort_by_key(|(number, _)| *number);
-    let points: Vec<Directions> = all.into_iter().flat_map(|(_, points)| points).collect();
+    let points: Vec<Directions> = points.into_iter().flatten().collect();
     worth(&points, blocks.len())
 }
 

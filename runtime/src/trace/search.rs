@@ -1,7 +1,6 @@
 //! Forward search: the best effect that passes, then the next, until none does.
 
 use std::sync::OnceLock;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::columns::{Arm, Candidate};
 use crate::identify::{
@@ -10,6 +9,7 @@ use crate::identify::{
 };
 use crate::log::{Log, MOTION_PHASE};
 use crate::signal::{Bands, Prepared, period};
+use crate::threads;
 
 use super::away::Looks;
 use super::conclude::{Told, changed, verdict};
@@ -276,35 +276,15 @@ impl Search<'_> {
         candidates: &[&'a dyn Candidate],
         wanted: impl Fn(&dyn Candidate) -> bool,
     ) -> Vec<Grid<'a>> {
-        let wanted: Vec<usize> = (0..candidates.len())
-            .filter(|&number| wanted(candidates[number]))
-            .collect();
-        let workers = std::thread::available_parallelism().map_or(1, usize::from);
-        let next = AtomicUsize::new(0);
-        let work = || {
-            let mut done = Vec::new();
-            loop {
-                let number = next.fetch_add(1, Ordering::Relaxed);
-                match candidates.get(number) {
-                    None => return done,
-                    Some(candidate) if wanted.contains(&number) => {
-                        done.push((number, self.grid(state, *candidate)));
-                    }
-                    Some(_) => {}
-                }
+        let wanted: Vec<bool> = candidates.iter().map(|&one| wanted(one)).collect();
+        let all: Vec<(&'a dyn Candidate, bool)> = candidates.iter().copied().zip(wanted).collect();
+        threads::map(&all, |&(candidate, is_wanted)| {
+            if is_wanted {
+                self.grid(state, candidate)
+            } else {
+                Grid::Formed(Vec::new())
             }
-        };
-        let none = || Grid::Formed(Vec::new());
-        let mut grids: Vec<Grid> = candidates.iter().map(|_| none()).collect();
-        std::thread::scope(|scope| {
-            let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
-            for thread in threads {
-                for (number, grid) in thread.join().expect("a candidate's columns never panic") {
-                    grids[number] = grid;
-                }
-            }
-        });
-        grids
+        })
     }
 
     /// Trials of one candidate. A change that cannot be solved for at its neutral shapes is no candidate.

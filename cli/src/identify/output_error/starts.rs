@@ -2,7 +2,7 @@
 
 use robot_model::columns::{Columns, Shape};
 use robot_model::identify::output_error::{
-    Iterate, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
+    Ending, Iterate, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
 };
 use robot_model::identify::{Estimate, Identify};
 use robot_model::log::Log;
@@ -15,6 +15,9 @@ use crate::progress::Progress;
 const OF_ONE: usize = 6;
 const OF_TWO: usize = 3;
 const OF_MANY: usize = 2;
+
+/// A valley whose cost is less than this share of another's is a deeper one.
+const DEEPER: f64 = 0.99;
 
 /// Searches to the end, from the best places of all starts, until one has found the arm.
 const SEARCHES: usize = 3;
@@ -115,13 +118,7 @@ pub(super) fn search(
     };
     let mut best: Option<OutputEstimate> = None;
     let mut refusal = None;
-    let again = other.map(|search| OutputError {
-        search,
-        ..settings.clone()
-    });
-    let again = again.iter().zip(&places);
-    let searches = places.iter().take(SEARCHES).map(|place| (settings, place));
-    for (settings, place) in searches.chain(again) {
+    for place in places.iter().take(SEARCHES) {
         match settings.fit(plant, names, place, recordings, &mut tell) {
             Ok(found) => {
                 let is_better = best.as_ref().is_none_or(|best| error(&found) < error(best));
@@ -135,9 +132,34 @@ pub(super) fn search(
             break;
         }
     }
+    let is_there = best.as_ref().is_some_and(is_there);
+    if let (Some(search), Some(place), false) = (other, places.first(), is_there) {
+        let again = OutputError {
+            search,
+            below: best.as_ref().and_then(|best| to_beat(settings, best)),
+            ..settings.clone()
+        };
+        match again.fit(plant, names, place, recordings, &mut tell) {
+            Ok(found) if best.as_ref().is_none_or(|best| error(&found) < error(best)) => {
+                best = Some(found);
+            }
+            Ok(_) | Err(OutputErrorError::NotDeeper { .. }) => {}
+            Err(error) => refusal = refusal.or(Some(error)),
+        }
+    }
     match (best, refusal) {
         (Some(best), _) => Ok(best),
         (None, Some(error)) => Err(error),
         (None, None) => unreachable!("there is at least one place"),
     }
+}
+
+/// The cost of the first part of another search in a deeper valley than that of the best; none where this has not come to its end, so that
+/// nothing is known of its valley.
+fn to_beat(settings: &OutputError, best: &OutputEstimate) -> Option<f64> {
+    let has_ended = best.ending == Ending::Converged && best.window == settings.window;
+    let first = best.iterates.iter().rfind(|iterate| iterate.stage == 0);
+    first
+        .filter(|_| has_ended)
+        .map(|iterate| DEEPER * iterate.cost)
 }

@@ -10,14 +10,14 @@ use super::{InterpretedPlant, of_links};
 /// Programs of slopes by what is unknown, made when they are first asked for.
 #[derive(Debug, Clone)]
 pub(super) struct ParameterRunners {
-    rigid: Runner,
-    effects: Runner,
-    forces: Option<Runner>,
-    rates: Runner,
-    arguments: Runner,
-    force_arguments: Option<Runner>,
-    give: Runner,
-    place: Runner,
+    pub rigid: Runner,
+    pub effects: Runner,
+    pub forces: Option<Runner>,
+    pub rates: Runner,
+    pub arguments: Runner,
+    pub force_arguments: Option<Runner>,
+    pub give: Runner,
+    pub place: Runner,
 }
 
 impl ParameterRunners {
@@ -100,11 +100,27 @@ impl Adjustable for InterpretedPlant {
     }
 
     fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
-        let (n, p, u) = (self.joints, self.states, self.parameters());
         self.prepare();
         let Some(mut parametric) = self.parametric.take() else {
             unreachable!("prepared above");
         };
+        if self.is_plain() {
+            self.plain_parameter_slopes(&mut parametric, at, slopes);
+        } else {
+            self.parted_parameter_slopes(&mut parametric, at, slopes);
+        }
+        self.parametric = Some(parametric);
+    }
+}
+
+impl InterpretedPlant {
+    pub(super) fn parted_parameter_slopes(
+        &mut self,
+        parametric: &mut ParameterRunners,
+        at: &Instant<'_>,
+        slopes: &mut ParameterSlopes,
+    ) {
+        let (n, p, u) = (self.joints, self.states, slopes.torque.ncols());
         let links = self.links.motion(at);
         let there = of_links(at, &links);
         let loads = self.loads(at, &there);
@@ -156,6 +172,5 @@ impl Adjustable for InterpretedPlant {
             let own = matrix(forces.run(&there, &[]), 0, all - m, u);
             slopes.arguments.rows_mut(m, all - m).copy_from(&own);
         }
-        self.parametric = Some(parametric);
     }
 }

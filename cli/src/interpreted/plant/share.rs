@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use robot_model::simulate::Instant;
 use robot_model_codegen::Share;
+use robot_model_codegen::interpreter::Scratch;
 
 use super::super::runner::{Numbers, Runner, matrix};
 
@@ -50,10 +51,15 @@ impl ShareRunner {
         [&mut self.torque, &mut self.arguments, &mut self.jumps].into_iter()
     }
 
-    /// `load` is what the share sees as the torque of the rigid body.
+    /// `E`, `d E / d ddq` and `d E / d R`, row by row; `load` is what the share sees as the torque of the rigid body.
+    pub fn run(&mut self, at: &Instant<'_>, load: &[f64]) -> &Scratch {
+        self.torque.run(at, load)
+    }
+
+    /// The same as matrices.
     pub fn torque(&mut self, at: &Instant<'_>, load: &[f64]) -> SharedTorque {
         let n = self.joints;
-        let found = self.torque.run(at, load);
+        let found = self.run(at, load);
         SharedTorque {
             torque: DVector::from_fn(n, |joint, _| found.output(joint)),
             by_acceleration: matrix(found, n, n, n),

@@ -135,3 +135,42 @@ fn a_log_without_a_motion_is_refused_at_once() {
         run.stderr
     );
 }
+
+/// Parameters that no arm has, as least squares may give where the data are silent: the simulated arm runs away from what pushes it.
+#[test]
+fn an_arm_that_cannot_be_is_told_as_why_it_runs_away() {
+    let folder = mistaken();
+    folder.write(
+        "free.robot",
+        "robot Free {
+            gravity = [0, 0, 0];
+            convention = standard_dh;
+            joint a: revolute { a = 0.5; alpha = 0; d = 0; }
+            effects { viscous_friction on a; }
+        }",
+    );
+    folder.write(
+        "impossible.json",
+        r#"{"a.izz": -0.01, "a.m": 0, "a.mx": 0, "a.my": 0, "a.viscous_friction.fv": 0.8}"#,
+    );
+    let identify = ["identify", "free.robot", "log.csv", "--method"];
+    let said = folder.refuse(
+        &[
+            &identify[..],
+            &["output-error", "--start", "impossible.json"],
+        ]
+        .concat(),
+    );
+    assert!(
+        said.contains("with the parameters that the search starts from"),
+        "{said}"
+    );
+    assert!(
+        said.contains("the inertia is not positive definite: least eigenvalue"),
+        "{said}"
+    );
+    assert!(
+        said.contains("`--method physical --json start.json`"),
+        "{said}"
+    );
+}

@@ -28,6 +28,14 @@ pub enum OutputErrorError {
         /// What happened.
         error: SimulateError,
     },
+    /// The first part of a search has led no deeper than another search did, see [`OutputError::below`](super::OutputError::below).
+    #[error("the search has led to a cost of {cost:.6e}, no deeper than {below:.6e}")]
+    NotDeeper {
+        /// Where it has led.
+        cost: f64,
+        /// What it was to be below.
+        below: f64,
+    },
     /// Positions are the same all along.
     #[error(
         "no joint moves in these logs, so that simulated positions say nothing of the arm: move it"

@@ -76,7 +76,7 @@ pub struct OutputEstimate {
     pub hold: Option<Hold>,
 }
 
-pub(super) fn result<P: Adjustable + Clone>(
+pub(super) fn result<P: Adjustable + Clone + Sync>(
     part: Part<'_, P>,
     bounds: &[[f64; 2]],
     iterates: Vec<Iterate>,

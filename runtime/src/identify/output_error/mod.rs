@@ -66,6 +66,9 @@ pub struct OutputError {
     pub held_starts: Option<Vec<Vec<f64>>>,
     /// Iterations at most of each part of the search; none are 100.
     pub iterations: Option<usize>,
+    /// Cost that the first part of the search has to come below, or it is given up there: that of another search, of which this one is to tell
+    /// whether there is a deeper valley.
+    pub below: Option<f64>,
 }
 
 impl OutputError {
@@ -73,7 +76,7 @@ impl OutputError {
     ///
     /// # Errors
     /// [`OutputErrorError`].
-    pub fn fit<P: Adjustable + Clone>(
+    pub fn fit<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
         names: &[String],
@@ -133,7 +136,7 @@ impl OutputError {
     ///
     /// # Errors
     /// As [`Self::fit`].
-    pub fn compare<P: Adjustable + Clone>(
+    pub fn compare<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
         values: &[f64],
@@ -183,7 +186,7 @@ impl OutputError {
         }
     }
 
-    fn problem<'a, P: Adjustable + Clone>(
+    fn problem<'a, P: Adjustable + Clone + Sync>(
         &'a self,
         plant: P,
         recordings: &'a [Recording],

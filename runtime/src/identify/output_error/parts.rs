@@ -15,6 +15,8 @@ const SMOOTH: f64 = 0.01;
 pub(super) struct Parts<'s> {
     search: search::Search,
     pub bounds: Vec<[f64; 2]>,
+    /// Cost that the first part has to come below.
+    below: Option<f64>,
     /// What joints are weighed by: errors of the part before.
     scale: Vec<f64>,
     pub iterates: Vec<Iterate>,
@@ -40,6 +42,7 @@ impl<'s> Parts<'s> {
     ) -> Self {
         Self {
             search: settings.search,
+            below: settings.below,
             bounds: settings.bounds_of(parameters),
             scale: vec![1.0; joints],
             iterates: Vec::new(),
@@ -49,7 +52,7 @@ impl<'s> Parts<'s> {
 
     /// One of them, from given parameters on; a joint counts by what its errors are, once they are known. Windows that begin where one of the
     /// part `before` does start as that was found to.
-    pub fn search<'a, P: Adjustable + Clone>(
+    pub fn search<'a, P: Adjustable + Clone + Sync>(
         &mut self,
         mut problem: Problem<'a, P>,
         window: Option<f64>,
@@ -76,6 +79,12 @@ impl<'s> Parts<'s> {
                 self.progress,
             );
             let found = found.map_err(|error| no_start(&problem, error))?;
+            if let (Some(below), Some(Iterate { stage: 0, cost, .. })) =
+                (self.below, self.iterates.last())
+                && *cost >= below
+            {
+                return Err(OutputErrorError::NotDeeper { cost: *cost, below });
+            }
             if weighed {
                 self.scale = problem.scales(&found.0);
             }
@@ -91,14 +100,14 @@ impl<'s> Parts<'s> {
     }
 }
 
-impl<P: Adjustable + Clone> Part<'_, P> {
+impl<P: Adjustable + Clone + Sync> Part<'_, P> {
     /// Sum of the logarithms of the joints' errors, which does not depend on their units.
     pub fn error(&self) -> f64 {
         self.problem.error(&self.found.0)
     }
 }
 
-impl<P: Adjustable + Clone> Problem<'_, P> {
+impl<P: Adjustable + Clone + Sync> Problem<'_, P> {
     /// Sum of the logarithms of the joints' errors.
     pub fn error(&self, runs: &[Run]) -> f64 {
         let spread = self.spread(runs).into_iter();

@@ -7,6 +7,7 @@ use super::recording::Hold;
 use super::run::Run;
 use super::window::{Rows, Window};
 use crate::simulate::{Adjustable, SimulateError};
+use crate::threads;
 
 /// A place of the search: parameters, and where each window starts.
 #[derive(Debug, Clone)]
@@ -29,19 +30,21 @@ pub(super) struct Problem<'a, P> {
     pub most: usize,
 }
 
-impl<P: Adjustable + Clone> Problem<'_, P> {
+impl<P: Adjustable + Clone + Sync> Problem<'_, P> {
+    /// Simulates all windows, on all cores; which of them fails first is said with its error.
     pub fn run(
         &mut self,
         place: &Place,
         with_slopes: bool,
     ) -> Result<Vec<Run>, (usize, SimulateError)> {
         self.plant.adjust(&place.values);
-        let windows = self.windows.iter().zip(&place.starts).enumerate();
-        windows
-            .map(|(k, (window, start))| {
-                let run = window.run(&self.plant, start, self.law, self.hold, with_slopes);
-                run.map_err(|error| (k, error))
-            })
+        let (plant, law, hold) = (&self.plant, self.law, self.hold);
+        let windows: Vec<_> = self.windows.iter().zip(&place.starts).collect();
+        let runs = threads::map(&windows, |(window, start)| {
+            window.run(plant, start, law, hold, with_slopes)
+        });
+        let runs = runs.into_iter().enumerate();
+        runs.map(|(k, run)| run.map_err(|error| (k, error)))
             .collect()
     }
 

@@ -35,7 +35,7 @@ pub(super) struct Run {
 
 impl Window<'_> {
     /// A plant at the start, and how its state moves with parameters and start.
-    fn stand<P: Adjustable + Clone>(
+    fn stand<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
         start: &DVector<f64>,
@@ -57,7 +57,7 @@ impl Window<'_> {
     }
 
     /// Simulates it.
-    pub fn run<P: Adjustable + Clone>(
+    pub fn run<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
         start: &DVector<f64>,
@@ -182,7 +182,7 @@ impl<'a> Near<'a> {
         }
     }
 
-    fn check<P: Adjustable + Clone>(
+    fn check<P: Adjustable + Clone + Sync>(
         &self,
         arm: &Integrator<P>,
         tangent: Option<&Tangent>,

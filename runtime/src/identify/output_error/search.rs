@@ -177,7 +177,7 @@ pub enum Ending {
 pub(super) type Found = (Vec<Run>, Ending);
 
 /// Moves a place to where the cost is least, from runs of it without slopes on.
-pub(super) fn search<P: Adjustable + Clone>(
+pub(super) fn search<P: Adjustable + Clone + Sync>(
     search: Search,
     problem: &mut Problem<'_, P>,
     place: &mut Place,
@@ -214,8 +214,8 @@ pub(super) fn search<P: Adjustable + Clone>(
         let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
         note(place, cost, now, simulations);
         let mut next = None;
-        // Shorter and shorter steps, until one goes down.
-        for _ in 0..30 {
+        // Shorter and shorter steps, until one goes down. Most often the first one does, so that its slopes are made at once.
+        for attempt in 0..30 {
             let room = Room {
                 values: &place.values,
                 bounds,
@@ -230,13 +230,21 @@ pub(super) fn search<P: Adjustable + Clone>(
             }
             let trial = place.moved(&step, &equations);
             simulations += 1;
-            let after = problem.run(&trial, false).map(|runs| problem.cost(&runs));
-            let after = after.unwrap_or(f64::INFINITY);
+            let has_slopes = attempt == 0;
+            let found = problem.run(&trial, has_slopes);
+            let after = found
+                .as_ref()
+                .map_or(f64::INFINITY, |runs| problem.cost(runs));
             let ratio = (cost - after) / step.predicted;
             now = next_control(search, now, ratio, step.length);
             if ratio > 0.0 {
                 // Where only its slopes run away nothing tells how to go on from there.
-                if let Ok(runs) = problem.run(&trial, true) {
+                let runs = if has_slopes {
+                    found
+                } else {
+                    problem.run(&trial, true)
+                };
+                if let Ok(runs) = runs {
                     next = Some((trial, after, step, runs));
                     break;
                 }

@@ -15,7 +15,7 @@ impl OutputError {
     ///
     /// # Errors
     /// [`OutputErrorError`] where nothing can be simulated.
-    pub fn nearest<P: Adjustable + Clone>(
+    pub fn nearest<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
         names: &[String],

@@ -125,6 +125,7 @@ const HELD: OutputError = OutputError {
     hold: Some(Hold::Sample),
     held_starts: None,
     iterations: None,
+    below: None,
 };
 
 #[test]

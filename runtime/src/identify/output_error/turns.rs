@@ -21,7 +21,7 @@ pub(super) struct Moves(Vec<DMatrix<f64>>);
 impl Moves {
     /// Of a place with its runs and equations, for the `free` parameters with their `(R'R)^-1`. Nothing moves where no friction takes a
     /// jump, where a controller makes the torque, or where torque is held from each sample on and is known throughout.
-    pub fn new<P: Adjustable + Clone>(
+    pub fn new<P: Adjustable + Clone + Sync>(
         problem: &Problem<'_, P>,
         (place, runs): (&Place, &[Run]),
         (rows, reduced): (&[Rows], &Reduced),
