@@ -5,6 +5,7 @@
 //! not seen before is damaged further.
 
 pub mod answer;
+pub mod damage;
 mod forms;
 pub mod minimize;
 pub mod mutate;

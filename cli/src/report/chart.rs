@@ -114,7 +114,9 @@ impl Chart<'_> {
                 let color = series.color.stand_in();
                 let points = series.points.iter().map(|(x, y)| (place(*x), place(*y)));
                 if series.is_line {
-                    let line = LineSeries::new(points, color.stroke_width(1));
+                    // What was measured is seen on both sides of a model that goes through it.
+                    let width = if series.color == Ink::Measured { 3 } else { 1 };
+                    let line = LineSeries::new(points, color.stroke_width(width));
                     chart.draw_series(line).expect(DRAWN);
                 } else {
                     let dots = points.map(|point| Circle::new(point, 1, color.filled()));

@@ -8,6 +8,7 @@ use robot_model_spec::model::EffectLeaf;
 
 use super::report::effect;
 use crate::close_the_loop::Loop;
+use crate::output::significant;
 
 const PUT: &str = "a string takes all";
 
@@ -38,6 +39,19 @@ pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
         .expect(PUT);
     }
     out
+}
+
+/// Parameters in which something that is missing hides.
+pub(super) fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
+    closed.impossible().map(|found| {
+        format!(
+            "{} = {:.4} +- {} is below zero, as no arm has it: something that the spec lacks moves as it does all along these logs, as friction \
+             does that falls with speed over the whole motion; runs at constant speeds tell a joint's friction (`robot-model friction`)",
+            found.name,
+            found.value,
+            significant(found.std, 2)
+        )
+    })
 }
 
 /// The command; none where an effect follows from more than the motion, or is no torque that is added.

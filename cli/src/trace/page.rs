@@ -3,7 +3,7 @@
 use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
 
-use super::doubt::{doubt, on_joints};
+use super::doubt::{doubt, impossible, on_joints};
 use super::report::effect;
 use super::tried::rows;
 use super::whereabouts::whereabouts;
@@ -94,6 +94,7 @@ fn verdict(page: &mut Page, spec: &str, closed: &Loop) {
             values.collect::<Vec<_>>().join(", ")
         )
     }));
+    items.extend(impossible(closed));
     if !items.is_empty() {
         page.list(&items);
     }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome, Whereabouts};
 
-use super::doubt::{doubt, on_joints};
+use super::doubt::{doubt, impossible, on_joints};
 use super::report::effect;
 use super::tried::tried;
 use super::whereabouts::whereabouts;
@@ -87,7 +87,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             found.for_each(|one| out.push_str(&whereabouts(closed, one)));
         }
     }
-    out.push_str(&impossible(closed));
+    for told in impossible(closed) {
+        writeln!(out, "  {told}").expect("a string takes all");
+    }
     out.push_str(&tried(closed));
     let change = diff(text, &closed.amended);
     if !change.is_empty() {
@@ -95,23 +97,6 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     }
     out.push('\n');
     out.push_str(&table(closed));
-    out
-}
-
-/// A line each for parameters that hide what is missing.
-fn impossible(closed: &Loop) -> String {
-    let mut out = String::new();
-    for found in closed.impossible() {
-        writeln!(
-            out,
-            "  {} = {:.4} +- {} is below zero, as no arm has it: something that the spec lacks moves as it does all along these logs, as friction \
-             does that falls with speed over the whole motion; runs at constant speeds tell a joint's friction (`robot-model friction`)",
-            found.name,
-            found.value,
-            significant(found.std, 2)
-        )
-        .expect("a string takes all");
-    }
     out
 }
 

@@ -1,0 +1,140 @@
+//! A thousand damaged logs and a thousand damaged specs: none crashes the program, none leaves a part of a file, and each refusal
+//! names the place.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::io::Write as _;
+
+use rand::SeedableRng as _;
+use rand_chacha::ChaCha8Rng;
+use robot_model_fuzz::damage::Damage;
+
+use crate::common::{CART, Folder, Run, cart_log, json};
+
+const COUNT: u64 = 1000;
+
+/// How a file fared.
+#[derive(Default)]
+struct Fates {
+    /// By damage: taken as it is, taken with a note, refused.
+    counts: BTreeMap<Damage, [usize; 3]>,
+}
+
+impl Fates {
+    fn add(&mut self, damage: Damage, run: &Run) {
+        let is_noted = ["note:", "warning:"]
+            .iter()
+            .any(|word| run.stderr.contains(word));
+        let fate = match run.code {
+            Some(0) if is_noted => 1,
+            Some(0) => 0,
+            _ => 2,
+        };
+        self.counts.entry(damage).or_default()[fate] += 1;
+    }
+
+    fn refused(&self) -> usize {
+        self.counts.values().map(|counts| counts[2]).sum()
+    }
+
+    /// Tells the counts; tests say what they print where they run with `--nocapture`, and these are to be seen anyway.
+    fn tell(&self, what: &str) {
+        let mut table = format!("{COUNT} damaged {what}: 0 crashes, 0 parts of files\n");
+        writeln!(
+            table,
+            "{:<12}{:>8}{:>8}{:>9}",
+            "damage", "taken", "noted", "refused"
+        )
+        .expect("a string takes all");
+        for (damage, [taken, noted, refused]) in &self.counts {
+            writeln!(
+                table,
+                "{:<12}{taken:>8}{noted:>8}{refused:>9}",
+                damage.name()
+            )
+            .expect("a string takes all");
+        }
+        let _ = std::io::stderr().write_all(table.as_bytes());
+    }
+}
+
+/// Number, damage and dice of each file.
+fn damages() -> impl Iterator<Item = (u64, Damage, ChaCha8Rng)> {
+    (0..COUNT).map(|number| {
+        let damage = Damage::ALL[usize::try_from(number).expect("small") % Damage::ALL.len()];
+        (number, damage, ChaCha8Rng::seed_from_u64(number))
+    })
+}
+
+/// What holds of every run, however its files are damaged.
+#[track_caller]
+fn assert_ends_well(folder: &Folder, number: u64, damage: Damage, run: &Run, results: &[&str]) {
+    let case = format!("number {number}, {}", damage.name());
+    let code = run
+        .code
+        .unwrap_or_else(|| panic!("{case}: ended by a signal"));
+    assert!(code == 0 || code == 1, "{case}: {code}: {}", run.stderr);
+    assert!(!run.stderr.contains("panicked"), "{case}: {}", run.stderr);
+    let mut files = folder.files();
+    files.retain(|file| !["arm.robot", "log.csv"].contains(&file.as_str()));
+    let expected: &[&str] = if code == 0 { results } else { &[] };
+    assert_eq!(files, expected, "{case}: {}", run.stderr);
+}
+
+#[test]
+fn a_thousand_damaged_logs() {
+    let log = cart_log(4, 2.0, 0.0);
+    let mut fates = Fates::default();
+    for (number, damage, mut dice) in damages() {
+        let folder = Folder::new();
+        folder.write("arm.robot", CART);
+        std::fs::write(folder.path("log.csv"), damage.of_table(&log, &mut dice)).expect("a file");
+        let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
+        assert_ends_well(&folder, number, damage, &run, &["fit.json"]);
+        if run.code == Some(0) {
+            let report = json(&folder.read("fit.json"));
+            assert!(report["parameters"].is_array(), "{number}");
+        } else {
+            let said = run
+                .stderr
+                .lines()
+                .filter(|line| !line.starts_with("reading"))
+                .collect::<Vec<_>>()
+                .join(" / ");
+            let _ = writeln!(std::io::stderr(), "LOG {}: {said}", damage.name());
+        }
+        fates.add(damage, &run);
+    }
+    assert!(fates.refused() > 300, "{}", fates.refused());
+    fates.tell("logs");
+}
+
+#[test]
+fn a_thousand_damaged_specs() {
+    let mut fates = Fates::default();
+    for (number, damage, mut dice) in damages() {
+        let folder = Folder::new();
+        let spec = crate::common::PENDULUM;
+        std::fs::write(folder.path("arm.robot"), damage.of_text(spec, &mut dice)).expect("a file");
+        let run = folder.run(&[
+            "emit",
+            "arm.robot",
+            "--lang",
+            "c",
+            "--name",
+            "arm",
+            "--out",
+            "c",
+        ]);
+        assert_ends_well(&folder, number, damage, &run, &["c"]);
+        if run.code != Some(0) {
+            let said = run.stderr.lines().next().unwrap_or_default().to_owned()
+                + " / "
+                + run.stderr.lines().nth(1).unwrap_or_default();
+            let _ = writeln!(std::io::stderr(), "SPEC {}: {said}", damage.name());
+        }
+        fates.add(damage, &run);
+    }
+    assert!(fates.refused() > 300, "{}", fates.refused());
+    fates.tell("specs");
+}

@@ -1,0 +1,312 @@
+//! Pages of `--report`: readable by all, light, and alive in a browser.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::io::Write as _;
+use std::process::Command;
+
+use scraper::{ElementRef, Html, Selector};
+
+use crate::common::{CART, Folder, cart_log};
+
+fn all<'a>(page: &'a Html, what: &str) -> Vec<ElementRef<'a>> {
+    let selector = Selector::parse(what).expect("a selector");
+    page.select(&selector).collect()
+}
+
+fn text(element: ElementRef) -> String {
+    element.text().collect::<String>().trim().to_owned()
+}
+
+/// The report of a trace that finds something.
+fn traced() -> Folder {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "other.csv"];
+    folder.succeed(&[&trace[..], &["--report", "page"]].concat());
+    folder
+}
+
+/// What a screen reader and a keyboard need (WCAG 2.2: 1.1.1, 1.3.1, 2.1.1, 2.4.1, 2.4.2, 2.4.6, 3.1.1, 4.1.2).
+#[test]
+fn a_report_is_readable_without_seeing_it() {
+    let html = traced().read("page/index.html");
+    let page = Html::parse_document(&html);
+    assert!(page.errors.is_empty(), "{:?}", page.errors);
+    assert_eq!(
+        all(&page, "html")[0].value().attr("lang"),
+        Some("en"),
+        "the page's language"
+    );
+    assert!(!text(all(&page, "title")[0]).is_empty());
+    assert_eq!(all(&page, "h1").len(), 1);
+    assert_eq!(all(&page, "main").len(), 1);
+    // No level is left out.
+    let mut before = 1;
+    for heading in all(&page, "h1, h2, h3, h4") {
+        let level: u32 = heading.value().name()[1..].parse().expect("a level");
+        assert!(level <= before + 1, "{} after h{before}", heading.html());
+        assert!(!text(heading).is_empty());
+        before = level;
+    }
+    let figures = all(&page, "svg");
+    assert!(figures.len() >= 6, "{}", figures.len());
+    let mut labels = BTreeSet::new();
+    for figure in figures {
+        assert_eq!(figure.value().attr("role"), Some("img"));
+        let label = figure.value().attr("aria-label").unwrap_or_default();
+        assert!(label.len() > 10, "a figure called `{label}`");
+        assert!(labels.insert(label), "two figures called `{label}`");
+    }
+    for figure in all(&page, "figure") {
+        let caption = Selector::parse("figcaption").expect("a selector");
+        assert!(
+            figure
+                .select(&caption)
+                .any(|caption| !text(caption).is_empty())
+        );
+    }
+    let tables = all(&page, "table");
+    assert!(tables.len() >= 4, "{}", tables.len());
+    for table in tables {
+        let caption = Selector::parse("caption").expect("a selector");
+        assert!(
+            table
+                .select(&caption)
+                .any(|caption| !text(caption).is_empty())
+        );
+        for head in table.select(&Selector::parse("th").expect("a selector")) {
+            assert!(head.value().attr("scope").is_some(), "{}", head.html());
+        }
+    }
+    for button in all(&page, "button, summary, a") {
+        assert!(!text(button).is_empty(), "{}", button.html());
+    }
+    // What scrolls can be scrolled by keys.
+    for wide in all(&page, ".wide") {
+        assert_eq!(wide.value().attr("tabindex"), Some("0"), "{}", wide.html());
+    }
+    let mut anchors = BTreeSet::new();
+    for element in all(&page, "[id]") {
+        let id = element.value().attr("id").unwrap_or_default();
+        assert!(anchors.insert(id), "two `{id}`");
+    }
+    for link in all(&page, "a[href]") {
+        let target = link.value().attr("href").unwrap_or_default();
+        let target = target
+            .strip_prefix('#')
+            .expect("nothing but the page itself");
+        assert!(anchors.contains(target), "no {target}");
+    }
+}
+
+/// Relative luminance of `#rrggbb` (WCAG 2.2).
+fn luminance(color: &str) -> f64 {
+    let channel = |place: usize| {
+        let value = u8::from_str_radix(&color[place..place + 2], 16).expect("a color");
+        let value = f64::from(value) / 255.0;
+        if value <= 0.04045 {
+            value / 12.92
+        } else {
+            ((value + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5)
+}
+
+fn contrast(one: &str, other: &str) -> f64 {
+    let (one, other) = (luminance(one), luminance(other));
+    (one.max(other) + 0.05) / (one.min(other) + 0.05)
+}
+
+/// Text 4.5 times, lines and dots 3 times as light or as dark as what is behind it, on a light and on a dark screen and on paper.
+#[test]
+fn a_report_has_enough_contrast() {
+    assert!((contrast("#000000", "#ffffff") - 21.0).abs() < 1e-9);
+    let style = include_str!("../../src/report/page.css");
+    // Each `:root` in its place; what a later one leaves out is as in the first.
+    let mut first = std::collections::BTreeMap::new();
+    let mut looked_at = 0;
+    for theme in style.split(":root {").skip(1) {
+        let block = theme.split('}').next().expect("a block");
+        let mut colors = first.clone();
+        for entry in block.split(';') {
+            let Some((name, value)) = entry.split_once(": #") else {
+                continue;
+            };
+            colors.insert(name.trim().to_owned(), format!("#{}", value.trim()));
+        }
+        if first.is_empty() {
+            first.clone_from(&colors);
+        }
+        looked_at += 1;
+        let pairs = [
+            ("--ink", "--paper", 4.5),
+            ("--soft", "--paper", 4.5),
+            ("--ink", "--panel", 4.5),
+            ("--known", "--paper", 4.5),
+            ("--good", "--panel", 3.0),
+            ("--known", "--panel", 3.0),
+            ("--open", "--panel", 3.0),
+            ("--before", "--paper", 3.0),
+            ("--after", "--paper", 3.0),
+        ];
+        for (front, back, least) in pairs {
+            let found = contrast(&colors[front], &colors[back]);
+            assert!(
+                found >= least,
+                "{front} on {back}: {found:.2}, theme {looked_at}"
+            );
+        }
+    }
+    assert_eq!(looked_at, 3);
+}
+
+/// Seven joints for a minute at 1 kHz.
+#[test]
+fn a_report_of_a_large_log_is_light() {
+    const JOINTS: usize = 7;
+    let folder = Folder::new();
+    let mut spec = String::from(
+        "robot Seven {\n    gravity = [0, 0, -9.81];\n    convention = standard_dh;\n",
+    );
+    for joint in 0..JOINTS {
+        let alpha = if joint % 2 == 0 { 90 } else { -90 };
+        writeln!(
+            spec,
+            "    joint j{joint}: revolute {{ a = 0.02; alpha = {alpha} deg; d = 0.3; }}"
+        )
+        .expect("a string takes all");
+    }
+    spec.push_str("    effects { viscous_friction on all; coulomb_friction on all; }\n}\n");
+    folder.write("seven.robot", &spec);
+    let mut log = String::from("time");
+    for what in ["q", "tau"] {
+        for joint in 1..=JOINTS {
+            write!(log, ",{what}{joint}").expect("a string takes all");
+        }
+    }
+    log.push('\n');
+    for sample in 0..60_000_u32 {
+        let time = f64::from(sample) * 1e-3;
+        write!(log, "{time:.3}").expect("a string takes all");
+        let tones = |joint: usize, phase: f64| -> f64 {
+            (1..=5_u32)
+                .map(|k| {
+                    (f64::from(k) * (0.9 + 0.07 * joint as f64) * time + phase * f64::from(k)).sin()
+                })
+                .sum()
+        };
+        for joint in 0..JOINTS {
+            write!(log, ",{:.6}", 0.3 * tones(joint, 0.4)).expect("a string takes all");
+        }
+        for joint in 0..JOINTS {
+            write!(log, ",{:.4}", 8.0 * tones(joint, 1.3)).expect("a string takes all");
+        }
+        log.push('\n');
+    }
+    folder.write("log.csv", &log);
+    folder.succeed(&["identify", "seven.robot", "log.csv", "--report", "page"]);
+    let page = folder.read("page/index.html");
+    assert_eq!(page.matches("<svg").count(), 6 * JOINTS);
+    // A trace draws the declared and the amended model, so twice this is to be below 3 MB.
+    assert!(page.len() < 1_500_000, "{} bytes", page.len());
+}
+
+/// What a browser is asked to do: open all, sort every table by each of its heads, and say what it saw.
+const LOOK: &str = r#"<script>
+addEventListener("load", () => {
+    document.querySelectorAll("details").forEach((part) => { part.open = true; });
+    const seen = [...document.querySelectorAll("svg")].map((figure) => {
+        const { width, height } = figure.getBoundingClientRect();
+        return width > 100 && height > 100;
+    });
+    let sorted = 0, unsorted = [];
+    for (const table of document.querySelectorAll("table")) {
+        const heads = [...table.querySelectorAll("thead th")];
+        heads.forEach((head, column) => {
+            for (const way of ["ascending", "descending"]) {
+                head.querySelector("button").click();
+                const cells = [...table.tBodies[0].rows].map((row) => row.cells[column]);
+                const numbers = cells.filter((cell) => "value" in cell.dataset).map((cell) => Number(cell.dataset.value));
+                const rises = numbers.every((value, k) => k === 0 || (way === "ascending" ? numbers[k - 1] <= value : numbers[k - 1] >= value));
+                const told = head.getAttribute("aria-sort") === way;
+                if (rises && told) { sorted += 1; } else { unsorted.push(head.textContent); }
+            }
+        });
+    }
+    const wider = document.documentElement.scrollWidth > innerWidth;
+    const found = { errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider };
+    const place = document.createElement("pre");
+    place.id = "found";
+    place.textContent = JSON.stringify(found);
+    document.body.append(place);
+});
+</script>"#;
+
+const LISTEN: &str = r#"<script>
+window.errors = [];
+addEventListener("error", (event) => window.errors.push(String(event.message)));
+const error = console.error;
+console.error = (...words) => { window.errors.push(words.join(" ")); error(...words); };
+</script>"#;
+
+/// A browser on the path, or the one that `CHROMIUM` names.
+fn browser() -> Option<std::path::PathBuf> {
+    if let Some(named) = std::env::var_os("CHROMIUM") {
+        return Some(named.into());
+    }
+    let path = std::env::var_os("PATH")?;
+    let names = ["chromium", "chromium-browser", "google-chrome", "chrome"];
+    std::env::split_paths(&path)
+        .flat_map(|folder| names.map(|name| folder.join(name)))
+        .find(|file| file.is_file())
+}
+
+#[test]
+fn a_report_works_in_a_browser_on_a_desk_and_on_a_phone() {
+    let Some(browser) = browser() else {
+        let _ = writeln!(
+            std::io::stderr(),
+            "not tested: reports in a browser; no chromium on the path, and CHROMIUM names none"
+        );
+        return;
+    };
+    let folder = traced();
+    let page = folder.read("page/index.html");
+    let listening = page.replacen("<head>", &format!("<head>{LISTEN}"), 1);
+    let looked_at = listening.replacen("</body>", &format!("{LOOK}</body>"), 1);
+    folder.write("look.html", &looked_at);
+    for width in [1280, 500] {
+        let out = Command::new(&browser)
+            .args([
+                "--headless=new",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--disable-dev-shm-usage",
+            ])
+            .args(["--virtual-time-budget=20000", "--dump-dom"])
+            .arg(format!("--window-size={width},900"))
+            .arg(format!(
+                "--user-data-dir={}",
+                folder.path("profile").display()
+            ))
+            .arg(format!("file://{}", folder.path("look.html").display()))
+            .output()
+            .expect("a browser that starts");
+        let dom = String::from_utf8_lossy(&out.stdout);
+        let dom = Html::parse_document(&dom);
+        let found = all(&dom, "#found");
+        let found = found.first().map(|found| text(*found));
+        let found = found.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&out.stderr)));
+        let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+        assert_eq!(found["errors"], serde_json::json!([]), "{found}");
+        assert_eq!(found["unsorted"], serde_json::json!([]), "{found}");
+        assert!(found["sorted"].as_u64().expect("a number") >= 40, "{found}");
+        assert!(found["figures"].as_u64().expect("a number") >= 6, "{found}");
+        assert_eq!(found["unseen"], 0, "{found}");
+        assert_eq!(found["wider"], false, "{found}, {width} wide");
+    }
+}
