@@ -22,6 +22,7 @@ pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Erro
         &format!("Trace of {}", closed.before.arm.compiled().model.name),
         &format!("What {spec} does not say of the arm, by its logs."),
     );
+    page.section("Verdict");
     verdict(&mut page, spec, closed);
     page.section("Errors before and after");
     errors(&mut page, closed);
