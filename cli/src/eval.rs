@@ -17,6 +17,9 @@ use crate::{Error, json, output};
 /// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
 /// the spec's points are, with their Jacobians, as JSON.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model eval arm.robot --states states.json --parameters fit.json
+  robot-model eval arm.robot --states states.json > values.json")]
 pub(crate) struct Eval {
     /// The `.robot` file.
     spec: PathBuf,
