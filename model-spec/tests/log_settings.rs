@@ -98,3 +98,39 @@ fn a_file_of_any_size_and_any_bytes_ends_in_an_answer() {
     }
     assert!(refused > 1000, "{refused} refused");
 }
+
+/// The reference says one mapping twice: in the spec's block, and in a file.
+#[test]
+fn the_references_file_is_the_references_block() {
+    let reference = include_str!("../LANGUAGE.md");
+    let (_, logs) = reference.split_once("## Logs").expect("a section");
+    let block = |from: &str, fence: &str| -> String {
+        let (_, text) = from.split_once(fence).expect("a block");
+        text.split_once("```").expect("its end").0.to_owned()
+    };
+    let spec = block(logs, "```text\n");
+    let with = load("gantry.robot", &spec).unwrap_or_else(|errors| panic!("{errors}"));
+    let start = spec.find("    log {").expect("a block");
+    let end = start + spec[start..].find("    }\n").expect("its end") + 6;
+    let without = format!("{}{}", &spec[..start], &spec[end..]);
+    let without = load("gantry.robot", &without).unwrap_or_else(|errors| panic!("{errors}"));
+    let mut wanted = with.log;
+    wanted.line = None;
+    let found = log_settings(&without, "robot-model.toml", &block(logs, "```toml\n"));
+    let found = found.unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(found.columns, wanted);
+    assert_eq!(found.said, ["q", "tau", "temperature", "time"]);
+
+    let readme = include_str!("../../README.md");
+    let (_, own) = readme
+        .split_once("beside the log says what is where")
+        .expect("a section");
+    let arm = SPEC.replace("LOG", "").replace(
+        "prismatic { a = 0; alpha = 90 deg; theta = 0; actuator_gain = 42 N/A; }",
+        "revolute { a = 0; alpha = 0; d = 0; actuator_gain = 0.11 Nm/A; }",
+    );
+    let arm = load("arm.robot", &arm).unwrap_or_else(|errors| panic!("{errors}"));
+    let found = log_settings(&arm, "README.md", &block(own, "```toml\n"));
+    let found = found.unwrap_or_else(|errors| panic!("{errors}"));
+    assert_eq!(found.columns.all().count(), 7);
+}

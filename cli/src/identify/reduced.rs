@@ -154,8 +154,8 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
             "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
         )));
     }
-    let file: File = serde_json::from_value(value)
-        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
+    const FORM: &str = "it is no factor as `identify --factor` writes it; write it anew";
+    let file: File = json::typed(path, value, FORM)?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     for (k, block) in file.blocks.iter().enumerate() {
         if let Some(fault) = block.fault(joints, width) {
