@@ -6,12 +6,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
 use robot_model::log::{Column, Columns};
-use robot_model_spec::Model;
 use robot_model_spec::model::{LogColumn, LogColumns};
+use robot_model_spec::{ColumnKind, Model};
 
-use crate::Error;
 use crate::progress::Progress;
 use crate::spec::read_text;
+use crate::{Error, output};
 
 /// What a file of settings is called where nobody says it.
 pub(crate) const NAME: &str = "robot-model.toml";
@@ -64,6 +64,24 @@ impl LogSettings {
             }
         };
         Ok(columns(model.joints.len(), own))
+    }
+}
+
+impl LogSettings {
+    /// What a one in a column of a table without a robot is worth, in SI units; 1 where no file names it. It is told where it is not 1.
+    pub(crate) fn unit(&self, table: &Path, column: &str, kind: ColumnKind) -> Result<f64, Error> {
+        let Some(path) = self.of(table) else {
+            return Ok(1.0);
+        };
+        let name = path.display().to_string();
+        let unit = robot_model_spec::log_column_unit(&name, &read_text(&path)?, column, kind)?;
+        if let Some(unit) = unit.filter(|unit| (*unit - 1.0).abs() > 0.0) {
+            output::say(&format!(
+                "note: {name} says what column `{column}` is in: a one there is {} in SI units",
+                output::rounded(unit)
+            ));
+        }
+        Ok(unit.unwrap_or(1.0))
     }
 }
 

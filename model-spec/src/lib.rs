@@ -27,7 +27,7 @@ pub use check::check;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use library::standard_effects;
 #[cfg(feature = "log-settings")]
-pub use log_settings::{LogSettings, log_settings};
+pub use log_settings::{ColumnKind, LogSettings, log_column_unit, log_settings};
 pub use model::Model;
 pub use parse::parse_tokens;
 pub use transform::upper_camel;

@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::ast::{Expr, LogChannel, LogColumn};
-use crate::check::check_settings;
+use crate::check::{check_settings, check_unit};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{LogColumns, Model};
 use crate::parse::parse_value;
@@ -67,6 +67,52 @@ pub fn log_settings(
     }
     let said = channels.into_iter().map(|channel| channel.key).collect();
     Ok(LogSettings { columns, said })
+}
+
+/// What a column holds that is read without a robot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// Seconds.
+    Time,
+    /// Radians.
+    Angle,
+    /// Radians a second.
+    AngularSpeed,
+    /// Newton meters.
+    Torque,
+    /// Newtons.
+    Force,
+    /// Amperes.
+    Current,
+    /// Volts, which the language has no unit for: a plain number.
+    Voltage,
+}
+
+/// What a one in a column is worth in SI units; none where the file does not name the column. `source_name` is what messages call the file.
+///
+/// # Errors
+/// Mistakes of the file, and a unit of another kind.
+///
+/// # Examples
+/// ```
+/// use robot_model_spec::{ColumnKind, log_column_unit};
+/// let file = "[log]\ntau = { columns = ['i1', 'i2'], unit = 'mA' }\n";
+/// let unit = |column| log_column_unit("robot-model.toml", file, column, ColumnKind::Current);
+/// assert_eq!((unit("i2")?, unit("i3")?), (Some(1e-3), None));
+/// # Ok::<(), robot_model_spec::Diagnostics>(())
+/// ```
+pub fn log_column_unit(
+    source_name: &str,
+    text: &str,
+    column: &str,
+    kind: ColumnKind,
+) -> Result<Option<f64>, Diagnostics> {
+    let refuse = |errors| Diagnostics::new(source_name, text, errors);
+    let channels = parse(text).map_err(refuse)?;
+    let mut columns = channels.iter().flat_map(|channel| &channel.columns);
+    let found = columns.find(|own| own.name.value().trim() == column);
+    let unit = found.map(|own| check_unit(own, kind)).transpose();
+    unit.map_err(|error| refuse(vec![error]))
 }
 
 /// The channels of a file, as a `log` block would have them.

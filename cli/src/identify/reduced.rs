@@ -97,6 +97,9 @@ impl Block {
     }
 }
 
+/// What a factor is not that is refused.
+const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
+
 /// The first did not say what its columns are made of, nor which rows are at turns.
 const FORM: u32 = 2;
 
@@ -154,8 +157,7 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
             "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
         )));
     }
-    const FORM: &str = "it is no factor as `identify --factor` writes it; write it anew";
-    let file: File = json::typed(path, value, FORM)?;
+    let file: File = json::typed(path, value, AS_WRITTEN)?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     for (k, block) in file.blocks.iter().enumerate() {
         if let Some(fault) = block.fault(joints, width) {

@@ -13,6 +13,8 @@ use super::unit::Dimension;
 use super::{Errors, value};
 use crate::ast::{self, LogChannel, Robot, Setting};
 use crate::diagnostic::Diagnostic;
+#[cfg(feature = "log-settings")]
+use crate::log_settings::ColumnKind;
 use crate::model::{EffectDefinition, Joint, LogColumn, LogColumns};
 #[cfg(feature = "log-settings")]
 use crate::model::{GainUnit, Model};
@@ -319,6 +321,21 @@ fn check_count(channel: &LogChannel, kind: &Channel, joints: usize, errors: &mut
         }),
     );
     false
+}
+
+/// What a one in a column is worth where no robot says of what it is.
+#[cfg(feature = "log-settings")]
+pub(crate) fn check_unit(column: &ast::LogColumn, kind: ColumnKind) -> Result<f64, Diagnostic> {
+    let dimension = match kind {
+        ColumnKind::Time => Dimension::TIME,
+        ColumnKind::Angle => Dimension::ANGLE,
+        ColumnKind::AngularSpeed => Dimension::ANGULAR_SPEED,
+        ColumnKind::Torque => Dimension::TORQUE,
+        ColumnKind::Force => Dimension::FORCE,
+        ColumnKind::Current => Dimension::CURRENT,
+        ColumnKind::Voltage => Dimension::NONE,
+    };
+    worth(column, Some(dimension)).map(|own| own.unit)
 }
 
 /// What a one in the column is worth, of a dimension or of any.

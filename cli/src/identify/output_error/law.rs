@@ -30,10 +30,12 @@ struct FileJoint {
     limit: Option<f64>,
 }
 
+/// How it is written.
+const FORM: &str = "write `{\"joints\": [{\"position\": [..], \"torque\": [..], \"columns\": {\"qref1\": [..]}, \"limit\": ..}, ..]}`";
+
 /// Reads one that has a law for each joint.
 pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
-    const FORM: &str = "write `{\"joints\": [{\"position\": [..], \"torque\": [..], \"columns\": {\"qref1\": [..]}, \"limit\": ..}, ..]}`";
     let file: File = json::typed(path, json::read(path)?, FORM)?;
     if file.joints.len() != joints.len() {
         return Err(refuse(&format!(
