@@ -102,11 +102,7 @@ fn an_identification_that_is_stopped_leaves_nothing() {
         "fit.json",
         "--method",
     ];
-    let arguments = [
-        &identify[..],
-        &["output-error", "--iterates", "iterates.csv"],
-    ]
-    .concat();
+    let arguments = [&identify[..], &["output-error"]].concat();
     let code = interrupted(
         &folder,
         &arguments,

@@ -94,7 +94,7 @@ fn every_verb_finds_with_a_file_what_it_finds_with_a_block_to_the_bit() {
     let folder = folder();
     for (verb, options) in [
         ("identify", &["--validate", "LOG"][..]),
-        ("identify", &["--payload", "LOG"]),
+        ("identify", &["--form", "filtered"]),
         ("identify", &["--method", "output-error"]),
         ("trace", &["--validate", "LOG"]),
         ("dissect", &["--parameters", "fit.json"]),
@@ -270,6 +270,10 @@ fn a_damaged_file_is_refused_with_its_place() {
     let folder = Folder::new();
     folder.write("cart.robot", CART);
     folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    folder.write(
+        "values.json",
+        r#"{"cart.m": 3, "rail.viscous_friction.fv": 5}"#,
+    );
     for (settings, wanted) in [
         ("[log]\nq = ['a'\n", "--> robot-model.toml:"),
         (
@@ -285,7 +289,11 @@ fn a_damaged_file_is_refused_with_its_place() {
     ] {
         folder.write("robot-model.toml", settings);
         for verb in ["identify", "trace", "dissect"] {
-            let said = folder.refuse(&[verb, "cart.robot", "log.csv", "--json", "out.json"]);
+            let mut arguments = vec![verb, "cart.robot", "log.csv", "--json", "out.json"];
+            if verb == "dissect" {
+                arguments.extend(["--parameters", "values.json"]);
+            }
+            let said = folder.refuse(&arguments);
             assert!(said.contains(wanted), "{verb}: {said}");
             assert!(said.contains("--> robot-model.toml:"), "{verb}: {said}");
         }

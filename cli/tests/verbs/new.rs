@@ -95,7 +95,7 @@ fn a_starter_is_designed_for_simulated_and_identified() {
         folder.succeed(&excite);
         // Of an arm of that kind: values by the names that `identify` gives.
         let energies = r#"{"m1": 2, "I1": 0.02, "c1": 0.1, "m2": 1, "I2": 0.01, "c2": 0.1"#;
-        let chain = r#"{"joint1.m": 2, "joint1.izz": 0.05, "joint1.iyy": 0.05, "joint2.m": 1, "joint2.mx": -0.2, "joint2.my": 0.01, "joint2.ixx": 0.01, "joint2.iyy": 0.05, "joint2.izz": 0.06"#;
+        let chain = r#"{"joint1.m": 2, "joint1.izz": 0.05, "joint1.iyy": 0.05, "joint2.m": 1, "joint2.mx": -0.2, "joint2.my": 0.01, "joint2.ixx": 0.01, "joint2.iyy": 0.05, "joint2.izz": 0.06, "joint2.mz": 0, "joint2.ixy": 0, "joint2.ixz": 0, "joint2.iyz": 0"#;
         let second = if first == "q1" { "q2" } else { "joint2" };
         let own = if first == "q1" { energies } else { chain };
         let friction: String = [first, second]

@@ -42,7 +42,8 @@ fn every_shell_gets_its_completions() {
 fn bash_understands_its_completions() {
     let folder = Folder::new();
     folder.write("completions", &folder.succeed(&["completions", "bash"]));
-    let script = "source ./completions; COMP_WORDS=(robot-model ident); COMP_CWORD=1; _robot-model robot-model ident robot-model; echo ${COMPREPLY[@]}";
+    let script = "source ./completions; set -- $(complete -p robot-model); while [ \"$1\" != -F ]; do shift; done; \
+                  COMP_WORDS=(robot-model ident); COMP_CWORD=1; $2 robot-model ident robot-model; echo ${COMPREPLY[@]}";
     for arguments in [vec!["-n", "completions"], vec!["-c", script]] {
         let bash = Command::new("bash")
             .current_dir(folder.path("."))
