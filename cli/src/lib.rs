@@ -51,7 +51,6 @@ pub use error::Error;
 #[command(
     name = "robot-model",
     version,
-    about,
     max_term_width = 100,
     after_help = "Examples:
   robot-model new Picker --joints 6
