@@ -30,7 +30,10 @@ fn examples_of_every_verb_are_understood() {
     let mut program = CommandLine::command().disable_help_subcommand(true);
     program.build();
     for command in all(&program) {
-        let name = command.get_bin_name().expect("built").to_owned();
+        let name = command
+            .get_bin_name()
+            .unwrap_or(command.get_name())
+            .to_owned();
         let help = command.clone().render_long_help().to_string();
         let examples = help
             .split_once("Examples:\n")

@@ -56,13 +56,10 @@ impl LogSettings {
             return Ok(columns(model.joints.len(), &model.log));
         };
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let own = match read.get(&path) {
-            Some(own) => own,
-            None => {
-                let own = settings(&path, model, progress)?;
-                read.entry(path).or_insert(own)
-            }
-        };
+        if !read.contains_key(&path) {
+            read.insert(path.clone(), settings(&path, model, progress)?);
+        }
+        let own = &read[&path];
         Ok(columns(model.joints.len(), own))
     }
 }

@@ -112,10 +112,10 @@ impl Diagnostic {
     /// The same at another place of the text where it has none of its own.
     #[cfg(feature = "log-settings")]
     pub(crate) fn or_in_text(mut self, bytes: Range<usize>) -> Self {
-        if let Some(label) = self.labels.first_mut() {
-            if label.place.span().byte_range().is_empty() {
-                label.place = Place::Bytes(bytes);
-            }
+        if let Some(label) = self.labels.first_mut()
+            && label.place.span().byte_range().is_empty()
+        {
+            label.place = Place::Bytes(bytes);
         }
         self
     }

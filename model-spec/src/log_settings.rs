@@ -267,12 +267,10 @@ impl Reader<'_> {
 
     /// One unit for all columns, or a list with one for each.
     fn units(&mut self, value: &Value, columns: &mut [LogColumn]) {
-        let units = match value.get_ref() {
-            DeValue::Array(list) => self.listed(value.span(), list, columns.len()),
-            _ => {
-                let unit = self.unit(value);
-                vec![unit; columns.len()]
-            }
+        let units = if let DeValue::Array(list) = value.get_ref() {
+            self.listed(value.span(), list, columns.len())
+        } else {
+            vec![self.unit(value); columns.len()]
         };
         for (column, unit) in columns.iter_mut().zip(units) {
             column.unit = unit;

@@ -178,10 +178,9 @@ const fn frame_keys(convention: Convention) -> &'static str {
 fn frame(convention: Convention, joint: usize) -> &'static str {
     match (convention, joint) {
         (Convention::StandardDh, 1) => "a = 0; alpha = 90 deg; d = 300 mm;",
-        (Convention::StandardDh, _) => "a = 400 mm; alpha = 0; d = 0;",
         (Convention::ModifiedDh, 1) => "a = 0; alpha = 0; d = 300 mm;",
         (Convention::ModifiedDh, 2) => "a = 0; alpha = 90 deg; d = 0;",
-        (Convention::ModifiedDh, _) => "a = 400 mm; alpha = 0; d = 0;",
+        (Convention::StandardDh | Convention::ModifiedDh, _) => "a = 400 mm; alpha = 0; d = 0;",
         (Convention::Origin, 1) => "xyz = [0, 0, 0.3]; rpy = [0, 0, 0]; axis = [0, 0, 1];",
         (Convention::Origin, 2) => "xyz = [0, 0, 0.1]; rpy = [0, 0, 0]; axis = [0, 1, 0];",
         (Convention::Origin, _) => "xyz = [0.4, 0, 0]; rpy = [0, 0, 0]; axis = [0, 1, 0];",

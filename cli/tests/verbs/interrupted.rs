@@ -155,6 +155,5 @@ fn files_are_whole_or_absent_whenever_it_is_pressed() {
             assert!(folder.read("stopped/arm.rs") == whole);
         }
     }
-    println!("{ended} ended, {stopped} were stopped");
     assert!(stopped > 0, "{ended} ended");
 }

@@ -50,7 +50,7 @@ fn bash_understands_its_completions() {
             .args(&arguments)
             .output();
         let Ok(bash) = bash else {
-            println!("no bash on this machine: its syntax is not looked at");
+            eprintln!("no bash on this machine: its syntax is not looked at");
             return;
         };
         let said = String::from_utf8_lossy(&bash.stderr);

@@ -44,6 +44,7 @@ enum Other {
     /// In the same text.
     Here(Span),
     /// In the spec, which is another text: in words.
+    #[cfg(feature = "log-settings")]
     InSpec(String),
 }
 
@@ -224,6 +225,7 @@ impl Other {
     fn beside(&self, error: Diagnostic, label: impl Into<String>, help: &str) -> Diagnostic {
         match self {
             Self::Here(span) => error.also(*span, label).help(help),
+            #[cfg(feature = "log-settings")]
             Self::InSpec(said) => error.help(format!("{said}; {help}")),
         }
     }
