@@ -23,7 +23,13 @@ use crate::spec::compile;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  robot-model simulate arm.robot --trajectory motion.csv --parameters fit.json --out log.csv
+  robot-model simulate arm.robot --trajectory motion.csv --controller computed-torque --encoder-bits 17 --torque-noise 0.02 --out log.csv
+  robot-model simulate arm.robot --trajectory start.csv --controller none --duration 5 --out fall.csv"
+)]
 pub(crate) struct Simulate {
     /// The `.robot` file.
     spec: PathBuf,
@@ -188,13 +194,12 @@ impl Simulate {
         let before = is_free.then(|| plant.energies(&start.q, &start.dq));
 
         let mut told = 0.0;
+        let pause = setting.duration * if progress.is_live() { 0.01 } else { 0.1 };
         let mut tell = |time: f64| {
-            if time == 0.0 || time >= told + 0.1 * setting.duration {
+            if time == 0.0 || time >= told + pause {
                 told = time;
-                progress.step(&format!(
-                    "simulating: {time:.1} s of {} s",
-                    setting.duration
-                ));
+                let what = format!("simulating: {time:.1} s of {} s", setting.duration);
+                progress.part(&what, time / setting.duration);
             }
         };
         let run = setting.run(plant, controller.as_mut(), &trajectory, &mut tell);

@@ -76,7 +76,7 @@ pub enum LogError {
     },
     /// One column that is to be two channels.
     #[error(
-        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` gives no other"
+        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` and its settings give no other"
     )]
     TwoChannels {
         /// The file.

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;
-use parquet::basic::ConvertedType;
+use parquet::basic::{Compression, ConvertedType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
@@ -158,13 +158,30 @@ fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, Parqu
     read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".to_owned())))
 }
 
+/// That pages are packed with what is read here.
+fn check_codec(codec: Compression) -> Result<(), ParquetError> {
+    let name = match codec {
+        Compression::UNCOMPRESSED
+        | Compression::SNAPPY
+        | Compression::GZIP(_)
+        | Compression::ZSTD(_) => return Ok(()),
+        Compression::BROTLI(_) => "Brotli",
+        Compression::LZO => "LZO",
+        Compression::LZ4 | Compression::LZ4_RAW => "LZ4",
+    };
+    Err(ParquetError::General(format!(
+        "its pages are packed with {name}, which is not read here; write it with `snappy`, `gzip`, `zstd` or uncompressed, or save it as CSV"
+    )))
+}
+
 /// Numbers of a column of a group, NaN where it has none; nothing where it holds something else.
 fn column(
     group: &dyn RowGroupReader,
     place: usize,
     rows: usize,
 ) -> Result<Option<Vec<f64>>, ParquetError> {
-    let about = group.metadata().column(place).column_descr_ptr();
+    let metadata = group.metadata().column(place);
+    let about = metadata.column_descr_ptr();
     if about.max_rep_level() > 0 {
         return Ok(None);
     }
@@ -185,6 +202,7 @@ fn column(
         | ConvertedType::TIMESTAMP_MICROS => false,
         _ => return Ok(None),
     };
+    check_codec(metadata.compression())?;
     let present = about.max_def_level();
     let values = match group.get_column_reader(place)? {
         ColumnReader::Int32ColumnReader(reader) if is_unsigned => {

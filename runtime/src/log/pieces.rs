@@ -1,7 +1,7 @@
 //! A log that is read piece by piece, in memory that does not grow with it.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::header::Header;
@@ -18,6 +18,8 @@ pub struct Pieces<'a> {
     samples: usize,
     overlap: f64,
     is_over: bool,
+    /// The file, whose place moves as it is read, and its size.
+    file: Option<(File, u64)>,
 }
 
 impl Log {
@@ -33,8 +35,13 @@ impl Log {
         overlap: f64,
     ) -> Result<Pieces<'static>, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
+        // Both handles have one place in the file.
+        let size = file.metadata().map(|about| about.len());
+        let looked_at = file.try_clone().ok().zip(size.ok());
         let rows = Rows::of_file(&source, file)?;
-        Pieces::of_rows(source, rows, columns, samples, overlap)
+        let mut pieces = Pieces::of_rows(source, rows, columns, samples, overlap)?;
+        pieces.file = looked_at;
+        Ok(pieces)
     }
 
     /// Opens a file to be read, and says its name.
@@ -102,7 +109,24 @@ impl<'a> Pieces<'a> {
             samples,
             overlap,
             is_over: false,
+            file: None,
         })
+    }
+
+    /// Which part of the file is read, from 0 to 1; none where it is no file of known size.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{Columns, Pieces};
+    /// let text = "time,q1,tau1\n0.00,0.5,1\n";
+    /// let mut pieces = Pieces::new("memory", text.as_bytes(), &Columns::standard(1), 300, 1.25)?;
+    /// assert_eq!(pieces.done(), None);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    pub fn done(&mut self) -> Option<f64> {
+        let (file, size) = self.file.as_mut()?;
+        let place = file.stream_position().ok()?;
+        (*size > 0).then(|| (place as f64 / *size as f64).min(1.0))
     }
 }
 
