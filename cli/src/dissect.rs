@@ -29,7 +29,8 @@ const BORDER_S: f64 = 1.0;
 pub(crate) struct Dissect {
     /// The `.robot` file.
     spec: PathBuf,
-    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
+    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them; or MCAP,
+    /// a bag of ROS 2 with joint states.
     log: PathBuf,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]

@@ -16,6 +16,7 @@ mod emit;
 mod error;
 mod eval;
 mod excite;
+mod export;
 mod friction;
 mod identify;
 mod import;
@@ -57,6 +58,7 @@ enum Verb {
     Eval(eval::Eval),
     Excite(excite::Excite),
     Import(import::Import),
+    Export(export::Export),
     Simulate(simulate::Simulate),
     Identify(identify::IdentifyArguments),
     Merge(merge::Merge),
@@ -77,6 +79,7 @@ impl Verb {
             Self::Eval(verb) => verb.run(),
             Self::Excite(verb) => verb.run(),
             Self::Import(verb) => verb.run(),
+            Self::Export(verb) => verb.run(),
             Self::Simulate(verb) => verb.run(),
             Self::Identify(verb) => verb.run(),
             Self::Merge(verb) => verb.run(),
@@ -97,12 +100,15 @@ pub fn main() -> ExitCode {
     run(std::env::args_os())
 }
 
-/// The decoder of Parquet panics at some damaged files; the reader of logs makes errors of these panics, and nobody wants to
-/// see them besides.
+/// The decoders of Parquet and MCAP panic at some damaged files; the reader of logs makes errors of these panics, and nobody
+/// wants to see them besides.
 fn keep_decoders_quiet() {
     let others = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        let is_decoder = |place: &std::panic::Location| place.file().contains("/parquet-");
+        let is_decoder = |place: &std::panic::Location| {
+            let mut crates = ["/parquet-", "/mcap-"].iter();
+            crates.any(|name| place.file().contains(name))
+        };
         if !info.location().is_some_and(is_decoder) {
             others(info);
         }

@@ -101,6 +101,9 @@ pub(crate) fn log_columns(model: &Model) -> Columns {
     columns.extra = inputs
         .map(|(name, own)| (name.clone(), column(own)))
         .collect();
+    let joints = model.joints.iter();
+    columns.joints = joints.map(|joint| joint.name.clone()).collect();
+    columns.topic.clone_from(&log.topic);
     columns
 }
 

@@ -54,6 +54,13 @@ pub(super) fn check_log(
     let mut names: BTreeMap<String, Span> = BTreeMap::new();
     for channel in &block.channels {
         keys.push(&channel.key);
+        if channel.key == "topic" {
+            match topic(channel) {
+                Ok(name) => columns.topic = Some(name),
+                Err(error) => errors.push(error),
+            }
+            continue;
+        }
         for column in &channel.columns {
             check_column_name(column, &mut names, errors);
         }
@@ -113,6 +120,24 @@ impl Inputs {
     }
 }
 
+/// The one topic of bags, which is no column and has no unit.
+fn topic(channel: &LogChannel) -> Result<String, Diagnostic> {
+    const HELP: &str = "write it as the bag has it, such as `topic = \"/joint_states\";`";
+    let [column] = channel.columns.as_slice() else {
+        let span = channel.key.span();
+        return Err(Diagnostic::new(span, "a log has one topic", "several").help(HELP));
+    };
+    if let Some(unit) = &column.unit {
+        return Err(Diagnostic::new(unit.span, "a topic has no unit", "a unit").help(HELP));
+    }
+    let name = column.name.value().trim().to_owned();
+    if name.is_empty() {
+        let span = column.name.span();
+        return Err(Diagnostic::new(span, "a topic without a name", "empty").help(HELP));
+    }
+    Ok(name)
+}
+
 fn check_column_name(
     column: &ast::LogColumn,
     names: &mut BTreeMap<String, Span>,
@@ -160,7 +185,7 @@ fn check_key(
     if inputs.of_joints.iter().any(numbered) {
         return Some(Channel::Input(key));
     }
-    let known = ["time", "q", "dq", "tau"].into_iter();
+    let known = ["time", "q", "dq", "tau", "topic"].into_iter();
     let own = inputs.of_arm.iter().chain(&inputs.of_joints);
     let known = known.chain(own.map(String::as_str));
     errors.push(

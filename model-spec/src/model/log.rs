@@ -16,6 +16,8 @@ pub struct LogColumns {
     pub tau: Vec<LogColumn>,
     /// Inputs of effects, by the name that a log would have for them otherwise: `temperature`, `current2`.
     pub inputs: Vec<(String, LogColumn)>,
+    /// The topic of bags of ROS 2, where the spec names one.
+    pub topic: Option<String>,
 }
 
 /// A column of a log.
