@@ -8,7 +8,9 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_model_codegen::Compiled;
-use robot_model_spec::export::{ExportError, LinkNumbers, Numbers, made_up_limits, mjcf, urdf};
+use robot_model_spec::export::{
+    ExportError, LinkNumbers, NO_LIMIT, Numbers, made_up_limits, mjcf, urdf,
+};
 use robot_model_spec::parameter::{InertialElement, Owner};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
 
@@ -73,16 +75,20 @@ impl Export {
         let file = self.parameters.as_deref();
         let (values, _, origin) = parameters::values(&compiled, file)?;
         let standard = standard(&compiled, &values, file, self.format)?;
+        let (numbers, told) = self.numbers(&compiled, &standard, &values.shapes);
+        let (text, remarks) = self.text(&compiled, &numbers)?;
         for moved in said::moved(&standard) {
             say(&format!(
                 "warning: {origin}: {moved}; `identify --method physical` asks the logs for the nearest"
             ));
         }
-        let (numbers, told) = self.numbers(&compiled, &standard, &values.shapes);
-        for note in told {
-            say(&format!("note: {source}: {note}"));
+        for note in told
+            .iter()
+            .map(|note| format!("{source}: {note}"))
+            .chain(remarks)
+        {
+            say(&format!("note: {note}"));
         }
-        let text = self.text(&compiled, &numbers)?;
         out.commit(text.as_bytes())
     }
 
@@ -141,37 +147,37 @@ impl Export {
         (numbers, told)
     }
 
-    fn text(&self, compiled: &Compiled, numbers: &Numbers) -> Result<String, Error> {
+    /// What is written, and what is remarkable about it.
+    fn text(&self, compiled: &Compiled, numbers: &Numbers) -> Result<(String, Vec<String>), Error> {
         let model = &compiled.model;
-        let gravity = model.chain().map(|chain| chain.gravity);
-        let refused = |error: ExportError| Error::Argument(format!("{}: {error}", model.source));
+        let source = &model.source;
+        let refused = |error: ExportError| Error::Argument(format!("{source}: {error}"));
         match (self.format, &self.urdf) {
-            (Format::Mjcf, _) => mjcf(model, numbers).map_err(refused),
+            (Format::Mjcf, _) => Ok((mjcf(model, numbers).map_err(refused)?, Vec::new())),
             (Format::Urdf, Some(path)) => {
                 let original = read_text(path)?;
+                let path = path.display();
                 let written = write_back(&original, model, numbers)
-                    .map_err(|error| Error::Argument(format!("{}: {error}", path.display())))?;
-                for note in written.notes {
-                    say(&format!("note: {}: {note}", path.display()));
-                }
-                Ok(written.urdf)
+                    .map_err(|error| Error::Argument(format!("{path}: {error}")))?;
+                let notes = written.notes.iter().map(|note| format!("{path}: {note}"));
+                Ok((written.urdf, notes.collect()))
             }
             (Format::Urdf, None) => {
+                let mut notes = Vec::new();
+                let gravity = model.chain().map(|chain| chain.gravity);
                 if let Some([x, y, z]) = gravity.filter(|gravity| *gravity != ASSUMED_GRAVITY) {
-                    say(&format!(
-                        "note: {}: a URDF does not say gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)",
-                        model.source
+                    notes.push(format!(
+                        "{source}: a URDF does not say gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
                     ));
                 }
                 let made_up = made_up_limits(model);
                 if !made_up.is_empty() {
-                    say(&format!(
-                        "note: {}: a URDF wants limits that the spec does not have; 1e6 stands for them at {}",
-                        model.source,
+                    notes.push(format!(
+                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for them at {}",
                         made_up.join(", ")
                     ));
                 }
-                urdf(model, numbers).map_err(refused)
+                Ok((urdf(model, numbers).map_err(refused)?, notes))
             }
         }
     }

@@ -133,7 +133,7 @@ pub(super) fn not_written(
             .iter()
             .map(|shape| &shape.name)
             .zip(own.iter().copied());
-        let values = linear.chain(shapes);
+        let values = linear.into_iter().chain(shapes);
         let values: Vec<String> = values
             .map(|(name, value)| format!("{name} = {}", significant(value, 5)))
             .collect();
@@ -157,8 +157,8 @@ pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<Strin
     let links: Vec<&str> = links.map(|(link, _)| link.name.as_str()).collect();
     (!links.is_empty()).then(|| {
         format!(
-            "the parameters tell sums of the inertials of {}, not each number; written is one of the sets that move alike, the nearest \
-             to the nominal values (comments in the file have the names)",
+            "the parameters do not tell each number of the inertials of {}; written is one of the sets that move alike, the nearest to the \
+             nominal values (comments in the file have the names)",
             names(&links)
         )
     })

@@ -68,12 +68,12 @@ pub(super) fn standard(
         ))
     })?;
     let base = &compiled.base;
-    let pairs = values.beta.iter().zip(base.beta(&found)).enumerate();
-    let differ = pairs.filter(|(k, (given, written))| {
+    let pairs = values.beta.iter().copied().zip(base.beta(&found));
+    let differ = pairs.enumerate().filter(|&(k, (given, written))| {
         let apart = (given - written).abs();
-        apart > SAME * given.abs() && apart > SAME * widths[*k]
+        apart > SAME * given.abs() && apart > SAME * widths[k]
     });
-    let moved = differ.map(|(k, (&given, written))| Moved {
+    let moved = differ.map(|(k, (given, written))| Moved {
         name: base.names[k].clone(),
         given,
         written,

@@ -2,7 +2,6 @@
 //!
 //! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
 
-use std::fs::File;
 use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;

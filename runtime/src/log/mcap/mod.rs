@@ -14,7 +14,7 @@ use std::panic::{self, AssertUnwindSafe};
 
 use mcap::io::MessageReader;
 use mcap::sans_io::LinearReaderOptions;
-use mcap::{Channel, McapError, Message};
+use mcap::{Channel, McapError};
 
 use super::rows::{Input, Rows, Table, unreadable};
 use super::{Column, Columns, LogError};

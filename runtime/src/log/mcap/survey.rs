@@ -16,21 +16,22 @@ pub(super) fn topic(
 ) -> Result<String, LogError> {
     let topics = topics(source, bag)?;
     let source_name = source.to_owned();
-    match (wanted, topics.joint_states.as_slice()) {
-        (Some(wanted), found) if found.iter().any(|topic| topic == wanted) => Ok(wanted.to_owned()),
-        (Some(wanted), found) if !found.is_empty() => Err(LogError::NoSuchTopic {
-            source_name,
-            topic: wanted.to_owned(),
-            present: found.to_vec(),
-        }),
-        (None, [only]) => Ok(only.clone()),
+    let found = topics.joint_states;
+    match (wanted, found.as_slice()) {
         (_, []) => Err(LogError::NoJointStates {
             source_name,
             present: topics.others,
         }),
-        (None, several) => Err(LogError::SeveralTopics {
+        (None, [only]) => Ok(only.clone()),
+        (None, _) => Err(LogError::SeveralTopics {
             source_name,
-            present: several.to_vec(),
+            present: found,
+        }),
+        (Some(wanted), _) if found.iter().any(|topic| topic == wanted) => Ok(wanted.to_owned()),
+        (Some(wanted), _) => Err(LogError::NoSuchTopic {
+            source_name,
+            topic: wanted.to_owned(),
+            present: found,
         }),
     }
 }
