@@ -262,7 +262,9 @@ fn an_identified_arm_goes_back_into_its_urdf() {
     let log = case.identify.to_str().expect("text").to_owned();
     let original = case.identify.with_file_name("robot.urdf");
     let original = original.to_str().expect("text").to_owned();
-    run(&["identify", &spec, &log, "--json", &fit]);
+    run(&[
+        "identify", &spec, &log, "--method", "physical", "--json", &fit,
+    ]);
     let export = [
         "export",
         &spec,

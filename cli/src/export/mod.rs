@@ -77,10 +77,8 @@ impl Export {
         let standard = standard(&compiled, &values, file, self.format)?;
         let (numbers, told) = self.numbers(&compiled, &standard, &values.shapes);
         let (text, remarks) = self.text(&compiled, &numbers)?;
-        for moved in said::moved(&standard) {
-            say(&format!(
-                "warning: {origin}: {moved}; `identify --method physical` asks the logs for the nearest"
-            ));
+        if let Some(moved) = said::moved(&standard) {
+            say(&format!("warning: {origin}: {moved}"));
         }
         for note in told
             .iter()

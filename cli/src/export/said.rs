@@ -6,7 +6,7 @@ use robot_model_spec::parameter::{InertialElement, Owner};
 
 use super::Format;
 use super::passive::{is_body, is_said};
-use super::standard::Standard;
+use super::standard::{Moved, Standard};
 use crate::output::{names, significant};
 
 /// Of a link, by names of its ten: what is told alone, what only in sums, what is of no influence.
@@ -84,20 +84,34 @@ fn short(list: &[&str]) -> String {
     plain.collect::<Vec<_>>().join(", ")
 }
 
-/// Sentences about base parameters that no arm has.
-pub(super) fn moved(standard: &Standard) -> Vec<String> {
-    let told = standard.moved.iter().map(|moved| {
-        let by = moved.deviations.map_or_else(String::new, |by| {
-            format!(", {} standard deviations from it", significant(by, 2))
-        });
-        format!(
-            "`{}` is {}, and no arm of bodies has it with the others; written is one with {}{by}",
-            moved.name,
-            significant(moved.given, 5),
-            significant(moved.written, 5)
-        )
+/// How many base parameters are named.
+const NAMED: usize = 4;
+
+/// A sentence about base parameters that no arm has, those that are farthest off first.
+pub(super) fn moved(standard: &Standard) -> Option<String> {
+    let mut moved: Vec<&Moved> = standard.moved.iter().collect();
+    moved.sort_by(|x, y| y.widths.total_cmp(&x.widths));
+    let named = moved.iter().take(NAMED).map(|moved| {
+        let by = if moved.has_deviation {
+            format!(" ({} standard deviations)", significant(moved.widths, 2))
+        } else {
+            String::new()
+        };
+        let [given, written] = [moved.given, moved.written].map(|x| significant(x, 5));
+        format!("`{}` {written} in place of {given}{by}", moved.name)
     });
-    told.collect()
+    let named: Vec<String> = named.collect();
+    let more = match moved.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(", and {more} more by less"),
+    };
+    (!named.is_empty()).then(|| {
+        format!(
+            "no arm of bodies has all these values; the nearest is written, with {}{more}; `identify --method physical` asks the logs \
+             for the nearest",
+            named.join(", ")
+        )
+    })
 }
 
 /// Effects for which the format has no place, with their values.

@@ -34,8 +34,9 @@ pub(super) struct Moved {
     pub name: String,
     pub given: f64,
     pub written: f64,
-    /// The difference in deviations, where the file has some.
-    pub deviations: Option<f64>,
+    /// The difference in deviations, or in what stands for one where the file has none.
+    pub widths: f64,
+    pub has_deviation: bool,
 }
 
 /// Finds it.
@@ -77,7 +78,8 @@ pub(super) fn standard(
         name: base.names[k].clone(),
         given,
         written,
-        deviations: known(k).map(|std| (given - written).abs() / std),
+        widths: (given - written).abs() / widths[k],
+        has_deviation: known(k).is_some(),
     });
     Ok(Standard {
         moved: moved.collect(),

@@ -258,16 +258,24 @@ impl<'a> Edits<'a> {
         text
     }
 
-    /// Blanks in front of the line on which an element begins; none where something else is on it.
-    fn indent(&self, node: Node) -> &'a str {
+    /// Blanks in front of the line on which an element begins; nothing where something else is on it.
+    fn indent(&self, node: Node) -> Option<&'a str> {
         let before = &self.text[..node.range().start];
         let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
-        if line.trim().is_empty() { line } else { "" }
+        line.trim().is_empty().then_some(line)
+    }
+
+    /// What is between lines at an indentation; all stands on one line where there is none.
+    fn between(&self, indent: Option<&str>) -> String {
+        indent.map_or_else(String::new, |indent| format!("{}{indent}", self.newline))
     }
 
     /// Lines at an indentation, the first without it.
-    fn lines(&self, lines: &[String], indent: &str) -> String {
-        lines.join(&format!("{}{indent}", self.newline))
+    fn lines(&self, lines: &[String], indent: Option<&str>) -> String {
+        if indent.is_some() {
+            return lines.join(&self.between(indent));
+        }
+        lines.iter().map(|line| line.trim_start()).collect()
     }
 
     /// Behind the `<name` of an element.
@@ -282,17 +290,14 @@ impl<'a> Edits<'a> {
     fn insert_first(&mut self, node: Node, lines: &[String]) {
         if let Some(first) = node.children().find(Node::is_element) {
             let (place, indent) = (first.range().start, self.indent(first));
-            let new = self.lines(lines, indent) + self.newline + indent;
+            let new = self.lines(lines, indent) + &self.between(indent);
             self.edits.push((place..place, new));
             return;
         }
         let outer = self.indent(node);
-        let inner = format!("{outer}  ");
-        let new = format!(
-            "{0}{inner}{1}{0}{outer}",
-            self.newline,
-            self.lines(lines, &inner)
-        );
+        let inner = outer.map(|outer| format!("{outer}  "));
+        let inner = inner.as_deref();
+        let new = self.between(inner) + &self.lines(lines, inner) + &self.between(outer);
         let range = node.range();
         match self.text[range.clone()].strip_suffix("/>") {
             Some(head) => {
@@ -336,7 +341,7 @@ impl<'a> Edits<'a> {
             let all: Vec<String> = values.map(written).collect();
             if let (false, Some(last)) = (all.is_empty(), joint.last_element_child()) {
                 let (place, indent) = (last.range().end, self.indent(last));
-                let new = format!("{}{indent}<dynamics {}/>", self.newline, all.join(" "));
+                let new = format!("{}<dynamics {}/>", self.between(indent), all.join(" "));
                 self.edits.push((place..place, new));
             }
             return;
@@ -359,12 +364,11 @@ impl<'a> Edits<'a> {
 
     /// The comment at the top: a new one, or in the place of that of an earlier export.
     fn note(&mut self, root: Node, notes: &[String]) {
-        let indent = root
-            .first_element_child()
-            .map_or("  ", |first| self.indent(first));
+        let first = root.first_element_child();
+        let indent = first.and_then(|first| self.indent(first)).unwrap_or("");
         let lines = std::iter::once(MARK.to_owned()).chain(notes.iter().map(|note| comment(note)));
         let lines: Vec<String> = lines.collect();
-        let text = self.lines(&lines, &format!("{indent}  "));
+        let text = self.lines(&lines, Some(&format!("{indent}  ")));
         let text = format!("<!-- {text} -->");
         let is_ours = |node: &Node| {
             node.is_comment()

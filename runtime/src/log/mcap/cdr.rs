@@ -198,31 +198,27 @@ mod tests {
         }
     }
 
-    /// Byte by byte as the standard has it: one joint `j`, position 1, effort -2.
-    const BY_HAND: [u8; 68] = [
-        0, 1, 0, 0, // little endian
-        3, 0, 0, 0, 4, 0, 0, 0, // 3 s, 4 ns
-        1, 0, 0, 0, 0, 0, 0, 0, // an empty frame, padded
-        1, 0, 0, 0, 2, 0, 0, 0, b'j', 0, 0, 0, // one name, padded
-        1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, // one position
-        0, 0, 0, 0, // no velocities
-        1, 0, 0, 0, // one effort, 48 bytes behind the representation
-        0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, //
-    ];
-
+    /// Byte by byte: one joint `j`, position 1, effort -2.
     #[test]
     fn a_message_is_read_as_the_standard_says() {
-        // 0 + 28 (names) -> length of positions at 28, the number at 32; velocities at 40, efforts' length at 44, the number at 48.
-        let mut bytes = BY_HAND[..52].to_vec();
-        bytes.extend((-2.0_f64).to_le_bytes());
-        let message = JointState::read(&bytes).expect("a message");
+        let bytes = [
+            &[0, 1, 0, 0][..],                         // little endian
+            &[3, 0, 0, 0, 4, 0, 0, 0],                 // 3 s, 4 ns
+            &[1, 0, 0, 0, 0, 0, 0, 0], // an empty frame, and three bytes to the next number
+            &[1, 0, 0, 0, 2, 0, 0, 0, b'j', 0, 0, 0], // one name, and two bytes
+            &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 63], // one position, 32 bytes behind the representation
+            &[0, 0, 0, 0],                             // no velocities
+            &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xc0],  // one effort, 48 bytes behind
+        ];
+        let message = JointState::read(&bytes.concat()).expect("a message");
         assert_eq!((message.seconds, message.nanoseconds), (3, 4));
         assert_eq!(message.names, ["j"]);
         assert_eq!(
-            (message.positions, message.efforts),
-            (vec![1.0], vec![-2.0])
+            (&message.positions, &message.efforts),
+            (&vec![1.0], &vec![-2.0])
         );
         assert!(message.velocities.is_empty());
+        assert_eq!(message.write(), bytes.concat());
     }
 
     #[test]

@@ -132,7 +132,7 @@ fn joints_are_found_by_name_however_the_bag_is_packed() {
             .expect("a bag")
             .map(|piece| piece.expect("a piece"))
             .collect();
-        assert_eq!((pieces.len(), pieces[1].q[1][0]), (4, 290.0));
+        assert_eq!((pieces.len(), pieces[1].q[1][0]), (3, 290.0));
     }
     std::fs::remove_dir_all(&dir).expect("the folder");
 }
@@ -158,11 +158,10 @@ fn what_is_written_is_read() {
         "same run, same bytes"
     );
     let log = read(&bytes, &columns(&["a", "b/c"])).expect("a sound log");
-    assert_eq!(
-        (&log.time, &log.q[..], &log.dq[..]),
-        (&time, &q[..], &dq[..])
-    );
-    assert_eq!(log.tau, dq);
+    let apart = log.time.iter().zip(&time).map(|(x, y)| (x - y).abs());
+    assert!(apart.fold(0.0, f64::max) < 1e-12, "time on a grid");
+    assert!(log.q == q && log.dq == dq, "the numbers that were written");
+    assert!(log.tau == dq, "the numbers that were written");
     let without = JointStates { dq: &[], ..states };
     let bytes = without.to_mcap().expect("a bag");
     let log = read(&bytes, &columns(&["a", "b/c"])).expect("a sound log");
