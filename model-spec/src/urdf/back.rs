@@ -9,12 +9,11 @@ use roxmltree::{Document, Node};
 use urdf_rs::JointType;
 
 use super::body::{body, parts, sum};
+use super::edit::Edits;
 use super::place;
 use super::tree::{Chain, ChainJoint, Tree};
 use super::write::Names;
-use crate::export::{
-    Body, ExportError, JointNumbers, Numbers, chain as chain_of, comment, inertial_lines, number,
-};
+use crate::export::{Body, ExportError, JointNumbers, Numbers, chain as chain_of, inertial_lines};
 use crate::inertia::surely_has_a_body;
 use crate::model::{JointKind, Model, Transform};
 
@@ -23,9 +22,6 @@ const SAME_FRAME: f64 = 1e-6;
 
 /// Inertials are the same where they differ by less, as a share of the largest.
 const SAME_BODY: f64 = 1e-10;
-
-/// How the comment at the top begins.
-const MARK: &str = "robot-model:";
 
 /// A URDF with other numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -63,13 +59,13 @@ pub fn write_back(
         let own = &numbers.links[k];
         let whole = Body::new(own.inertial);
         for (link, body) in shares(&tree, &chain, joint, &whole, &mut notes)? {
-            let node = named(root, "link", link);
+            let node = named(root, "link", link)?;
             match body {
                 Some(body) => text.inertial(node, &inertial_lines(&body, &own.remark)),
                 None => text.remove_inertial(node),
             }
         }
-        let node = named(root, "joint", &joint.joint.name);
+        let node = named(root, "joint", &joint.joint.name)?;
         text.dynamics(node, &numbers.joints[k]);
         notes.extend(undeclared(joint, &numbers.joints[k]));
     }
@@ -223,162 +219,17 @@ fn undeclared(joint: &ChainJoint, numbers: &JointNumbers) -> Vec<String> {
 }
 
 /// A link or joint of the robot by its name.
-fn named<'a, 'input>(root: Node<'a, 'input>, kind: &str, name: &str) -> Node<'a, 'input> {
+fn named<'a, 'input>(
+    root: Node<'a, 'input>,
+    kind: &str,
+    name: &str,
+) -> Result<Node<'a, 'input>, ExportError> {
     let mut all = root.children();
     let found = all.find(|node| node.has_tag_name(kind) && node.attribute("name") == Some(name));
-    found.expect("both readers find the same elements")
-}
-
-fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
-    node.children().find(|child| child.has_tag_name(name))
-}
-
-/// Changes of a text, which are made from its end to its start.
-struct Edits<'a> {
-    text: &'a str,
-    edits: Vec<(Range<usize>, String)>,
-    newline: &'static str,
-}
-
-impl<'a> Edits<'a> {
-    fn new(text: &'a str) -> Self {
-        Self {
-            text,
-            edits: Vec::new(),
-            newline: if text.contains("\r\n") { "\r\n" } else { "\n" },
-        }
-    }
-
-    fn done(mut self) -> String {
-        self.edits.sort_by_key(|(range, _)| range.start);
-        let mut text = self.text.to_owned();
-        for (range, new) in self.edits.into_iter().rev() {
-            text.replace_range(range, &new);
-        }
-        text
-    }
-
-    /// Blanks in front of the line on which an element begins; nothing where something else is on it.
-    fn indent(&self, node: Node) -> Option<&'a str> {
-        let before = &self.text[..node.range().start];
-        let line = &before[before.rfind('\n').map_or(0, |end| end + 1)..];
-        line.trim().is_empty().then_some(line)
-    }
-
-    /// What is between lines at an indentation; all stands on one line where there is none.
-    fn between(&self, indent: Option<&str>) -> String {
-        indent.map_or_else(String::new, |indent| format!("{}{indent}", self.newline))
-    }
-
-    /// Lines at an indentation, the first without it.
-    fn lines(&self, lines: &[String], indent: Option<&str>) -> String {
-        if indent.is_some() {
-            return lines.join(&self.between(indent));
-        }
-        lines.iter().map(|line| line.trim_start()).collect()
-    }
-
-    /// Behind the `<name` of an element.
-    fn behind_name(&self, node: Node) -> usize {
-        let start = node.range().start + 1;
-        let is_end = |c: char| c.is_whitespace() || c == '/' || c == '>';
-        let length = self.text[start..].find(is_end);
-        start + length.unwrap_or(0)
-    }
-
-    /// A new first child.
-    fn insert_first(&mut self, node: Node, lines: &[String]) {
-        if let Some(first) = node.children().find(Node::is_element) {
-            let (place, indent) = (first.range().start, self.indent(first));
-            let new = self.lines(lines, indent) + &self.between(indent);
-            self.edits.push((place..place, new));
-            return;
-        }
-        let outer = self.indent(node);
-        let inner = outer.map(|outer| format!("{outer}  "));
-        let inner = inner.as_deref();
-        let new = self.between(inner) + &self.lines(lines, inner) + &self.between(outer);
-        let range = node.range();
-        match self.text[range.clone()].strip_suffix("/>") {
-            Some(head) => {
-                let start = range.start + head.trim_end().len();
-                let name = &self.text[range.start + 1..self.behind_name(node)];
-                let new = format!(">{new}</{name}>");
-                self.edits.push((start..range.end, new));
-            }
-            None => {
-                let end = self.text[range.clone()].rfind("</").unwrap_or(0) + range.start;
-                self.edits.push((end..end, new));
-            }
-        }
-    }
-
-    fn inertial(&mut self, link: Node, lines: &[String]) {
-        match child(link, "inertial") {
-            Some(old) => {
-                let new = self.lines(lines, self.indent(old));
-                self.edits.push((old.range(), new));
-            }
-            None => self.insert_first(link, lines),
-        }
-    }
-
-    fn remove_inertial(&mut self, link: Node) {
-        if let Some(old) = child(link, "inertial") {
-            let new = "<!-- its inertial is in that of the link that carries it -->".to_owned();
-            self.edits.push((old.range(), new));
-        }
-    }
-
-    /// `damping` and `friction` of a joint, as far as they are known.
-    fn dynamics(&mut self, joint: Node, numbers: &JointNumbers) {
-        let values = [("damping", numbers.damping), ("friction", numbers.friction)];
-        let values = values
-            .iter()
-            .filter_map(|(name, value)| Some((*name, (*value)?)));
-        let written = |(name, value): (&str, f64)| format!("{name}=\"{}\"", number(value));
-        let Some(old) = child(joint, "dynamics") else {
-            let all: Vec<String> = values.map(written).collect();
-            if let (false, Some(last)) = (all.is_empty(), joint.last_element_child()) {
-                let (place, indent) = (last.range().end, self.indent(last));
-                let new = format!("{}<dynamics {}/>", self.between(indent), all.join(" "));
-                self.edits.push((place..place, new));
-            }
-            return;
-        };
-        let mut new = String::new();
-        for (name, value) in values {
-            match old.attribute_node(name) {
-                Some(attribute) => {
-                    let range = attribute.range_value();
-                    self.edits.push((range, number(value)));
-                }
-                None => new += &format!(" {}", written((name, value))),
-            }
-        }
-        if !new.is_empty() {
-            let place = self.behind_name(old);
-            self.edits.push((place..place, new));
-        }
-    }
-
-    /// The comment at the top: a new one, or in the place of that of an earlier export.
-    fn note(&mut self, root: Node, notes: &[String]) {
-        let first = root.first_element_child();
-        let indent = first.and_then(|first| self.indent(first)).unwrap_or("");
-        let lines = std::iter::once(MARK.to_owned()).chain(notes.iter().map(|note| comment(note)));
-        let lines: Vec<String> = lines.collect();
-        let text = self.lines(&lines, Some(&format!("{indent}  ")));
-        let text = format!("<!-- {text} -->");
-        let is_ours = |node: &Node| {
-            node.is_comment()
-                && node
-                    .text()
-                    .is_some_and(|text| text.trim_start().starts_with(MARK))
-        };
-        match root.children().find(is_ours) {
-            Some(old) => self.edits.push((old.range(), text)),
-            None => self.insert_first(root, &[text]),
-        }
-    }
+    // Two readers read it, and blanks around a name are some to the one only.
+    found.ok_or_else(|| {
+        ExportError::Original(format!(
+            "{kind} `{name}` is not written as `<{kind} name=\"{name}\"`: write its name so"
+        ))
+    })
 }

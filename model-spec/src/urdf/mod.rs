@@ -8,6 +8,7 @@
 
 mod back;
 mod body;
+mod edit;
 mod effects;
 mod held;
 mod mimic;
