@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_model_codegen::Compiled;
 use robot_model_spec::export::{
-    ExportError, LinkNumbers, NO_LIMIT, Numbers, made_up_limits, mjcf, urdf,
+    ExportError, LinkNumbers, NO_LIMIT, NO_RANGE, Numbers, made_up_limits, mjcf, urdf,
 };
 use robot_model_spec::parameter::{InertialElement, Owner};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
@@ -171,7 +171,7 @@ impl Export {
                 let made_up = made_up_limits(model);
                 if !made_up.is_empty() {
                     notes.push(format!(
-                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for them at {}",
+                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for those of torque and velocity and {NO_RANGE} m for ranges, at {}",
                         made_up.join(", ")
                     ));
                 }

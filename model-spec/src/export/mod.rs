@@ -15,7 +15,7 @@ use thiserror::Error;
 use crate::model::{Chain, Model};
 
 pub use mjcf::mjcf;
-pub use urdf::{NO_LIMIT, made_up_limits, urdf};
+pub use urdf::{NO_LIMIT, NO_RANGE, made_up_limits, urdf};
 
 pub(crate) use frames::Body;
 pub(crate) use xml::{comment, inertial_lines, number};

@@ -8,8 +8,11 @@ use super::{ExportError, JointNumbers, Numbers, chain};
 use crate::model::{Joint, JointKind, Model, Transform};
 use crate::transform::rpy;
 
-/// What stands for a limit that the spec does not have where a URDF has to have one: rad, m, rad/s, m/s, N m, N.
+/// What stands for a limit of torque or velocity that the spec does not have where a URDF has to have one: N m, N, rad/s, m/s.
 pub const NO_LIMIT: f64 = 1e6;
+
+/// And for half a range of a prismatic joint, m: the longest that the language knows.
+pub const NO_RANGE: f64 = 1e3;
 
 /// Writes a URDF of the arm: links `base`, those of the spec, and `tip` behind the last of them where it is elsewhere.
 ///
@@ -110,7 +113,7 @@ fn limit(joint: &Joint) -> Option<String> {
     }
     let mut line = "<limit".to_owned();
     if kind(joint) != "continuous" {
-        let (low, high) = limits.position.unwrap_or((-NO_LIMIT, NO_LIMIT));
+        let (low, high) = limits.position.unwrap_or((-NO_RANGE, NO_RANGE));
         let _ = write!(
             line,
             " lower=\"{}\" upper=\"{}\"",
