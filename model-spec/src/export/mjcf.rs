@@ -33,12 +33,13 @@ pub fn mjcf(model: &Model, numbers: &Numbers) -> Result<String, ExportError> {
         body(&mut text, depth + 2, link, frame, joint);
     }
     let names = chain.links.iter().map(|link| link.name.as_str());
+    let names: Vec<&str> = names.collect();
     let end = 2 + chain.links.len();
     let _ = writeln!(
         text,
         "{}<site name=\"{}\"{}/>",
         indent(end),
-        free_name("tip", names),
+        free_name("tip", &names),
         place(&tip)
     );
     for depth in (2..end).rev() {
@@ -121,7 +122,7 @@ fn body(
 /// ` pos=".." quat=".."`, what is nothing left out.
 fn place(place: &Transform) -> String {
     let mut text = String::new();
-    if place.translation != [0.0; 3] {
+    if place.translation.iter().any(|x| *x != 0.0) {
         let _ = write!(text, " pos=\"{}\"", numbers(&place.translation));
     }
     if place.rotation != Transform::IDENTITY.rotation {

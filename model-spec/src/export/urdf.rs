@@ -24,8 +24,8 @@ pub const NO_RANGE: f64 = 1e3;
 pub fn urdf(model: &Model, numbers: &Numbers) -> Result<String, ExportError> {
     let chain = chain(model)?;
     let (frames, tip) = frames(chain, &model.joints);
-    let names = || chain.links.iter().map(|link| link.name.as_str());
-    let base = free_name("base", names());
+    let names: Vec<&str> = chain.links.iter().map(|link| link.name.as_str()).collect();
+    let base = free_name("base", &names);
     let mut text = format!("<?xml version=\"1.0\"?>\n<robot name=\"{}\">\n", model.name);
     let gravity = super::xml::numbers(&chain.gravity);
     let _ = writeln!(
@@ -74,8 +74,9 @@ pub fn urdf(model: &Model, numbers: &Numbers) -> Result<String, ExportError> {
         parent = &link.name;
     }
     if tip != Transform::IDENTITY {
-        let joints = || model.joints.iter().map(|joint| joint.name.as_str());
-        let (end, fixed) = (free_name("tip", names()), free_name("tip", joints()));
+        let joints = model.joints.iter().map(|joint| joint.name.as_str());
+        let joints: Vec<&str> = joints.collect();
+        let (end, fixed) = (free_name("tip", &names), free_name("tip", &joints));
         let _ = writeln!(
             text,
             "  <link name=\"{end}\"/>\n  <joint name=\"{fixed}\" type=\"fixed\">\n    <parent link=\"{parent}\"/>\n    \

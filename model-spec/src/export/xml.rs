@@ -67,9 +67,9 @@ pub(crate) fn inertial_lines(body: &Body, remark: &str) -> Vec<String> {
 }
 
 /// A name that is none of those that are taken.
-pub(super) fn free_name<'a>(name: &str, taken: impl Iterator<Item = &'a str> + Clone) -> String {
+pub(super) fn free_name(name: &str, taken: &[&str]) -> String {
     let mut free = name.to_owned();
-    while taken.clone().any(|other| other == free) {
+    while taken.contains(&free.as_str()) {
         free.push('_');
     }
     free

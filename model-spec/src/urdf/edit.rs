@@ -16,7 +16,7 @@ fn child<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'inp
 /// Changes of a text, which are made from its end to its start.
 pub(super) struct Edits<'a> {
     text: &'a str,
-    edits: Vec<(Range<usize>, String)>,
+    changes: Vec<(Range<usize>, String)>,
     newline: &'static str,
 }
 
@@ -24,16 +24,16 @@ impl<'a> Edits<'a> {
     pub(super) fn new(text: &'a str) -> Self {
         Self {
             text,
-            edits: Vec::new(),
+            changes: Vec::new(),
             newline: if text.contains("\r\n") { "\r\n" } else { "\n" },
         }
     }
 
     /// The text with all changes.
     pub(super) fn done(mut self) -> String {
-        self.edits.sort_by_key(|(range, _)| range.start);
+        self.changes.sort_by_key(|(range, _)| range.start);
         let mut text = self.text.to_owned();
-        for (range, new) in self.edits.into_iter().rev() {
+        for (range, new) in self.changes.into_iter().rev() {
             text.replace_range(range, &new);
         }
         text
@@ -72,7 +72,7 @@ impl<'a> Edits<'a> {
         if let Some(first) = node.children().find(Node::is_element) {
             let (place, indent) = (first.range().start, self.indent(first));
             let new = self.lines(lines, indent) + &self.between(indent);
-            self.edits.push((place..place, new));
+            self.changes.push((place..place, new));
             return;
         }
         let outer = self.indent(node);
@@ -80,17 +80,14 @@ impl<'a> Edits<'a> {
         let inner = inner.as_deref();
         let new = self.between(inner) + &self.lines(lines, inner) + &self.between(outer);
         let range = node.range();
-        match self.text[range.clone()].strip_suffix("/>") {
-            Some(head) => {
-                let start = range.start + head.trim_end().len();
-                let name = &self.text[range.start + 1..self.behind_name(node)];
-                let new = format!(">{new}</{name}>");
-                self.edits.push((start..range.end, new));
-            }
-            None => {
-                let end = self.text[range.clone()].rfind("</").unwrap_or(0) + range.start;
-                self.edits.push((end..end, new));
-            }
+        if let Some(head) = self.text[range.clone()].strip_suffix("/>") {
+            let start = range.start + head.trim_end().len();
+            let name = &self.text[range.start + 1..self.behind_name(node)];
+            let new = format!(">{new}</{name}>");
+            self.changes.push((start..range.end, new));
+        } else {
+            let end = self.text[range.clone()].rfind("</").unwrap_or(0) + range.start;
+            self.changes.push((end..end, new));
         }
     }
 
@@ -99,7 +96,7 @@ impl<'a> Edits<'a> {
         match child(link, "inertial") {
             Some(old) => {
                 let new = self.lines(lines, self.indent(old));
-                self.edits.push((old.range(), new));
+                self.changes.push((old.range(), new));
             }
             None => self.insert_first(link, lines),
         }
@@ -109,7 +106,7 @@ impl<'a> Edits<'a> {
     pub(super) fn remove_inertial(&mut self, link: Node) {
         if let Some(old) = child(link, "inertial") {
             let new = "<!-- its inertial is in that of the link that carries it -->".to_owned();
-            self.edits.push((old.range(), new));
+            self.changes.push((old.range(), new));
         }
     }
 
@@ -125,7 +122,7 @@ impl<'a> Edits<'a> {
             if let (false, Some(last)) = (all.is_empty(), joint.last_element_child()) {
                 let (place, indent) = (last.range().end, self.indent(last));
                 let new = format!("{}<dynamics {}/>", self.between(indent), all.join(" "));
-                self.edits.push((place..place, new));
+                self.changes.push((place..place, new));
             }
             return;
         };
@@ -134,14 +131,14 @@ impl<'a> Edits<'a> {
             match old.attribute_node(name) {
                 Some(attribute) => {
                     let range = attribute.range_value();
-                    self.edits.push((range, number(value)));
+                    self.changes.push((range, number(value)));
                 }
-                None => new += &format!(" {}", written((name, value))),
+                None => new = format!("{new} {}", written((name, value))),
             }
         }
         if !new.is_empty() {
             let place = self.behind_name(old);
-            self.edits.push((place..place, new));
+            self.changes.push((place..place, new));
         }
     }
 
@@ -160,7 +157,7 @@ impl<'a> Edits<'a> {
                     .is_some_and(|text| text.trim_start().starts_with(MARK))
         };
         match root.children().find(is_ours) {
-            Some(old) => self.edits.push((old.range(), text)),
+            Some(old) => self.changes.push((old.range(), text)),
             None => self.insert_first(root, &[text]),
         }
     }

@@ -27,7 +27,9 @@ pub(super) trait Rows {
     fn table(&self, needed: &[usize]) -> Table {
         let count = self.names().len();
         let mut is_needed = vec![false; count];
-        needed.iter().for_each(|&column| is_needed[column] = true);
+        for &column in needed {
+            is_needed[column] = true;
+        }
         Table {
             columns: vec![Vec::new(); count],
             is_needed,

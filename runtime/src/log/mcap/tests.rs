@@ -33,8 +33,11 @@ fn message(k: u32, names: &[&str]) -> JointState {
     }
 }
 
-/// Topics, their types, and the messages on each, in turns.
-fn bag(options: WriteOptions, topics: &[(&str, &str, &dyn Fn(u32) -> Option<Vec<u8>>)]) -> Vec<u8> {
+/// A topic, its type, and its message at a sample.
+type Topic<'a> = (&'a str, &'a str, &'a dyn Fn(u32) -> Option<Vec<u8>>);
+
+/// Topics, whose messages come in turns.
+fn bag(options: WriteOptions, topics: &[Topic<'_>]) -> Vec<u8> {
     let options = options.compression_threads(0).chunk_size(Some(8192));
     let mut writer: Writer<_> = options.create(Cursor::new(Vec::new())).expect("a writer");
     let channels: Vec<u16> = topics
@@ -83,7 +86,7 @@ fn said(bag: &[u8], columns: &Columns) -> String {
 /// The shoulder comes second in messages and first in the arm; a gripper and a camera publish beside it.
 fn arm(options: WriteOptions) -> Vec<u8> {
     let states = |k| Some(message(k, &["elbow", "shoulder", "finger"]).write());
-    let gripper = |k: u32| (k % 3 == 0).then(|| vec![7; 100]);
+    let gripper = |k: u32| (k.is_multiple_of(3)).then(|| vec![7; 100]);
     bag(
         options,
         &[
@@ -265,7 +268,11 @@ fn joints_that_are_not_there_are_told() {
 fn messages_of_other_joints_are_passed_over_and_lists_that_lack_numbers_are_told() {
     // Two publishers on one topic, as of an arm and of its gripper.
     let both = |k: u32| {
-        let names: &[&str] = if k % 2 == 0 { &["finger"] } else { &["elbow"] };
+        let names: &[&str] = if k.is_multiple_of(2) {
+            &["finger"]
+        } else {
+            &["elbow"]
+        };
         Some(message(k, names).write())
     };
     let bytes = bag(WriteOptions::new(), &[("/joint_states", STATES, &both)]);
