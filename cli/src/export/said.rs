@@ -142,6 +142,11 @@ pub(super) fn not_written(
             }
             _ => None,
         });
+        let linear: Vec<(&String, f64)> = linear.collect();
+        // What is not there, or was put into links that do the same, is not lost.
+        if !linear.is_empty() && linear.iter().all(|(_, value)| *value == 0.0) {
+            continue;
+        }
         let shapes = definition
             .shapes
             .iter()

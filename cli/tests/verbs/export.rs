@@ -329,7 +329,8 @@ fn what_cannot_be_exported_is_refused() {
     );
     folder.write(
         "swing.robot",
-        "robot Swing { coordinates q; parameters m = 1 kg, l = 1 m; kinetic = m*l^2/2*dot(q)^2; potential = m*l*9.81*sin(q)*1 m/s^2; }",
+        "robot Swing { coordinates q; parameters m = 1 kg, l = 1 m; constants g = 9.81 m/s^2; kinetic = m*l^2/2*dot(q)^2; \
+         potential = m*g*l*sin(q); }",
     );
     let said = folder.refuse(&["export", "swing.robot", "--as", "mjcf", "-o", "out.xml"]);
     assert!(said.contains("`Swing` says its energies"), "{said}");
