@@ -32,7 +32,8 @@ const BORDER_S: f64 = 1.0;
 pub(crate) struct Dissect {
     /// The `.robot` file.
     spec: PathBuf,
-    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them.
+    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     log: PathBuf,
     #[command(flatten)]
     log_settings: LogSettings,

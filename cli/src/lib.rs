@@ -17,6 +17,7 @@ mod emit;
 mod error;
 mod eval;
 mod excite;
+mod export;
 mod friction;
 mod identify;
 mod import;
@@ -67,6 +68,7 @@ struct CommandLine {
 enum Verb {
     New(new::New),
     Import(import::Import),
+    Export(export::Export),
     Check(check::Check),
     Show(show::Show),
     Emit(emit::Emit),
@@ -90,6 +92,7 @@ impl Verb {
         match self {
             Self::New(verb) => verb.run(),
             Self::Import(verb) => verb.run(),
+            Self::Export(verb) => verb.run(),
             Self::Check(verb) => verb.run(),
             Self::Show(verb) => verb.run(),
             Self::Emit(verb) => verb.run(),
@@ -118,12 +121,15 @@ pub fn main() -> ExitCode {
     run(std::env::args_os())
 }
 
-/// The decoder of Parquet panics at some damaged files; the reader of logs makes errors of these panics, and nobody wants to
-/// see them besides.
+/// The decoders of Parquet and MCAP panic at some damaged files; the reader of logs makes errors of these panics, and nobody
+/// wants to see them besides.
 fn keep_decoders_quiet() {
     let others = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |info| {
-        let is_decoder = |place: &std::panic::Location| place.file().contains("/parquet-");
+        let is_decoder = |place: &std::panic::Location| {
+            let mut crates = ["/parquet-", "/mcap-"].iter();
+            crates.any(|name| place.file().contains(name))
+        };
         if !info.location().is_some_and(is_decoder) {
             others(info);
         }

@@ -53,14 +53,14 @@ impl LogSettings {
         progress: &Progress,
     ) -> Result<Columns, Error> {
         let Some(path) = self.of(log) else {
-            return Ok(columns(model.joints.len(), &model.log));
+            return Ok(columns(model, &model.log));
         };
         let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
         if !read.contains_key(&path) {
             read.insert(path.clone(), settings(&path, model, progress)?);
         }
         let own = &read[&path];
-        Ok(columns(model.joints.len(), own))
+        Ok(columns(model, own))
     }
 }
 
@@ -104,12 +104,12 @@ fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumn
 }
 
 /// Columns as the reader of logs takes them; standard ones where nothing is said.
-fn columns(joints: usize, log: &LogColumns) -> Columns {
+fn columns(model: &Model, log: &LogColumns) -> Columns {
     let column = |own: &LogColumn| Column {
         name: own.name.clone(),
         unit: own.unit,
     };
-    let mut columns = Columns::standard(joints);
+    let mut columns = Columns::standard(model.joints.len());
     if let Some(time) = &log.time {
         columns.time = column(time);
     }
@@ -127,5 +127,8 @@ fn columns(joints: usize, log: &LogColumns) -> Columns {
     columns.extra = inputs
         .map(|(name, own)| (name.clone(), column(own)))
         .collect();
+    let joints = model.joints.iter();
+    columns.joints = joints.map(|joint| joint.name.clone()).collect();
+    columns.topic.clone_from(&log.topic);
     columns
 }

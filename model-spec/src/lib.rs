@@ -9,6 +9,7 @@ pub mod amend;
 pub mod ast;
 mod check;
 pub mod diagnostic;
+pub mod export;
 mod inertia;
 pub mod library;
 #[cfg(feature = "log-settings")]

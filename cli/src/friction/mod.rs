@@ -34,7 +34,8 @@ use report::Found;
 pub(crate) struct Friction {
     /// The `.robot` file; the joint's friction need not be declared in it.
     spec: PathBuf,
-    /// Logs: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them.
+    /// Logs: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// The joint, by its name.

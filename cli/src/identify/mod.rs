@@ -50,7 +50,8 @@ use table::table;
 pub(crate) struct IdentifyArguments {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them.
+    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// A log that is not fitted, to judge the model on.

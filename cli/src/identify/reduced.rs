@@ -129,7 +129,7 @@ pub(crate) fn text(factor: &Factor) -> String {
 
 /// Whether a file looks like a log: by its first bytes, or by the names in its first line.
 fn log_of(path: &Path) -> bool {
-    const MAGIC: [&[u8]; 2] = [b"PAR1", &[0x1f, 0x8b]];
+    const MAGIC: [&[u8]; 3] = [b"PAR1", b"\x89MCAP", &[0x1f, 0x8b]];
     let Ok(bytes) = std::fs::read(path) else {
         return false;
     };

@@ -40,8 +40,9 @@ pub(crate) struct Simulate {
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// The log to write: `time,q1..qn,dq1..dqn,tau1..taun[,extra]`.
-    #[arg(long, value_name = "LOG.csv")]
+    /// The log to write: CSV, `time,q1..qn,dq1..dqn,tau1..taun[,extra]`; where its name ends in `.mcap`, a bag of ROS 2 with joint
+    /// states.
+    #[arg(long, value_name = "LOG.csv|LOG.mcap")]
     out: PathBuf,
     /// Who decides the torque.
     #[arg(long, value_enum, default_value_t)]
@@ -177,6 +178,13 @@ impl Simulate {
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
         let compiled = compile(&self.spec)?;
+        if let (true, Some(channel)) = (record::is_bag(&self.out), compiled.model.inputs().first())
+        {
+            return Err(Error::Argument(format!(
+                "{}: a declared effect reads `{channel}`, for which joint states have no place; write the log as CSV",
+                self.out.display()
+            )));
+        }
         let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
         let mut setting = self.set_up(&compiled, &trajectory)?;
         let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;
@@ -227,9 +235,9 @@ impl Simulate {
         for note in record::beyond_limits(&compiled.model, &trajectory, &record) {
             progress.note(&note);
         }
-        let text = record::csv(&record);
+        let log = record::log(&self.out, &record, &compiled.model)?;
         let said = record::summary(&self.out, &report, &compiled.model.joints);
-        out.commit(text.as_bytes())?;
+        out.commit(&log)?;
         if let Some(json) = json {
             json.commit(output::json(&report).as_bytes())?;
         }

@@ -3,6 +3,7 @@
 mod apart;
 mod audit;
 mod audit_seeds;
+mod bags;
 mod bodies;
 mod c;
 mod calibrate;
@@ -23,6 +24,7 @@ mod equations;
 mod eval;
 mod every;
 mod excite;
+mod export;
 mod friction;
 mod identifiable;
 mod identify;

@@ -17,7 +17,7 @@ pub struct LogBlock {
 /// `q = "pos_a": deg, "pos_b": deg`
 #[derive(Debug, Clone)]
 pub struct LogChannel {
-    /// `time`, `q`, `dq`, `tau`, or an input of an effect.
+    /// `time`, `q`, `dq`, `tau`, `topic`, or an input of an effect.
     pub key: String,
     /// Where that stands.
     pub span: Span,

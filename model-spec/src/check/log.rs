@@ -136,6 +136,7 @@ fn forget(columns: &mut LogColumns, key: &str, joints: usize) {
         "q" => columns.q.clear(),
         "dq" => columns.dq.clear(),
         "tau" => columns.tau.clear(),
+        "topic" => columns.topic = None,
         _ => columns.inputs.retain(|(name, _)| {
             name != key && (1..=joints).all(|joint| *name != format!("{key}{joint}"))
         }),
@@ -152,6 +153,13 @@ impl Arm<'_> {
         errors: &mut Errors,
     ) {
         for channel in channels {
+            if channel.key == "topic" {
+                match topic(channel) {
+                    Ok(name) => columns.topic = Some(name),
+                    Err(error) => errors.push(error),
+                }
+                continue;
+            }
             for column in &channel.columns {
                 check_column_name(column, &mut names, errors);
             }
@@ -231,6 +239,24 @@ impl Other {
     }
 }
 
+/// The one topic of bags, which is no column and has no unit.
+fn topic(channel: &LogChannel) -> Result<String, Diagnostic> {
+    const HELP: &str = "write it as the bag has it, such as `topic = \"/joint_states\";`";
+    let [column] = channel.columns.as_slice() else {
+        let span = channel.span;
+        return Err(Diagnostic::new(span, "a log has one topic", "several").help(HELP));
+    };
+    if let Some(unit) = &column.unit {
+        return Err(Diagnostic::new(unit.span, "a topic has no unit", "a unit").help(HELP));
+    }
+    let name = column.name.value().trim().to_owned();
+    if name.is_empty() {
+        let span = column.name.span();
+        return Err(Diagnostic::new(span, "a topic without a name", "empty").help(HELP));
+    }
+    Ok(name)
+}
+
 fn check_column_name(
     column: &ast::LogColumn,
     names: &mut BTreeMap<String, Other>,
@@ -276,7 +302,7 @@ fn check_key(
     if inputs.of_joints.iter().any(numbered) {
         return Some(Channel::Input(key));
     }
-    let known = ["time", "q", "dq", "tau"].into_iter();
+    let known = ["time", "q", "dq", "tau", "topic"].into_iter();
     let own = inputs.of_arm.iter().chain(&inputs.of_joints);
     let known = known.chain(own.map(String::as_str));
     errors.push(

@@ -18,6 +18,8 @@ pub struct LogColumns {
     pub inputs: Vec<(String, LogColumn)>,
     /// Line of the spec's `log`, from 1; none where it has none.
     pub line: Option<usize>,
+    /// The topic of bags of ROS 2, where the spec names one.
+    pub topic: Option<String>,
 }
 
 impl LogColumns {

@@ -25,7 +25,10 @@ pub(super) fn log(input: ParseStream, keyword: &Ident, errors: &mut Sink) -> syn
 impl Parse for LogChannel {
     /// `key = column, column`
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let name = word(input, "`time`, `q`, `dq`, `tau` or the name of an input")?;
+        let name = word(
+            input,
+            "`time`, `q`, `dq`, `tau`, `topic` or the name of an input",
+        )?;
         input.parse::<Token![=]>()?;
         let mut columns = vec![input.parse()?];
         while input.peek(Token![,]) {

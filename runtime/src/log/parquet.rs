@@ -2,7 +2,6 @@
 //!
 //! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
 
-use std::fs::File;
 use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;
@@ -13,14 +12,14 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
-use super::rows::{Table, unreadable};
+use super::rows::{Input, Rows, Table, unreadable};
 
 /// Rows of a Parquet file.
 pub(super) struct ParquetRows {
     source: String,
     reader: Box<dyn FileReader>,
     /// Names of the columns; those of nested ones have points in them.
-    pub names: Vec<String>,
+    names: Vec<String>,
     next_group: usize,
     /// Columns of the group that is being handed on, `[column][row]`; none where they hold no numbers.
     group: Vec<Option<Vec<f64>>>,
@@ -31,16 +30,18 @@ pub(super) struct ParquetRows {
 }
 
 impl ParquetRows {
-    pub fn of_file(source: &str, file: File) -> Result<Self, LogError> {
-        Self::new(source, guarded(|| SerializedFileReader::new(file)))
+    /// Reads the schema.
+    pub fn new(source: &str, input: Input) -> Result<Self, LogError> {
+        match input {
+            Input::File(file) => Self::of(source, guarded(|| SerializedFileReader::new(file))),
+            Input::Memory(bytes) => {
+                let bytes = Bytes::from(bytes);
+                Self::of(source, guarded(|| SerializedFileReader::new(bytes)))
+            }
+        }
     }
 
-    pub fn of_memory(source: &str, bytes: Vec<u8>) -> Result<Self, LogError> {
-        let bytes = Bytes::from(bytes);
-        Self::new(source, guarded(|| SerializedFileReader::new(bytes)))
-    }
-
-    fn new(
+    fn of(
         source: &str,
         reader: Result<impl FileReader + 'static, ParquetError>,
     ) -> Result<Self, LogError> {
@@ -59,19 +60,6 @@ impl ParquetRows {
             rows_of_group: 0,
             rows: 0,
         })
-    }
-
-    /// Adds rows to a table until it has `most`; false where there are no more.
-    pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
-        while table.lines.len() < most {
-            if self.next_row == self.rows_of_group && !self.read_group()? {
-                return Ok(false);
-            }
-            let room = most - table.lines.len();
-            let end = self.rows_of_group.min(self.next_row + room);
-            self.hand_on(table, end)?;
-        }
-        Ok(true)
     }
 
     /// Rows of the group up to `end`.
@@ -149,6 +137,24 @@ impl ParquetRows {
             }
         }
         Ok(false)
+    }
+}
+
+impl Rows for ParquetRows {
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
+        while table.lines.len() < most {
+            if self.next_row == self.rows_of_group && !self.read_group()? {
+                return Ok(false);
+            }
+            let room = most - table.lines.len();
+            let end = self.rows_of_group.min(self.next_row + room);
+            self.hand_on(table, end)?;
+        }
+        Ok(true)
     }
 }
 

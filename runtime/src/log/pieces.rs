@@ -5,14 +5,14 @@ use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::header::Header;
-use super::rows::{Rows, Table};
+use super::rows::{self, Rows, Table};
 use super::{Columns, Log, LogError};
 use crate::signal::resample::whole_steps;
 
 /// Pieces of a log, one after the other; made by [`Log::pieces`].
 pub struct Pieces<'a> {
     source: String,
-    rows: Rows<'a>,
+    rows: Box<dyn Rows + 'a>,
     header: Header,
     table: Table,
     samples: usize,
@@ -38,7 +38,7 @@ impl Log {
         // Both handles have one place in the file.
         let size = file.metadata().map(|about| about.len());
         let looked_at = file.try_clone().ok().zip(size.ok());
-        let rows = Rows::of_file(&source, file)?;
+        let rows = rows::of_file(&source, file, columns)?;
         let mut pieces = Pieces::of_rows(source, rows, columns, samples, overlap)?;
         pieces.file = looked_at;
         Ok(pieces)
@@ -89,20 +89,20 @@ impl<'a> Pieces<'a> {
         overlap: f64,
     ) -> Result<Self, LogError> {
         let source = source.into();
-        let rows = Rows::new(&source, reader)?;
+        let rows = rows::of_reader(&source, reader, columns)?;
         Self::of_rows(source, rows, columns, samples, overlap)
     }
 
     fn of_rows(
         source: String,
-        rows: Rows<'a>,
+        rows: Box<dyn Rows + 'a>,
         columns: &Columns,
         samples: usize,
         overlap: f64,
     ) -> Result<Self, LogError> {
-        let header = Header::resolve(&source, rows.names(), columns)?;
+        let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
         Ok(Self {
-            table: rows.table(header.needed()),
+            table: rows.table(&header.needed()),
             header,
             rows,
             source,
@@ -154,7 +154,7 @@ impl Iterator for Pieces<'_> {
             let source = self.source.clone();
             return Some(Log::from_table(
                 source,
-                self.rows.table(self.header.needed()),
+                self.rows.table(&self.header.needed()),
                 &self.header,
             ));
         }
