@@ -13,6 +13,8 @@ use crate::{Error, output};
 
 /// Check a spec: every mistake with its source line and what to do, or what the spec describes.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model check arm.robot")]
 pub(crate) struct Check {
     /// The `.robot` file.
     spec: PathBuf,

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::interpreted::InterpretedArm;
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files};
 use crate::parameters;
 use crate::progress::Progress;
@@ -26,11 +27,16 @@ const BORDER_S: f64 = 1.0;
 /// Shares of inertia, Coriolis and centrifugal torque, gravity and each effect in the torques along a log, and what is left
 /// of the measured ones: root mean squares per joint.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model dissect arm.robot monday.csv --parameters fit.json")]
 pub(crate) struct Dissect {
     /// The `.robot` file.
     spec: PathBuf,
-    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
+    /// The log: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     log: PathBuf,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
@@ -73,10 +79,13 @@ impl Dissect {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile_instantaneous(&self.spec)?;
         let inputs = [&self.spec, &self.log].into_iter().chain(&self.parameters);
-        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let settings = &self.log_settings;
+        let mut files =
+            Files::reading(inputs.map(PathBuf::as_path)).and(settings.files([&self.log]));
+        let json = files.claim_if(self.json.as_deref())?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let progress = Progress::new();
-        let log = read_log(&self.log, &compiled.model, &progress)?;
+        let log = read_log(&self.log, &compiled.model, settings, &progress)?;
         drop(progress);
 
         let free = compiled.free_shapes();

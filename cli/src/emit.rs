@@ -18,6 +18,10 @@ use crate::spec::compile_instantaneous;
 
 /// Write an arm's equations as source code.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model emit arm.robot --lang rust --out src
+  robot-model emit arm.robot --lang c --out src --name left_arm
+  robot-model emit arm.robot --lang rust --out src --functions torque --parameters fit.json")]
 pub(crate) struct Emit {
     /// The `.robot` file.
     spec: PathBuf,

@@ -40,11 +40,13 @@ pub enum Error {
     #[error(transparent)]
     Identify(#[from] IdentifyError),
     /// A JSON file is not what it should be.
-    #[error("{}: {reason}", path.display())]
+    #[error("{}{}: {reason}", path.display(), place(*.line))]
     Json {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it, with line and column where they are known.
+        /// Line and column, where it is no JSON at all.
+        line: Option<(usize, usize)>,
+        /// What is wrong with it, with the part that is at fault.
         reason: String,
     },
     /// An argument that is well formed and makes no sense.
@@ -78,7 +80,13 @@ impl Error {
     pub(crate) fn json(path: &Path, reason: &impl ToString) -> Self {
         Self::Json {
             path: path.to_owned(),
+            line: None,
             reason: reason.to_string(),
         }
     }
+}
+
+/// `:3:14` behind a file's name.
+fn place(line: Option<(usize, usize)>) -> String {
+    line.map_or_else(String::new, |(line, column)| format!(":{line}:{column}"))
 }

@@ -17,6 +17,9 @@ use crate::{Error, json, output};
 /// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
 /// the spec's points are, with their Jacobians, as JSON.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model eval arm.robot --states states.json --parameters fit.json
+  robot-model eval arm.robot --states states.json > values.json")]
 pub(crate) struct Eval {
     /// The `.robot` file.
     spec: PathBuf,
@@ -146,6 +149,7 @@ impl Eval {
     }
 
     fn read_states(&self, compiled: &Compiled) -> Result<Vec<State>, Error> {
+        const FORM: &str = "write `{\"states\": [{\"q\": [..], \"dq\": [..], \"ddq\": [..]}, ..]}`";
         let (path, dof) = (&self.states, compiled.dof());
         let columns = compiled.regressor();
         let reads_torque = columns
@@ -158,14 +162,16 @@ impl Eval {
             let reason = "the list of states has a name: write `{\"states\": [..]}`";
             return Err(Error::json(path, &reason));
         }
-        let States { states } =
-            serde_json::from_value(written).map_err(|error| Error::json(path, &error))?;
+        let States { states } = json::typed(path, written, FORM)?;
         let states = states
             .into_iter()
             .enumerate()
             .map(|(k, state)| {
-                serde_json::from_value::<State>(state)
-                    .map_err(|error| Error::json(path, &format!("state {}: {error}", k + 1)))
+                let read = serde_path_to_error::deserialize::<_, State>(state);
+                read.map_err(|error| {
+                    let reason = format!("state {}: {error}; {FORM}", k + 1);
+                    Error::json(path, &reason)
+                })
             })
             .collect::<Result<Vec<State>, Error>>()?;
         for (k, state) in states.iter().enumerate() {

@@ -15,6 +15,9 @@ use crate::spec::read_text;
 /// chain stands still. A joint of the chain that mimics another becomes a joint of its own: a warning and a comment of the
 /// spec say the tie, and which sum of torques acts on the joint that leads.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model import arm.urdf -o arm.robot --effects 'all:viscous_friction,coulomb_friction;(5,6):gear_coupling'
+  robot-model import dual.urdf -o left.robot --base torso --tip left_hand --inertials fixed")]
 pub(crate) struct Import {
     /// The URDF file.
     urdf: PathBuf,

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use std::fmt;
 use std::path::Path;
 
-use serde::de::{DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::{Map, Number, Value};
 
 use crate::Error;
@@ -14,31 +14,105 @@ use crate::spec::read_text;
 
 /// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<Value, Error> {
-    parse(&read_text(path)?).map_err(|reason| Error::json(path, &reason))
+    parse(&read_text(path)?).map_err(|fault| Error::Json {
+        path: path.to_owned(),
+        line: fault.line,
+        reason: fault.reason,
+    })
 }
 
-fn parse(text: &str) -> Result<Value, String> {
-    let twice = RefCell::new(Vec::new());
+/// What a file says, as it has to be written; `form` shows how. Names the part that is not, such as `balls[1].radius`.
+pub(crate) fn typed<T: DeserializeOwned>(
+    path: &Path,
+    value: Value,
+    form: &str,
+) -> Result<T, Error> {
+    serde_path_to_error::deserialize(value).map_err(|error| {
+        let part = error.path().to_string();
+        let part = match part.as_str() {
+            "." => String::new(),
+            part => format!("`{part}`: "),
+        };
+        Error::json(path, &format!("{part}{}; {form}", error.inner()))
+    })
+}
+
+/// Why a text is not read.
+#[derive(Debug, PartialEq)]
+struct Fault {
+    /// Line and column, where the text is no JSON.
+    line: Option<(usize, usize)>,
+    reason: String,
+}
+
+fn parse(text: &str) -> Result<Value, Fault> {
+    let notes = Notes::default();
     let mut input = serde_json::Deserializer::from_str(text);
-    let value = Reader { twice: &twice }.deserialize(&mut input);
+    let value = Reader { notes: &notes }.deserialize(&mut input);
     let value = value.and_then(|value| input.end().map(|()| value));
-    let value = value.map_err(|error| error.to_string())?;
-    let twice = twice.into_inner();
+    let value = value.map_err(|error| {
+        let said = error.to_string();
+        let place = format!(" at line {} column {}", error.line(), error.column());
+        Fault {
+            line: Some((error.line(), error.column())),
+            reason: format!(
+                "it is no JSON: {}; repair it here",
+                said.strip_suffix(&place).unwrap_or(&said)
+            ),
+        }
+    })?;
+    let twice = notes.twice.into_inner();
     if twice.is_empty() {
         return Ok(value);
     }
     let twice: Vec<&str> = twice.iter().map(String::as_str).collect();
     let verb = if twice.len() == 1 { "stands" } else { "stand" };
-    Err(format!(
-        "{} {verb} there more than once; keep the value that is meant",
-        names(&twice)
-    ))
+    Err(Fault {
+        line: None,
+        reason: format!(
+            "{} {verb} there more than once; keep the value that is meant",
+            names(&twice)
+        ),
+    })
+}
+
+/// What is noted on the way through a text.
+#[derive(Default)]
+struct Notes {
+    /// Keys and places in lists that lead to where the reader is: `balls`, `[1]`.
+    path: RefCell<Vec<String>>,
+    /// Paths of keys that stand twice.
+    twice: RefCell<Vec<String>>,
+}
+
+impl Notes {
+    /// Reads what is below a key or a place in a list.
+    fn below<T>(&self, step: String, read: impl FnOnce() -> T) -> T {
+        self.path.borrow_mut().push(step);
+        let found = read();
+        self.path.borrow_mut().pop();
+        found
+    }
+
+    fn stands_twice(&self, key: &str) {
+        let mut whole = String::new();
+        for step in self.path.borrow().iter().map(String::as_str).chain([key]) {
+            if !whole.is_empty() && !step.starts_with('[') {
+                whole.push('.');
+            }
+            whole.push_str(step);
+        }
+        let mut twice = self.twice.borrow_mut();
+        if !twice.contains(&whole) {
+            twice.push(whole);
+        }
+    }
 }
 
 /// Reads any value, and notes keys that stand twice.
 #[derive(Clone, Copy)]
 struct Reader<'a> {
-    twice: &'a RefCell<Vec<String>>,
+    notes: &'a Notes,
 }
 
 impl<'de> DeserializeSeed<'de> for Reader<'_> {
@@ -82,8 +156,12 @@ impl<'de> Visitor<'de> for Reader<'_> {
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Value, A::Error> {
         let mut values = Vec::new();
-        while let Some(value) = list.next_element_seed(self)? {
-            values.push(value);
+        loop {
+            let step = format!("[{}]", values.len());
+            match self.notes.below(step, || list.next_element_seed(self))? {
+                Some(value) => values.push(value),
+                None => break,
+            }
         }
         Ok(Value::Array(values))
     }
@@ -91,10 +169,10 @@ impl<'de> Visitor<'de> for Reader<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
         let mut object = Map::new();
         while let Some(key) = entries.next_key::<String>()? {
-            let value = entries.next_value_seed(self)?;
-            let mut twice = self.twice.borrow_mut();
-            if object.insert(key.clone(), value).is_some() && !twice.contains(&key) {
-                twice.push(key);
+            let below = || entries.next_value_seed(self);
+            let value = self.notes.below(key.clone(), below)?;
+            if object.insert(key.clone(), value).is_some() {
+                self.notes.stands_twice(&key);
             }
         }
         Ok(Value::Object(object))
@@ -126,29 +204,57 @@ mod tests {
         assert_eq!(parse(text), Ok(plain));
     }
 
+    fn refused(text: &str) -> (Option<(usize, usize)>, String) {
+        let fault = parse(text).expect_err("refused");
+        (fault.line, fault.reason)
+    }
+
     #[test]
     fn keys_that_stand_twice_are_told() {
-        let one = parse(r#"{"a":1,"b":2,"a":1}"#);
+        let (_, one) = refused(r#"{"a":1,"b":2,"a":1}"#);
         assert_eq!(
             one,
-            Err("`a` stands there more than once; keep the value that is meant".to_owned())
+            "`a` stands there more than once; keep the value that is meant"
         );
-        let several = parse(r#"{"c":[{"a":1,"a":2,"a":3},{"b":1}],"b":2,"b":{}}"#);
+        let (_, several) = refused(r#"{"c":[{"b":1},{"d":{"a":1,"a":2,"a":3}}],"b":2,"b":{}}"#);
         assert_eq!(
             several,
-            Err("`a`, `b` stand there more than once; keep the value that is meant".to_owned())
+            "`c[1].d.a`, `b` stand there more than once; keep the value that is meant"
         );
     }
 
     #[test]
     fn what_is_no_json_has_its_line() {
-        for (text, said) in [
-            ("{\"a\": 1,}", "trailing comma at line 1 column 9"),
-            ("{}\n{}", "trailing characters at line 2 column 1"),
-            ("[1e999]", "number out of range at line 1 column 6"),
-            ("[NaN]", "expected value at line 1 column 2"),
+        for (text, line, said) in [
+            ("{\"a\": 1,}", (1, 9), "trailing comma"),
+            ("{}\n{}", (2, 1), "trailing characters"),
+            ("[1e999]", (1, 6), "number out of range"),
+            ("[NaN]", (1, 2), "expected value"),
         ] {
-            assert_eq!(parse(text), Err(said.to_owned()), "{text}");
+            let wanted = format!("it is no JSON: {said}; repair it here");
+            assert_eq!(refused(text), (Some(line), wanted), "{text}");
         }
+    }
+
+    #[test]
+    fn what_is_written_otherwise_has_its_part() {
+        #[derive(Debug, serde::Deserialize)]
+        #[serde(deny_unknown_fields)]
+        struct Ball {
+            #[expect(dead_code, reason = "only whether it can be read is asked")]
+            radius: f64,
+        }
+        let value = |text| parse(text).expect("JSON");
+        let said = |text| {
+            let balls: Result<Vec<Ball>, _> =
+                super::typed(std::path::Path::new("f.json"), value(text), "write `..`");
+            balls.expect_err("refused").to_string()
+        };
+        assert_eq!(
+            said(r#"[{"radius": 1}, {"radius": "2"}]"#),
+            "f.json: `[1].radius`: invalid type: string \"2\", expected f64; write `..`"
+        );
+        assert!(said(r#"[{"radios": 1}]"#).contains("`[0].radios`: unknown field"));
+        assert!(said("3").starts_with("f.json: invalid type: integer `3`"));
     }
 }

@@ -12,12 +12,16 @@ use crate::identify::report::report;
 use crate::identify::table::table;
 use crate::identify::told_apart;
 use crate::interpreted::InterpretedArm;
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
 /// Identify from factors that `identify --factor` wrote, without the logs.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model merge arm.robot here.json there.json --validate tuesday.csv --json fit.json
+  robot-model merge arm.robot here.json there.json --factor both.json")]
 pub(crate) struct Merge {
     /// The `.robot` file.
     spec: PathBuf,
@@ -30,6 +34,8 @@ pub(crate) struct Merge {
     /// A log that is not fitted, to judge the model on.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Write the factor of all.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
@@ -58,7 +64,9 @@ impl Merge {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.factors)
             .chain(&self.validate);
-        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let settings = &self.log_settings;
+        let mut files =
+            Files::reading(inputs.map(PathBuf::as_path)).and(settings.files(&self.validate));
         let out = files.claim_if(self.factor.as_deref())?;
         let json = files.claim_if(self.json.as_deref())?;
         let form = ByAcceleration(InterpretedArm::new(compile(&self.spec)?));
@@ -66,8 +74,9 @@ impl Merge {
         let progress = Progress::new();
         let mut all: Option<Factor> = None;
         let mut read: Vec<(&PathBuf, Factor)> = Vec::new();
-        for path in &self.factors {
-            progress.step(&format!("reading {}", path.display()));
+        for (k, path) in self.factors.iter().enumerate() {
+            let done = k as f64 / self.factors.len() as f64;
+            progress.part(&format!("reading {}", path.display()), done);
             let factor = reduced::read(path, arm)?;
             for doubt in twice(path, &factor, &read) {
                 progress.note(&format!("note: {doubt}"));
@@ -99,7 +108,7 @@ impl Merge {
         let validation = match &self.validate {
             None => None,
             Some(path) => {
-                let mended = read_mended(path, &arm.compiled().model, &progress)?;
+                let mended = read_mended(path, &arm.compiled().model, settings, &progress)?;
                 let source = path.display().to_string();
                 let found = mended.faults.into_iter();
                 faults.extend(found.map(|fault| (source.clone(), fault)));

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
 
-use crate::Error;
+use crate::{Error, interrupt};
 
 /// What the errors in a table are.
 pub(crate) const ERRORS: &str = "RMSE: raw samples, N m (prismatic joints: N), first and last second cut; relative: in the filtered band";
@@ -55,6 +55,13 @@ impl Files {
             inputs: inputs.into_iter().map(known).collect(),
             outputs: Vec::new(),
         }
+    }
+
+    /// Files that it reads besides.
+    pub(crate) fn and(mut self, inputs: impl IntoIterator<Item = PathBuf>) -> Self {
+        let known = inputs.into_iter().map(|path| (identity(&path), path));
+        self.inputs.extend(known);
+        self
     }
 
     /// Claims a file to write, which is neither read nor written by the same command otherwise.
@@ -124,6 +131,8 @@ pub(crate) struct OutFile {
     path: PathBuf,
     /// The file itself, where the path is a link to it.
     target: PathBuf,
+    /// Whether what is there already stays.
+    is_new: bool,
 }
 
 impl OutFile {
@@ -155,6 +164,19 @@ impl OutFile {
         Ok(Self {
             path: path.to_owned(),
             target,
+            is_new: false,
+        })
+    }
+
+    /// The same for a file that is not there yet, nor comes there before this one is written.
+    pub(crate) fn create_new(path: &Path) -> Result<Self, Error> {
+        if fs::symlink_metadata(path).is_ok() {
+            return Err(there_already(path));
+        }
+        let file = Self::create(path)?;
+        Ok(Self {
+            is_new: true,
+            ..file
         })
     }
 
@@ -165,15 +187,33 @@ impl OutFile {
 
     /// Puts the content in place.
     pub(crate) fn commit(self, content: &[u8]) -> Result<(), Error> {
+        interrupt::whole(|| self.put(content))
+    }
+
+    fn put(self, content: &[u8]) -> Result<(), Error> {
         let failed = |error: &io::Error| refused(&self.path, &reason(error));
         let mut file = builder()
             .tempfile_in(folder_of(&self.target))
             .map_err(|error| failed(&error))?;
         file.write_all(content).map_err(|error| failed(&error))?;
-        file.persist(&self.target)
-            .map_err(|error| failed(&error.error))?;
+        let persisted = if self.is_new {
+            file.persist_noclobber(&self.target)
+        } else {
+            file.persist(&self.target)
+        };
+        persisted.map_err(|error| match error.error.kind() {
+            io::ErrorKind::AlreadyExists => there_already(&self.path),
+            _ => failed(&error.error),
+        })?;
         Ok(())
     }
+}
+
+fn there_already(path: &Path) -> Error {
+    refused(
+        path,
+        "there is such a file already; give another name, or `--force` to put this one in its place",
+    )
 }
 
 /// The regular file, open to writing, that is at a path already.

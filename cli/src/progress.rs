@@ -1,17 +1,26 @@
-//! Progress of long work, on standard error.
+//! Progress of long work, on standard error: on a terminal with the time it takes, and the time that is left where that is known.
 
 use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::output;
 
 /// Where steps follow each other fast, one plain line in so long.
 const SELDOM: Duration = Duration::from_secs(10);
 
-/// A line that says what is being done: a spinner on a terminal, one plain line a step elsewhere.
+/// What a terminal shows of work whose end is not known.
+const SPINNER: &str = "{spinner} {msg} [{elapsed}]";
+
+/// What it shows of work of which a part is done.
+const BAR: &str = "{spinner} [{bar:20}] {percent:>3} % {msg} [{elapsed}, {eta} to go]";
+
+/// Steps of a bar.
+const WHOLE: u64 = 1000;
+
+/// A line that says what is being done: a spinner or a bar on a terminal, one plain line a step elsewhere.
 #[derive(Debug)]
 pub struct Progress {
     bar: Option<ProgressBar>,
@@ -24,17 +33,15 @@ impl Progress {
     /// Nothing is shown before the first step.
     #[must_use]
     pub fn new() -> Self {
-        let bar = std::io::stderr().is_terminal().then(|| {
-            let bar = ProgressBar::new_spinner();
-            bar.set_style(ProgressStyle::default_spinner());
+        let is_shown = std::io::stderr().is_terminal();
+        let mut progress = Self::silent();
+        progress.bar = is_shown.then(|| {
+            let bar = bar(ProgressDrawTarget::stderr());
             bar.enable_steady_tick(Duration::from_millis(100));
             bar
         });
-        Self {
-            bar,
-            is_silent: false,
-            said: Mutex::new(None),
-        }
+        progress.is_silent = false;
+        progress
     }
 
     /// Nothing is shown at all.
@@ -50,14 +57,38 @@ impl Progress {
     /// Says what comes now.
     pub(crate) fn step(&self, what: &str) {
         match &self.bar {
-            Some(bar) => bar.set_message(what.to_owned()),
+            Some(bar) => {
+                if bar.length().is_some() {
+                    bar.unset_length();
+                    bar.set_style(style(SPINNER));
+                }
+                bar.set_message(what.to_owned());
+            }
             None if self.is_silent => {}
             None => output::say(what),
         }
     }
 
-    /// Says one of many steps; elsewhere than on a terminal only now and then.
-    pub(crate) fn often(&self, what: &str) {
+    /// Says which part of a known whole comes now; `done`, from 0 to 1, is what is behind.
+    pub(crate) fn part(&self, what: &str, done: f64) {
+        let Some(bar) = &self.bar else {
+            return self.step(what);
+        };
+        let whole = WHOLE as f64;
+        let done = (0..=WHOLE).rfind(|step| *step as f64 <= done * whole);
+        let done = done.unwrap_or_default();
+        if bar.length().is_none() || done < bar.position() {
+            // Of other work; its time counts from here.
+            bar.reset();
+            bar.set_length(WHOLE);
+            bar.set_style(style(BAR));
+        }
+        bar.set_message(what.to_owned());
+        bar.set_position(done);
+    }
+
+    /// Says one of many steps, and which part is behind where that is known; elsewhere than on a terminal only now and then.
+    pub(crate) fn often(&self, what: &str, done: Option<f64>) {
         if self.bar.is_none() {
             let Ok(mut said) = self.said.lock() else {
                 return;
@@ -67,7 +98,15 @@ impl Progress {
             }
             *said = Some(Instant::now());
         }
-        self.step(what);
+        match done {
+            Some(done) => self.part(what, done),
+            None => self.step(what),
+        }
+    }
+
+    /// Whether somebody looks on: then it may be said more often.
+    pub(crate) const fn is_live(&self) -> bool {
+        self.bar.is_some()
     }
 
     /// Says something that stays.
@@ -78,6 +117,17 @@ impl Progress {
             None => output::say(what),
         }
     }
+}
+
+/// A bar whose end is not known yet.
+fn bar(target: ProgressDrawTarget) -> ProgressBar {
+    ProgressBar::with_draw_target(None, target).with_style(style(SPINNER))
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template)
+        .expect("the templates of this module")
+        .progress_chars("=> ")
 }
 
 impl Default for Progress {
@@ -91,5 +141,44 @@ impl Drop for Progress {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use indicatif::InMemoryTerm;
+
+    use super::*;
+
+    #[test]
+    fn a_terminal_shows_what_is_left_of_known_work() {
+        let terminal = InMemoryTerm::new(4, 100);
+        let target = ProgressDrawTarget::term_like(Box::new(terminal.clone()));
+        let mut progress = Progress::silent();
+        progress.bar = Some(bar(target));
+        progress.step("compiling");
+        let shown = terminal.contents();
+        assert!(shown.contains("compiling [0s]"), "{shown}");
+        assert!(!shown.contains("to go"), "{shown}");
+        for (done, percent) in [(0.0, "  0 %"), (0.25, " 25 %"), (1.0, "100 %")] {
+            progress.part("simulating", done);
+            progress.bar.as_ref().expect("a bar").force_draw();
+            let shown = terminal.contents();
+            assert!(
+                shown.contains(&format!("{percent} simulating [")),
+                "{shown}"
+            );
+            assert!(shown.contains(" to go]"), "{shown}");
+        }
+        // What begins anew is another work, and what has no end has none.
+        progress.part("again", 0.1);
+        progress.bar.as_ref().expect("a bar").force_draw();
+        assert!(terminal.contents().contains(" 10 % again"));
+        progress.step("done");
+        progress.bar.as_ref().expect("a bar").force_draw();
+        assert!(!terminal.contents().contains('%'));
+        progress.note("note: stays");
+        drop(progress);
+        assert_eq!(terminal.contents(), "note: stays");
     }
 }

@@ -11,6 +11,10 @@ use crate::{Error, output};
 
 /// Show an arm's equations.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model show arm.robot --what mass-matrix
+  robot-model show arm.robot --as latex > arm.tex
+  robot-model show arm.robot --what base-parameters")]
 pub(crate) struct Show {
     /// The `.robot` file.
     spec: PathBuf,

@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use robot_model::log::{Column, Columns, Log, MOTION_PHASE, Mended};
+use robot_model::log::{Log, MOTION_PHASE, Mended};
 use robot_model_codegen::base::RankStatus;
 use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
-use robot_model_spec::model::LogColumn;
 
+use crate::log_settings::LogSettings;
 use crate::parameters::no_body;
 use crate::progress::Progress;
 use crate::{Error, output};
@@ -76,34 +76,6 @@ fn doubt(compiled: &Compiled) -> String {
     format!("{}: {}", compiled.model.source, compiled.base.rank)
 }
 
-/// Where logs of the robot have their channels.
-pub(crate) fn log_columns(model: &Model) -> Columns {
-    let column = |own: &LogColumn| Column {
-        name: own.name.clone(),
-        unit: own.unit,
-    };
-    let log = &model.log;
-    let mut columns = Columns::standard(model.joints.len());
-    if let Some(time) = &log.time {
-        columns.time = column(time);
-    }
-    let families = [
-        (&mut columns.q, &log.q),
-        (&mut columns.dq, &log.dq),
-        (&mut columns.tau, &log.tau),
-    ];
-    for (standard, own) in families {
-        if !own.is_empty() {
-            *standard = own.iter().map(column).collect();
-        }
-    }
-    let inputs = log.inputs.iter();
-    columns.extra = inputs
-        .map(|(name, own)| (name.clone(), column(own)))
-        .collect();
-    columns
-}
-
 /// Whether an effect of a robot is of a part of its motion's period.
 fn reads_phase(model: &Model) -> bool {
     let mut effects = model.effects.iter();
@@ -117,9 +89,10 @@ fn reads_phase(model: &Model) -> bool {
 pub(crate) fn read_mended(
     path: &Path,
     model: &Model,
+    settings: &LogSettings,
     progress: &Progress,
 ) -> Result<Mended, Error> {
-    let log = read_log(path, model, progress)?;
+    let log = read_log(path, model, settings, progress)?;
     let source = log.source.clone();
     let mended = log.mended();
     for fault in mended.faults.iter().filter(|fault| !fault.is_in_report()) {
@@ -129,9 +102,15 @@ pub(crate) fn read_mended(
 }
 
 /// Reads a log of a robot, and says what is remarkable about it.
-pub(crate) fn read_log(path: &Path, model: &Model, progress: &Progress) -> Result<Log, Error> {
+pub(crate) fn read_log(
+    path: &Path,
+    model: &Model,
+    settings: &LogSettings,
+    progress: &Progress,
+) -> Result<Log, Error> {
+    let columns = settings.columns(path, model, progress)?;
     progress.step(&format!("reading {}", path.display()));
-    let mut log = Log::read_as(path, &log_columns(model))?;
+    let mut log = Log::read_as(path, &columns)?;
     if reads_phase(model) {
         log = log.with_motion_phase(None);
     }

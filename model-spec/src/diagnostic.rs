@@ -109,6 +109,17 @@ impl Diagnostic {
         self
     }
 
+    /// The same at another place of the text where it has none of its own.
+    #[cfg(feature = "log-settings")]
+    pub(crate) fn or_in_text(mut self, bytes: Range<usize>) -> Self {
+        if let Some(label) = self.labels.first_mut()
+            && label.place.span().byte_range().is_empty()
+        {
+            label.place = Place::Bytes(bytes);
+        }
+        self
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn help(mut self, help: impl Into<String>) -> Self {

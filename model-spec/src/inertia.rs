@@ -37,6 +37,16 @@ impl Inertial {
 
 /// Whether second moments with these inertias about the center of mass are positive, to within rounded digits and `lost`.
 pub(crate) fn has_a_body(inertia: &[[f64; 3]; 3], lost: f64) -> bool {
+    has_moments(inertia, lost, ROUNDED)
+}
+
+/// The same without room for rounded digits.
+pub(crate) fn surely_has_a_body(inertia: &[[f64; 3]; 3]) -> bool {
+    has_moments(inertia, 0.0, 0.0)
+}
+
+/// `rounded` is a share of the sum of moments.
+fn has_moments(inertia: &[[f64; 3]; 3], lost: f64, rounded: f64) -> bool {
     let trace: f64 = (0..3).map(|k| inertia[k][k]).sum();
     let zero = |row: usize, column: usize| inertia[row][column].abs() <= lost;
     let is_planar = (0..3).any(|k| zero(k, k)) && zero(0, 1) && zero(0, 2) && zero(1, 2);
@@ -46,7 +56,7 @@ pub(crate) fn has_a_body(inertia: &[[f64; 3]; 3], lost: f64) -> bool {
     let s: [[f64; 3]; 3] = std::array::from_fn(|row| {
         std::array::from_fn(|column| {
             let diagonal = if row == column {
-                (0.5 + ROUNDED) * trace + lost
+                (0.5 + rounded) * trace + lost
             } else {
                 0.0
             };

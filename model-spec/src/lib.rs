@@ -2,14 +2,18 @@
 //!
 //! ```text
 //! text -parse-> Ast -check-> Model        text + Amendment -amend-> text'        URDF -import-> text
+//! TOML -log_settings-> columns of a Model's logs (feature `log-settings`)
 //! ```
 //! No files are read here: callers bring the text and the name that messages show.
 pub mod amend;
 pub mod ast;
 mod check;
 pub mod diagnostic;
+pub mod export;
 mod inertia;
 pub mod library;
+#[cfg(feature = "log-settings")]
+mod log_settings;
 pub mod model;
 pub mod parameter;
 mod parse;
@@ -23,8 +27,11 @@ pub use ast::Ast;
 pub use check::check;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use library::standard_effects;
+#[cfg(feature = "log-settings")]
+pub use log_settings::{ColumnKind, LogSettings, log_column_unit, log_settings};
 pub use model::Model;
 pub use parse::parse_tokens;
+pub use transform::upper_camel;
 
 /// Parses and checks a spec. `source_name` is what messages call the text, usually its path.
 ///

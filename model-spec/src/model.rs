@@ -213,8 +213,21 @@ pub struct Joint {
     pub limits: Limits,
     /// Joint torque (N m, or N) per unit of the logged channel; 1 where the log holds torques.
     pub actuator_gain: f64,
+    /// What the gain is written in; `None` where the spec has none.
+    pub actuator_gain_unit: Option<GainUnit>,
     /// Line of the declaration in the spec, from 1.
     pub line: usize,
+}
+
+/// What an `actuator_gain` is written in, and so what it is multiplied with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GainUnit {
+    /// No unit: whatever the log has makes a torque.
+    Plain,
+    /// A torque (or force): the log has plain numbers.
+    Torque,
+    /// A torque (or force) per ampere: the log has currents.
+    TorquePerAmpere,
 }
 
 /// What a joint's coordinate is.

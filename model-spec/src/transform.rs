@@ -143,7 +143,8 @@ impl Transform {
 }
 
 /// `ur10_robot` as `Ur10Robot`: a name that Rust accepts for a type.
-pub(crate) fn upper_camel(name: &str) -> String {
+#[must_use]
+pub fn upper_camel(name: &str) -> String {
     let mut camel = String::new();
     for part in name
         .split(|c: char| !c.is_ascii_alphanumeric())

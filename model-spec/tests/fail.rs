@@ -19,3 +19,24 @@ fn every_mistake_is_told_with_its_place_and_its_remedy() {
         });
     });
 }
+
+#[test]
+fn every_mistake_of_log_settings_is_told_with_its_place_and_its_remedy() {
+    let spec = include_str!("../../tests/specs/settings/gantry.robot");
+    let model = robot_model_spec::load("gantry.robot", spec).unwrap_or_else(|e| panic!("{e}"));
+    insta::glob!("../../tests/specs/settings/fail", "*.toml", |path| {
+        let name = path.file_name().unwrap().to_string_lossy();
+        let text = fs::read_to_string(path).unwrap();
+        let errors = robot_model_spec::log_settings(&model, &name, &text).expect_err("a mistake");
+        let rendered = errors.render(false);
+        assert!(rendered.contains(&format!("--> {name}:")), "{rendered}");
+        assert_eq!(
+            rendered.matches("= help: ").count(),
+            errors.len(),
+            "{rendered}"
+        );
+        insta::with_settings!({ prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!("settings_refused", rendered);
+        });
+    });
+}

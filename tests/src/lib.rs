@@ -7,6 +7,7 @@ pub mod emitted;
 pub mod evaluate;
 pub mod expression;
 pub mod mechanics;
+pub mod mjcf;
 pub mod oracle;
 pub mod program;
 pub mod shared;

@@ -2,18 +2,14 @@
 
 use robot_model::Inertial;
 use robot_model_codegen::Compiled;
-use robot_model_spec::parameter::Owner;
 
 use super::{Check, Finding, Quantity};
-use crate::interpreted::{payloads, possible_arms};
+use crate::interpreted::{payloads, possible_arms, share_deviations};
 use crate::output::{counted, rounded};
 use crate::parameters::Values;
 
 /// Second moments of mass are taken to be known to this share of the largest: published ones have three digits or more.
 const SHARE: f64 = 1e-3;
-
-/// Base parameters are taken to be known to a share of their size, and of the largest with the same unit.
-const LEAST_SHARE: f64 = 1e-3;
 
 /// Rounding of sums.
 const ROUNDING: f64 = 1e-9;
@@ -111,20 +107,7 @@ fn of_base(compiled: &Compiled, beta: &[f64], scope: String) -> Check {
         .map(|column| base.kept[column])
         .collect();
     arms.nonnegative.retain(|k| !alone.contains(k));
-    // Masses, first moments, moments of inertia: each beside those of its kind.
-    let kind = |column: usize| match compiled.standard[base.kept[column]].owner {
-        Owner::Link { element, .. } => Some(element.name().len()),
-        Owner::Effect { .. } | Owner::Monomial(_) => None,
-    };
-    let deviations: Vec<f64> = (0..beta.len())
-        .map(|column| {
-            let alike = (0..beta.len()).filter(|&other| kind(other) == kind(column));
-            let largest = alike
-                .map(|other| beta[other].abs())
-                .fold(f64::MIN_POSITIVE, f64::max);
-            SHARE * beta[column].abs().max(LEAST_SHARE * largest)
-        })
-        .collect();
+    let deviations = share_deviations(compiled, beta);
     let findings = WIDER.into_iter().find_map(|wider| {
         let wide: Vec<f64> = deviations.iter().map(|one| wider * one).collect();
         let (nearest, _) = arms.nearest_to(beta, &wide)?;

@@ -23,6 +23,8 @@ use crate::{Error, spec};
 ///
 /// Exit code 1 where a check fails; the report is written all the same.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model audit arm.robot --parameters fit.json")]
 pub(crate) struct Audit {
     /// The `.robot` file. Position limits are the workspace, velocity limits the speeds.
     spec: PathBuf,

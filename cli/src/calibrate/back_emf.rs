@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_model::calibrate::{CalibrateError, Commanded, Measured, MotorVoltage, Windows};
+use robot_model_spec::ColumnKind;
 use serde::Serialize;
 
 use crate::Error;
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
 
 use super::figure;
@@ -50,6 +52,8 @@ pub(crate) struct BackEmf {
     /// The column of time, s.
     #[arg(long, value_name = "COLUMN", default_value = "time")]
     time: String,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -105,20 +109,25 @@ enum Motion {
 impl BackEmf {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let motion = match (&self.velocity, &self.position) {
-            (Some(velocity), _) => ("--velocity", velocity.as_str()),
-            (None, Some(position)) => ("--position", position.as_str()),
+            (Some(velocity), _) => ("--velocity", velocity.as_str(), ColumnKind::AngularSpeed),
+            (None, Some(position)) => ("--position", position.as_str(), ColumnKind::Angle),
             (None, None) => unreachable!("one of both is required"),
         };
         let mut wanted = vec![
-            ("--time", self.time.as_str()),
-            ("--current", &self.current),
+            ("--time", self.time.as_str(), ColumnKind::Time),
+            ("--current", self.current.as_str(), ColumnKind::Current),
             motion,
         ];
-        wanted.extend(self.voltage.as_deref().map(|column| ("--voltage", column)));
-        let mut files = Files::reading([self.log.as_path()]);
+        wanted.extend(
+            self.voltage
+                .as_deref()
+                .map(|column| ("--voltage", column, ColumnKind::Voltage)),
+        );
+        let settings = &self.log_settings;
+        let mut files = Files::reading([self.log.as_path()]).and(settings.files([&self.log]));
         let json = files.claim_if(self.json.as_deref())?;
         let figure = files.claim_if(self.figure.as_deref())?;
-        let table = Table::read(&self.log, &wanted)?;
+        let table = Table::read(&self.log, &wanted, settings)?;
         let refused = |error: CalibrateError| table.refused(&error);
         let [time, current, moved, voltage @ ..] = &table.columns[..] else {
             unreachable!("as many columns as were asked for");

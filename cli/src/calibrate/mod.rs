@@ -15,6 +15,9 @@ use static_gain::Static;
 
 /// Find what stands between a motor's current and a joint's torque, from tables of measurements.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model calibrate static blocked.csv --current i --torque tau
+  robot-model calibrate back-emf log.csv --current i --velocity w --voltage v")]
 pub(crate) struct Calibrate {
     #[command(subcommand)]
     what: What,

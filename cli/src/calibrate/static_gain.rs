@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_model::calibrate::{StaticGain, Term};
+use robot_model_spec::ColumnKind;
 use serde::Serialize;
 
 use crate::Error;
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
 
 use super::figure;
@@ -48,6 +50,8 @@ pub(crate) struct Static {
         allow_negative_numbers = true
     )]
     arm: Option<f64>,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -81,9 +85,9 @@ struct Report {
 
 impl Static {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let (option, column) = match (&self.torque, &self.force) {
-            (Some(torque), _) => ("--torque", torque),
-            (None, Some(force)) => ("--force", force),
+        let measured = match (&self.torque, &self.force) {
+            (Some(torque), _) => ("--torque", torque.as_str(), ColumnKind::Torque),
+            (None, Some(force)) => ("--force", force.as_str(), ColumnKind::Force),
             (None, None) => unreachable!("one of both is required"),
         };
         let arm = self.arm.unwrap_or(1.0);
@@ -92,11 +96,12 @@ impl Static {
                 "--arm {arm}: a distance in m that is above zero"
             )));
         }
-        let mut files = Files::reading([self.table.as_path()]);
+        let settings = &self.log_settings;
+        let mut files = Files::reading([self.table.as_path()]).and(settings.files([&self.table]));
         let json = files.claim_if(self.json.as_deref())?;
         let figure = files.claim_if(self.figure.as_deref())?;
-        let wanted = [("--current", self.current.as_str()), (option, column)];
-        let table = Table::read(&self.table, &wanted)?;
+        let current = ("--current", self.current.as_str(), ColumnKind::Current);
+        let table = Table::read(&self.table, &[current, measured], settings)?;
         let current = &table.columns[0];
         let torque: Vec<f64> = table.columns[1].iter().map(|x| arm * x).collect();
         let line = StaticGain::fit(current, &torque).map_err(|error| table.refused(&error))?;

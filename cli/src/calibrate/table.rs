@@ -3,10 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use robot_model::calibrate::CalibrateError;
+use robot_model_spec::ColumnKind;
 
 use crate::Error;
+use crate::log_settings::LogSettings;
 use crate::output::names;
 use crate::spec::read_text;
+
+/// The option that names a column, that name, and what is in it.
+pub(super) type Wanted<'a> = (&'a str, &'a str, ColumnKind);
 
 /// The columns that were asked for; others may hold anything.
 #[derive(Debug)]
@@ -19,10 +24,10 @@ pub(super) struct Table {
 }
 
 impl Table {
-    /// Reads columns, each by the option that names it.
-    pub fn read(path: &Path, wanted: &[(&str, &str)]) -> Result<Self, Error> {
-        for (k, (option, name)) in wanted.iter().enumerate() {
-            if let Some((other, _)) = wanted[..k].iter().find(|(_, other)| other == name) {
+    /// Reads columns in SI units, each by the option that names it.
+    pub fn read(path: &Path, wanted: &[Wanted], settings: &LogSettings) -> Result<Self, Error> {
+        for (k, (option, name, _)) in wanted.iter().enumerate() {
+            if let Some((other, ..)) = wanted[..k].iter().find(|(_, other, _)| other == name) {
                 return Err(Error::Argument(format!(
                     "{other} and {option} name the same column `{name}`; give each its own"
                 )));
@@ -35,6 +40,9 @@ impl Table {
         let header = reader.headers().map_err(|error| unreadable(path, &error))?;
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
         let places = places(path, &header, wanted)?;
+        let units = wanted.iter();
+        let units = units.map(|(_, name, kind)| settings.unit(path, name, *kind));
+        let units = units.collect::<Result<Vec<f64>, Error>>()?;
         let mut table = Self {
             path: path.to_owned(),
             columns: vec![Vec::new(); wanted.len()],
@@ -43,10 +51,10 @@ impl Table {
         for record in reader.records() {
             let record = record.map_err(|error| unreadable(path, &error))?;
             let line = record.position().map_or(0, csv::Position::line);
-            for (place, column) in places.iter().zip(&mut table.columns) {
+            for ((place, unit), column) in places.iter().zip(&units).zip(&mut table.columns) {
                 let field = record.get(*place).unwrap_or_default();
                 match field.parse::<f64>() {
-                    Ok(value) if value.is_finite() => column.push(value),
+                    Ok(value) if value.is_finite() => column.push(unit * value),
                     _ => {
                         let name = &header[*place];
                         return Err(refused(
@@ -75,7 +83,7 @@ impl Table {
 }
 
 /// Where the columns stand.
-fn places(path: &Path, header: &[String], wanted: &[(&str, &str)]) -> Result<Vec<usize>, Error> {
+fn places(path: &Path, header: &[String], wanted: &[Wanted]) -> Result<Vec<usize>, Error> {
     let place = path.display().to_string();
     if header.iter().all(String::is_empty) {
         return Err(refused(
@@ -96,7 +104,7 @@ fn places(path: &Path, header: &[String], wanted: &[(&str, &str)]) -> Result<Vec
         ));
     }
     let there: Vec<&str> = header.iter().map(String::as_str).collect();
-    let found = wanted.iter().map(|(option, name)| {
+    let found = wanted.iter().map(|(option, name, _)| {
         let mut places = (0..header.len()).filter(|k| header[*k] == *name);
         let found = places.next().ok_or_else(|| {
             refused(

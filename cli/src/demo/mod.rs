@@ -42,6 +42,9 @@ const WORN_SPEED: f64 = 0.15;
 
 /// The whole loop on a built-in arm, without arguments or files: identify, trace, amend, recompile, compare.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model demo
+  robot-model demo --json demo.json")]
 pub(crate) struct Demo {
     /// Write both results as JSON.
     #[arg(long, value_name = "FILE")]

@@ -3,7 +3,6 @@
 mod columns;
 mod criterion;
 mod figure;
-mod interrupt;
 mod limits;
 mod output;
 mod request;
@@ -17,12 +16,12 @@ use std::time::{Duration, Instant};
 use clap::{Args, ValueEnum};
 use robot_model::excite::{ExciteError, Progress as Search, Request};
 
+use crate::interrupt::Wish;
 use crate::output::{Files, counted};
 use crate::progress::Progress;
 use crate::{Error, spec};
 
 use criterion::CriterionArgument;
-use interrupt::Interrupt;
 
 /// Design the motion that identifies an arm best, within its limits.
 ///
@@ -223,7 +222,7 @@ fn search(
         Some(seconds) => Some(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
         None => None,
     };
-    let interrupted = Interrupt::watch();
+    let interrupted = Wish::watch();
     let told = Cell::new(0);
     let watch = |search: Search| {
         if told.replace(search.start) != search.start {
@@ -231,10 +230,9 @@ fn search(
             let best = best.map_or_else(String::new, |best| {
                 format!(", best value of the criterion so far {best:.3}")
             });
-            progress.step(&format!(
-                "start {} of {}{best}",
-                search.start, request.starts
-            ));
+            let what = format!("start {} of {}{best}", search.start, request.starts);
+            let behind = search.start.saturating_sub(1) as f64;
+            progress.part(&what, behind / request.starts as f64);
         }
         !interrupted.is_pressed() && budget.is_none_or(|budget| started.elapsed() < budget)
     };

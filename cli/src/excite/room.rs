@@ -48,6 +48,10 @@ struct Plane {
     offset: f64,
 }
 
+/// How it is written.
+const FORM: &str = "write `{\"balls\": [{\"link\": .., \"center\": [x, y, z], \"radius\": ..}, ..], \"box\": {\"low\": [..], \"high\": [..]}, \
+    \"planes\": [{\"normal\": [..], \"offset\": ..}], \"apart\": ..}`, all but `balls` where it is wanted";
+
 /// Reads the file.
 pub(super) fn read(
     path: &Path,
@@ -56,7 +60,7 @@ pub(super) fn read(
     period: f64,
 ) -> Result<Box<dyn Clearance>, Error> {
     let value = json::read(path)?;
-    let file: File = serde_json::from_value(value).map_err(|error| Error::json(path, &error))?;
+    let file: File = json::typed(path, value, FORM)?;
     let refused = |reason: String| Error::json(path, &reason);
     let Some(chain) = compiled.model.chain() else {
         return Err(refused(

@@ -16,6 +16,7 @@ use robot_model_codegen::Compiled;
 use crate::Error;
 use crate::dissect::check_channels;
 use crate::interpreted::InterpretedArm;
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted, names};
 use crate::parameters;
 use crate::progress::Progress;
@@ -33,7 +34,8 @@ use report::Found;
 pub(crate) struct Friction {
     /// The `.robot` file; the joint's friction need not be declared in it.
     spec: PathBuf,
-    /// Logs: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
+    /// Logs: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// The joint, by its name.
@@ -42,6 +44,8 @@ pub(crate) struct Friction {
     /// A log in which the torque rises slowly from rest until the joint breaks away: for the stiffness of its bristles.
     #[arg(long, value_name = "LOG")]
     pre_sliding: Option<PathBuf>,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// The arm's parameters, by name or what `identify --json` writes: the rigid body's torque is then known, and not fitted.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
@@ -59,14 +63,16 @@ impl Friction {
             .chain(&self.logs)
             .chain(&self.pre_sliding)
             .chain(&self.parameters);
-        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let settings = &self.log_settings;
+        let mut files = Files::reading(inputs.map(PathBuf::as_path))
+            .and(settings.files(self.logs.iter().chain(&self.pre_sliding)));
         let json = files.claim_if(self.json.as_deref())?;
         let figure = files.claim_if(self.figure.as_deref())?;
         let compiled = compile_instantaneous(&self.spec)?;
         let joint = self.joint(&compiled)?;
         let progress = Progress::new();
         let read = |path: &PathBuf| -> Result<Log, Error> {
-            Ok(read_mended(path, &compiled.model, &progress)?.log)
+            Ok(read_mended(path, &compiled.model, settings, &progress)?.log)
         };
         let logs: Vec<Log> = self.logs.iter().map(read).collect::<Result<_, _>>()?;
         let pre_sliding = self.pre_sliding.as_ref().map(read).transpose()?;

@@ -27,6 +27,7 @@ use robot_model::signal::{Bands, SignalError};
 use crate::Error;
 use crate::in_order::workers;
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::simulate::table::trajectory;
@@ -40,10 +41,17 @@ use table::table;
 
 /// Identify an arm's parameters from measured logs.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model identify arm.robot monday.csv --validate tuesday.csv --json fit.json
+  robot-model identify arm.robot monday.csv --method physical
+  robot-model identify arm.robot logs/monday.csv --log-settings drive.toml
+  robot-model identify arm.robot empty.csv --payload loaded.csv --payload-mass 2.5
+  robot-model identify arm.robot week.parquet --factor week.json")]
 pub(crate) struct IdentifyArguments {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
+    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// A log that is not fitted, to judge the model on.
@@ -94,6 +102,8 @@ pub(crate) struct IdentifyArguments {
     essential: bool,
     #[command(flatten)]
     rows: RowOptions,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Write what the logs tell, for `merge`; they are read piece by piece then, in memory that does not grow with them.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
@@ -160,7 +170,8 @@ impl IdentifyArguments {
             .chain(&self.logs)
             .chain(&self.validate)
             .chain(&self.instruments);
-        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
+        let json = files.claim_if(self.json.as_deref())?;
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
@@ -219,13 +230,14 @@ impl IdentifyArguments {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
-        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
         let out = files.claim(factor)?;
         let json = files.claim_if(self.json.as_deref())?;
         let progress = Progress::new();
         let streams = Streams {
             form,
             logs: &self.logs,
+            settings: &self.log_settings,
             as_logged: self.rows.as_logged,
             workers: workers(),
         };
@@ -334,6 +346,12 @@ impl IdentifyArguments {
         all
     }
 
+    /// Files that say where the logs have their columns.
+    fn settings_files(&self) -> Vec<PathBuf> {
+        let logs = self.logs.iter().chain(&self.validate).chain(&self.payload);
+        self.log_settings.files(logs)
+    }
+
     /// A log, mended; its faults are added to the others.
     fn log(
         &self,
@@ -343,9 +361,9 @@ impl IdentifyArguments {
         progress: &Progress,
     ) -> Result<Log, Error> {
         if self.rows.as_logged {
-            return read_log(path, form.model(), progress);
+            return read_log(path, form.model(), &self.log_settings, progress);
         }
-        let mended = read_mended(path, form.model(), progress)?;
+        let mended = read_mended(path, form.model(), &self.log_settings, progress)?;
         for doubt in doubts::far_positions(form.model(), &mended.log) {
             progress.note(&format!("note: {}: {doubt}", path.display()));
         }

@@ -100,7 +100,8 @@ impl IdentifyArguments {
             .chain(&self.logs)
             .chain(&self.validate)
             .chain(options.files());
-        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
+        let json = files.claim_if(self.json.as_deref())?;
         let compiled = if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
             // Motors and links move apart.
             compiled.ungrouped()

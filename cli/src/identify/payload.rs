@@ -53,7 +53,8 @@ impl IdentifyArguments {
             .chain(&self.logs)
             .chain(&self.payload)
             .chain(&self.validate);
-        let json = Files::reading(inputs.map(PathBuf::as_path)).claim_if(self.json.as_deref())?;
+        let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
+        let json = files.claim_if(self.json.as_deref())?;
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);

@@ -11,8 +11,8 @@ use serde_json::Value;
 use super::fit::{ByAcceleration, Fit};
 use crate::in_order::in_order;
 use crate::interpreted::InterpretedArm;
+use crate::log_settings::LogSettings;
 use crate::progress::Progress;
-use crate::spec::log_columns;
 use crate::{Error, json};
 
 /// Rows of a log in memory at a time, half of them at least.
@@ -97,6 +97,9 @@ impl Block {
     }
 }
 
+/// What a factor is not that is refused.
+const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
+
 /// The first did not say what its columns are made of, nor which rows are at turns.
 const FORM: u32 = 2;
 
@@ -126,7 +129,7 @@ pub(crate) fn text(factor: &Factor) -> String {
 
 /// Whether a file looks like a log: by its first bytes, or by the names in its first line.
 fn log_of(path: &Path) -> bool {
-    const MAGIC: [&[u8]; 2] = [b"PAR1", &[0x1f, 0x8b]];
+    const MAGIC: [&[u8]; 3] = [b"PAR1", b"\x89MCAP", &[0x1f, 0x8b]];
     let Ok(bytes) = std::fs::read(path) else {
         return false;
     };
@@ -154,8 +157,7 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
             "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
         )));
     }
-    let file: File = serde_json::from_value(value)
-        .map_err(|error| refuse(&format!("it is no factor of `identify --factor`: {error}")))?;
+    let file: File = json::typed(path, value, AS_WRITTEN)?;
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     for (k, block) in file.blocks.iter().enumerate() {
         if let Some(fault) = block.fault(joints, width) {
@@ -197,6 +199,7 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
 pub(super) struct Streams<'a> {
     pub form: &'a ByAcceleration,
     pub logs: &'a [PathBuf],
+    pub settings: &'a LogSettings,
     pub as_logged: bool,
     /// Pieces that are worked on at a time.
     pub workers: usize,
@@ -225,7 +228,7 @@ impl Streams<'_> {
         for path in self.logs {
             let bands = match &factor {
                 Some(factor) => factor.bands,
-                None => self.bands(identify, path)?,
+                None => self.bands(identify, path, progress)?,
             };
             let factor = match &mut factor {
                 Some(factor) => factor,
@@ -251,8 +254,9 @@ impl Streams<'_> {
         factor.ok_or_else(|| Error::from(robot_model::identify::IdentifyError::NoLog))
     }
 
-    fn bands(&self, identify: &Identify, path: &Path) -> Result<Bands, Error> {
-        let mut pieces = Log::pieces(path, &log_columns(self.form.model()), PIECE, 0.0)?;
+    fn bands(&self, identify: &Identify, path: &Path, progress: &Progress) -> Result<Bands, Error> {
+        let columns = self.settings.columns(path, self.form.model(), progress)?;
+        let mut pieces = Log::pieces(path, &columns, PIECE, 0.0)?;
         let first = pieces.next();
         let first = first.ok_or(robot_model::identify::IdentifyError::NoLog)??;
         Ok(identify.bands_of(&self.form.0, &first)?)
@@ -267,11 +271,13 @@ impl Streams<'_> {
         work: impl Fn(&Log) -> Result<R, Error> + Sync,
         mut take: impl FnMut(R, Vec<Fault>),
     ) -> Result<(), Error> {
-        let columns = log_columns(self.form.model());
+        let columns = self.settings.columns(path, self.form.model(), progress)?;
         // Filters cut one period of the band from either end.
         let overlap = 2.0 / bands.shared_hz;
-        let pieces = Log::pieces(path, &columns, PIECE, overlap)?.enumerate();
-        let pieces = pieces.map(|(k, piece)| {
+        let mut pieces = Log::pieces(path, &columns, PIECE, overlap)?;
+        let mut next = 0..;
+        let pieces = std::iter::from_fn(|| Some((next.next()?, pieces.next()?, pieces.done())));
+        let pieces = pieces.map(|(k, piece, done)| {
             let piece = piece?;
             // What is wrong with rows is of each piece; all else is alike.
             let is_own = |note: &&Note| {
@@ -283,7 +289,8 @@ impl Streams<'_> {
             for note in piece.report.iter().filter(|note| k == 0 || is_own(note)) {
                 progress.note(&format!("note: {}: {note}", path.display()));
             }
-            progress.often(&format!("{}: from {:.1} s", path.display(), piece.time[0]));
+            let what = format!("{}: from {:.1} s", path.display(), piece.time[0]);
+            progress.often(&what, done);
             Ok(piece)
         });
         let mend = |piece: Log| {
@@ -348,6 +355,7 @@ mod tests {
             let streams = Streams {
                 form: &form,
                 logs: &logs,
+                settings: &LogSettings::default(),
                 as_logged: false,
                 workers,
             };

@@ -34,7 +34,7 @@ pub use constants::Constants;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};
 pub use plant::InterpretedPlant;
-pub(crate) use possible::{payloads, possible_arms};
+pub(crate) use possible::{payloads, possible_arms, share_deviations};
 pub(crate) use states::states;
 pub use undeclared::Undeclared;
 

@@ -5,6 +5,31 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::model::{Act, Effect, EffectExpr, EffectLeaf, Expr, Inertial};
 use robot_model_spec::parameter::{InertialElement, Owner, Status};
 
+/// Base parameters without deviations are taken to be known to a share of their size: published ones have three digits or more.
+const SHARE: f64 = 1e-3;
+
+/// Of small ones that size is a share of the largest with the same unit.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// Deviations that stand for those of base parameters of which nobody says any.
+pub(crate) fn share_deviations(compiled: &Compiled, beta: &[f64]) -> Vec<f64> {
+    let base = &compiled.base;
+    // Masses, first moments, moments of inertia: each beside those of its kind.
+    let kind = |column: usize| match compiled.standard[base.kept[column]].owner {
+        Owner::Link { element, .. } => Some(element.name().len()),
+        Owner::Effect { .. } | Owner::Monomial(_) => None,
+    };
+    (0..beta.len())
+        .map(|column| {
+            let alike = (0..beta.len()).filter(|&other| kind(other) == kind(column));
+            let largest = alike
+                .map(|other| beta[other].abs())
+                .fold(f64::MIN_POSITIVE, f64::max);
+            SHARE * beta[column].abs().max(LEAST_SHARE * largest)
+        })
+        .collect()
+}
+
 /// `None` for a robot that says its energies.
 pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
     let (model, standard) = (&compiled.model, &compiled.standard);

@@ -37,6 +37,17 @@ pub(super) fn beside(path: &Path) -> Result<Option<BTreeMap<String, f64>>, Error
     Ok(Some(values))
 }
 
+/// Standard deviations by name, as far as a file of `identify` has some.
+pub(super) fn deviations(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
+    let file = json::read(path)?;
+    let list = file["parameters"].as_array().into_iter().flatten();
+    let known = list.filter_map(|entry| {
+        let std = entry["std"].as_f64().filter(|std| *std > 0.0)?;
+        Some((entry["name"].as_str()?.to_owned(), std))
+    });
+    Ok(known.collect())
+}
+
 fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {
     let entries = entries.iter();
     entries

@@ -87,6 +87,13 @@ pub(crate) fn values(
     Ok((values, doubts, source))
 }
 
+/// Standard deviations that a file of `identify` has for base parameters, in their order; none each where it has none.
+pub(crate) fn deviations(compiled: &Compiled, path: &Path) -> Result<Vec<Option<f64>>, Error> {
+    let found = file::deviations(path)?;
+    let names = compiled.base.names.iter();
+    Ok(names.map(|name| found.get(name).copied()).collect())
+}
+
 /// Values by name, and from the spec where none is given.
 pub(crate) fn by_name(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Values, Error> {
     let found = arm(compiled, given).map(|(values, _)| values);

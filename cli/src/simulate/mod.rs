@@ -23,7 +23,13 @@ use crate::spec::compile;
 
 /// Simulate an arm with all its declared effects, under a controller or freely, and write its log.
 #[derive(Debug, Args)]
-#[command(allow_negative_numbers = true)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "Examples:
+  robot-model simulate arm.robot --trajectory motion.csv --parameters fit.json --out log.csv
+  robot-model simulate arm.robot --trajectory motion.csv --controller computed-torque --encoder-bits 17 --torque-noise 0.02 --out log.csv
+  robot-model simulate arm.robot --trajectory start.csv --controller none --duration 5 --out fall.csv"
+)]
 pub(crate) struct Simulate {
     /// The `.robot` file.
     spec: PathBuf,
@@ -34,8 +40,9 @@ pub(crate) struct Simulate {
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-    /// The log to write: `time,q1..qn,dq1..dqn,tau1..taun[,extra]`.
-    #[arg(long, value_name = "LOG.csv")]
+    /// The log to write: CSV, `time,q1..qn,dq1..dqn,tau1..taun[,extra]`; where its name ends in `.mcap`, a bag of ROS 2 with joint
+    /// states.
+    #[arg(long, value_name = "LOG.csv|LOG.mcap")]
     out: PathBuf,
     /// Who decides the torque.
     #[arg(long, value_enum, default_value_t)]
@@ -171,6 +178,13 @@ impl Simulate {
         let progress = Progress::new();
         progress.step(&format!("compiling {}", self.spec.display()));
         let compiled = compile(&self.spec)?;
+        if let (true, Some(channel)) = (record::is_bag(&self.out), compiled.model.inputs().first())
+        {
+            return Err(Error::Argument(format!(
+                "{}: a declared effect reads `{channel}`, for which joint states have no place; write the log as CSV",
+                self.out.display()
+            )));
+        }
         let trajectory = table::trajectory(&self.trajectory, compiled.dof())?;
         let mut setting = self.set_up(&compiled, &trajectory)?;
         let (mut plant, shapes) = arm(&compiled, self.parameters.as_deref())?;
@@ -188,13 +202,12 @@ impl Simulate {
         let before = is_free.then(|| plant.energies(&start.q, &start.dq));
 
         let mut told = 0.0;
+        let pause = setting.duration * if progress.is_live() { 0.01 } else { 0.1 };
         let mut tell = |time: f64| {
-            if time == 0.0 || time >= told + 0.1 * setting.duration {
+            if time == 0.0 || time >= told + pause {
                 told = time;
-                progress.step(&format!(
-                    "simulating: {time:.1} s of {} s",
-                    setting.duration
-                ));
+                let what = format!("simulating: {time:.1} s of {} s", setting.duration);
+                progress.part(&what, time / setting.duration);
             }
         };
         let run = setting.run(plant, controller.as_mut(), &trajectory, &mut tell);
@@ -222,9 +235,9 @@ impl Simulate {
         for note in record::beyond_limits(&compiled.model, &trajectory, &record) {
             progress.note(&note);
         }
-        let text = record::csv(&record);
+        let log = record::log(&self.out, &record, &compiled.model)?;
         let said = record::summary(&self.out, &report, &compiled.model.joints);
-        out.commit(text.as_bytes())?;
+        out.commit(&log)?;
         if let Some(json) = json {
             json.commit(output::json(&report).as_bytes())?;
         }

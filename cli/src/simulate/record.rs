@@ -3,14 +3,43 @@
 use std::fmt::Write;
 use std::path::Path;
 
+use robot_model::log::JointStates;
 use robot_model::simulate::{Desired, Record, Trajectory};
 use robot_model_spec::Model;
 use robot_model_spec::model::{Joint, JointKind};
 
 use super::Report;
+use crate::Error;
+
+/// Whether a log is to be a bag of ROS 2, by its name.
+pub(super) fn is_bag(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("mcap"))
+}
+
+/// The log as a file of the kind that its name says.
+pub(super) fn log(path: &Path, record: &Record, model: &Model) -> Result<Vec<u8>, Error> {
+    if !is_bag(path) {
+        return Ok(csv(record).into_bytes());
+    }
+    let joints = model.joints.iter().map(|joint| joint.name.clone());
+    let joints: Vec<String> = joints.collect();
+    let states = JointStates {
+        topic: model.log.topic.as_deref().unwrap_or("/joint_states"),
+        joints: &joints,
+        time: &record.time,
+        q: &record.q,
+        dq: &record.dq,
+        tau: &record.tau,
+    };
+    states.to_mcap().map_err(|error| Error::Write {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })
+}
 
 /// `time,q1..,dq1..,tau1..[,extra]`
-pub(super) fn csv(record: &Record) -> String {
+fn csv(record: &Record) -> String {
     let mut text = String::from("time");
     for (stem, columns) in [("q", &record.q), ("dq", &record.dq), ("tau", &record.tau)] {
         for joint in 1..=columns.len() {

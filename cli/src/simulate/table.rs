@@ -20,6 +20,10 @@ fn refused(path: &Path, reason: &str) -> Error {
     Error::Argument(format!("{}: {reason}", path.display()))
 }
 
+fn refused_at(path: &Path, line: u64, reason: &str) -> Error {
+    Error::Argument(format!("{}:{line}: {reason}", path.display()))
+}
+
 fn read(path: &Path) -> Result<Table, Error> {
     let text = read_text(path)?;
     let mut reader = csv::ReaderBuilder::new()
@@ -32,24 +36,24 @@ fn read(path: &Path) -> Result<Table, Error> {
             len,
         } => {
             let line = pos.as_ref().map_or(0, csv::Position::line);
-            refused(
-                path,
-                &format!("line {line} has {len} fields, the header has {expected_len}"),
-            )
+            let reason = format!(
+                "the row has {len} fields, the header has {expected_len}; give every row one field a column"
+            );
+            refused_at(path, line, &reason)
         }
         _ => refused(path, &error.to_string()),
     };
     let header = reader.headers().map_err(unreadable)?;
     let names: Vec<String> = header.iter().map(str::to_owned).collect();
     if names.len() == 1 && names[0].contains([';', '\t']) {
-        return Err(refused(path, "its columns are to be parted by commas"));
+        let reason = "its columns are not separated by commas; separate columns with commas, and write decimals with a point";
+        return Err(refused_at(path, 1, reason));
     }
     for (k, name) in names.iter().enumerate() {
         if names[..k].contains(name) {
-            return Err(refused(
-                path,
-                &format!("column `{name}` stands there twice"),
-            ));
+            let reason =
+                format!("column `{name}` stands there twice; give one of them another name");
+            return Err(refused_at(path, 1, &reason));
         }
     }
     let mut columns = vec![Vec::new(); names.len()];
@@ -61,9 +65,9 @@ fn read(path: &Path) -> Result<Table, Error> {
                 Ok(value) if value.is_finite() => column.push(value),
                 _ => {
                     let reason = format!(
-                        "line {line}: `{name}` is `{field}`, where a finite number is wanted"
+                        "`{field}` in column `{name}` is no finite number; repair or remove the row"
                     );
-                    return Err(refused(path, &reason));
+                    return Err(refused_at(path, line, &reason));
                 }
             }
         }

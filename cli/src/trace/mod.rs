@@ -16,6 +16,7 @@ use robot_model::log::Log;
 
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
+use crate::log_settings::LogSettings;
 use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
@@ -26,15 +27,21 @@ pub(crate) use summary::summary;
 
 /// Trace the residual of an arm's model to an effect that the spec does not declare.
 #[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model trace arm.robot monday.csv --validate tuesday.csv
+  robot-model trace arm.robot monday.csv --validate tuesday.csv --amend arm2.robot --report page --json trace.json")]
 pub(crate) struct TraceArguments {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` has them.
+    /// Logs to fit: CSV (plain or gzip) or Parquet, `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]`, SI units, or as the spec's `log` or a `robot-model.toml` has them;
+    /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
     /// A log that is not fitted: errors before and after are judged on it, and nothing else is.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
+    #[command(flatten)]
+    log_settings: LogSettings,
     /// Write the spec with the traced effects declared; another file than the spec itself.
     #[arg(long, value_name = "OUT.robot")]
     amend: Option<PathBuf>,
@@ -57,7 +64,9 @@ impl TraceArguments {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
-        let mut files = Files::reading(inputs.map(PathBuf::as_path));
+        let settings = &self.log_settings;
+        let mut files = Files::reading(inputs.map(PathBuf::as_path))
+            .and(settings.files(self.logs.iter().chain(&self.validate)));
         let amend = files.claim_if(self.amend.as_deref())?;
         let predict = files.claim_if(self.predict.as_deref())?;
         let json = files.claim_if(self.json.as_deref())?;
@@ -67,9 +76,9 @@ impl TraceArguments {
         let logs = self
             .logs
             .iter()
-            .map(|path| read_log(path, &model, &progress))
+            .map(|path| read_log(path, &model, settings, &progress))
             .collect::<Result<Vec<_>, _>>()?;
-        let read = |path: &Path| read_mended(path, &model, &progress);
+        let read = |path: &Path| read_mended(path, &model, settings, &progress);
         let validate = self.validate.as_deref().map(read).transpose()?;
         let validate = validate.map(|mended| mended.log);
         let name = self.spec.display().to_string();

@@ -55,7 +55,19 @@ fn eval_refuses_states_of_another_arm() {
         said(r#"{"states":[{"q":[0,0],"dq":[0,0],"ddq":[0,0],"v":1}]}"#)
             .contains("unknown field `v`")
     );
-    assert!(said("{").contains("line 1"));
+    assert!(
+        said("{\n")
+            .starts_with("error: states.json:2:0: it is no JSON: EOF while parsing an object")
+    );
+    let typed = said(r#"{"states":[{"q":[0,0],"dq":[0,"x"],"ddq":[0,0]}]}"#);
+    assert!(
+        typed.starts_with("error: states.json: state 1: dq[1]: invalid type"),
+        "{typed}"
+    );
+    assert!(
+        typed.contains("write `{\"states\": [{\"q\": [..]"),
+        "{typed}"
+    );
 }
 
 /// A link that is known, and one that is not.

@@ -25,6 +25,7 @@ fn every_verb_refuses_a_broken_spec() {
             "out.json",
         ],
         vec!["audit", "broken.robot", "--parameters", "log.csv"],
+        vec!["export", "broken.robot", "--as", "urdf", "-o", "out.urdf"],
         vec!["dissect", "broken.robot", "log.csv", "--json", "out.json"],
         vec![
             "simulate",

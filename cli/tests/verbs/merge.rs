@@ -199,7 +199,7 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         ),
         (
             &["merge", "cart.robot", "plain.json"],
-            "it is no factor of `identify --factor`",
+            "it is no factor as `identify --factor` writes it",
         ),
         (
             &["merge", "cart.robot", "one.csv"],

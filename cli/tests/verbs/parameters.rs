@@ -46,9 +46,9 @@ fn eval_takes_standard_and_base_parameters() {
         "error: parameters.json: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
     );
     assert!(
-        folder
-            .refuse(&eval(r#"{"cart.m": 3,}"#))
-            .starts_with("error: parameters.json: trailing comma at line 1")
+        folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
+            "error: parameters.json:1:14: it is no JSON: trailing comma; repair it here"
+        )
     );
 }
 
@@ -94,10 +94,6 @@ fn slips_in_a_parameter_file_are_told() {
             "parameter `cart.m` stands there more than once; keep the value that is meant"
                 .to_owned(),
         ),
-        (
-            r#"{"cart.m": 1e999, "rail.viscous_friction.fv": 5}"#,
-            "number out of range at line 1 column 16".to_owned(),
-        ),
     ] {
         folder.write("parameters.json", text);
         assert_eq!(
@@ -106,6 +102,12 @@ fn slips_in_a_parameter_file_are_told() {
             "{text}"
         );
     }
+    let large = r#"{"cart.m": 1e999, "rail.viscous_friction.fv": 5}"#;
+    folder.write("parameters.json", large);
+    assert_eq!(
+        folder.refuse(&CART_WITH_PARAMETERS),
+        "error: parameters.json:1:16: it is no JSON: number out of range; repair it here\n"
+    );
 }
 
 /// What no arm has is computed with all the same: an identification may miss zero by its error.

@@ -304,7 +304,10 @@ fn what_cannot_be_simulated_is_told() {
     );
     folder.write("semicolons.csv", "time;q1\n0;0\n1;0\n");
     let said = refuse("dry.robot", &["--trajectory", "semicolons.csv"]);
-    assert!(said.contains("parted by commas"), "{said}");
+    assert!(
+        said.contains("semicolons.csv:1: its columns are not separated by commas"),
+        "{said}"
+    );
     folder.write(
         "warm.robot",
         &CART.replace("viscous_friction", "temperature_viscous(beta = 0.1)"),
@@ -328,7 +331,10 @@ fn what_cannot_be_simulated_is_told() {
     assert!(said.contains("`--controller computed-torque`"), "{said}");
     folder.write("wanted.csv", "time,q1\n0,1\n1,x\n");
     let said = refuse("dry.robot", &[]);
-    assert!(said.contains("wanted.csv: line 3: `q1` is `x`"), "{said}");
+    assert!(
+        said.contains("wanted.csv:3: `x` in column `q1` is no finite number"),
+        "{said}"
+    );
     folder.write("wanted.csv", "time,q1,q2\n0,1,1\n1,2,2\n2,3,3\n3,4,4\n");
     let said = refuse("dry.robot", &[]);
     assert!(

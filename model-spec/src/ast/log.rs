@@ -1,7 +1,7 @@
 //! Where logs have their channels, as it was written.
 
 use proc_macro2::Span;
-use syn::{Ident, LitStr};
+use syn::LitStr;
 
 use super::Expr;
 
@@ -17,8 +17,10 @@ pub struct LogBlock {
 /// `q = "pos_a": deg, "pos_b": deg`
 #[derive(Debug, Clone)]
 pub struct LogChannel {
-    /// `time`, `q`, `dq`, `tau`, or an input of an effect.
-    pub key: Ident,
+    /// `time`, `q`, `dq`, `tau`, `topic`, or an input of an effect.
+    pub key: String,
+    /// Where that stands.
+    pub span: Span,
     /// One column, or one for each joint.
     pub columns: Vec<LogColumn>,
 }

@@ -11,7 +11,9 @@ use super::unit::Dimension;
 use super::{Errors, check_unique, optional, value};
 use crate::ast::{self, Robot, Value};
 use crate::diagnostic::Diagnostic;
-use crate::model::{Convention, Inertial, Joint, JointKind, Limits, Link, Placement, Transform};
+use crate::model::{
+    Convention, GainUnit, Inertial, Joint, JointKind, Limits, Link, Placement, Transform,
+};
 use crate::suggest;
 
 /// A joint as far as its own block tells.
@@ -21,7 +23,7 @@ pub(super) struct CheckedJoint {
     placement: Placement,
     frame: String,
     limits: Limits,
-    actuator_gain: f64,
+    gain: Gain,
     pub(super) link: Ident,
     line: usize,
 }
@@ -34,7 +36,8 @@ impl CheckedJoint {
             name: self.name,
             kind: self.kind,
             limits: self.limits,
-            actuator_gain: self.actuator_gain,
+            actuator_gain: self.gain.value,
+            actuator_gain_unit: self.gain.unit,
             line: self.line,
         };
         let link = Link {
@@ -145,7 +148,7 @@ fn check_joint(
         }),
         frame: written(joint),
         limits: check_limits(&settings, kind, errors),
-        actuator_gain: check_gain(&settings, kind, errors),
+        gain: check_gain(&settings, kind, errors),
         link: check_link_name(joint, &settings, errors),
         line: joint.name.span().start().line,
     }
@@ -213,7 +216,21 @@ fn positive(value: &Value, dimension: Dimension) -> Result<f64, Diagnostic> {
     )
 }
 
-pub(super) fn check_gain(settings: &Settings, kind: JointKind, errors: &mut Errors) -> f64 {
+/// An `actuator_gain`; 1 without a unit where there is none.
+#[derive(Clone, Copy)]
+pub(super) struct Gain {
+    pub(super) value: f64,
+    pub(super) unit: Option<GainUnit>,
+}
+
+impl Gain {
+    pub(super) const NONE: Self = Self {
+        value: 1.0,
+        unit: None,
+    };
+}
+
+pub(super) fn check_gain(settings: &Settings, kind: JointKind, errors: &mut Errors) -> Gain {
     let gain = |v: &Value| {
         let gain = value::quantity(v)?;
         if gain.value.abs() == 0.0 {
@@ -224,23 +241,41 @@ pub(super) fn check_gain(settings: &Settings, kind: JointKind, errors: &mut Erro
             )
             .help("write the joint torque per unit of the logged channel; 1 where the log holds torques"));
         }
-        let torque = torque_dimension(kind);
-        let known = [torque, torque.times(Dimension::CURRENT, -1)];
-        match gain.dimension {
-            Some(found) if !known.contains(&found) => Err(Diagnostic::new(
+        let unit = match gain.dimension {
+            None => Some(GainUnit::Plain),
+            Some(found) => [GainUnit::Torque, GainUnit::TorquePerAmpere]
+                .into_iter()
+                .find(|unit| gain_dimension(*unit, kind) == Some(found)),
+        };
+        let found = gain.dimension.unwrap_or(Dimension::NONE);
+        match unit {
+            None => Err(Diagnostic::new(
                 v.span(),
                 format!("an actuator gain cannot be {}", found.describe()),
                 "joint torque per unit of the logged channel",
             )
             .help(format!(
                 "write a plain number, or {} per ampere: `0.1 {}/A`",
-                torque.describe(),
+                torque_dimension(kind).describe(),
                 torque_unit(kind)
             ))),
-            _ => Ok(gain.value),
+            unit => Ok(Gain {
+                value: gain.value,
+                unit,
+            }),
         }
     };
-    optional(settings.get("actuator_gain"), gain, errors).unwrap_or(1.0)
+    optional(settings.get("actuator_gain"), gain, errors).unwrap_or(Gain::NONE)
+}
+
+/// Dimension of a gain; none where it is a plain number.
+pub(super) fn gain_dimension(unit: GainUnit, kind: JointKind) -> Option<Dimension> {
+    let torque = torque_dimension(kind);
+    match unit {
+        GainUnit::Plain => None,
+        GainUnit::Torque => Some(torque),
+        GainUnit::TorquePerAmpere => Some(torque.times(Dimension::CURRENT, -1)),
+    }
 }
 
 /// Dimension of what drives the joint.

@@ -6,7 +6,7 @@ use proc_macro2::Span;
 use syn::Ident;
 
 use super::energies::says_energies;
-use super::setting::Settings;
+use super::setting::{Settings, meant};
 use super::{Definitions, Errors, value};
 use crate::ast::{DeclaredEffect, Robot, Target, Targets};
 use crate::diagnostic::Diagnostic;
@@ -161,8 +161,15 @@ fn check_given(
     shapes: &[Option<f64>],
     errors: &mut Errors,
 ) {
+    let names: Vec<&str> = definition
+        .shapes
+        .iter()
+        .map(|own| own.name.as_str())
+        .collect();
+    let meant = meant(&declared.shapes, &names);
     let mut open = definition.shapes.iter().zip(shapes);
-    let Some((shape, _)) = open.find(|(_, value)| value.is_none()) else {
+    let is_open = |name: &str| !meant.contains(&name);
+    let Some((shape, _)) = open.find(|(own, value)| value.is_none() && is_open(&own.name)) else {
         return;
     };
     if !definition.reads_measured_torque() {

@@ -1,7 +1,7 @@
 //! Frames of joints: the keys of the three conventions, and the one [`Placement`] that they end in.
 
 use super::chain::coordinate_dimension;
-use super::setting::Settings;
+use super::setting::{Settings, meant};
 use super::unit::Dimension;
 use super::{Errors, optional, value};
 use crate::ast::{self, Value};
@@ -99,7 +99,8 @@ pub(super) fn check_keys(
         )));
         return;
     }
-    check_complete(joint, required, errors);
+    let meant = meant(&joint.settings, &known);
+    check_complete(joint, required, &meant, errors);
 }
 
 fn variable_help(kind: JointKind) -> String {
@@ -112,11 +113,12 @@ fn variable_help(kind: JointKind) -> String {
     .to_owned()
 }
 
-fn check_complete(joint: &ast::Joint, required: &[&str], errors: &mut Errors) {
+fn check_complete(joint: &ast::Joint, required: &[&str], meant: &[&str], errors: &mut Errors) {
+    let is_there = |key: &str| joint.settings.iter().any(|setting| setting.key == key);
     let missing: Vec<&str> = required
         .iter()
         .copied()
-        .filter(|key| !joint.settings.iter().any(|setting| setting.key == key))
+        .filter(|key| !is_there(key) && !meant.contains(key))
         .collect();
     if !missing.is_empty() {
         let list = suggest::list(missing.iter().copied());

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::chain::CheckedJoint;
-use super::setting::Settings;
+use super::setting::{Settings, meant};
 use super::unit::Dimension;
 use super::{Errors, check_unique, optional, value};
 use crate::ast::{self, Robot, Value};
@@ -47,9 +47,10 @@ const KEYS: [&str; 3] = ["mass", "com", "inertia"];
 fn check_link(link: &ast::Link, errors: &mut Errors) -> Option<Inertial> {
     let owner = format!("link `{}`", link.name);
     let settings = Settings::new(&link.settings, &owner, &KEYS, errors);
+    let meant = meant(&link.settings, &KEYS);
     let missing: Vec<&str> = KEYS
         .into_iter()
-        .filter(|key| settings.get(key).is_none())
+        .filter(|key| settings.get(key).is_none() && !meant.contains(key))
         .collect();
     if !missing.is_empty() {
         errors.push(

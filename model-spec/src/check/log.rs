@@ -1,16 +1,23 @@
-//! `log { .. }`: channels that exist, as many columns as joints, units of the right dimension.
+//! `log { .. }`, and the same of a file of settings: channels that exist, as many columns as joints, units of the right dimension.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use proc_macro2::Span;
+use syn::Ident;
 
-use super::chain::{coordinate_dimension, speed_dimension, torque_dimension, torque_unit};
+use super::chain::{
+    coordinate_dimension, gain_dimension, speed_dimension, torque_dimension, torque_unit,
+};
 use super::unit::Dimension;
 use super::{Errors, value};
-use crate::ast::{self, LogChannel, Robot, Setting, Value};
+use crate::ast::{self, LogChannel, Robot, Setting};
 use crate::diagnostic::Diagnostic;
+#[cfg(feature = "log-settings")]
+use crate::log_settings::ColumnKind;
 use crate::model::{EffectDefinition, Joint, LogColumn, LogColumns};
+#[cfg(feature = "log-settings")]
+use crate::model::{GainUnit, Model};
 use crate::suggest;
 
 /// Names of inputs: of the whole arm, and of joints.
@@ -31,6 +38,24 @@ enum Channel {
     InputOfJoints(String),
 }
 
+/// Where else a column or a gain is said.
+#[derive(Clone)]
+enum Other {
+    /// In the same text.
+    Here(Span),
+    /// In the spec, which is another text: in words.
+    #[cfg(feature = "log-settings")]
+    InSpec(String),
+}
+
+/// What channels have to fit to.
+struct Arm<'a> {
+    joints: &'a [Joint],
+    inputs: Inputs,
+    /// Where the gains of the joints are, that have one.
+    gains: Vec<Option<Other>>,
+}
+
 /// Reports what is wrong with the log's columns; standard ones behind an error.
 pub(super) fn check_log(
     robot: &Robot,
@@ -38,9 +63,8 @@ pub(super) fn check_log(
     definitions: &[Arc<EffectDefinition>],
     errors: &mut Errors,
 ) -> LogColumns {
-    let mut columns = LogColumns::default();
     let [block, others @ ..] = robot.logs.as_slice() else {
-        return columns;
+        return LogColumns::default();
     };
     for other in others {
         errors.push(
@@ -49,22 +73,115 @@ pub(super) fn check_log(
                 .help("write all columns into one"),
         );
     }
-    let inputs = Inputs::of(definitions);
-    let mut keys = Vec::new();
-    let mut names: BTreeMap<String, Span> = BTreeMap::new();
-    for channel in &block.channels {
-        keys.push(&channel.key);
-        for column in &channel.columns {
-            check_column_name(column, &mut names, errors);
-        }
-        let Some(kind) = check_key(channel, &inputs, joints.len(), errors) else {
-            continue;
+    let arm = Arm {
+        joints,
+        inputs: Inputs::of(definitions),
+        gains: joints.iter().map(|joint| gain_of(robot, joint)).collect(),
+    };
+    let mut columns = LogColumns {
+        line: Some(block.keyword.start().line),
+        ..LogColumns::default()
+    };
+    arm.check(&block.channels, &mut columns, BTreeMap::new(), errors);
+    let keys = block.channels.iter();
+    let keys: Vec<Ident> = keys.map(|own| Ident::new(&own.key, own.span)).collect();
+    super::check_unique(&keys, "channel", errors);
+    columns
+}
+
+/// The columns of a robot's logs where a file beside its spec says some of them, channel by channel in place of the spec's.
+#[cfg(feature = "log-settings")]
+pub(crate) fn check_settings(
+    channels: &[LogChannel],
+    model: &Model,
+    errors: &mut Errors,
+) -> LogColumns {
+    let in_spec =
+        |line: usize, what: &str| Other::InSpec(format!("{}:{line}: {what}", model.source));
+    let gain = |joint: &Joint| {
+        let unit = joint.actuator_gain_unit?;
+        let gain = match unit {
+            GainUnit::Plain => "a plain number".to_owned(),
+            GainUnit::Torque => format!("in `{}`", torque_unit(joint.kind)),
+            GainUnit::TorquePerAmpere => format!("in `{}/A`", torque_unit(joint.kind)),
         };
-        if !check_count(channel, &kind, joints.len(), errors) {
-            continue;
+        let what = format!("the gain of `{}` is {gain}", joint.name);
+        Some(in_spec(joint.line, &what))
+    };
+    let arm = Arm {
+        joints: &model.joints,
+        inputs: Inputs::of(&model.definitions),
+        gains: model.joints.iter().map(gain).collect(),
+    };
+    let mut columns = model.log.clone();
+    for channel in channels {
+        forget(&mut columns, &channel.key, model.joints.len());
+    }
+    let line = columns.line.unwrap_or_default();
+    let of_spec = columns.all();
+    let names = of_spec.map(|(channel, own)| {
+        let what = format!("the spec's `log` has it as `{channel}`");
+        (own.name.clone(), in_spec(line, &what))
+    });
+    let names = names.collect();
+    arm.check(channels, &mut columns, names, errors);
+    columns
+}
+
+/// Takes a channel out, and those of an input of joints one by one.
+#[cfg(feature = "log-settings")]
+fn forget(columns: &mut LogColumns, key: &str, joints: usize) {
+    match key {
+        "time" => columns.time = None,
+        "q" => columns.q.clear(),
+        "dq" => columns.dq.clear(),
+        "tau" => columns.tau.clear(),
+        "topic" => columns.topic = None,
+        _ => columns.inputs.retain(|(name, _)| {
+            name != key && (1..=joints).all(|joint| *name != format!("{key}{joint}"))
+        }),
+    }
+}
+
+impl Arm<'_> {
+    /// Adds what channels say to the columns; `names` are those that are taken.
+    fn check(
+        &self,
+        channels: &[LogChannel],
+        columns: &mut LogColumns,
+        mut names: BTreeMap<String, Other>,
+        errors: &mut Errors,
+    ) {
+        for channel in channels {
+            if channel.key == "topic" {
+                match topic(channel) {
+                    Ok(name) => columns.topic = Some(name),
+                    Err(error) => errors.push(error),
+                }
+                continue;
+            }
+            for column in &channel.columns {
+                check_column_name(column, &mut names, errors);
+            }
+            let Some(kind) = check_key(channel, &self.inputs, self.joints.len(), errors) else {
+                continue;
+            };
+            if check_count(channel, &kind, self.joints.len(), errors) {
+                self.read(channel, kind, columns, errors);
+            }
         }
+    }
+
+    /// The columns of a channel that is known and has as many as it should.
+    fn read(
+        &self,
+        channel: &LogChannel,
+        kind: Channel,
+        columns: &mut LogColumns,
+        errors: &mut Errors,
+    ) {
         let mut read = |dimension: &dyn Fn(&Joint) -> Option<Dimension>| -> Vec<LogColumn> {
-            let pairs = channel.columns.iter().zip(joints);
+            let pairs = channel.columns.iter().zip(self.joints);
             let columns = pairs.map(|(column, joint)| worth(column, dimension(joint)));
             let columns = columns.map(|column| column.map_err(|error| errors.push(error)));
             columns.flatten().collect()
@@ -74,10 +191,10 @@ pub(super) fn check_log(
             Channel::Position => columns.q = read(&|j| Some(coordinate_dimension(j.kind))),
             Channel::Velocity => columns.dq = read(&|j| Some(speed_dimension(j.kind))),
             Channel::Torque => {
-                for (column, joint) in channel.columns.iter().zip(joints) {
-                    let sound = worth(column, None).and_then(|own| {
-                        check_torque(column, joint, gain_of(robot, joint)).map(|()| own)
-                    });
+                let joints = self.joints.iter().zip(&self.gains);
+                for (column, (joint, gain)) in channel.columns.iter().zip(joints) {
+                    let sound = worth(column, None)
+                        .and_then(|own| check_torque(column, joint, gain.as_ref()).map(|()| own));
                     match sound {
                         Ok(own) => columns.tau.push(own),
                         Err(error) => errors.push(error),
@@ -95,8 +212,6 @@ pub(super) fn check_log(
             }
         }
     }
-    super::check_unique(keys, "channel", errors);
-    columns
 }
 
 impl Inputs {
@@ -113,9 +228,38 @@ impl Inputs {
     }
 }
 
+impl Other {
+    /// An error with its second place: a label, or words in front of the help.
+    fn beside(&self, error: Diagnostic, label: impl Into<String>, help: &str) -> Diagnostic {
+        match self {
+            Self::Here(span) => error.also(*span, label).help(help),
+            #[cfg(feature = "log-settings")]
+            Self::InSpec(said) => error.help(format!("{said}; {help}")),
+        }
+    }
+}
+
+/// The one topic of bags, which is no column and has no unit.
+fn topic(channel: &LogChannel) -> Result<String, Diagnostic> {
+    const HELP: &str = "write it as the bag has it, such as `topic = \"/joint_states\";`";
+    let [column] = channel.columns.as_slice() else {
+        let span = channel.span;
+        return Err(Diagnostic::new(span, "a log has one topic", "several").help(HELP));
+    };
+    if let Some(unit) = &column.unit {
+        return Err(Diagnostic::new(unit.span, "a topic has no unit", "a unit").help(HELP));
+    }
+    let name = column.name.value().trim().to_owned();
+    if name.is_empty() {
+        let span = column.name.span();
+        return Err(Diagnostic::new(span, "a topic without a name", "empty").help(HELP));
+    }
+    Ok(name)
+}
+
 fn check_column_name(
     column: &ast::LogColumn,
-    names: &mut BTreeMap<String, Span>,
+    names: &mut BTreeMap<String, Other>,
     errors: &mut Errors,
 ) {
     let name = column.name.value().trim().to_owned();
@@ -126,13 +270,11 @@ fn check_column_name(
                 .help("write its name as the log's header has it"),
         );
     } else if let Some(first) = names.get(&name) {
-        errors.push(
-            Diagnostic::new(span, format!("column `{name}` is two channels"), "second")
-                .also(*first, "first")
-                .help("give each channel a column of its own"),
-        );
+        let error = Diagnostic::new(span, format!("column `{name}` is two channels"), "second");
+        let help = "give each channel a column of its own";
+        errors.push(first.beside(error, "first", help));
     } else {
-        names.insert(name, span);
+        names.insert(name, Other::Here(span));
     }
 }
 
@@ -142,7 +284,7 @@ fn check_key(
     joints: usize,
     errors: &mut Errors,
 ) -> Option<Channel> {
-    let key = channel.key.to_string();
+    let key = channel.key.clone();
     match key.as_str() {
         "time" => return Some(Channel::Time),
         "q" => return Some(Channel::Position),
@@ -160,12 +302,12 @@ fn check_key(
     if inputs.of_joints.iter().any(numbered) {
         return Some(Channel::Input(key));
     }
-    let known = ["time", "q", "dq", "tau"].into_iter();
+    let known = ["time", "q", "dq", "tau", "topic"].into_iter();
     let own = inputs.of_arm.iter().chain(&inputs.of_joints);
     let known = known.chain(own.map(String::as_str));
     errors.push(
         Diagnostic::new(
-            channel.key.span(),
+            channel.span,
             format!("a log has no channel `{key}`"),
             "neither of the arm nor an input of an effect",
         )
@@ -189,7 +331,7 @@ fn check_count(channel: &LogChannel, kind: &Channel, joints: usize, errors: &mut
     };
     errors.push(
         Diagnostic::new(
-            channel.key.span(),
+            channel.span,
             format!(
                 "channel `{}` has {}, expected {}",
                 channel.key,
@@ -199,12 +341,29 @@ fn check_count(channel: &LogChannel, kind: &Channel, joints: usize, errors: &mut
             "",
         )
         .help(match kind {
-            Channel::Time | Channel::Input(_) => format!("write `{} = \"name\";`", channel.key),
+            Channel::Time | Channel::Input(_) => {
+                format!("write one column, as in `{} = \"name\"`", channel.key)
+            }
             _ => "write one column a joint, in the order of the joints, with commas between them"
                 .to_owned(),
         }),
     );
     false
+}
+
+/// What a one in a column is worth where no robot says of what it is.
+#[cfg(feature = "log-settings")]
+pub(crate) fn check_unit(column: &ast::LogColumn, kind: ColumnKind) -> Result<f64, Diagnostic> {
+    let dimension = match kind {
+        ColumnKind::Time => Dimension::TIME,
+        ColumnKind::Angle => Dimension::ANGLE,
+        ColumnKind::AngularSpeed => Dimension::ANGULAR_SPEED,
+        ColumnKind::Torque => Dimension::TORQUE,
+        ColumnKind::Force => Dimension::FORCE,
+        ColumnKind::Current => Dimension::CURRENT,
+        ColumnKind::Voltage => Dimension::NONE,
+    };
+    worth(column, Some(dimension)).map(|own| own.unit)
 }
 
 /// What a one in the column is worth, of a dimension or of any.
@@ -232,15 +391,15 @@ fn worth(column: &ast::LogColumn, dimension: Option<Dimension>) -> Result<LogCol
 fn check_torque(
     column: &ast::LogColumn,
     joint: &Joint,
-    gain: Option<&Value>,
+    gain: Option<&Other>,
 ) -> Result<(), Diagnostic> {
     let Some(unit) = &column.unit else {
         return Ok(());
     };
     let torque = torque_dimension(joint.kind);
     let dimension = value::constant(unit)?.dimension;
-    // Errors of the gain itself are told where joints are checked.
-    let of_gain = gain.map(|gain| value::quantity(gain).ok().and_then(|gain| gain.dimension));
+    let of_gain = joint.actuator_gain_unit;
+    let of_gain = of_gain.map(|unit| gain_dimension(unit, joint.kind));
     let name = &joint.name;
     let in_torque = torque_unit(joint.kind);
     match (dimension, of_gain) {
@@ -261,7 +420,7 @@ fn check_torque(
             "write it in `{in_torque}`, in `A` with an `actuator_gain`, or as a plain number"
         ))),
         (Some(found), Some(Some(of_gain))) if found.times(of_gain, 1) != torque => {
-            let mut error = Diagnostic::new(
+            let error = Diagnostic::new(
                 unit.span,
                 format!(
                     "the unit of joint `{name}`'s log times that of its `actuator_gain` is not {}",
@@ -269,19 +428,20 @@ fn check_torque(
                 ),
                 format!("{} here", found.describe()),
             );
-            if let Some(gain) = gain {
-                error = error.also(gain.span(), of_gain.describe());
-            }
-            Err(error.help(format!(
+            let help = format!(
                 "write the gain in `{in_torque}/A` where the log is in `A`, and as a plain number where it is in `{in_torque}`"
-            )))
+            );
+            Err(match gain {
+                Some(gain) => gain.beside(error, of_gain.describe(), &help),
+                None => error.help(help),
+            })
         }
         _ => Ok(()),
     }
 }
 
-/// What is written for the joint's `actuator_gain`.
-fn gain_of<'a>(robot: &'a Robot, joint: &Joint) -> Option<&'a Value> {
+/// Where the joint's `actuator_gain` is written.
+fn gain_of(robot: &Robot, joint: &Joint) -> Option<Other> {
     let of_chain = robot.joints.iter().map(|own| (&own.name, &own.settings));
     let of_energies = robot
         .energies
@@ -295,5 +455,5 @@ fn gain_of<'a>(robot: &'a Robot, joint: &Joint) -> Option<&'a Value> {
     let gain = settings
         .iter()
         .find(|setting| setting.key == "actuator_gain")?;
-    Some(&gain.value)
+    Some(Other::Here(gain.value.span()))
 }

@@ -20,6 +20,8 @@ mod value;
 mod words;
 
 pub(crate) use definition::check_definition;
+#[cfg(feature = "log-settings")]
+pub(crate) use log::{check_settings, check_unit};
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -8,6 +8,14 @@ use crate::suggest;
 
 use super::Errors;
 
+/// The keys that are meant by keys which are not known: what is told of a slip is not told again as missing.
+pub(super) fn meant<'a>(settings: &[Setting], known: &[&'a str]) -> Vec<&'a str> {
+    let keys = settings.iter().map(|setting| setting.key.to_string());
+    let unknown = keys.filter(|key| !known.contains(&key.as_str()));
+    let meant = unknown.filter_map(|key| suggest::nearest(&key, known.iter().copied()));
+    meant.collect()
+}
+
 /// The settings of one block by key.
 pub(super) struct Settings<'a> {
     by_key: BTreeMap<String, &'a Setting>,

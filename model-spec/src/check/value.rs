@@ -302,7 +302,12 @@ fn constant_name(name: &Ident) -> Checked<Quantity> {
                 format!("expected a number, found `{text}`"),
                 "neither a number nor a unit",
             )
-            .help("write a number, such as `0.3`, `90 deg` or `pi/2`")
+            .help(
+                match suggest::nearest(&text, unit::UNITS.map(|(unit, ..)| unit)) {
+                    Some(unit) => format!("write `{unit}`"),
+                    None => "write a number, such as `0.3`, `90 deg` or `pi/2`".to_owned(),
+                },
+            )
         })
 }
 

@@ -16,6 +16,23 @@ pub struct LogColumns {
     pub tau: Vec<LogColumn>,
     /// Inputs of effects, by the name that a log would have for them otherwise: `temperature`, `current2`.
     pub inputs: Vec<(String, LogColumn)>,
+    /// Line of the spec's `log`, from 1; none where it has none.
+    pub line: Option<usize>,
+    /// The topic of bags of ROS 2, where the spec names one.
+    pub topic: Option<String>,
+}
+
+impl LogColumns {
+    /// All columns, each with the name of its channel: `time`, `q`, `dq`, `tau`, or of an input.
+    pub fn all(&self) -> impl Iterator<Item = (&str, &LogColumn)> {
+        let time = self.time.iter().map(|own| ("time", own));
+        let families = [("q", &self.q), ("dq", &self.dq), ("tau", &self.tau)];
+        let families = families
+            .into_iter()
+            .flat_map(|(name, own)| own.iter().map(move |own| (name, own)));
+        let inputs = self.inputs.iter().map(|(name, own)| (name.as_str(), own));
+        time.chain(families).chain(inputs)
+    }
 }
 
 /// A column of a log.

@@ -21,6 +21,20 @@ impl Parse for Expr {
     }
 }
 
+/// A value and nothing behind it.
+#[cfg(feature = "log-settings")]
+pub(super) fn alone(input: ParseStream) -> syn::Result<Expr> {
+    let value = input.parse()?;
+    if input.is_empty() {
+        return Ok(value);
+    }
+    Err(syn_error(
+        input.span(),
+        &format!("expected nothing behind this value{}", found(input)),
+        Some("write one number, and join units with `*` or `/`, as in `360 deg/4096` or `N*m`"),
+    ))
+}
+
 /// No quantity of mechanics has a unit of a higher power.
 const LARGEST_POWER_OF_UNIT: i32 = 6;
 

@@ -25,14 +25,21 @@ pub(super) fn log(input: ParseStream, keyword: &Ident, errors: &mut Sink) -> syn
 impl Parse for LogChannel {
     /// `key = column, column`
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let key = word(input, "`time`, `q`, `dq`, `tau` or the name of an input")?;
+        let name = word(
+            input,
+            "`time`, `q`, `dq`, `tau`, `topic` or the name of an input",
+        )?;
         input.parse::<Token![=]>()?;
         let mut columns = vec![input.parse()?];
         while input.peek(Token![,]) {
             input.parse::<Token![,]>()?;
             columns.push(input.parse()?);
         }
-        Ok(Self { key, columns })
+        Ok(Self {
+            key: name.to_string(),
+            span: name.span(),
+            columns,
+        })
     }
 }
 

@@ -18,6 +18,8 @@ use syn::spanned::Spanned;
 use syn::{Attribute, Ident, Token};
 
 use crate::ast::Ast;
+#[cfg(feature = "log-settings")]
+use crate::ast::Expr;
 use crate::diagnostic::{Diagnostic, syn_error};
 
 /// Brackets in brackets; a robot needs five. Keeps recursion away from the stack's end.
@@ -28,7 +30,20 @@ const LONGEST_NAME: usize = 64;
 
 /// Parses a spec's text.
 pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
-    let tokens = TokenStream::from_str(text).map_err(|error| {
+    parse_tokens(tokens(text)?).map_err(|error| Diagnostic::from_syn(error).collect())
+}
+
+/// Parses a text that is one value, such as `360 deg/4096`.
+#[cfg(feature = "log-settings")]
+pub(crate) fn parse_value(text: &str) -> Result<Expr, Vec<Diagnostic>> {
+    let tokens = tokens(text)?;
+    let value = check_tokens(&tokens).and_then(|()| expr::alone.parse2(tokens));
+    value.map_err(|error| Diagnostic::from_syn(error).collect())
+}
+
+/// The tokens of a text.
+fn tokens(text: &str) -> Result<TokenStream, Vec<Diagnostic>> {
+    TokenStream::from_str(text).map_err(|error| {
         let general = || {
             Diagnostic::new(
                 error.span(),
@@ -38,8 +53,7 @@ pub(crate) fn parse_text(text: &str) -> Result<Ast, Vec<Diagnostic>> {
             .help("remove characters that belong to no word or number, and close every `\"`")
         };
         vec![brackets::unbalanced(text).unwrap_or_else(general)]
-    })?;
-    parse_tokens(tokens).map_err(|error| Diagnostic::from_syn(error).collect())
+    })
 }
 
 /// Parses the tokens of a spec, from a file or from a macro's input.

@@ -5,18 +5,10 @@ use urdf_rs::{JointType, Link};
 use super::held::Held;
 use super::tree::{Chain, ChainJoint, Tree, origin};
 use super::{ImportError, Inertials};
+use crate::export::Body;
 use crate::inertia::has_a_body;
 use crate::model::Transform;
-use crate::transform::{is_in_range, product};
-
-/// Mass, center of mass and inertia about it, in the frame of the chain's link.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Body {
-    pub(super) mass: f64,
-    pub(super) com: [f64; 3],
-    /// Matrix about the center of mass, link axes.
-    pub(super) inertia: [[f64; 3]; 3],
-}
+use crate::transform::is_in_range;
 
 /// What hangs on a joint of the chain down to the next one, as one body.
 pub(super) struct Carried<'a> {
@@ -32,15 +24,34 @@ pub(super) fn carried<'a>(
     joint: &ChainJoint<'a>,
     inertials: Inertials,
 ) -> Result<Carried<'a>, ImportError> {
+    let (parts, held) = parts(tree, chain, joint)?;
     let mut bodies = Vec::new();
-    let mut held = Vec::new();
+    for (link, pose) in parts {
+        if inertials != Inertials::None {
+            check(link)?;
+        }
+        bodies.push(body(link, &pose)?);
+    }
+    Ok(Carried {
+        body: sum(&bodies),
+        held,
+    })
+}
+
+/// Links that move together, with their place in the frame of the first, and moving joints that are held.
+pub(super) type Parts<'a> = (Vec<(&'a Link, Transform)>, Vec<Held<'a>>);
+
+/// The link behind `joint` and all that hangs on it down to the next joint of the chain.
+pub(super) fn parts<'a>(
+    tree: &Tree<'a>,
+    chain: &Chain,
+    joint: &ChainJoint<'a>,
+) -> Result<Parts<'a>, ImportError> {
+    let (mut parts, mut held) = (Vec::new(), Vec::new());
     let mut open = vec![(joint.joint.child.link.as_str(), Transform::IDENTITY)];
     while let Some((name, pose)) = open.pop() {
         if let Some(link) = tree.links.get(name) {
-            if inertials != Inertials::None {
-                check(link)?;
-            }
-            bodies.push(body(link, &pose)?);
+            parts.push((*link, pose));
         }
         for next in tree.joints_of(name) {
             if chain.index(next).is_some() {
@@ -59,10 +70,7 @@ pub(super) fn carried<'a>(
             open.push((next.child.link.as_str(), behind));
         }
     }
-    Ok(Carried {
-        body: sum(&bodies),
-        held,
-    })
+    Ok((parts, held))
 }
 
 /// Links that the URDF gives no mass, as it does by leaving `<inertial>` out. It means that they weigh nothing.
@@ -128,7 +136,8 @@ fn check(link: &Link) -> Result<(), ImportError> {
     Ok(())
 }
 
-fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
+/// A link's own body, in the frame in which the link is at `pose`.
+pub(super) fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
     let inertial = &link.inertial;
     let what = format!("the inertial of link `{}`", link.name);
     let frame = pose.then(&origin(&inertial.origin, &what)?);
@@ -146,18 +155,16 @@ fn body(link: &Link, pose: &Transform) -> Result<Body, ImportError> {
     {
         return Err(ImportError::NotFinite { what });
     }
-    let r = frame.rotation;
-    let transposed = std::array::from_fn(|row| std::array::from_fn(|column| r[column][row]));
-    let inertia = product(&r, &product(&here, &transposed));
-    Ok(Body {
+    let own = Body {
         mass: inertial.mass.value,
-        com: frame.translation,
-        inertia,
-    })
+        com: [0.0; 3],
+        inertia: here,
+    };
+    Ok(own.seen_from(&frame))
 }
 
 /// Bodies that are screwed together: masses add, inertias add about the common center of mass (Steiner).
-fn sum(bodies: &[Body]) -> Body {
+pub(super) fn sum(bodies: &[Body]) -> Body {
     let present: Vec<&Body> = bodies
         .iter()
         .filter(|body| body.mass != 0.0 || body.inertia.iter().flatten().any(|x| *x != 0.0))

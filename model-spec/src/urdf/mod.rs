@@ -1,4 +1,4 @@
-//! URDF in, spec text out.
+//! URDF in, spec text out; and back into the same URDF.
 //!
 //! The chain from a base link to a tip link becomes a robot with `convention = origin`. Fixed joints are folded: their
 //! transforms into the next joint's frame, the inertials behind them into the link that carries them. Branches that leave
@@ -6,7 +6,9 @@
 //! puts them. What mimics a joint of the chain is held where that one is zero, with a warning if it has mass. On the chain itself
 //! it moves freely, with a warning that says the tie. Damping and friction of a joint become declared effects.
 
+mod back;
 mod body;
+mod edit;
 mod effects;
 mod held;
 mod mimic;
@@ -15,6 +17,8 @@ mod tree;
 mod write;
 
 use thiserror::Error;
+
+pub use back::{WrittenBack, write_back};
 
 use crate::diagnostic::Diagnostics;
 

@@ -7,6 +7,7 @@ use urdf_rs::{JointLimit, JointType};
 use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
 use super::{ASSUMED_GRAVITY, ImportOptions, Inertials};
+pub(super) use crate::export::number;
 use crate::transform::{quarter_turns, rpy, upper_camel};
 
 /// Names in the spec, joint by joint.
@@ -242,17 +243,6 @@ fn list(numbers: &[f64]) -> String {
             .collect::<Vec<_>>()
             .join(", ")
     )
-}
-
-/// The shortest text that is read back as the same number; powers of ten below a thousandth.
-pub(super) fn number(x: f64) -> String {
-    let plain = format!("{}", x + 0.0);
-    let scientific = format!("{x:e}");
-    if plain.len() > scientific.len() + 3 {
-        scientific
-    } else {
-        plain
-    }
 }
 
 /// Quarter turns in degrees, other angles in rad.

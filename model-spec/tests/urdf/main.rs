@@ -1,6 +1,7 @@
 //! URDF in: what is folded, named, refused; and every URDF of the shared data, where that is present.
 #![expect(clippy::float_cmp, reason = "these numbers are exact")]
 
+mod back;
 mod broken;
 mod effects;
 mod held;

@@ -39,6 +39,10 @@ pub struct Columns {
     pub tau: Vec<Column>,
     /// Other channels that have a name of their own for the arm: that name, and their column.
     pub extra: Vec<(String, Column)>,
+    /// What the joints are called, in their order, for files that have them by name, as bags of ROS 2 do; may be empty for others.
+    pub joints: Vec<String>,
+    /// The topic of a bag of ROS 2; without it the only one that has joint states.
+    pub topic: Option<String>,
 }
 
 impl Columns {
@@ -55,6 +59,8 @@ impl Columns {
             dq: family("dq"),
             tau: family("tau"),
             extra: Vec::new(),
+            joints: Vec::new(),
+            topic: None,
         }
     }
 

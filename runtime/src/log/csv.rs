@@ -6,7 +6,7 @@ use csv::{ByteRecord, ReaderBuilder, Trim};
 use flate2::read::MultiGzDecoder;
 
 use super::LogError;
-use super::rows::{Table, unreadable};
+use super::rows::{Rows, Table, unreadable};
 
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -18,8 +18,7 @@ pub(super) struct CsvRows<'a> {
     record: ByteRecord,
     line: u64,
     is_at_first: bool,
-    /// Names of the columns.
-    pub names: Vec<String>,
+    names: Vec<String>,
 }
 
 impl<'a> CsvRows<'a> {
@@ -77,9 +76,14 @@ impl<'a> CsvRows<'a> {
             names,
         })
     }
+}
 
-    /// Adds rows to a table until it has `most`; false where there are no more.
-    pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
+impl Rows for CsvRows<'_> {
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
         let mut row = Vec::with_capacity(self.names.len());
         while table.lines.len() < most {
             let (source, record) = (&self.source, &mut self.record);

@@ -76,7 +76,7 @@ pub enum LogError {
     },
     /// One column that is to be two channels.
     #[error(
-        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` gives no other"
+        "{source_name}: column `{name}` would be two channels; give each a column of its own, standard names count where the spec's `log` and its settings give no other"
     )]
     TwoChannels {
         /// The file.
@@ -116,6 +116,78 @@ pub enum LogError {
         missing: Vec<String>,
         /// What is there.
         present: Vec<String>,
+    },
+    /// A bag of ROS 2 without what is read of one.
+    #[error(
+        "{source_name}: no topic has messages of type `sensor_msgs/msg/JointState` in CDR; {}",
+        if present.is_empty() { "it has no messages at all".to_owned() } else { format!("it has {}", list(present)) }
+    )]
+    NoJointStates {
+        /// The file.
+        source_name: String,
+        /// Topics of other types.
+        present: Vec<String>,
+    },
+    /// A bag of ROS 2 with joint states of several origins.
+    #[error(
+        "{source_name}: joint states are on several topics, {}; name one in the spec's `log`: `topic = {:?};`",
+        list(present), present[0]
+    )]
+    SeveralTopics {
+        /// The file.
+        source_name: String,
+        /// The topics; two at least.
+        present: Vec<String>,
+    },
+    /// A bag of ROS 2 without the topic that was asked for.
+    #[error(
+        "{source_name}: topic `{topic}` has no joint states; they are on {}",
+        list(present)
+    )]
+    NoSuchTopic {
+        /// The file.
+        source_name: String,
+        /// The topic.
+        topic: String,
+        /// Topics that have joint states.
+        present: Vec<String>,
+    },
+    /// A bag of ROS 2 without the arm's joints.
+    #[error(
+        "{source_name}: no message on `{topic}` has the joint{} {}; joints there are {}; call the spec's joints as they are called \
+         there, or name theirs in the spec's `log`: `q = \"NAME.position\", ..; tau = \"NAME.effort\", ..;`",
+        plural(missing.len()), list(missing), list(present)
+    )]
+    NoSuchJoints {
+        /// The file.
+        source_name: String,
+        /// The topic.
+        topic: String,
+        /// Joints of the arm that are not there.
+        missing: Vec<String>,
+        /// Joints that are there.
+        present: Vec<String>,
+    },
+    /// A bag of ROS 2 whose messages have some of the arm's joints each.
+    #[error(
+        "{source_name}: no message on `{topic}` has all of {} at once; record a topic that joins them, as `joint_state_publisher` does",
+        list(joints)
+    )]
+    ScatteredJoints {
+        /// The file.
+        source_name: String,
+        /// The topic.
+        topic: String,
+        /// The arm's joints.
+        joints: Vec<String>,
+    },
+    /// A bag of ROS 2, read without names of joints.
+    #[error(
+        "{source_name}: it has joints by name, and none are given; name them in `Columns::joints`"
+    )]
+    NoJointNames {
+        /// The file.
+        source_name: String,
     },
     /// A row that is longer or shorter than the header.
     #[error("{source_name}:{line}: the row has {found} field{}, the header has {expected}; give every row one field a column, or remove the row", plural(*.found))]

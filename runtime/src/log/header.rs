@@ -112,11 +112,11 @@ impl Header {
     }
 
     /// Columns that have to hold numbers.
-    pub(super) fn needed(&self) -> impl Iterator<Item = usize> {
+    pub(super) fn needed(&self) -> Vec<usize> {
         let of_arm = self.q.iter().chain(&self.dq).chain(&self.tau);
         let inputs = self.extra[..self.declared].iter().map(|(_, place)| place);
         let all = std::iter::once(&self.time).chain(of_arm).chain(inputs);
-        all.map(|place| place.column)
+        all.map(|place| place.column).collect()
     }
 }
 

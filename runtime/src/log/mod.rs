@@ -1,6 +1,6 @@
 //! Measured logs.
 //!
-//! In: CSV text, plain or gzip, or Parquet. Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
+//! In: CSV text, plain or gzip, Parquet, or bags of ROS 2 (MCAP). Out: [`Log`]. Invariants gained: every number is finite, time is uniform and rises, every
 //! channel has one value a sample, and there is one position and one torque channel a joint.
 
 mod close;
@@ -10,6 +10,8 @@ mod error;
 mod faults;
 mod gaps;
 mod header;
+#[cfg(feature = "mcap")]
+mod mcap;
 mod note;
 #[cfg(feature = "parquet")]
 mod parquet;
@@ -26,6 +28,8 @@ use std::path::Path;
 pub use columns::{Column, Columns};
 pub use error::LogError;
 pub use faults::{Fault, LateChannel, Mended, Stretches};
+#[cfg(feature = "mcap")]
+pub use mcap::{JointStates, NotABag};
 pub use note::Note;
 pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
@@ -82,6 +86,7 @@ pub struct Channel {
 
 impl Log {
     /// Reads a CSV file, plain or gzip, or with feature `parquet` a Parquet file (told by its first bytes, not by its name), of an arm with `dof` joints.
+    /// Bags of ROS 2 are read with feature `mcap` by [`Log::read_as`], which knows what the joints are called.
     ///
     /// The header is `time,q1..qn[,dq1..dqn],tau1..taun[,extra..]` in any order; units are SI. Time stamps that jitter are
     /// resampled to the median step by cubic interpolation, short gaps are filled by straight lines, and the mean stands for
@@ -110,7 +115,7 @@ impl Log {
     /// As [`Log::read`].
     pub fn read_as(path: impl AsRef<Path>, columns: &Columns) -> Result<Self, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
-        let rows = Rows::of_file(&source, file)?;
+        let rows = rows::of_file(&source, file, columns)?;
         Self::from_rows(source, rows, columns)
     }
 
@@ -149,13 +154,17 @@ impl Log {
         columns: &Columns,
     ) -> Result<Self, LogError> {
         let source = source.into();
-        let rows = Rows::new(&source, reader)?;
+        let rows = rows::of_reader(&source, reader, columns)?;
         Self::from_rows(source, rows, columns)
     }
 
-    fn from_rows(source: String, mut rows: Rows, columns: &Columns) -> Result<Self, LogError> {
-        let header = Header::resolve(&source, rows.names(), columns)?;
-        let mut table = rows.table(header.needed());
+    fn from_rows(
+        source: String,
+        mut rows: Box<dyn Rows + '_>,
+        columns: &Columns,
+    ) -> Result<Self, LogError> {
+        let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
+        let mut table = rows.table(&header.needed());
         rows.fill(&mut table, usize::MAX)?;
         Self::from_table(source, table, &header)
     }

@@ -68,7 +68,7 @@ impl fmt::Display for Note {
             ),
             Self::StandardColumns => write!(
                 f,
-                "it lacks the columns that the spec's `log` names, and has `time`, `q1` and so on: these are read, in SI units"
+                "it lacks the columns that the spec's `log` names, or its settings, and has `time`, `q1` and so on: these are read, in SI units"
             ),
             Self::LostRows { rows, first } => {
                 write!(

@@ -2,25 +2,24 @@
 //!
 //! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
 
-use std::fs::File;
 use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;
-use parquet::basic::ConvertedType;
+use parquet::basic::{Compression, ConvertedType};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
-use super::rows::{Table, unreadable};
+use super::rows::{Input, Rows, Table, unreadable};
 
 /// Rows of a Parquet file.
 pub(super) struct ParquetRows {
     source: String,
     reader: Box<dyn FileReader>,
     /// Names of the columns; those of nested ones have points in them.
-    pub names: Vec<String>,
+    names: Vec<String>,
     next_group: usize,
     /// Columns of the group that is being handed on, `[column][row]`; none where they hold no numbers.
     group: Vec<Option<Vec<f64>>>,
@@ -31,16 +30,18 @@ pub(super) struct ParquetRows {
 }
 
 impl ParquetRows {
-    pub fn of_file(source: &str, file: File) -> Result<Self, LogError> {
-        Self::new(source, guarded(|| SerializedFileReader::new(file)))
+    /// Reads the schema.
+    pub fn new(source: &str, input: Input) -> Result<Self, LogError> {
+        match input {
+            Input::File(file) => Self::of(source, guarded(|| SerializedFileReader::new(file))),
+            Input::Memory(bytes) => {
+                let bytes = Bytes::from(bytes);
+                Self::of(source, guarded(|| SerializedFileReader::new(bytes)))
+            }
+        }
     }
 
-    pub fn of_memory(source: &str, bytes: Vec<u8>) -> Result<Self, LogError> {
-        let bytes = Bytes::from(bytes);
-        Self::new(source, guarded(|| SerializedFileReader::new(bytes)))
-    }
-
-    fn new(
+    fn of(
         source: &str,
         reader: Result<impl FileReader + 'static, ParquetError>,
     ) -> Result<Self, LogError> {
@@ -59,19 +60,6 @@ impl ParquetRows {
             rows_of_group: 0,
             rows: 0,
         })
-    }
-
-    /// Adds rows to a table until it has `most`; false where there are no more.
-    pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
-        while table.lines.len() < most {
-            if self.next_row == self.rows_of_group && !self.read_group()? {
-                return Ok(false);
-            }
-            let room = most - table.lines.len();
-            let end = self.rows_of_group.min(self.next_row + room);
-            self.hand_on(table, end)?;
-        }
-        Ok(true)
     }
 
     /// Rows of the group up to `end`.
@@ -152,10 +140,44 @@ impl ParquetRows {
     }
 }
 
+impl Rows for ParquetRows {
+    fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
+        while table.lines.len() < most {
+            if self.next_row == self.rows_of_group && !self.read_group()? {
+                return Ok(false);
+            }
+            let room = most - table.lines.len();
+            let end = self.rows_of_group.min(self.next_row + room);
+            self.hand_on(table, end)?;
+        }
+        Ok(true)
+    }
+}
+
 /// Reads from a file that may be damaged: the crate that decodes it panics at some damages, which are errors here.
 fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, ParquetError> {
     let read = panic::catch_unwind(AssertUnwindSafe(read));
     read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".to_owned())))
+}
+
+/// That pages are packed with what is read here.
+fn check_codec(codec: Compression) -> Result<(), ParquetError> {
+    let name = match codec {
+        Compression::UNCOMPRESSED
+        | Compression::SNAPPY
+        | Compression::GZIP(_)
+        | Compression::ZSTD(_) => return Ok(()),
+        Compression::BROTLI(_) => "Brotli",
+        Compression::LZO => "LZO",
+        Compression::LZ4 | Compression::LZ4_RAW => "LZ4",
+    };
+    Err(ParquetError::General(format!(
+        "its pages are packed with {name}, which is not read here; write it with `snappy`, `gzip`, `zstd` or uncompressed, or save it as CSV"
+    )))
 }
 
 /// Numbers of a column of a group, NaN where it has none; nothing where it holds something else.
@@ -164,7 +186,8 @@ fn column(
     place: usize,
     rows: usize,
 ) -> Result<Option<Vec<f64>>, ParquetError> {
-    let about = group.metadata().column(place).column_descr_ptr();
+    let metadata = group.metadata().column(place);
+    let about = metadata.column_descr_ptr();
     if about.max_rep_level() > 0 {
         return Ok(None);
     }
@@ -185,6 +208,7 @@ fn column(
         | ConvertedType::TIMESTAMP_MICROS => false,
         _ => return Ok(None),
     };
+    check_codec(metadata.compression())?;
     let present = about.max_def_level();
     let values = match group.get_column_reader(place)? {
         ColumnReader::Int32ColumnReader(reader) if is_unsigned => {

@@ -1,23 +1,25 @@
 //! A log that is read piece by piece, in memory that does not grow with it.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 
 use super::header::Header;
-use super::rows::{Rows, Table};
+use super::rows::{self, Rows, Table};
 use super::{Columns, Log, LogError};
 use crate::signal::resample::whole_steps;
 
 /// Pieces of a log, one after the other; made by [`Log::pieces`].
 pub struct Pieces<'a> {
     source: String,
-    rows: Rows<'a>,
+    rows: Box<dyn Rows + 'a>,
     header: Header,
     table: Table,
     samples: usize,
     overlap: f64,
     is_over: bool,
+    /// The file, whose place moves as it is read, and its size.
+    file: Option<(File, u64)>,
 }
 
 impl Log {
@@ -33,8 +35,13 @@ impl Log {
         overlap: f64,
     ) -> Result<Pieces<'static>, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
-        let rows = Rows::of_file(&source, file)?;
-        Pieces::of_rows(source, rows, columns, samples, overlap)
+        // Both handles have one place in the file.
+        let size = file.metadata().map(|about| about.len());
+        let looked_at = file.try_clone().ok().zip(size.ok());
+        let rows = rows::of_file(&source, file, columns)?;
+        let mut pieces = Pieces::of_rows(source, rows, columns, samples, overlap)?;
+        pieces.file = looked_at;
+        Ok(pieces)
     }
 
     /// Opens a file to be read, and says its name.
@@ -82,27 +89,44 @@ impl<'a> Pieces<'a> {
         overlap: f64,
     ) -> Result<Self, LogError> {
         let source = source.into();
-        let rows = Rows::new(&source, reader)?;
+        let rows = rows::of_reader(&source, reader, columns)?;
         Self::of_rows(source, rows, columns, samples, overlap)
     }
 
     fn of_rows(
         source: String,
-        rows: Rows<'a>,
+        rows: Box<dyn Rows + 'a>,
         columns: &Columns,
         samples: usize,
         overlap: f64,
     ) -> Result<Self, LogError> {
-        let header = Header::resolve(&source, rows.names(), columns)?;
+        let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
         Ok(Self {
-            table: rows.table(header.needed()),
+            table: rows.table(&header.needed()),
             header,
             rows,
             source,
             samples,
             overlap,
             is_over: false,
+            file: None,
         })
+    }
+
+    /// Which part of the file is read, from 0 to 1; none where it is no file of known size.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{Columns, Pieces};
+    /// let text = "time,q1,tau1\n0.00,0.5,1\n";
+    /// let mut pieces = Pieces::new("memory", text.as_bytes(), &Columns::standard(1), 300, 1.25)?;
+    /// assert_eq!(pieces.done(), None);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
+    pub fn done(&mut self) -> Option<f64> {
+        let (file, size) = self.file.as_mut()?;
+        let place = file.stream_position().ok()?;
+        (*size > 0).then(|| (place as f64 / *size as f64).min(1.0))
     }
 }
 
@@ -130,7 +154,7 @@ impl Iterator for Pieces<'_> {
             let source = self.source.clone();
             return Some(Log::from_table(
                 source,
-                self.rows.table(self.header.needed()),
+                self.rows.table(&self.header.needed()),
                 &self.header,
             ));
         }

@@ -3,19 +3,138 @@
 use std::fs::File;
 use std::io::{Cursor, Read, Seek};
 
-use super::LogError;
 use super::csv::CsvRows;
+#[cfg(feature = "mcap")]
+use super::mcap::McapRows;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetRows;
+use super::{Columns, LogError};
 
-/// First and last bytes of a Parquet file.
-const PARQUET: [u8; 4] = *b"PAR1";
+/// Rows below a header, read as they are asked for. A kind of files is one implementation, and its first bytes in [`Kind`].
+pub(super) trait Rows {
+    /// Names of the columns.
+    fn names(&self) -> &[String];
 
-/// Rows below a header, read as they are asked for.
-pub(super) enum Rows<'a> {
-    Csv(Box<CsvRows<'a>>),
-    #[cfg(feature = "parquet")]
-    Parquet(Box<ParquetRows>),
+    /// What the channels that are wanted are called in a file of this kind.
+    fn columns(&self, wanted: &Columns) -> Columns {
+        wanted.clone()
+    }
+
+    /// Adds rows to a table until it has `most`; false where there are no more.
+    fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError>;
+
+    /// Room for rows, of which some columns have to hold numbers.
+    fn table(&self, needed: &[usize]) -> Table {
+        let count = self.names().len();
+        let mut is_needed = vec![false; count];
+        for &column in needed {
+            is_needed[column] = true;
+        }
+        Table {
+            columns: vec![Vec::new(); count],
+            is_needed,
+            is_number: vec![true; count],
+            lines: Vec::new(),
+            lost: Lost::default(),
+        }
+    }
+}
+
+/// Kinds of files that are told by their first bytes; what is none of them is text.
+#[derive(Clone, Copy)]
+enum Kind {
+    Parquet,
+    Mcap,
+}
+
+impl Kind {
+    const ALL: [(&'static [u8], Self); 2] =
+        [(b"PAR1", Self::Parquet), (b"\x89MCAP0\r\n", Self::Mcap)];
+
+    /// As many bytes as tell all kinds.
+    const BYTES: u64 = 8;
+
+    fn of(start: &[u8]) -> Option<Self> {
+        let mut all = Self::ALL.iter();
+        let found = all.find(|(magic, _)| start.starts_with(magic));
+        found.map(|(_, kind)| *kind)
+    }
+}
+
+/// Reads the header of a file, of which no more is in memory at a time than is asked for.
+pub(super) fn of_file(
+    source: &str,
+    mut file: File,
+    columns: &Columns,
+) -> Result<Box<dyn Rows>, LogError> {
+    let start = start(source, &mut file)?;
+    let Some(kind) = Kind::of(&start) else {
+        let whole = Cursor::new(start).chain(file);
+        return Ok(Box::new(CsvRows::new(source, whole)?));
+    };
+    let back = file.rewind();
+    back.map_err(|error| unreadable(source, 1, &error))?;
+    of_kind(source, kind, Input::File(file), columns)
+}
+
+/// Reads the header.
+pub(super) fn of_reader<'a>(
+    source: &str,
+    mut reader: impl Read + 'a,
+    columns: &Columns,
+) -> Result<Box<dyn Rows + 'a>, LogError> {
+    let mut start = start(source, &mut reader)?;
+    let Some(kind) = Kind::of(&start) else {
+        let whole = Cursor::new(start).chain(reader);
+        return Ok(Box::new(CsvRows::new(source, whole)?));
+    };
+    let rest = reader.read_to_end(&mut start);
+    rest.map_err(|error| unreadable(source, 1, &error))?;
+    of_kind(source, kind, Input::Memory(start), columns)
+}
+
+/// What a file that is not read from its start to its end is read from.
+#[cfg_attr(
+    not(any(feature = "parquet", feature = "mcap")),
+    allow(dead_code, reason = "without the features files are refused unread")
+)]
+pub(super) enum Input {
+    File(File),
+    Memory(Vec<u8>),
+}
+
+#[cfg_attr(
+    not(feature = "mcap"),
+    allow(
+        unused_variables,
+        reason = "without the features files are refused unread"
+    )
+)]
+fn of_kind(
+    source: &str,
+    kind: Kind,
+    input: Input,
+    columns: &Columns,
+) -> Result<Box<dyn Rows>, LogError> {
+    match kind {
+        #[cfg(feature = "parquet")]
+        Kind::Parquet => Ok(Box::new(ParquetRows::new(source, input)?)),
+        #[cfg(not(feature = "parquet"))]
+        Kind::Parquet => Err(not_built(source, "a Parquet file", "parquet")),
+        #[cfg(feature = "mcap")]
+        Kind::Mcap => Ok(Box::new(McapRows::new(source, input, columns)?)),
+        #[cfg(not(feature = "mcap"))]
+        Kind::Mcap => Err(not_built(source, "an MCAP file", "mcap")),
+    }
+}
+
+#[cfg(not(all(feature = "parquet", feature = "mcap")))]
+fn not_built(source: &str, what: &str, feature: &str) -> LogError {
+    LogError::Read {
+        source_name: source.to_owned(),
+        line: 1,
+        reason: format!("it is {what}; build with feature `{feature}`, or save it as CSV"),
+    }
 }
 
 /// Columns of rows that were read.
@@ -78,94 +197,10 @@ impl Lost {
     }
 }
 
-impl<'a> Rows<'a> {
-    /// Reads the header of a file, of which no more is in memory at a time than is asked for.
-    pub fn of_file(source: &str, mut file: File) -> Result<Self, LogError> {
-        let start = start(source, &mut file)?;
-        if start == PARQUET {
-            let back = file.rewind();
-            back.map_err(|error| unreadable(source, 1, &error))?;
-            return Self::parquet(source, Input::File(file));
-        }
-        let whole = Cursor::new(start).chain(file);
-        Ok(Self::Csv(Box::new(CsvRows::new(source, whole)?)))
-    }
-
-    /// Reads the header.
-    pub fn new(source: &str, mut reader: impl Read + 'a) -> Result<Self, LogError> {
-        let mut start = start(source, &mut reader)?;
-        if start == PARQUET {
-            let rest = reader.read_to_end(&mut start);
-            rest.map_err(|error| unreadable(source, 1, &error))?;
-            return Self::parquet(source, Input::Memory(start));
-        }
-        let whole = Cursor::new(start).chain(reader);
-        Ok(Self::Csv(Box::new(CsvRows::new(source, whole)?)))
-    }
-
-    #[cfg(feature = "parquet")]
-    fn parquet(source: &str, input: Input) -> Result<Self, LogError> {
-        let rows = match input {
-            Input::File(file) => ParquetRows::of_file(source, file)?,
-            Input::Memory(bytes) => ParquetRows::of_memory(source, bytes)?,
-        };
-        Ok(Self::Parquet(Box::new(rows)))
-    }
-
-    #[cfg(not(feature = "parquet"))]
-    fn parquet(source: &str, _: Input) -> Result<Self, LogError> {
-        Err(LogError::Read {
-            source_name: source.to_owned(),
-            line: 1,
-            reason: "it is a Parquet file; build with feature `parquet`, or save it as CSV"
-                .to_owned(),
-        })
-    }
-
-    /// Names of the columns.
-    pub fn names(&self) -> &[String] {
-        match self {
-            Self::Csv(rows) => &rows.names,
-            #[cfg(feature = "parquet")]
-            Self::Parquet(rows) => &rows.names,
-        }
-    }
-
-    /// Room for rows, of which some columns have to hold numbers.
-    pub fn table(&self, needed: impl Iterator<Item = usize>) -> Table {
-        let count = self.names().len();
-        let mut is_needed = vec![false; count];
-        needed.for_each(|column| is_needed[column] = true);
-        Table {
-            columns: vec![Vec::new(); count],
-            is_needed,
-            is_number: vec![true; count],
-            lines: Vec::new(),
-            lost: Lost::default(),
-        }
-    }
-
-    /// Adds rows to a table until it has `most`; false where there are no more.
-    pub fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
-        match self {
-            Self::Csv(rows) => rows.fill(table, most),
-            #[cfg(feature = "parquet")]
-            Self::Parquet(rows) => rows.fill(table, most),
-        }
-    }
-}
-
-/// What a Parquet file is read from; without the feature it is refused unread.
-#[cfg_attr(not(feature = "parquet"), allow(dead_code))]
-enum Input {
-    File(File),
-    Memory(Vec<u8>),
-}
-
 /// The first bytes.
 fn start(source: &str, reader: &mut impl Read) -> Result<Vec<u8>, LogError> {
-    let mut start = Vec::with_capacity(PARQUET.len());
-    let read = reader.take(PARQUET.len() as u64).read_to_end(&mut start);
+    let mut start = Vec::new();
+    let read = reader.take(Kind::BYTES).read_to_end(&mut start);
     read.map_err(|error| unreadable(source, 1, &error))?;
     Ok(start)
 }

@@ -30,11 +30,13 @@ struct FileJoint {
     limit: Option<f64>,
 }
 
+/// How it is written.
+const FORM: &str = "write `{\"joints\": [{\"position\": [..], \"torque\": [..], \"columns\": {\"qref1\": [..]}, \"limit\": ..}, ..]}`";
+
 /// Reads one that has a law for each joint.
 pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
-    let file: File =
-        serde_json::from_value(json::read(path)?).map_err(|error| refuse(&error.to_string()))?;
+    let file: File = json::typed(path, json::read(path)?, FORM)?;
     if file.joints.len() != joints.len() {
         return Err(refuse(&format!(
             "`joints` has {} laws for an arm with {}",

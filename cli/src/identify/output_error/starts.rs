@@ -98,17 +98,19 @@ pub(super) fn search(
 ) -> Result<OutputEstimate, OutputErrorError> {
     let (plant, names) = (&beginning.plant, &beginning.names);
     let mut tell = |iterate: &Iterate| {
-        progress.step(&format!(
+        let what = format!(
             "simulation {}: cost {:.6e}",
             iterate.simulations, iterate.cost
-        ));
+        );
+        progress.step(&what);
     };
-    let mut begun = 0;
+    let mut begun = 0_u32;
     let mut compare = |iterate: &Iterate| {
         // The first one of each start.
         if iterate.simulations == 2 {
             begun += 1;
-            progress.step(&format!("looking from start {begun} of {}", starts.len()));
+            let what = format!("looking from start {begun} of {}", starts.len());
+            progress.part(&what, f64::from(begun - 1) / starts.len() as f64);
         }
     };
     let places = settings.nearest(plant, names, starts, recordings, &mut compare)?;

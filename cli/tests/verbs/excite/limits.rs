@@ -103,7 +103,11 @@ fn links_stay_in_their_room() {
             "`apart` is a distance",
         ),
         (r#"{"bals": []}"#, "bals"),
-        ("{", "line 1"),
+        ("{", "bad.json:1:1: it is no JSON"),
+        (
+            r#"{"balls": [{"link": "lower"}]}"#,
+            "`balls[0]`: missing field `radius`; write",
+        ),
     ] {
         folder.write("bad.json", room);
         let said =

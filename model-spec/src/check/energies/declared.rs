@@ -6,7 +6,7 @@ use syn::Ident;
 use super::dimension::{Dimensions, Inference};
 use super::resolve::Constant;
 use crate::ast::{self, BinaryOp, ExprKind, Robot};
-use crate::check::chain::{check_gain, check_limits, check_number};
+use crate::check::chain::{Gain, check_gain, check_limits, check_number};
 use crate::check::setting::Settings;
 use crate::check::unit::{self, Dimension};
 use crate::check::value::Quantity;
@@ -86,7 +86,7 @@ fn check_coordinate(
     });
     let kind = kind.unwrap_or(JointKind::Revolute);
     let own = limits.iter().find(|limits| limits.name == coordinate.name);
-    let (limits, actuator_gain) = own.map_or((Limits::default(), 1.0), |own| {
+    let (limits, gain) = own.map_or((Limits::default(), Gain::NONE), |own| {
         let owner = format!("`limits {}`", own.name);
         let keys = [
             "position",
@@ -105,7 +105,8 @@ fn check_coordinate(
         name: coordinate.name.to_string(),
         kind,
         limits,
-        actuator_gain,
+        actuator_gain: gain.value,
+        actuator_gain_unit: gain.unit,
         line: coordinate.name.span().start().line,
     }
 }

@@ -84,6 +84,34 @@ fn damaged_parquet_files_are_refused() {
     assert!(refused > sound.len() / 97, "{refused}");
 }
 
+/// A codec that is not read is named, and so is the way out.
+#[test]
+fn a_codec_that_is_not_read_is_named() {
+    // Field 4 of a column's metadata, in the footer: the codec as an integer; Snappy is 1.
+    let field = |codec: u8| [0x15, 2 * codec, 0x16];
+    for (codec, name) in [(3, "LZO"), (4, "Brotli"), (5, "LZ4"), (7, "LZ4")] {
+        let mut bytes = written_parquet(None);
+        let places = bytes.windows(3).enumerate();
+        let places: Vec<usize> = places
+            .filter(|(_, bytes)| *bytes == field(1))
+            .map(|(k, _)| k)
+            .collect();
+        assert_eq!(places.len(), 12, "six columns of two groups");
+        for place in places {
+            bytes[place..place + 3].copy_from_slice(&field(codec));
+        }
+        let refused = Log::from_reader_as("packed", bytes.as_slice(), &parquet_columns());
+        let said = refused.expect_err("not read").to_string();
+        assert!(
+            said.contains(&format!(
+                "its pages are packed with {name}, which is not read here"
+            )),
+            "{said}"
+        );
+        assert!(said.contains("write it with `snappy`"), "{said}");
+    }
+}
+
 fn parquet_columns() -> Columns {
     Columns {
         time: Column {

@@ -15,6 +15,7 @@ fn columns_may_have_other_names_and_units() {
         dq: vec![column("v.b", 1.0), column("v.a", 1.0)],
         tau: vec![column("i.b", 0.5), column("i.a", 1.0)],
         extra: vec![("temperature".to_owned(), column("T", 0.1))],
+        ..Columns::standard(2)
     };
     let rows: Vec<String> = (0..40)
         .map(|k| format!("{},{k},OK,{},{},7,{},305", 10 * k, 2 * k, 3 * k, 4 * k))

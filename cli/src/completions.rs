@@ -1,0 +1,27 @@
+//! `robot-model completions`: what shells complete.
+
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+use crate::{CommandLine, Error, output};
+
+/// Print what a shell needs to complete verbs and options.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model completions bash > ~/.local/share/bash-completion/completions/robot-model
+  robot-model completions zsh > ~/.zfunc/_robot-model
+  robot-model completions fish > ~/.config/fish/completions/robot-model.fish")]
+pub(crate) struct Completions {
+    /// The shell.
+    shell: Shell,
+}
+
+impl Completions {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let mut command = CommandLine::command();
+        let name = command.get_name().to_owned();
+        let mut text = Vec::new();
+        clap_complete::generate(self.shell, &mut command, name, &mut text);
+        output::print(&String::from_utf8_lossy(&text))
+    }
+}

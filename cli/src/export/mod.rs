@@ -1,0 +1,194 @@
+//! `robot-model export`: an arm with its parameters as a URDF or MJCF.
+
+mod passive;
+mod said;
+mod standard;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model_codegen::Compiled;
+use robot_model_spec::export::{
+    ExportError, LinkNumbers, NO_LIMIT, NO_RANGE, Numbers, made_up_limits, mjcf, urdf,
+};
+use robot_model_spec::parameter::{InertialElement, Owner};
+use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
+
+use crate::Error;
+use crate::output::{Files, say};
+use crate::parameters;
+use crate::spec::{compile, read_text};
+use passive::{bodies, joints};
+use standard::{Standard, is_body, standard};
+
+/// Write an arm with its parameters as a URDF or MJCF.
+///
+/// What is written has the base parameters that were identified, links that are bodies, and where logs are silent the values
+/// nearest to the spec's nominal ones. What is not identifiable alone, and effects for which the format has no place, are told,
+/// here and in comments of the file.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model export arm.robot --as urdf --parameters fit.json --urdf arm.urdf -o identified.urdf
+  robot-model export arm.robot --as mjcf --parameters fit.json -o arm.xml")]
+pub(crate) struct Export {
+    /// The `.robot` file.
+    spec: PathBuf,
+    /// What to write.
+    #[arg(long = "as", value_enum)]
+    format: Format,
+    /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
+    #[arg(long, value_name = "FILE.json")]
+    parameters: Option<PathBuf>,
+    /// The URDF that the spec was imported from: all of it stays but the inertials, damping and friction of what was identified.
+    /// Without it a URDF is made from the spec's frames.
+    #[arg(long, value_name = "ORIGINAL.urdf")]
+    urdf: Option<PathBuf>,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Links, joints, damping and friction.
+    Urdf,
+    /// The same for `MuJoCo`, with rotors, springs, gravity and motors.
+    Mjcf,
+}
+
+impl Export {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        if self.urdf.is_some() && self.format != Format::Urdf {
+            let reason = "`--urdf` is of `--as urdf`; an MJCF model is made from the spec's frames";
+            return Err(Error::Argument(reason.to_owned()));
+        }
+        let inputs = [
+            Some(&self.spec),
+            self.parameters.as_ref(),
+            self.urdf.as_ref(),
+        ];
+        let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
+        let out = Files::reading(inputs).claim(&self.output)?;
+        let compiled = compile(&self.spec)?;
+        let source = &compiled.model.source;
+        if compiled.model.chain().is_none() {
+            let none = ExportError::NoChain(compiled.model.name.clone());
+            return Err(Error::Argument(format!("{source}: {none}")));
+        }
+        let file = self.parameters.as_deref();
+        let (values, _, origin) = parameters::values(&compiled, file)?;
+        let standard = standard(&compiled, &values, file, self.format)?;
+        let (numbers, told) = self.numbers(&compiled, &standard, &values.shapes);
+        let (text, remarks) = self.text(&compiled, &numbers)?;
+        if let Some(moved) = said::moved(&standard) {
+            say(&format!("warning: {origin}: {moved}"));
+        }
+        for note in told
+            .iter()
+            .map(|note| format!("{source}: {note}"))
+            .chain(remarks)
+        {
+            say(&format!("note: {note}"));
+        }
+        out.commit(text.as_bytes())
+    }
+
+    /// What is written, and what is told of it.
+    fn numbers(
+        &self,
+        compiled: &Compiled,
+        standard: &Standard,
+        shapes: &[f64],
+    ) -> (Numbers, Vec<String>) {
+        let model = &compiled.model;
+        let value = |effect: usize, parameter: usize| {
+            let own = Owner::Effect { effect, parameter };
+            let mut all = compiled.standard.iter().zip(&standard.values);
+            all.find(|(other, _)| other.owner == own)
+                .map_or(0.0, |(_, value)| *value)
+        };
+        let mut told = Vec::new();
+        let count = InertialElement::ALL.len();
+        let tens = standard.values.chunks_exact(count).take(model.joints.len());
+        let mut links: Vec<LinkNumbers> = tens
+            .enumerate()
+            .map(|(link, ten)| LinkNumbers {
+                inertial: std::array::from_fn(|k| ten[k]),
+                remark: said::remark(compiled, standard, link),
+            })
+            .collect();
+        let remarks: Vec<String> = links.iter().map(|link| link.remark.clone()).collect();
+        told.extend(said::not_alone(compiled, &remarks));
+        for (joint, ten) in bodies(model, shapes, &value) {
+            for (sum, more) in links[joint].inertial.iter_mut().zip(ten) {
+                *sum += more;
+            }
+            let link = &model.chain().expect("checked at the start").links[joint].name;
+            if !is_body(links[joint].inertial) {
+                told.push(format!(
+                    "link `{link}` with the body that an effect adds to it is none that can be; other programs may refuse it"
+                ));
+            }
+        }
+        let left_out = said::not_written(compiled, &standard.values, shapes, self.format);
+        let mut notes = Vec::new();
+        if !left_out.is_empty() {
+            notes.push(format!(
+                "effects that {} does not say are not written: {}",
+                self.format.name(),
+                left_out.join(", ")
+            ));
+        }
+        told.extend(notes.iter().cloned());
+        let numbers = Numbers {
+            links,
+            joints: joints(model, self.format, &value),
+            notes,
+        };
+        (numbers, told)
+    }
+
+    /// What is written, and what is remarkable about it.
+    fn text(&self, compiled: &Compiled, numbers: &Numbers) -> Result<(String, Vec<String>), Error> {
+        let model = &compiled.model;
+        let source = &model.source;
+        let refused = |error: ExportError| Error::Argument(format!("{source}: {error}"));
+        match (self.format, &self.urdf) {
+            (Format::Mjcf, _) => Ok((mjcf(model, numbers).map_err(refused)?, Vec::new())),
+            (Format::Urdf, Some(path)) => {
+                let original = read_text(path)?;
+                let path = path.display();
+                let written = write_back(&original, model, numbers)
+                    .map_err(|error| Error::Argument(format!("{path}: {error}")))?;
+                let notes = written.notes.iter().map(|note| format!("{path}: {note}"));
+                Ok((written.urdf, notes.collect()))
+            }
+            (Format::Urdf, None) => {
+                let mut notes = Vec::new();
+                let gravity = model.chain().map(|chain| chain.gravity);
+                if let Some([x, y, z]) = gravity.filter(|gravity| *gravity != ASSUMED_GRAVITY) {
+                    notes.push(format!(
+                        "{source}: a URDF does not say gravity: [{x}, {y}, {z}] m/s^2 in the frame of its base (`import --gravity {x},{y},{z}`)"
+                    ));
+                }
+                let made_up = made_up_limits(model);
+                if !made_up.is_empty() {
+                    notes.push(format!(
+                        "{source}: a URDF wants limits that the spec does not have; {NO_LIMIT:e} stands for those of torque and velocity and {NO_RANGE} m for ranges, at {}",
+                        made_up.join(", ")
+                    ));
+                }
+                Ok((urdf(model, numbers).map_err(refused)?, notes))
+            }
+        }
+    }
+}
+
+impl Format {
+    const fn name(self) -> &'static str {
+        match self {
+            Self::Urdf => "a URDF",
+            Self::Mjcf => "MJCF",
+        }
+    }
+}

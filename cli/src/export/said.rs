@@ -1,0 +1,184 @@
+//! What is said of an arm that is written: which of its values the parameters tell, and what the format has no place for.
+
+use robot_model_codegen::Compiled;
+use robot_model_spec::model::{Inertial, LinearParameter};
+use robot_model_spec::parameter::{InertialElement, Owner};
+
+use super::Format;
+use super::passive::{is_body, is_said};
+use super::standard::{Moved, Standard};
+use crate::output::{names, significant};
+
+/// Of a link, by names of its ten: what is told alone, what only in sums, what is of no influence.
+struct Told<'a> {
+    alone: Vec<&'a str>,
+    in_sums: Vec<&'a str>,
+    without_influence: Vec<&'a str>,
+}
+
+impl<'a> Told<'a> {
+    fn of(compiled: &'a Compiled, link: usize) -> Self {
+        let mut told = Self {
+            alone: Vec::new(),
+            in_sums: Vec::new(),
+            without_influence: Vec::new(),
+        };
+        let base = &compiled.base;
+        for (k, parameter) in compiled.standard.iter().enumerate() {
+            if !matches!(parameter.owner, Owner::Link { link: own, .. } if own == link) {
+                continue;
+            }
+            let name = parameter.name.as_str();
+            // The sum of a kept parameter has the kept one and what is regrouped into it.
+            let sum = base.kept.iter().position(|kept| *kept == k);
+            let is_alone = sum.is_some_and(|sum| base.combinations[sum].len() == 1);
+            if base.unidentifiable.contains(&k) {
+                told.without_influence.push(name);
+            } else if is_alone {
+                told.alone.push(name);
+            } else {
+                told.in_sums.push(name);
+            }
+        }
+        told
+    }
+}
+
+/// A sentence about the values of a link; empty where they are all told or as they were given.
+pub(super) fn remark(compiled: &Compiled, standard: &Standard, link: usize) -> String {
+    let Some(chain) = compiled.model.chain() else {
+        return String::new();
+    };
+    let own = &chain.links[link];
+    if standard.is_given || matches!(own.inertial, Inertial::Fixed(_)) {
+        return String::new();
+    }
+    let told = Told::of(compiled, link);
+    if told.alone.len() == InertialElement::ALL.len() {
+        return String::new();
+    }
+    let nearest = match own.inertial {
+        Inertial::Nominal(_) => "the spec's nominal values",
+        _ => "a body in place of nominal values, of which the spec has none",
+    };
+    let parts = [
+        ("told only in sums", &told.in_sums),
+        ("without influence on any torque", &told.without_influence),
+        ("told alone", &told.alone),
+    ];
+    let parts = parts.iter().filter(|(_, list)| !list.is_empty());
+    let parts: Vec<String> = parts
+        .map(|(what, list)| format!("{what}: {}", short(list)))
+        .collect();
+    format!(
+        "one of the sets that move alike, nearest to {nearest}; {}",
+        parts.join("; ")
+    )
+}
+
+/// `m, mx` of `fore.m`, `fore.mx`
+fn short(list: &[&str]) -> String {
+    let plain = list
+        .iter()
+        .map(|name| name.rsplit('.').next().unwrap_or(name));
+    plain.collect::<Vec<_>>().join(", ")
+}
+
+/// How many base parameters are named.
+const NAMED: usize = 4;
+
+/// A sentence about base parameters that no arm has, those that are farthest off first.
+pub(super) fn moved(standard: &Standard) -> Option<String> {
+    let mut moved: Vec<&Moved> = standard.moved.iter().collect();
+    moved.sort_by(|x, y| y.widths.total_cmp(&x.widths));
+    let named = moved.iter().take(NAMED).map(|moved| {
+        let by = if moved.has_deviation {
+            format!(" ({} standard deviations)", significant(moved.widths, 2))
+        } else {
+            String::new()
+        };
+        let [given, written] = [moved.given, moved.written].map(|x| significant(x, 5));
+        format!("`{}` {written} in place of {given}{by}", moved.name)
+    });
+    let named: Vec<String> = named.collect();
+    let more = match moved.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(", and {more} more by less"),
+    };
+    (!named.is_empty()).then(|| {
+        format!(
+            "no arm of bodies has all these values; the nearest is written, with {}{more}; `identify --method physical` asks the logs \
+             for the nearest",
+            named.join(", ")
+        )
+    })
+}
+
+/// Effects for which the format has no place, with their values.
+pub(super) fn not_written(
+    compiled: &Compiled,
+    standard: &[f64],
+    shapes: &[f64],
+    format: Format,
+) -> Vec<String> {
+    let model = &compiled.model;
+    let mut first_shape = 0;
+    let mut left_out = Vec::new();
+    for (index, effect) in model.effects.iter().enumerate() {
+        let definition = &effect.definition;
+        let own = &shapes[first_shape..first_shape + definition.shapes.len()];
+        first_shape += definition.shapes.len();
+        if is_said(effect, format) || is_body(effect) {
+            continue;
+        }
+        let linear = compiled.standard.iter().zip(standard);
+        let linear = linear.filter_map(|(parameter, value)| match parameter.owner {
+            Owner::Effect {
+                effect: other,
+                parameter,
+            } if other == index => {
+                let known: &LinearParameter = &definition.linear[parameter];
+                Some((&known.name, *value))
+            }
+            _ => None,
+        });
+        let linear: Vec<(&String, f64)> = linear.collect();
+        // What is not there, or was put into links that do the same, is not lost.
+        if !linear.is_empty() && linear.iter().all(|(_, value)| *value == 0.0) {
+            continue;
+        }
+        let shapes = definition
+            .shapes
+            .iter()
+            .map(|shape| &shape.name)
+            .zip(own.iter().copied());
+        let values = linear.into_iter().chain(shapes);
+        let values: Vec<String> = values
+            .map(|(name, value)| format!("{name} = {}", significant(value, 5)))
+            .collect();
+        left_out.push(format!(
+            "`{}` ({})",
+            model.effect_name(index),
+            values.join(", ")
+        ));
+    }
+    left_out
+}
+
+/// Links whose remark says that they are one of many.
+pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<String> {
+    let links = compiled
+        .model
+        .chain()
+        .into_iter()
+        .flat_map(|chain| &chain.links);
+    let links = links.zip(remarks).filter(|(_, remark)| !remark.is_empty());
+    let links: Vec<&str> = links.map(|(link, _)| link.name.as_str()).collect();
+    (!links.is_empty()).then(|| {
+        format!(
+            "the parameters do not tell each number of the inertials of {}; written is one of the sets that move alike, the nearest to the \
+             nominal values (comments in the file have the names)",
+            names(&links)
+        )
+    })
+}

@@ -1,0 +1,191 @@
+//! One arm of all that move as the parameters say: standard parameters that make the base parameters, of links that are bodies,
+//! nearest to the spec's nominal values.
+
+use std::path::Path;
+
+use robot_model::Inertial;
+use robot_model::identify::PossibleArms;
+use robot_model_codegen::Compiled;
+
+use super::Format;
+use super::passive::is_unsaid;
+use crate::Error;
+use crate::interpreted::{possible_arms, share_deviations};
+use crate::parameters::{self, Beside, Values};
+
+/// How exactly base parameters are kept in the search, in deviations; wider ones where a search comes to no end.
+const WIDTHS: [f64; 6] = [1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2];
+
+/// Base parameters are the same where they differ by less: as a share, and in deviations.
+const SAME: f64 = 1e-6;
+
+/// The arm that is written.
+pub(super) struct Standard {
+    /// One value a standard parameter.
+    pub values: Vec<f64>,
+    /// Whether all links are as they were given.
+    pub is_given: bool,
+    /// Base parameters that no arm has, and what the arm has in their place.
+    pub moved: Vec<Moved>,
+}
+
+/// A base parameter of which another value is written.
+pub(super) struct Moved {
+    pub name: String,
+    pub given: f64,
+    pub written: f64,
+    /// The difference in deviations, or in what stands for one where the file has none.
+    pub widths: f64,
+    pub has_deviation: bool,
+}
+
+/// Finds it.
+pub(super) fn standard(
+    compiled: &Compiled,
+    values: &Values,
+    file: Option<&Path>,
+    format: Format,
+) -> Result<Standard, Error> {
+    let given = given(compiled, values, file, format)?;
+    if let Some(values) = given.filter(|values| are_possible(compiled, values)) {
+        return Ok(Standard {
+            values,
+            is_given: true,
+            moved: Vec::new(),
+        });
+    }
+    let deviations = file.map(|file| parameters::deviations(compiled, file));
+    let deviations = deviations.transpose()?;
+    let known = |k: usize| deviations.as_ref().and_then(|all| all[k]);
+    let shares = share_deviations(compiled, &values.beta);
+    let widths: Vec<f64> = (0..shares.len())
+        .map(|k| known(k).unwrap_or(shares[k]))
+        .collect();
+    let found = search(compiled, values, &widths, format).ok_or_else(|| {
+        Error::Argument(format!(
+            "{}: the search for an arm whose links are bodies came to no end near these parameters; `identify --method physical` \
+             finds one on the logs",
+            compiled.model.source
+        ))
+    })?;
+    let base = &compiled.base;
+    let pairs = values.beta.iter().copied().zip(base.beta(&found));
+    let differ = pairs.enumerate().filter(|&(k, (given, written))| {
+        let apart = (given - written).abs();
+        apart > SAME * given.abs() && apart > SAME * widths[k]
+    });
+    let moved = differ.map(|(k, (given, written))| Moved {
+        name: base.names[k].clone(),
+        given,
+        written,
+        widths: (given - written).abs() / widths[k],
+        has_deviation: known(k).is_some(),
+    });
+    Ok(Standard {
+        moved: moved.collect(),
+        values: found,
+        is_given: false,
+    })
+}
+
+/// Standard parameters that the file or the spec gives; none where they give base parameters only, or where something that the
+/// format does not say could be in the links.
+fn given(
+    compiled: &Compiled,
+    values: &Values,
+    file: Option<&Path>,
+    format: Format,
+) -> Result<Option<Vec<f64>>, Error> {
+    if let Some(standard) = &values.standard {
+        return Ok(standard.iter().copied().collect());
+    }
+    let Some(file) = file else {
+        return Ok(None);
+    };
+    let Beside::Same(standard) = parameters::beside(compiled, file, &values.beta)? else {
+        return Ok(None);
+    };
+    let standard: Option<Vec<f64>> = standard.into_iter().collect();
+    let hides = |standard: &Vec<f64>| {
+        let regrouped = regrouped(compiled, format);
+        regrouped.into_iter().any(|k| standard[k] != 0.0)
+    };
+    Ok(standard.filter(|standard| !hides(standard)))
+}
+
+/// Parameters of effects that the format does not say and that a base parameter has others for: what they do is put there.
+fn regrouped(compiled: &Compiled, format: Format) -> Vec<usize> {
+    let unsaid = compiled.standard.iter().enumerate().filter(|(k, own)| {
+        is_unsaid(&compiled.model, format, own.owner) && !compiled.base.kept.contains(k)
+    });
+    unsaid.map(|(k, _)| k).collect()
+}
+
+fn search(
+    compiled: &Compiled,
+    values: &Values,
+    widths: &[f64],
+    format: Format,
+) -> Option<Vec<f64>> {
+    let mut arms = possible_arms(compiled)?;
+    for k in regrouped(compiled, format) {
+        arms.fixed[k] = Some(0.0);
+    }
+    // Values by name are nearer than those of the spec.
+    if let Some(standard) = &values.standard {
+        for link in &mut arms.links {
+            let ten: Option<Vec<f64>> = link.parameters.iter().map(|&k| standard[k]).collect();
+            let ten = ten.and_then(|ten| ten.try_into().ok());
+            link.nominal = ten.or(link.nominal);
+        }
+    }
+    let found = WIDTHS.iter().find_map(|width| {
+        let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
+        arms.nearest_to(&values.beta, &widths)
+    });
+    let (_, near) = found?;
+    let exact = exact(compiled, &arms, &near, &values.beta);
+    Some(if are_possible(compiled, &exact) {
+        exact
+    } else {
+        near
+    })
+}
+
+/// The same with what is left of the base parameters in the standard parameters that stand for them.
+fn exact(compiled: &Compiled, arms: &PossibleArms, near: &[f64], beta: &[f64]) -> Vec<f64> {
+    let mut exact = near.to_vec();
+    let sums = compiled.base.combinations.iter().map(|combination| {
+        let terms = combination.iter();
+        terms.map(|&(k, share)| share * near[k]).sum::<f64>()
+    });
+    for ((&kept, wanted), sum) in arms.kept.iter().zip(beta).zip(sums) {
+        exact[kept] += wanted - sum;
+    }
+    exact
+}
+
+/// Whether links that are not fixed are bodies, and what is not negative is not.
+fn are_possible(compiled: &Compiled, standard: &[f64]) -> bool {
+    let Some(arms) = possible_arms(compiled) else {
+        return false;
+    };
+    let is_body = |parameters: &[usize; 10]| {
+        let ten = parameters.map(|k| standard[k]);
+        ten.iter().all(|x| *x == 0.0) || is_body(ten)
+    };
+    arms.links.iter().all(|link| is_body(&link.parameters))
+        && arms.nonnegative.iter().all(|&k| standard[k] >= 0.0)
+}
+
+/// Whether mass that is nowhere negative has these parameters.
+pub(super) fn is_body(ten: [f64; 10]) -> bool {
+    let inertial = Inertial::from(ten);
+    let moments = inertial.second_moments();
+    inertial.mass > 0.0
+        && moments.is_some_and(|moments| {
+            let spread = moments.symmetric_eigenvalues();
+            // A rod or a plate of rounded numbers is a body, too.
+            spread.min() >= -1e-9 * spread.max().abs()
+        })
+}

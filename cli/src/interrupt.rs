@@ -1,0 +1,92 @@
+//! Ctrl-C: the end, with files whole or absent; in a search first a wish to have the best so far.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+/// What a shell takes for the end by Ctrl-C.
+const CODE: i32 = 130;
+
+/// Whether a search wants to know of it, and whether it was pressed since.
+static IS_WATCHED: AtomicBool = AtomicBool::new(false);
+static IS_PRESSED: AtomicBool = AtomicBool::new(false);
+
+/// Folders that were made for files which are not there yet. Whoever writes holds it, and the end waits.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// From now on Ctrl-C is heeded. Where the system gives no signals, nobody presses.
+pub(crate) fn heed() {
+    // A second time it is heeded already.
+    let _ = ctrlc::set_handler(pressed);
+}
+
+fn pressed() {
+    if IS_WATCHED.load(Ordering::Relaxed) && !IS_PRESSED.swap(true, Ordering::Relaxed) {
+        return;
+    }
+    let unfinished = unfinished();
+    for folder in unfinished.iter() {
+        // What somebody has put there in the meantime stays.
+        let _ = fs::remove_dir(folder);
+    }
+    std::process::exit(CODE)
+}
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Does what Ctrl-C may not part.
+pub(crate) fn whole<T>(work: impl FnOnce() -> T) -> T {
+    let _unfinished = unfinished();
+    work()
+}
+
+/// An empty folder that was made for what is to come; it goes away where that does not come.
+#[derive(Debug)]
+pub(crate) struct MadeFolder(PathBuf);
+
+impl MadeFolder {
+    /// Makes it.
+    pub(crate) fn make(path: &Path) -> std::io::Result<Self> {
+        let mut unfinished = unfinished();
+        fs::create_dir(path)?;
+        unfinished.push(path.to_owned());
+        Ok(Self(path.to_owned()))
+    }
+}
+
+impl Drop for MadeFolder {
+    fn drop(&mut self) {
+        let mut unfinished = unfinished();
+        unfinished.retain(|path| *path != self.0);
+        // It stays where something is in it.
+        let _ = fs::remove_dir(&self.0);
+    }
+}
+
+/// Ctrl-C as a wish, for as long as this lives; pressed again, the end.
+#[derive(Debug)]
+pub(crate) struct Wish(());
+
+impl Wish {
+    /// From now on.
+    pub(crate) fn watch() -> Self {
+        heed();
+        IS_PRESSED.store(false, Ordering::Relaxed);
+        IS_WATCHED.store(true, Ordering::Relaxed);
+        Self(())
+    }
+
+    pub(crate) fn is_pressed(&self) -> bool {
+        let Self(()) = self;
+        IS_PRESSED.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Wish {
+    fn drop(&mut self) {
+        IS_WATCHED.store(false, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,134 @@
+//! Where logs have their columns beside the spec: `robot-model.toml` in a log's folder, or the file that was asked for.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use clap::Args;
+use robot_model::log::{Column, Columns};
+use robot_model_spec::model::{LogColumn, LogColumns};
+use robot_model_spec::{ColumnKind, Model};
+
+use crate::progress::Progress;
+use crate::spec::read_text;
+use crate::{Error, output};
+
+/// What a file of settings is called where nobody says it.
+pub(crate) const NAME: &str = "robot-model.toml";
+
+/// The option of all verbs that read logs.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct LogSettings {
+    /// Columns and units of logs, TOML, channel by channel in place of those of the spec's `log`. Without it each log has those of the
+    /// `robot-model.toml` in its folder, where there is one.
+    #[arg(long = "log-settings", value_name = "FILE.toml")]
+    file: Option<PathBuf>,
+    /// Files as they were read first, and told.
+    #[arg(skip)]
+    read: Arc<Mutex<BTreeMap<PathBuf, LogColumns>>>,
+}
+
+impl LogSettings {
+    /// The file that holds for a log.
+    pub(crate) fn of(&self, log: &Path) -> Option<PathBuf> {
+        self.file.clone().or_else(|| {
+            let beside = log.with_file_name(NAME);
+            beside.is_file().then_some(beside)
+        })
+    }
+
+    /// Files that hold for logs, to keep outputs away from them.
+    pub(crate) fn files<'a>(&self, logs: impl IntoIterator<Item = &'a PathBuf>) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> = logs.into_iter().filter_map(|log| self.of(log)).collect();
+        files.sort();
+        files.dedup();
+        files
+    }
+
+    /// Where a log of a robot has its channels. A file beside the spec is never read in silence.
+    pub(crate) fn columns(
+        &self,
+        log: &Path,
+        model: &Model,
+        progress: &Progress,
+    ) -> Result<Columns, Error> {
+        let Some(path) = self.of(log) else {
+            return Ok(columns(model, &model.log));
+        };
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if !read.contains_key(&path) {
+            read.insert(path.clone(), settings(&path, model, progress)?);
+        }
+        let own = &read[&path];
+        Ok(columns(model, own))
+    }
+}
+
+impl LogSettings {
+    /// What a one in a column of a table without a robot is worth, in SI units; 1 where no file names it. It is told where it is not 1.
+    pub(crate) fn unit(&self, table: &Path, column: &str, kind: ColumnKind) -> Result<f64, Error> {
+        let Some(path) = self.of(table) else {
+            return Ok(1.0);
+        };
+        let name = path.display().to_string();
+        let unit = robot_model_spec::log_column_unit(&name, &read_text(&path)?, column, kind)?;
+        if let Some(unit) = unit.filter(|unit| (*unit - 1.0).abs() > 0.0) {
+            output::say(&format!(
+                "note: {name} says what column `{column}` is in: a one there is {} in SI units",
+                output::rounded(unit)
+            ));
+        }
+        Ok(unit.unwrap_or(1.0))
+    }
+}
+
+/// Reads a file, and says so.
+fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumns, Error> {
+    let name = path.display().to_string();
+    let found = robot_model_spec::log_settings(model, &name, &read_text(path)?)?;
+    let of_spec: Vec<&str> = model.log.all().map(|(channel, _)| channel).collect();
+    let said = found.said.iter().map(|channel| format!("`{channel}`"));
+    let said: Vec<String> = said.collect();
+    let over = match model.log.line {
+        Some(line) if found.said.iter().any(|own| of_spec.contains(&own.as_str())) => format!(
+            ", in place of what the spec's `log` says of them ({}:{line})",
+            model.source
+        ),
+        _ => String::new(),
+    };
+    progress.note(&format!(
+        "note: {name} says which columns of logs are {}{over}",
+        said.join(", ")
+    ));
+    Ok(found.columns)
+}
+
+/// Columns as the reader of logs takes them; standard ones where nothing is said.
+fn columns(model: &Model, log: &LogColumns) -> Columns {
+    let column = |own: &LogColumn| Column {
+        name: own.name.clone(),
+        unit: own.unit,
+    };
+    let mut columns = Columns::standard(model.joints.len());
+    if let Some(time) = &log.time {
+        columns.time = column(time);
+    }
+    let families = [
+        (&mut columns.q, &log.q),
+        (&mut columns.dq, &log.dq),
+        (&mut columns.tau, &log.tau),
+    ];
+    for (standard, own) in families {
+        if !own.is_empty() {
+            *standard = own.iter().map(column).collect();
+        }
+    }
+    let inputs = log.inputs.iter();
+    columns.extra = inputs
+        .map(|(name, own)| (name.clone(), column(own)))
+        .collect();
+    let joints = model.joints.iter();
+    columns.joints = joints.map(|joint| joint.name.clone()).collect();
+    columns.topic.clone_from(&log.topic);
+    columns
+}

@@ -1,0 +1,74 @@
+//! `robot-model man`: pages of the manual.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Command, CommandFactory};
+use clap_mangen::Man as Page;
+
+use crate::interrupt::MadeFolder;
+use crate::output::{Files, counted};
+use crate::{CommandLine, Error, output};
+
+/// Print the manual's page of the program, or write the pages of all verbs.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model man > robot-model.1
+  robot-model man --out ~/.local/share/man/man1")]
+pub(crate) struct Man {
+    /// Folder to write `robot-model.1`, `robot-model-identify.1` and the others to; made where it is missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+impl Man {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let mut command = CommandLine::command().disable_help_subcommand(true);
+        command.build();
+        match &self.out {
+            None => output::print(&page(&command).1),
+            Some(folder) => write(folder, &pages(&command)),
+        }
+    }
+}
+
+/// The pages of a command and all below it, each with its file's name.
+fn pages(command: &Command) -> Vec<(String, String)> {
+    let below = command.get_subcommands().flat_map(pages);
+    std::iter::once(page(command)).chain(below).collect()
+}
+
+fn page(command: &Command) -> (String, String) {
+    let page = Page::new(command.clone());
+    let name = page.get_filename();
+    let mut text = Vec::new();
+    page.render(&mut text).expect("a list takes all");
+    (name, String::from_utf8_lossy(&text).into_owned())
+}
+
+/// All of them, or none where one cannot be written.
+fn write(folder: &Path, pages: &[(String, String)]) -> Result<(), Error> {
+    let made = if folder.exists() {
+        None
+    } else {
+        let made = MadeFolder::make(folder).map_err(|error| Error::Write {
+            path: folder.to_owned(),
+            reason: format!("the folder cannot be made: {error}"),
+        })?;
+        Some(made)
+    };
+    let mut files = Files::default();
+    let claimed = pages.iter().map(|(name, text)| {
+        let file = files.claim(&folder.join(name))?;
+        Ok((file, text))
+    });
+    let claimed = claimed.collect::<Result<Vec<_>, Error>>()?;
+    for (file, text) in claimed {
+        file.commit(text.as_bytes())?;
+    }
+    drop(made);
+    output::print(&format!(
+        "wrote {} to {}\n",
+        counted(pages.len(), "page"),
+        folder.display()
+    ))
+}

@@ -1,0 +1,111 @@
+//! `robot-model new`: a spec to start from.
+
+mod text;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use robot_model_codegen::emit::c::Prefix;
+use robot_model_spec::model::Convention;
+
+use crate::output::OutFile;
+use crate::{Error, output};
+
+/// Write a spec to start from, whose comments say what each line is.
+///
+/// It passes `check` as it is. All its numbers are made up: put those of the arm in their place. From a URDF, `import` writes a spec.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  robot-model new Picker --joints 6 --convention modified_dh
+  robot-model new Picker --joints 6 --convention origin -o arms/picker.robot --force
+  robot-model new Swing --energies --joints 2")]
+pub(crate) struct New {
+    /// The robot's name, such as `Picker`.
+    #[arg(value_parser = name)]
+    name: String,
+    /// The spec to write; without it the robot's name with `.robot` behind it.
+    #[arg(short, long, value_name = "SPEC")]
+    output: Option<PathBuf>,
+    /// How many joints.
+    #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u8).range(1..=40))]
+    joints: u8,
+    /// How frames are written.
+    #[arg(long, value_enum, default_value_t, conflicts_with = "energies")]
+    convention: ConventionArgument,
+    /// Kinetic and potential energy in place of joints and links: for arms that are no serial chain. At most 6 coordinates.
+    #[arg(long)]
+    energies: bool,
+    /// Put it in the place of a file that is there already.
+    #[arg(long)]
+    force: bool,
+}
+
+/// Most coordinates of a spec of energies: more of this planar chain say nothing new.
+const MOST_COORDINATES: u8 = 6;
+
+#[derive(Debug, Clone, Copy, Default, ValueEnum)]
+enum ConventionArgument {
+    /// Standard Denavit-Hartenberg.
+    #[default]
+    #[value(name = Convention::StandardDh.name())]
+    StandardDh,
+    /// Modified Denavit-Hartenberg (Craig).
+    #[value(name = Convention::ModifiedDh.name())]
+    ModifiedDh,
+    /// Frames placed by `xyz` and `rpy`, as in a URDF.
+    #[value(name = Convention::Origin.name())]
+    Origin,
+}
+
+impl From<ConventionArgument> for Convention {
+    fn from(convention: ConventionArgument) -> Self {
+        match convention {
+            ConventionArgument::StandardDh => Self::StandardDh,
+            ConventionArgument::ModifiedDh => Self::ModifiedDh,
+            ConventionArgument::Origin => Self::Origin,
+        }
+    }
+}
+
+/// A name, not a file.
+fn name(text: &str) -> Result<String, String> {
+    let is_path = text.contains(['/', '\\']) || text.contains('.');
+    if is_path || !text.contains(|c: char| c.is_ascii_alphabetic()) {
+        return Err(
+            "write the robot's name, such as `Picker`, and its file behind `-o`".to_owned(),
+        );
+    }
+    Ok(robot_model_spec::upper_camel(text))
+}
+
+impl New {
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        if self.energies && self.joints > MOST_COORDINATES {
+            return Err(Error::Argument(format!(
+                "--energies --joints {}: a spec to start from has at most {MOST_COORDINATES} coordinates; write more of them yourself, up to 24",
+                self.joints
+            )));
+        }
+        let path = self.output.clone().unwrap_or_else(|| {
+            PathBuf::from(format!("{}.robot", Prefix::of_robot(&self.name).as_str()))
+        });
+        let file = if self.force {
+            OutFile::create(&path)?
+        } else {
+            OutFile::create_new(&path)?
+        };
+        let shown = path.display().to_string();
+        let joints = usize::from(self.joints);
+        let text = if self.energies {
+            text::of_energies(&self.name, &shown, joints)
+        } else {
+            text::of_chain(&self.name, &shown, joints, self.convention.into())
+        };
+        // A name may be one that the language does not take.
+        robot_model_spec::load(&shown, &text)?;
+        file.commit(text.as_bytes())?;
+        output::print(&format!(
+            "wrote {shown}: put the arm's numbers in, then `robot-model check {shown}`\n"
+        ))
+    }
+}

@@ -1,0 +1,102 @@
+//! What shells and the manual know of the program.
+
+use std::process::Command;
+
+use crate::common::Folder;
+
+const VERBS: [&str; 18] = [
+    "new",
+    "import",
+    "check",
+    "show",
+    "emit",
+    "eval",
+    "excite",
+    "simulate",
+    "identify",
+    "merge",
+    "friction",
+    "trace",
+    "dissect",
+    "audit",
+    "calibrate",
+    "demo",
+    "completions",
+    "man",
+];
+
+#[test]
+fn every_shell_gets_its_completions() {
+    let folder = Folder::new();
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let text = folder.succeed(&["completions", shell]);
+        for verb in VERBS {
+            assert!(text.contains(verb), "{shell}: {verb}");
+        }
+        assert!(text.contains("log-settings"), "{shell}: options, too");
+    }
+    assert_eq!(folder.run(&["completions", "csh"]).code, Some(2));
+}
+
+#[test]
+fn bash_understands_its_completions() {
+    let folder = Folder::new();
+    folder.write("completions", &folder.succeed(&["completions", "bash"]));
+    let script = "source ./completions; set -- $(complete -p robot-model); while [ \"$1\" != -F ]; do shift; done; \
+                  COMP_WORDS=(robot-model ident); COMP_CWORD=1; $2 robot-model ident robot-model; echo ${COMPREPLY[@]}";
+    for arguments in [vec!["-n", "completions"], vec!["-c", script]] {
+        let bash = Command::new("bash")
+            .current_dir(folder.path("."))
+            .args(&arguments)
+            .output();
+        let Ok(bash) = bash else {
+            eprintln!("no bash on this machine: its syntax is not looked at");
+            return;
+        };
+        let said = String::from_utf8_lossy(&bash.stderr);
+        assert!(bash.status.success(), "{arguments:?}: {said}");
+        if arguments[0] == "-c" {
+            assert_eq!(String::from_utf8_lossy(&bash.stdout).trim(), "identify");
+        }
+    }
+}
+
+#[test]
+fn the_manual_has_a_page_of_every_verb() {
+    let folder = Folder::new();
+    let page = folder.succeed(&["man"]);
+    assert!(page.contains(".TH robot-model 1"), "{page}");
+    for verb in VERBS {
+        assert!(
+            page.contains(&format!("robot\\-model\\-{verb}(1)")),
+            "{verb}: {page}"
+        );
+    }
+    let said = folder.succeed(&["man", "--out", "man1"]);
+    assert_eq!(said, "wrote 21 pages to man1\n");
+    for verb in VERBS {
+        let page = folder.read(&format!("man1/robot-model-{verb}.1"));
+        assert!(
+            page.contains(&format!(".TH robot-model-{verb} 1")),
+            "{page}"
+        );
+        assert!(page.contains("Examples:"), "{verb}");
+    }
+    assert!(folder.read("man1/robot-model.1") == page);
+    assert!(
+        folder
+            .read("man1/robot-model-calibrate-static.1")
+            .contains("robot\\-model calibrate static")
+    );
+    folder.write("file", "");
+    assert!(
+        folder
+            .refuse(&["man", "--out", "file"])
+            .contains("`file` is not a folder")
+    );
+    assert!(
+        folder
+            .refuse(&["man", "--out", "none/man1"])
+            .contains("cannot be made")
+    );
+}
