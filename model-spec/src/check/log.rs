@@ -1,5 +1,8 @@
 //! `log { .. }`, and the same of a file of settings: channels that exist, as many columns as joints, units of the right dimension.
 
+#[cfg(feature = "log-settings")]
+mod settings;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -13,12 +16,11 @@ use super::unit::Dimension;
 use super::{Errors, value};
 use crate::ast::{self, LogChannel, Robot, Setting};
 use crate::diagnostic::Diagnostic;
-#[cfg(feature = "log-settings")]
-use crate::log_settings::ColumnKind;
 use crate::model::{EffectDefinition, Joint, LogColumn, LogColumns};
-#[cfg(feature = "log-settings")]
-use crate::model::{GainUnit, Model};
 use crate::suggest;
+
+#[cfg(feature = "log-settings")]
+pub(crate) use settings::{check_settings, check_unit};
 
 /// Names of inputs: of the whole arm, and of joints.
 struct Inputs {
@@ -87,60 +89,6 @@ pub(super) fn check_log(
     let keys: Vec<Ident> = keys.map(|own| Ident::new(&own.key, own.span)).collect();
     super::check_unique(&keys, "channel", errors);
     columns
-}
-
-/// The columns of a robot's logs where a file beside its spec says some of them, channel by channel in place of the spec's.
-#[cfg(feature = "log-settings")]
-pub(crate) fn check_settings(
-    channels: &[LogChannel],
-    model: &Model,
-    errors: &mut Errors,
-) -> LogColumns {
-    let in_spec =
-        |line: usize, what: &str| Other::InSpec(format!("{}:{line}: {what}", model.source));
-    let gain = |joint: &Joint| {
-        let unit = joint.actuator_gain_unit?;
-        let gain = match unit {
-            GainUnit::Plain => "a plain number".to_owned(),
-            GainUnit::Torque => format!("in `{}`", torque_unit(joint.kind)),
-            GainUnit::TorquePerAmpere => format!("in `{}/A`", torque_unit(joint.kind)),
-        };
-        let what = format!("the gain of `{}` is {gain}", joint.name);
-        Some(in_spec(joint.line, &what))
-    };
-    let arm = Arm {
-        joints: &model.joints,
-        inputs: Inputs::of(&model.definitions),
-        gains: model.joints.iter().map(gain).collect(),
-    };
-    let mut columns = model.log.clone();
-    for channel in channels {
-        forget(&mut columns, &channel.key, model.joints.len());
-    }
-    let line = columns.line.unwrap_or_default();
-    let of_spec = columns.all();
-    let names = of_spec.map(|(channel, own)| {
-        let what = format!("the spec's `log` has it as `{channel}`");
-        (own.name.clone(), in_spec(line, &what))
-    });
-    let names = names.collect();
-    arm.check(channels, &mut columns, names, errors);
-    columns
-}
-
-/// Takes a channel out, and those of an input of joints one by one.
-#[cfg(feature = "log-settings")]
-fn forget(columns: &mut LogColumns, key: &str, joints: usize) {
-    match key {
-        "time" => columns.time = None,
-        "q" => columns.q.clear(),
-        "dq" => columns.dq.clear(),
-        "tau" => columns.tau.clear(),
-        "topic" => columns.topic = None,
-        _ => columns.inputs.retain(|(name, _)| {
-            name != key && (1..=joints).all(|joint| *name != format!("{key}{joint}"))
-        }),
-    }
 }
 
 impl Arm<'_> {
@@ -349,21 +297,6 @@ fn check_count(channel: &LogChannel, kind: &Channel, joints: usize, errors: &mut
         }),
     );
     false
-}
-
-/// What a one in a column is worth where no robot says of what it is.
-#[cfg(feature = "log-settings")]
-pub(crate) fn check_unit(column: &ast::LogColumn, kind: ColumnKind) -> Result<f64, Diagnostic> {
-    let dimension = match kind {
-        ColumnKind::Time => Dimension::TIME,
-        ColumnKind::Angle => Dimension::ANGLE,
-        ColumnKind::AngularSpeed => Dimension::ANGULAR_SPEED,
-        ColumnKind::Torque => Dimension::TORQUE,
-        ColumnKind::Force => Dimension::FORCE,
-        ColumnKind::Current => Dimension::CURRENT,
-        ColumnKind::Voltage => Dimension::NONE,
-    };
-    worth(column, Some(dimension)).map(|own| own.unit)
 }
 
 /// What a one in the column is worth, of a dimension or of any.
