@@ -81,6 +81,14 @@ impl Factors {
                 self.multiply(x)?;
                 return self.multiply(y);
             }
+            Expr::Binary(BinaryOp::Div, x, y) => {
+                self.number /= y.number(&|_| None)?;
+                return self.multiply(x);
+            }
+            Expr::Neg(x) => {
+                self.number = -self.number;
+                return self.multiply(x);
+            }
             Expr::Number(number) => {
                 self.number *= number;
                 return Some(());
@@ -239,7 +247,8 @@ mod tests {
 
     #[test]
     fn effects_are_known_by_their_laws() {
-        let own = "effect film(j) { linear a >= 0, b; torque(j) = -(-2*a*dq(j)) - b*sign(dq(j)); }";
+        let own =
+            "effect film(j) { linear a >= 0, b; torque(j) = -(-2*a*dq(j)) - b*sign(dq(j))/2; }";
         let model = model(
             own,
             "film on all; viscous_friction on all; motor_inertia on all; joint_spring on all; torque_offset on all; stribeck on all;",
@@ -262,7 +271,7 @@ mod tests {
             joint,
             JointNumbers {
                 damping: Some(2.0 * 11.0 + 21.0),
-                friction: Some(-12.0),
+                friction: Some(-6.0),
                 armature: Some(31.0),
                 spring: Some(Spring {
                     stiffness: 41.0,

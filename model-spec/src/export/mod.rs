@@ -1,7 +1,7 @@
 //! Arms out, for programs that read other descriptions: URDF and MJCF.
 //!
 //! In: a chain, and [`Numbers`] for its links and joints. Out: text. Both formats have a tree of bodies that are placed by a fixed
-//! transform and move about or along an axis, so frames of every convention are turned into these once, in [`frames`].
+//! transform and move about or along an axis, so frames of every convention are turned into these once, in `frames.rs`.
 //!
 //! What the formats are: <https://wiki.ros.org/urdf/XML>, <https://mujoco.readthedocs.io/en/stable/XMLreference.html>.
 
