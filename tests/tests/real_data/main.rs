@@ -68,11 +68,16 @@ impl Machine {
         Fit { arm, estimate }
     }
 
-    /// Closes the loop as a user would, by the command line; what `--json` says.
+    /// Closes the loop on the machine's spec.
     fn close_the_loop(&self, validation: &str) -> Value {
+        self.close_the_loop_on(&self.text, validation)
+    }
+
+    /// Closes the loop on a spec as a user would, by the command line; what `--json` says.
+    fn close_the_loop_on(&self, spec: &str, validation: &str) -> Value {
         let place = tempfile::tempdir().expect("a temporary folder");
         let path = |name: &str| place.path().join(name).into_os_string();
-        std::fs::write(place.path().join("arm.robot"), &self.text).expect("a file in the folder");
+        std::fs::write(place.path().join("arm.robot"), spec).expect("a file in the folder");
         let log = |name: &str| self.folder.join(name).into_os_string();
         let mut arguments = vec![
             OsString::from("robot-model"),
@@ -94,7 +99,7 @@ impl Machine {
         assert_eq!(format!("{code:?}"), format!("{:?}", ExitCode::SUCCESS));
         let amended =
             std::fs::read_to_string(place.path().join("amended.robot")).expect("the amended spec");
-        assert!(amended.len() > self.text.len(), "{amended}");
+        assert!(amended.len() > spec.len(), "{amended}");
         let text = std::fs::read_to_string(place.path().join("trace.json")).expect("the report");
         let report: Value = serde_json::from_str(&text).expect("JSON");
         assert_eq!(report["outcome"], "explained", "{}: {report:#}", self.name);

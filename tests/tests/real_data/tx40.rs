@@ -87,6 +87,38 @@ fn lacks_the_coupling_of_its_wrist() {
     );
 }
 
+/// One friction of one joint, taken out of a spec that has the rest.
+#[test]
+fn lacks_what_is_taken_out_of_its_spec() {
+    let Some(tx40) = Machine::find("tx40") else {
+        return;
+    };
+    let whole = "gear_coupling on (joint5, joint6);\n        motor_inertia on all;";
+    let spec = tx40.text.replace("motor_inertia on all;", whole).replace(
+        "coulomb_friction on all;",
+        "coulomb_friction on joint1, joint2, joint4, joint5, joint6;",
+    );
+    let report = tx40.close_the_loop_on(&spec, "validation.csv");
+    let effects = report["effects"].as_array().expect("a list");
+    let [one] = effects.as_slice() else {
+        panic!("{report:#}");
+    };
+    assert_eq!(
+        (&one["kind"], &one["joint"]),
+        (&"coulomb-friction".into(), &3.into())
+    );
+    let found = one["parameters"][0]["value"].as_f64().expect("a number");
+    assert_within_percent("fc", found, 6.34, 15.0);
+    assert!(
+        relative(&report, "relative_percent_before", 3) > 40.0,
+        "{report:#}"
+    );
+    assert!(
+        relative(&report, "relative_percent_after", 3) < 15.0,
+        "{report:#}"
+    );
+}
+
 /// The coupling alone, whatever else the trace may find, settles joint 5.
 #[test]
 fn with_the_coupling_alone_predicts_its_wrist() {

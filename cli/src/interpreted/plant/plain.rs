@@ -131,19 +131,14 @@ mod tests {
         let mut plant = plant();
         assert!(plant.is_plain());
         plant.prepare();
-        for k in 0..20 {
+        for k in 0..20_u32 {
             let at = |scale: f64, phase: f64| -> [f64; 2] {
-                [0, 1].map(|joint| scale * (phase + f64::from(3 * k + joint)).sin())
+                [0_u32, 1].map(|joint| scale * (phase + f64::from(3 * k + joint)).sin())
             };
             let (q, dq, ddq) = (at(1.0, 0.1), at(2.0, 0.7), at(9.0, 1.9));
-            let signs: Vec<f64> = (0..plant.switches())
-                .map(|switch| {
-                    if (switch + k as usize).is_multiple_of(2) {
-                        1.0
-                    } else {
-                        -1.0
-                    }
-                })
+            let signs: Vec<f64> = (k..)
+                .take(plant.switches())
+                .map(|switch| if switch.is_multiple_of(2) { 1.0 } else { -1.0 })
                 .collect();
             let at = Instant {
                 time: 0.1,
