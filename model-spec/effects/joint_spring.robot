@@ -4,8 +4,7 @@
 ///
 /// Identifiable from motion over a wide range; `t0` is not distinguishable from a torque offset.
 ///
-/// Confused with `torque_offset`: `t0` is one, and `k` is seen only where the position changes. Parted by motion over a wide
-/// range.
+/// Confused with `torque_offset`: `t0` is one. Parted by no motion in that; what is left, `k`, by motion over a wide range.
 effect joint_spring(j) {
     /// Stiffness, N m/rad (N/m for a prismatic joint).
     linear k >= 0;

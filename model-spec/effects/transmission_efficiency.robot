@@ -8,11 +8,11 @@
 /// of the load is known from elsewhere: links that are `fixed`, or the same links seen by other joints. On a lone joint of
 /// unknown links a load of another scale with other factors gives the same torque.
 ///
-/// Confused with `load_dependent_friction`: with `driving = driven` it is the same. Parted by loads that are lifted and lowered,
-/// as far as the two losses differ.
+/// Confused with `load_dependent_friction`: with `driving = driven` it is the same. Parted by no motion then; as far as the two
+/// losses differ, by loads that are lifted and lowered.
 ///
-/// Confused with `torque_gain`: where the load is only lifted both are in proportion to it. Parted by loads that are lifted and
-/// lowered.
+/// Confused with `torque_gain`: where the load is only lifted both are in proportion to it, and `driven = -driving` would be a
+/// gain. Parted by no motion but by the signs, as a gear that is driven loses as well: loads have to be lifted and lowered.
 effect transmission_efficiency(j) {
     /// Loss per unit of load where the motor drives.
     linear driving >= 0;
