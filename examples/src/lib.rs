@@ -1,8 +1,9 @@
-//! Five papers, reproduced: what the program of each prints and draws, and what several of them share.
+//! Five papers, reproduced: what the program of each prints and draws, and what several of them share; and the pages of the effects.
 //!
 //! A paper is a module with one function, `run`, which gives back a [`Paper`]: its tables beside ours, what its rows came to, and
 //! what is wrong in it. `src/bin` has a program for each, which prints that and draws its figures.
 
+pub mod effects;
 pub mod paper;
 pub mod seed_000;
 pub mod seed_001;

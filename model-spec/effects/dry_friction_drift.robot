@@ -1,7 +1,16 @@
-/// Dry friction that changes while the log runs, with no logged column to account for it: seals that wear in, grease that warms up.
+/// Dry friction that changes while the log runs, with no logged column to account for it: seals that wear in, grease that warms
+/// up.
 ///
-/// `fc (1 - exp(-t / settle)) sign(dq)` on top of `coulomb_friction`: nothing at the start of the log, `fc` at its end. Negative where
-/// friction falls. Identifiable as `parameter_drift` is, and told from it where speeds differ.
+/// `fc (1 - exp(-t / settle)) sign(dq)` on top of `coulomb_friction`: nothing at the start of the log, `fc` at its end. Negative
+/// where friction falls.
+///
+/// Identifiable from logs that are not much shorter than the time it takes, where similar motions come early and late.
+///
+/// Confused with `parameter_drift`: at one speed both are a constant against the motion that changes with time. Parted by
+/// several speeds, early and late.
+///
+/// Confused with `coulomb_friction`: where it has settled soon after the start, nothing but a constant is left. Parted by a log
+/// that begins before the change does.
 effect dry_friction_drift(j) {
     kind parameter_drift;
     /// Change of the dry friction, N m (N for a prismatic joint).

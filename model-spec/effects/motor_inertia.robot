@@ -1,7 +1,12 @@
 /// Inertia of the rotor and of the fast gear stages, seen at the joint.
 ///
-/// `ia * ddq`, with `ia` the rotor's inertia times the square of the gear ratio. On the first joint it adds to the link's
-/// `izz` and cannot be told from it; further out it can.
+/// `ia * ddq`, with `ia` the rotor's inertia times the square of the gear ratio.
+///
+/// Identifiable from accelerations of joints further out. On the first joint it adds to the link's `izz` and cannot be told from
+/// it.
+///
+/// Confused with `link_inertial_error`: at the joint alone a rotor is a moment of inertia about its axis. Parted by motion of
+/// the joints before it, which feel the link and not the rotor; on the first joint by none.
 effect motor_inertia(j) {
     /// Reflected inertia, kg m^2 (kg for a prismatic joint).
     linear ia >= 0;

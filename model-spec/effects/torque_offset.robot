@@ -1,6 +1,9 @@
 /// A constant in the torque channel: the current sensor's zero, or a preload.
 ///
-/// `offset`. Not distinguishable from gravity on a joint that is loaded by a constant gravity torque.
+/// `offset`.
+///
+/// Identifiable where gravity's torque on the joint changes with the pose. Not distinguishable from gravity on a joint that is
+/// loaded by a constant gravity torque.
 effect torque_offset(j) {
     /// Offset, N m (N for a prismatic joint).
     linear offset;

@@ -2,8 +2,13 @@
 ///
 /// Delivered is the command between the limits `limit max(0, 1 - max(0, dq sign(command)) / v0)`: `limit` at rest and against
 /// the motion, falling to nothing at the speed `v0` where command and motion have one direction. What is logged and not
-/// delivered adds to the torque of the model. `share` comes out as 1 where the law holds. Both limits have to be given (from
-/// the drive's data sheet): with free limits the logged torque would explain itself.
+/// delivered adds to the torque of the model. `share` comes out as 1 where the law holds.
+///
+/// Identifiable where the log has commands within the limits and beyond them. Both limits have to be given (from the drive's
+/// data sheet): with free limits the logged torque would explain itself.
+///
+/// Confused with `torque_gain`: where most of the large torques are cut, what is delivered is a smaller share of what is logged.
+/// Parted by the same motion at half the speed, which stays within the limits.
 effect torque_saturation(j) {
     /// Share of the excess that is not delivered.
     linear share >= 0;

@@ -86,4 +86,46 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn every_effect_says_when_it_is_identifiable_and_what_is_taken_for_it() {
+        let effects = standard_effects();
+        let is_effect = |name: &String| effects.iter().any(|effect| effect.name == *name);
+        let mut pairs: Vec<[&str; 2]> = Vec::new();
+        for effect in effects {
+            let identifiable = effect.identifiable();
+            assert!(
+                identifiable.is_some(),
+                "{}: no paragraph begins with `Identifiable `",
+                effect.name
+            );
+            let confusions = effect.confusions().unwrap_or_else(|paragraph| {
+                panic!(
+                    "{}: write \"Confused with `a`, `b`: why. Parted by what.\", not \"{paragraph}\"",
+                    effect.name
+                )
+            });
+            for other in confusions.iter().flat_map(|confusion| &confusion.effects) {
+                assert!(is_effect(other), "{}: no effect `{other}`", effect.name);
+                let found = effects.iter().find(|effect| effect.name == *other);
+                let mut pair = [
+                    effect.name.as_str(),
+                    found.map_or("", |found| found.name.as_str()),
+                ];
+                pair.sort_unstable();
+                assert!(pair[0] != pair[1], "{} with itself", effect.name);
+                assert!(!pairs.contains(&pair), "{pair:?}: say it at one of them");
+                pairs.push(pair);
+            }
+        }
+        for effect in effects {
+            assert!(
+                pairs
+                    .iter()
+                    .any(|pair| pair.contains(&effect.name.as_str())),
+                "{}: nothing is taken for it",
+                effect.name
+            );
+        }
+    }
 }

@@ -5,6 +5,7 @@
 //! downstream validates again. A `Model` cannot be built by hand: only `check` makes one, and [`Model::with`] another of it.
 
 mod effect;
+mod explained;
 mod expr;
 mod log;
 mod monomial;
@@ -15,6 +16,7 @@ pub use effect::{
     Act, Effect, EffectBinding, EffectDefinition, EffectExpr, EffectInput, EffectLeaf, EffectState,
     EffectTorque, LinearParameter, ShapeParameter, Signal,
 };
+pub use explained::Confusion;
 pub use expr::{BinaryOp, Choice, Expr, Function};
 pub use log::{LogColumn, LogColumns};
 

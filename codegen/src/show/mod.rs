@@ -4,6 +4,7 @@
 //! [`MOST_TERMS`](polynomial::MOST_TERMS) terms, intermediate results get names, as in the emitted code.
 
 mod document;
+mod effect;
 mod entries;
 pub mod polynomial;
 
@@ -11,6 +12,7 @@ use std::collections::HashMap;
 use std::fmt::Write as _;
 
 pub use document::document;
+pub use effect::{Equation, effect_equations};
 use entries::{Entry, left};
 use polynomial::SignedTerm;
 

@@ -255,8 +255,9 @@ fn doc_comment(input: ParseStream) -> syn::Result<String> {
                 Some("write a comment: `/// ..`"),
             ));
         };
+        // An empty line has none of its own for `lines`, and parts paragraphs.
         lines.extend(
-            text.lines()
+            text.split('\n')
                 .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned()),
         );
     }
