@@ -230,7 +230,11 @@ impl Writer<'_> {
                 (format!("{x} {sign} {y}"), Tie::Sum)
             }
             BinaryOp::Mul => {
-                let (x, y) = (self.first_factor(x), self.write(y, Tie::Product));
+                let right = match y {
+                    Expr::Binary(BinaryOp::Div, ..) if is_text => Tie::Power,
+                    _ => Tie::Product,
+                };
+                let (x, y) = (self.first_factor(x), self.write(y, right));
                 let sign = if is_text { " * " } else { " \\thinspace " };
                 product(format!("{x}{sign}{y}"))
             }
