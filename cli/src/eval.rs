@@ -1,5 +1,7 @@
 //! `robot-model eval`: the equations' values at given states.
 
+mod states;
+
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -7,12 +9,12 @@ use clap::Args;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Program;
 use robot_model_codegen::{Block, Compiled};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use crate::output::counted;
 use crate::parameters::{self, Values};
 use crate::spec::compile_instantaneous;
-use crate::{Error, json, output};
+use crate::{Error, output};
+use states::State;
 
 /// Mass matrix, Coriolis matrix, gravity, torque and regressors (`torque = base_regressor * beta + known_torque`) at given states, energies and slopes, and where the links or
 /// the spec's points are, with their Jacobians, as JSON.
@@ -30,33 +32,6 @@ pub(crate) struct Eval {
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct States {
-    /// Each is read on its own, so that a mistake has its number.
-    states: Vec<serde_json::Value>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct State {
-    q: Vec<f64>,
-    dq: Vec<f64>,
-    ddq: Vec<f64>,
-    /// For effects that depend on it, s.
-    #[serde(default)]
-    time: f64,
-    /// For effects that read it, N m or N.
-    #[serde(default)]
-    measured_torque: Vec<f64>,
-    /// Columns of the log that effects read, by name.
-    #[serde(default)]
-    inputs: BTreeMap<String, f64>,
-    /// Internal states of effects, `JOINT.EFFECT.STATE`; 0 where none is given.
-    #[serde(default)]
-    states: BTreeMap<String, f64>,
 }
 
 #[derive(Serialize)]
@@ -119,7 +94,7 @@ struct PointValues {
 impl Eval {
     pub(crate) fn run(&self) -> Result<(), Error> {
         let compiled = compile_instantaneous(&self.spec)?;
-        let states = self.read_states(&compiled)?;
+        let states = states::read(&self.states, &compiled)?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let programs = Programs::new(&compiled);
         let evaluation = Evaluation {
@@ -147,75 +122,6 @@ impl Eval {
             None => output::print(&written),
         }
     }
-
-    fn read_states(&self, compiled: &Compiled) -> Result<Vec<State>, Error> {
-        const FORM: &str = "write `{\"states\": [{\"q\": [..], \"dq\": [..], \"ddq\": [..]}, ..]}`";
-        let (path, dof) = (&self.states, compiled.dof());
-        let columns = compiled.regressor();
-        let reads_torque = columns
-            .program
-            .symbols()
-            .iter()
-            .any(|symbol| matches!(symbol, Symbol::MeasuredTorque(_)));
-        let written = json::read(path)?;
-        if written.is_array() {
-            let reason = "the list of states has a name: write `{\"states\": [..]}`";
-            return Err(Error::json(path, &reason));
-        }
-        let States { states } = json::typed(path, written, FORM)?;
-        let states = states
-            .into_iter()
-            .enumerate()
-            .map(|(k, state)| {
-                let read = serde_path_to_error::deserialize::<_, State>(state);
-                read.map_err(|error| {
-                    let reason = format!("state {}: {error}; {FORM}", k + 1);
-                    Error::json(path, &reason)
-                })
-            })
-            .collect::<Result<Vec<State>, Error>>()?;
-        for (k, state) in states.iter().enumerate() {
-            for (name, values) in [("q", &state.q), ("dq", &state.dq), ("ddq", &state.ddq)] {
-                if values.len() != dof {
-                    let reason = format!(
-                        "state {}: `{name}` has {}, the arm has {}",
-                        k + 1,
-                        counted(values.len(), "value"),
-                        counted(dof, "joint")
-                    );
-                    return Err(Error::json(path, &reason));
-                }
-            }
-            let fault = if reads_torque && state.measured_torque.len() != dof {
-                Some(format!(
-                    "`measured_torque` has {}, a declared effect reads that of {}",
-                    counted(state.measured_torque.len(), "value"),
-                    counted(dof, "joint")
-                ))
-            } else {
-                not_as_declared("inputs", &state.inputs, &compiled.model.inputs(), true).or_else(
-                    || not_as_declared("states", &state.states, &compiled.model.states(), false),
-                )
-            };
-            if let Some(fault) = fault {
-                return Err(Error::json(path, &format!("state {}: {fault}", k + 1)));
-            }
-            let absent: Vec<String> = compiled
-                .model
-                .states()
-                .into_iter()
-                .filter(|name| !state.states.contains_key(name))
-                .collect();
-            if !absent.is_empty() {
-                output::say(&format!(
-                    "note: state {}: `states` has no `{}`: 0, as at the start of a log",
-                    k + 1,
-                    absent.join("`, `")
-                ));
-            }
-        }
-        Ok(states)
-    }
 }
 
 /// The first state, from 1, with a value that is not finite, and the name of this value: JSON has `null` there.
@@ -237,26 +143,6 @@ fn not_finite(written: &str) -> Option<(usize, String)> {
             .find(|(_, value)| has_null(value))?;
         Some((k + 1, form.clone()))
     })
-}
-
-/// What names and those that the declared effects have do not have in common.
-fn not_as_declared(
-    what: &str,
-    given: &BTreeMap<String, f64>,
-    declared: &[String],
-    required: bool,
-) -> Option<String> {
-    let list = || match declared {
-        [] => "no effect of the spec has any".to_owned(),
-        names => format!("the spec's effects have `{}`", names.join("`, `")),
-    };
-    if let Some(unknown) = given.keys().find(|name| !declared.contains(name)) {
-        return Some(format!("`{what}` has `{unknown}`, {}", list()));
-    }
-    let missing = declared.iter().find(|name| !given.contains_key(*name));
-    missing
-        .filter(|_| required)
-        .map(|name| format!("`{what}` has no `{name}`, which a declared effect reads"))
 }
 
 fn base_parameters(compiled: &Compiled) -> Vec<BaseParameter<'_>> {

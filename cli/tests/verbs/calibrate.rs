@@ -278,3 +278,65 @@ fn logs_that_do_not_tell_are_refused() {
         assert_eq!(folder.run(&[&calibrate[..], usage].concat()).code, Some(2));
     }
 }
+
+/// Without a spec, columns that are named on the command line have the units of the file.
+#[test]
+fn calibrations_are_in_the_units_of_the_file() {
+    let folder = Folder::new();
+    let mut table = String::from("i,tau\n");
+    for k in 0..12 {
+        let current = 0.5 * f64::from(k);
+        let torque = 0.11 * current + 0.001 * f64::from(k % 3);
+        writeln!(table, "{current},{torque}").expect("a string takes all");
+    }
+    folder.write("si.csv", &table);
+    let calibrate = |table: &str| {
+        let columns = ["--current", "i", "--torque", "tau", "--json", "gain.json"];
+        let run = folder.run(&[&["calibrate", "static", table][..], &columns].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let gain = json(&folder.read("gain.json"));
+        (gain["gain"].as_f64().expect("a number"), run.stderr)
+    };
+    let (wanted, silent) = calibrate("si.csv");
+    assert_eq!(silent, "");
+    std::fs::create_dir(folder.path("mA")).expect("a folder");
+    let rows = table.lines().skip(1).map(|row| {
+        let (current, torque) = row.split_once(',').expect("two fields");
+        format!(
+            "{},{torque}\n",
+            1e3 * current.parse::<f64>().expect("a number")
+        )
+    });
+    folder.write(
+        "mA/table.csv",
+        &format!("i,tau\n{}", rows.collect::<String>()),
+    );
+    folder.write(
+        "mA/robot-model.toml",
+        "[log]\ntau = { columns = ['i'], unit = 'mA' }\n",
+    );
+    let (found, said) = calibrate("mA/table.csv");
+    assert!((found - wanted).abs() < 1e-9, "{found} and {wanted}");
+    assert!(
+        said.contains("note: mA/robot-model.toml says what column `i` is in"),
+        "{said}"
+    );
+    folder.write(
+        "mA/robot-model.toml",
+        "[log]\ntau = { columns = ['i'], unit = 'Nm' }\n",
+    );
+    let static_of = [
+        "calibrate",
+        "static",
+        "mA/table.csv",
+        "--current",
+        "i",
+        "--torque",
+        "tau",
+    ];
+    let refused = folder.refuse(&static_of);
+    assert!(
+        refused.contains("expected a current, found a torque"),
+        "{refused}"
+    );
+}
