@@ -14,3 +14,4 @@ pub mod shared;
 pub mod specs;
 pub mod states;
 pub mod twin;
+pub mod urdfs;

@@ -3,7 +3,6 @@
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
 use std::process::ExitCode;
 
 use robot_model::Inertial;
@@ -11,12 +10,11 @@ use robot_model_codegen::compile_model;
 use robot_model_spec::Model;
 use robot_model_spec::export::{JointNumbers, LinkNumbers, NO_RANGE, Numbers, mjcf, urdf};
 use robot_model_spec::model::JointKind;
-use robot_model_spec::parameter::Status;
 use robot_model_spec::urdf::{ImportOptions, Inertials, import, write_back};
 use robot_model_tests::evaluate::{Forms, Interpreter, relative_difference};
-use robot_model_tests::states::{self, State};
+use robot_model_tests::states;
+use robot_model_tests::urdfs::{self, given};
 use robot_model_tests::{cases, mjcf as reader, shared, specs};
-use serde::Deserialize;
 use serde_json::Value;
 
 /// Double precision through texts that keep every digit, and other orders of summation.
@@ -35,16 +33,6 @@ fn numbers(standard: &[f64], joints: usize) -> Numbers {
         joints: vec![JointNumbers::default(); joints],
         notes: vec!["a note".to_owned()],
     }
-}
-
-/// The values that a spec gives.
-fn given(model: &Model) -> Vec<f64> {
-    let value = |status| match status {
-        Status::Nominal(value) | Status::Fixed(value) => value,
-        Status::Unknown => 0.0,
-    };
-    let parameters = model.standard_parameters();
-    parameters.iter().map(|one| value(one.status)).collect()
 }
 
 fn load(text: &str) -> Model {
@@ -159,39 +147,16 @@ fn what_acts_on_joints_is_written() {
     assert_eq!(mjcf(&energies, &written), Err(refused));
 }
 
-/// What `tests/oracle/make.py` wrote.
-#[derive(Debug, Deserialize)]
-struct Case {
-    urdf: String,
-    states: Vec<Reference>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Reference {
-    q: Vec<f64>,
-    dq: Vec<f64>,
-    ddq: Vec<f64>,
-    tau: Vec<f64>,
-}
-
 /// URDFs of the shared material: made anew from their specs, made as MJCF, and written back into with the numbers that they have, of
 /// which none may change.
 #[test]
 fn what_is_written_has_pinocchios_torques() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("oracle/urdf.json");
-    let text = fs::read_to_string(path).expect("the oracle is in the repository");
-    let oracle: Vec<Case> = serde_json::from_str(&text).expect("the oracle is in its format");
     let mut compared = 0;
-    for case in oracle {
-        let Some(path) = shared::find(&case.urdf, "its export") else {
+    for reference in urdfs::all() {
+        let Some(original) = reference.text("its export") else {
             continue;
         };
-        let original = fs::read_to_string(path).expect("a readable URDF");
-        let options = ImportOptions {
-            tip: case.urdf.contains("tiago").then(|| "arm_7_link".to_owned()),
-            ..ImportOptions::default()
-        };
-        let spec = import(&original, &options)
+        let spec = import(&original, &reference.options(Inertials::Nominal))
             .unwrap_or_else(|error| panic!("{error}"))
             .spec;
         let model = load(&spec);
@@ -206,36 +171,15 @@ fn what_is_written_has_pinocchios_torques() {
         assert!(
             original.ends_with(rest) && original.starts_with(&back.urdf[..start]),
             "{}",
-            case.urdf
+            reference.urdf
         );
 
         let gravity = model.chain().expect("a chain").gravity;
         let as_urdf = urdf(&model, &written).expect("a chain");
         let as_mjcf = mjcf(&model, &written).expect("a chain");
         for read in [imported(&as_urdf, gravity), load(&reader::spec(&as_mjcf))] {
-            let values = given(&read);
-            let interpreter = Interpreter::new(compile_model(&read));
-            for reference in &case.states {
-                let state = State {
-                    q: reference.q.clone(),
-                    dq: reference.dq.clone(),
-                    ddq: reference.ddq.clone(),
-                    ..State::default()
-                };
-                let torque = interpreter.forms(&values, &state).inverse_dynamics;
-                let scale = reference
-                    .tau
-                    .iter()
-                    .fold(1.0_f64, |most, t| most.max(t.abs()));
-                for (found, wanted) in torque.iter().zip(&reference.tau) {
-                    // Pinocchio has quarter turns with the eight digits of the URDF.
-                    assert!(
-                        (found - wanted).abs() < 1e-8 * scale,
-                        "{}: {found} {wanted}",
-                        case.urdf
-                    );
-                }
-            }
+            // Pinocchio has quarter turns with the eight digits of the URDF.
+            reference.assert_torques(&read, 1e-8);
         }
         compared += 1;
     }
@@ -257,7 +201,7 @@ fn run(arguments: &[&str]) {
 /// what is no inertial or loss is where it was.
 #[test]
 fn an_identified_arm_goes_back_into_its_urdf() {
-    let Some(case) = cases::open().into_iter().find(|case| case.name == "D001") else {
+    let Some(case) = cases::open().into_iter().next() else {
         return;
     };
     let folder = tempfile::tempdir().expect("a temporary folder");

@@ -57,6 +57,12 @@ fn assert_alike(found: &Value, wanted: &Value, tolerance: f64) {
     }
 }
 
+/// Reads the URDF that was written into `back.robot`.
+fn import_back(folder: &Folder) {
+    let gravity = ["--gravity", "0,-9.81,0"];
+    folder.succeed(&[&["import", "out.urdf", "-o", "back.robot"], &gravity[..]].concat());
+}
+
 /// What an estimate has for a name.
 fn value(folder: &Folder, name: &str) -> f64 {
     let fit = json(&folder.read("fit.json"));
@@ -88,15 +94,7 @@ fn a_urdf_has_the_torques_of_the_fit() {
             && urdf.contains("gravity in the frame of `base`"),
         "{urdf}"
     );
-    let import = [
-        "import",
-        "out.urdf",
-        "-o",
-        "back.robot",
-        "--gravity",
-        "0,-9.81,0",
-    ];
-    folder.succeed(&import);
+    import_back(&folder);
     let friction = ["viscous_friction.fv", "coulomb_friction.fc"].map(|effect| {
         ["upper", "lower"].map(|joint| {
             let name = format!("{joint}.{effect}");
@@ -143,15 +141,7 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
             .read("out.urdf")
             .contains("`lower.stribeck` (fs = 0.1")
     );
-    let import = [
-        "import",
-        "out.urdf",
-        "-o",
-        "back.robot",
-        "--gravity",
-        "0,-9.81,0",
-    ];
-    folder.succeed(&import);
+    import_back(&folder);
     let friction = "\"upper.viscous_friction.fv\": 0, \"lower.viscous_friction.fv\": 0, \"upper.coulomb_friction.fc\": 0, \
                     \"lower.coulomb_friction.fc\": 0";
     folder.write("friction.json", &format!("{{{friction}}}"));
