@@ -266,6 +266,34 @@ fn a_search_is_given_so_many_iterations() {
 }
 
 #[test]
+fn a_search_is_given_up_where_it_leads_no_deeper_than_another() {
+    let log = noisy(log(4.0), 1e-4, 7);
+    let settings = OutputError {
+        window: Some(2.0),
+        ..HELD
+    };
+    let other = fit(&settings, &log);
+    let first = other.iterates.iter().rfind(|iterate| iterate.stage == 0);
+    let cost = first.expect("a part with short windows").cost;
+    let below = |share: f64| OutputError {
+        below: Some(share * cost),
+        ..settings.clone()
+    };
+    assert_eq!(fit(&below(1.01), &log).iterates, other.iterates);
+    let recording = Recording::new(&log, &[1.0], 0.0, Vec::new());
+    let start = [2.6, 0.4, 1.1, 1.0];
+    let mut told = 0;
+    let mut progress = |_: &Iterate| told += 1;
+    let ended = below(0.99).fit(&Block(start), &names(), &start, &[recording], &mut progress);
+    let expected = OutputErrorError::NotDeeper {
+        cost,
+        below: 0.99 * cost,
+    };
+    assert_eq!(ended.expect_err("given up"), expected);
+    assert!(told < other.iterates.len(), "{told}");
+}
+
+#[test]
 fn a_hole_that_covers_a_window_is_no_row() {
     let mut holey = log(4.0);
     holey.holes = vec![0.985..1.515];
