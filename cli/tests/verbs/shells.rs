@@ -4,12 +4,13 @@ use std::process::Command;
 
 use crate::common::Folder;
 
-const VERBS: [&str; 18] = [
+const VERBS: [&str; 19] = [
     "new",
     "import",
     "check",
     "show",
     "emit",
+    "export",
     "eval",
     "excite",
     "simulate",
@@ -73,7 +74,9 @@ fn the_manual_has_a_page_of_every_verb() {
         );
     }
     let said = folder.succeed(&["man", "--out", "man1"]);
-    assert_eq!(said, "wrote 21 pages to man1\n");
+    let pages = std::fs::read_dir(folder.path("man1")).unwrap().count();
+    assert!(pages > VERBS.len(), "{pages} pages");
+    assert_eq!(said, format!("wrote {pages} pages to man1\n"));
     for verb in VERBS {
         let page = folder.read(&format!("man1/robot-model-{verb}.1"));
         assert!(
