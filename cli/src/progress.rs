@@ -27,6 +27,7 @@ pub struct Progress {
     is_silent: bool,
     /// When one of many steps was said last.
     said: Mutex<Option<Instant>>,
+    noted: Mutex<Vec<String>>,
 }
 
 impl Progress {
@@ -51,6 +52,7 @@ impl Progress {
             bar: None,
             is_silent: true,
             said: Mutex::new(None),
+            noted: Mutex::new(Vec::new()),
         }
     }
 
@@ -111,11 +113,22 @@ impl Progress {
 
     /// Says something that stays.
     pub(crate) fn note(&self, what: &str) {
+        if let Ok(mut noted) = self.noted.lock() {
+            noted.push(what.to_owned());
+        }
         match &self.bar {
             Some(bar) => bar.println(what),
             None if self.is_silent => {}
             None => output::say(what),
         }
+    }
+
+    /// All that was noted, in its order.
+    pub(crate) fn noted(&self) -> Vec<String> {
+        self.noted
+            .lock()
+            .map(|noted| noted.clone())
+            .unwrap_or_default()
     }
 }
 

@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use super::IdentifyArguments;
 use super::fit::ByAcceleration;
-use super::payload::{Found, Logs, PayloadReport, of_arm};
+use super::page::Evidence;
+use super::payload::{Logs, PayloadReport, of_arm};
+use super::results::Results;
 use crate::Error;
-use crate::output;
 use crate::progress::Progress;
 
 /// What `--json` writes: the keys of `--payload`, and these.
@@ -42,8 +43,9 @@ impl IdentifyArguments {
         identify: &Identify,
         logs: Logs,
         known: &KnownPayload,
-        progress: &Progress,
-    ) -> Result<Found, Error> {
+        results: Results,
+        progress: Progress,
+    ) -> Result<(), Error> {
         let arm = &form.0;
         let link = self.payload_link.as_deref();
         let found = identify.fit_drive_gains(arm, &logs.unloaded, &logs.loaded, link, known)?;
@@ -55,7 +57,7 @@ impl IdentifyArguments {
             ..logs
         };
         let carried = &found.carried;
-        let judged = self.judged(form, carried, &logs, progress)?;
+        let judged = self.judged(form, carried, &logs, &progress)?;
         let gains: Vec<Gain> = gains(&found, arm.joints(), arm.actuator_gain()).collect();
         for gain in &gains {
             if let Some(doubt) = doubt(gain) {
@@ -66,7 +68,7 @@ impl IdentifyArguments {
         let mut payload = judged.report(&own, carried);
         payload.payload.mass = Some(known.mass);
         payload.payload.center = center(&found, known);
-        let text = format!(
+        let printed = format!(
             "{}{}\n{}",
             carried.estimate,
             told(&gains, known, &carried.link),
@@ -76,10 +78,12 @@ impl IdentifyArguments {
             payload,
             drive_gains: gains,
         };
-        Ok(Found {
-            json: output::json(&report),
-            text,
-        })
+        let evidence = Evidence {
+            notes: progress.noted(),
+            printed: &printed,
+            ..judged.evidence(&self.spec, form, &own, carried, &logs)
+        };
+        results.give(&report, &evidence, progress)
     }
 }
 

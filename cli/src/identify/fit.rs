@@ -1,6 +1,6 @@
 //! Both forms of the equations behind one face.
 
-use robot_model::columns::{Columns, Shape, Unknown};
+use robot_model::columns::{Arm, Columns, Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::Log;
 use robot_model_codegen::Compiled;
@@ -10,6 +10,7 @@ use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 
 /// A way to identify and to judge what was identified.
 pub(crate) trait Fit {
+    fn arm(&self) -> &dyn Arm;
     fn compiled(&self) -> &Compiled;
     fn model(&self) -> &Model {
         &self.compiled().model
@@ -42,6 +43,10 @@ fn with_values(estimate: &Estimate, values: &[f64]) -> Estimate {
 pub(crate) struct ByAcceleration(pub InterpretedArm);
 
 impl Fit for ByAcceleration {
+    fn arm(&self) -> &dyn Arm {
+        &self.0
+    }
+
     fn compiled(&self) -> &Compiled {
         self.0.compiled()
     }
@@ -78,6 +83,10 @@ pub(crate) struct Filtered {
 }
 
 impl Fit for Filtered {
+    fn arm(&self) -> &dyn Arm {
+        &self.arm
+    }
+
     fn compiled(&self) -> &Compiled {
         self.arm.compiled()
     }

@@ -9,9 +9,11 @@ mod likeness;
 mod nominal;
 mod options;
 mod output_error;
+mod page;
 mod payload;
 pub(crate) mod reduced;
 pub(crate) mod report;
+mod results;
 pub(crate) mod table;
 mod twice;
 mod units;
@@ -35,14 +37,16 @@ use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
 use options::{FormArgument, MethodArgument, WeightsArgument};
 use options::{parse_bands, parse_center, parse_corner, parse_mass};
+use page::{Evidence, OnLog};
 use reduced::Streams;
 use report::report;
+use results::Results;
 use table::table;
 
 /// Identify an arm's parameters from measured logs.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  robot-model identify arm.robot monday.csv --validate tuesday.csv --json fit.json
+  robot-model identify arm.robot monday.csv --validate tuesday.csv --json fit.json --report page
   robot-model identify arm.robot monday.csv --method physical
   robot-model identify arm.robot logs/monday.csv --log-settings drive.toml
   robot-model identify arm.robot empty.csv --payload loaded.csv --payload-mass 2.5
@@ -110,6 +114,9 @@ pub(crate) struct IdentifyArguments {
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Write the result as a page with figures, `index.html` in a folder there.
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
     #[command(flatten)]
     output_error: output_error::Options,
 }
@@ -171,7 +178,7 @@ impl IdentifyArguments {
             .chain(&self.validate)
             .chain(&self.instruments);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let json = files.claim_if(self.json.as_deref())?;
+        let results = Results::claim(&mut files, self)?;
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
@@ -216,13 +223,23 @@ impl IdentifyArguments {
             progress.note(&format!("note: {doubt}"));
         }
         faults.extend(self.late_channels(&estimate, &progress));
-        drop(progress);
 
-        if let Some(file) = json {
-            let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
-            file.commit(output::json(&report).as_bytes())?;
-        }
-        print(&estimate, &train, validation.as_ref())
+        let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
+        let printed = printed(&estimate, &train, validation.as_ref());
+        let found = Evidence {
+            drawn: OnLog::of(form.arm(), &estimate, &logs, validate.as_ref()),
+            notes: progress.noted(),
+            faults: &faults,
+            printed: &printed,
+            ..Evidence::of(
+                &self.spec,
+                form.compiled(),
+                &estimate,
+                &train,
+                validation.as_ref(),
+            )
+        };
+        results.give(&report, &found, progress)
     }
 
     /// As [`Self::fit`], in memory that does not grow with the logs.
@@ -232,7 +249,7 @@ impl IdentifyArguments {
             .chain(&self.validate);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
         let out = files.claim(factor)?;
-        let json = files.claim_if(self.json.as_deref())?;
+        let results = Results::claim(&mut files, self)?;
         let progress = Progress::new();
         let streams = Streams {
             form,
@@ -266,13 +283,23 @@ impl IdentifyArguments {
         for doubt in twice::doubts(&self.logs, self.validate.as_deref()) {
             progress.note(&format!("note: {doubt}"));
         }
-        drop(progress);
-        out.commit(reduced::text(&reduced).as_bytes())?;
-        if let Some(file) = json {
-            let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
-            file.commit(output::json(&report).as_bytes())?;
-        }
-        print(&estimate, &train, validation.as_ref())
+        let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
+        let printed = printed(&estimate, &train, validation.as_ref());
+        let found = Evidence {
+            drawn: OnLog::of(&form.0, &estimate, &[], validate.as_ref()),
+            notes: progress.noted(),
+            faults: &faults,
+            printed: &printed,
+            ..Evidence::of(
+                &self.spec,
+                form.compiled(),
+                &estimate,
+                &train,
+                validation.as_ref(),
+            )
+        };
+        let results = results.with(out, reduced::text(&reduced));
+        results.give(&report, &found, progress)
     }
 }
 
@@ -312,11 +339,11 @@ fn judged(estimate: &Estimate, form: &dyn Fit, log: &Log) -> Result<Errors, Erro
 }
 
 /// Parameters, and errors side by side.
-fn print(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> Result<(), Error> {
+fn printed(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> String {
     let columns = std::iter::once(("identification", train));
     let columns = columns.chain(validation.map(|errors| ("validation", errors)));
     let columns: Vec<_> = columns.collect();
-    output::print(&format!("{estimate}\n{}", table(estimate, &columns)))
+    format!("{estimate}\n{}", table(estimate, &columns))
 }
 
 impl IdentifyArguments {

@@ -19,6 +19,8 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
+use super::page::{Evidence, OnLog};
+use super::results::Results;
 use super::{IdentifyArguments, doubts, twice};
 use crate::Error;
 use crate::audit;
@@ -101,7 +103,7 @@ impl IdentifyArguments {
             .chain(&self.validate)
             .chain(options.files());
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let json = files.claim_if(self.json.as_deref())?;
+        let results = Results::claim(&mut files, self)?;
         let compiled = if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
             // Motors and links move apart.
             compiled.ungrouped()
@@ -181,7 +183,6 @@ impl IdentifyArguments {
             }
             judged => judged.transpose()?,
         };
-        drop(progress);
         let report = OutputReport {
             compiled: &compiled,
             names: &beginning.names,
@@ -191,10 +192,23 @@ impl IdentifyArguments {
             window: settings.window,
             faults: &faults,
         };
-        if let Some(file) = json {
-            file.commit(output::json(&report.json()).as_bytes())?;
-        }
-        output::print(&report.text())
+        let printed = report.text();
+        let torques = [("fitted", &train)].into_iter();
+        let torques = torques.chain(validation.as_ref().map(|judged| ("unseen", judged)));
+        let torques = torques.filter_map(|(of, judged)| Some((of, judged.torque.as_ref()?)));
+        let drawn = |linear| OnLog::of(form.arm(), linear, &logs, validate.as_ref());
+        let evidence = Evidence {
+            spec: &self.spec,
+            compiled: &compiled,
+            parameters: report.parameters(),
+            combinations: &found.combinations,
+            errors: torques.collect(),
+            drawn: linear.as_ref().and_then(drawn),
+            notes: progress.noted(),
+            faults: &faults,
+            printed: &printed,
+        };
+        results.give(&report.json(), &evidence, progress)
     }
 
     /// Parameters from a file, from least squares, or from the spec.

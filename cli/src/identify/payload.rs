@@ -1,17 +1,19 @@
 //! `identify --payload`: what the arm carries in some of its logs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use robot_model::identify::{Carried, Errors, Estimate, Identify, KnownPayload, Method};
 use robot_model::log::{Fault, Log};
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
+use super::page::{Evidence, OnLog};
 use super::report::{Parameter, Report, counted, report, shares};
+use super::results::Results;
 use super::table::table;
 use super::{IdentifyArguments, doubts, told_apart, twice};
 use crate::Error;
-use crate::output::{self, Files};
+use crate::output::Files;
 use crate::progress::Progress;
 
 /// What `--json` writes: the keys of all methods for the arm alone, and these.
@@ -54,7 +56,7 @@ impl IdentifyArguments {
             .chain(&self.payload)
             .chain(&self.validate);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let json = files.claim_if(self.json.as_deref())?;
+        let results = Results::claim(&mut files, self)?;
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
@@ -76,19 +78,14 @@ impl IdentifyArguments {
             ..Identify::default()
         };
         progress.step("identifying");
-        let found = match self.payload_mass {
-            None => self.carried(form, &identify, &logs, &progress)?,
+        match self.payload_mass {
+            None => self.carried(form, &identify, &logs, results, progress),
             Some(mass) => {
                 let center = self.payload_center;
                 let known = KnownPayload { mass, center };
-                self.drive_gains(form, &identify, logs, &known, &progress)?
+                self.drive_gains(form, &identify, logs, &known, results, progress)
             }
-        };
-        drop(progress);
-        if let Some(file) = json {
-            file.commit(found.json.as_bytes())?;
         }
-        output::print(&found.text)
     }
 
     fn carried(
@@ -96,24 +93,28 @@ impl IdentifyArguments {
         form: &ByAcceleration,
         identify: &Identify,
         logs: &Logs,
-        progress: &Progress,
-    ) -> Result<Found, Error> {
+        results: Results,
+        progress: Progress,
+    ) -> Result<(), Error> {
         let link = self.payload_link.as_deref();
         let found = identify.fit_payload(&form.0, &logs.unloaded, &logs.loaded, link)?;
-        let judged = self.judged(form, &found, logs, progress)?;
+        let judged = self.judged(form, &found, logs, &progress)?;
         if let Some(doubt) = negative(&found) {
             progress.note(&format!("note: {doubt}"));
         }
         let arm = of_arm(&found, &judged.train);
-        Ok(Found {
-            json: output::json(&judged.report(&arm, &found)),
-            text: format!(
-                "{}{}\n{}",
-                found.estimate,
-                told(&found),
-                judged.table(&found.estimate)
-            ),
-        })
+        let printed = format!(
+            "{}{}\n{}",
+            found.estimate,
+            told(&found),
+            judged.table(&found.estimate)
+        );
+        let evidence = Evidence {
+            notes: progress.noted(),
+            printed: &printed,
+            ..judged.evidence(&self.spec, form, &arm, &found, logs)
+        };
+        results.give(&judged.report(&arm, &found), &evidence, progress)
     }
 
     /// Errors of an arm and its payload; that the arm's parameters are told.
@@ -155,12 +156,6 @@ impl IdentifyArguments {
     }
 }
 
-/// What is written and printed.
-pub(super) struct Found {
-    pub json: String,
-    pub text: String,
-}
-
 /// Errors of an arm without and with its payload.
 pub(super) struct Judged {
     pub train: Errors,
@@ -193,16 +188,40 @@ impl Judged {
         }
     }
 
-    /// Errors side by side.
-    pub(super) fn table(&self, estimate: &Estimate) -> String {
+    /// What a page shows of it; not what is noted or printed.
+    pub(super) fn evidence<'a>(
+        &'a self,
+        spec: &'a Path,
+        form: &'a ByAcceleration,
+        arm: &'a Estimate,
+        found: &'a Carried,
+        logs: &'a Logs,
+    ) -> Evidence<'a> {
+        let drawn = match &logs.validate {
+            Some(_) => &found.loaded,
+            None => arm,
+        };
+        let mut evidence = Evidence::of(spec, form.compiled(), arm, &self.train, None);
+        evidence.parameters.extend(parameters(found));
+        evidence.errors = self.errors();
+        evidence.drawn = OnLog::of(&form.0, drawn, &logs.unloaded, logs.validate.as_ref());
+        evidence.faults = &self.faults;
+        evidence
+    }
+
+    fn errors(&self) -> Vec<(&'static str, &Errors)> {
         let both = [
             ("without payload", &self.train),
             ("with payload", &self.carrying),
         ];
         let validation = self.validation.as_ref();
         let validation = validation.map(|errors| ("validation, with it", errors));
-        let columns: Vec<_> = both.into_iter().chain(validation).collect();
-        table(estimate, &columns)
+        both.into_iter().chain(validation).collect()
+    }
+
+    /// Errors side by side.
+    pub(super) fn table(&self, estimate: &Estimate) -> String {
+        table(estimate, &self.errors())
     }
 }
 

@@ -88,8 +88,9 @@ struct StandardReport<'a> {
     from: &'static str,
 }
 
+/// A parameter as `--json` and the page of a report have it.
 #[derive(Serialize)]
-pub(super) struct Parameter<'a> {
+pub(crate) struct Parameter<'a> {
     pub name: &'a str,
     /// None where the logs do not separate the parameter from others.
     pub value: Option<f64>,
@@ -170,12 +171,8 @@ fn essential(found: &Essential) -> EssentialReport<'_> {
     }
 }
 
-pub(crate) fn report<'a>(
-    estimate: &'a Estimate,
-    train: Option<&'a Errors>,
-    validation: Option<&'a Errors>,
-    faults: &'a [(String, Fault)],
-) -> Report<'a> {
+/// Parameters and open shapes of an estimate, as far as the logs tell them.
+pub(crate) fn identified(estimate: &Estimate) -> Vec<Parameter<'_>> {
     let measured = |parameter: &Identified| estimate.is_separated(&parameter.name);
     let linear = estimate.parameters.iter().map(|parameter| Parameter {
         name: &parameter.name,
@@ -196,6 +193,16 @@ pub(crate) fn report<'a>(
         std: *std,
         ..known(shape)
     });
+    linear.chain(shapes).collect()
+}
+
+pub(crate) fn report<'a>(
+    estimate: &'a Estimate,
+    train: Option<&'a Errors>,
+    validation: Option<&'a Errors>,
+    faults: &'a [(String, Fault)],
+) -> Report<'a> {
+    let measured = |parameter: &Identified| estimate.is_separated(&parameter.name);
     let (domain, corner) = match estimate.form {
         Form::Acceleration => ("raw", None),
         Form::Filtered { corner } => ("filtered", Some(corner)),
@@ -204,7 +211,7 @@ pub(crate) fn report<'a>(
         method: estimate.method.name(),
         form: estimate.form.name(),
         corner,
-        parameters: linear.chain(shapes).collect(),
+        parameters: identified(estimate),
         domain,
         rmse: train.map(|errors| counted(errors, &errors.rmse)),
         rmse_validate: validation.map(|errors| counted(errors, &errors.rmse)),

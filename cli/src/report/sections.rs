@@ -2,37 +2,34 @@
 
 use std::fmt::Write;
 
-use robot_model::columns::Arm;
-use robot_model::identify::Estimate;
+use robot_model_codegen::Compiled;
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::Owner;
 
 use super::{Drawn, Page};
-use crate::interpreted::InterpretedArm;
+use crate::identify::report::Parameter;
 use crate::output::significant;
 
 /// Deviations to either side of an interval that holds a value with 95 %.
 const WIDTH: f64 = 1.96;
 
 /// Every parameter with its deviation, its interval and what it is.
-pub(crate) fn parameters(page: &mut Page, arm: &InterpretedArm, estimate: &Estimate) {
-    let rows = estimate.parameters.iter().map(|one| {
-        let is_told = one.std > 0.0 && !estimate.unexcited.contains(&one.name);
-        let interval = [one.value - WIDTH * one.std, one.value + WIDTH * one.std];
-        let [std, low, high] = [one.std, interval[0], interval[1]].map(|value| {
-            if is_told {
-                significant(value, 3)
-            } else {
-                "-".to_owned()
-            }
-        });
+pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Parameter]) {
+    let told = |value: Option<f64>, digits| {
+        value.map_or("-".to_owned(), |value| significant(value, digits))
+    };
+    let rows = parameters.iter().map(|one| {
+        let around = |value: f64, std: f64| [value - WIDTH * std, value + WIDTH * std];
+        let interval = one
+            .interval
+            .or_else(|| Some(around(one.value?, one.std.filter(|std| *std > 0.0)?)));
         vec![
-            one.name.clone(),
-            significant(one.value, 5),
-            std,
-            low,
-            high,
-            meaning(arm, &one.name),
+            one.name.to_owned(),
+            told(one.value, 5),
+            told(one.std.filter(|std| *std > 0.0), 3),
+            told(interval.map(|[low, _]| low), 3),
+            told(interval.map(|[_, high]| high), 3),
+            meaning(compiled, one.name),
         ]
     });
     page.table(
@@ -40,30 +37,10 @@ pub(crate) fn parameters(page: &mut Page, arm: &InterpretedArm, estimate: &Estim
         &["parameter", "value", "deviation", "from", "to", "what it is"],
         &rows.collect::<Vec<_>>(),
     );
-    let shapes = estimate.shapes.iter().zip(&estimate.shape_std);
-    let shapes: Vec<Vec<String>> = shapes
-        .map(|((name, value), std)| {
-            let std = std.map_or("-".to_owned(), |std| significant(std, 3));
-            vec![
-                name.clone(),
-                significant(*value, 5),
-                std,
-                meaning(arm, name),
-            ]
-        })
-        .collect();
-    if !shapes.is_empty() {
-        page.table(
-            "Shape parameters of effects",
-            &["shape", "value", "deviation", "what it is"],
-            &shapes,
-        );
-    }
 }
 
 /// The comment in the definition of an effect's parameter; of a base parameter what it is made of.
-fn meaning(arm: &InterpretedArm, name: &str) -> String {
-    let compiled = arm.compiled();
+fn meaning(compiled: &Compiled, name: &str) -> String {
     let model: &Model = &compiled.model;
     for (number, effect) in model.effects.iter().enumerate() {
         let prefix = format!("{}.", model.effect_name(number));
@@ -84,12 +61,11 @@ fn meaning(arm: &InterpretedArm, name: &str) -> String {
             return doc.split_whitespace().collect::<Vec<_>>().join(" ");
         }
     }
-    combination(arm, name).unwrap_or_default()
+    combination(compiled, name).unwrap_or_default()
 }
 
 /// What a base parameter is made of.
-fn combination(arm: &InterpretedArm, name: &str) -> Option<String> {
-    let compiled = arm.compiled();
+fn combination(compiled: &Compiled, name: &str) -> Option<String> {
     let place = compiled.base.names.iter().position(|one| one == name)?;
     let mut text = String::new();
     for (standard, factor) in &compiled.base.combinations[place] {
@@ -110,8 +86,7 @@ fn combination(arm: &InterpretedArm, name: &str) -> Option<String> {
 }
 
 /// Which standard parameters each base parameter of the body is made of.
-pub(crate) fn base_parameters(page: &mut Page, arm: &InterpretedArm) {
-    let compiled = arm.compiled();
+pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
     let base = compiled.base.names.iter().zip(&compiled.base.kept);
     let of_body = base.filter(|(_, kept)| {
         matches!(
@@ -119,8 +94,12 @@ pub(crate) fn base_parameters(page: &mut Page, arm: &InterpretedArm) {
             Owner::Link { .. } | Owner::Monomial(_)
         )
     });
-    let rows =
-        of_body.map(|(name, _)| vec![name.clone(), combination(arm, name).unwrap_or_default()]);
+    let rows = of_body.map(|(name, _)| {
+        vec![
+            name.clone(),
+            combination(compiled, name).unwrap_or_default(),
+        ]
+    });
     let rows: Vec<Vec<String>> = rows.collect();
     if rows.is_empty() {
         page.text("All inertial parameters are fixed by the spec.");
@@ -146,12 +125,12 @@ pub(crate) fn base_parameters(page: &mut Page, arm: &InterpretedArm) {
 /// Figures of every joint, those of some open.
 pub(crate) fn figures(
     page: &mut Page,
-    arm: &InterpretedArm,
+    joints: &[String],
     drawn: &Drawn,
     legend: &[(&str, &str)],
     is_open: &dyn Fn(usize) -> bool,
 ) {
-    for (joint, name) in arm.joints().iter().enumerate() {
+    for (joint, name) in joints.iter().enumerate() {
         page.folded(name, is_open(joint), |page| {
             let measured = [("measured", "measured"), *legend.last().unwrap_or(&("after", "model"))];
             page.figures(

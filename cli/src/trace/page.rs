@@ -10,6 +10,7 @@ use super::whereabouts::whereabouts;
 use crate::Error;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
+use crate::identify::report::identified;
 use crate::output::significant;
 use crate::report::{Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters};
 
@@ -39,9 +40,10 @@ pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Erro
     data(&mut page, closed);
     let after = closed.after();
     page.section("Parameters");
-    parameters(&mut page, &after.arm, &after.estimate);
+    let compiled = after.arm.compiled();
+    parameters(&mut page, compiled, &identified(&after.estimate));
     page.section("Base parameters");
-    base_parameters(&mut page, &after.arm);
+    base_parameters(&mut page, compiled);
     page.section("Again");
     page.text("The same page from the same files:");
     page.preformatted(&invocation());
@@ -207,9 +209,13 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
     if open.is_empty() {
         open.push(0);
     }
-    figures(page, &closed.before.arm, &drawn, &legend, &|joint| {
-        open.contains(&joint)
-    });
+    figures(
+        page,
+        closed.before.arm.joints(),
+        &drawn,
+        &legend,
+        &|joint| open.contains(&joint),
+    );
     Ok(())
 }
 

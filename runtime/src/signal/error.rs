@@ -23,6 +23,19 @@ pub enum SignalError {
         /// Sample rate.
         rate_hz: f64,
     },
+    /// A wide band at half the rate or above that logs are brought down to before columns are formed.
+    #[error(
+        "a wide band of {} Hz: a log of {} Hz is brought down to {} Hz before columns are formed, so all bands must lie below {} Hz",
+        short(*.wide_hz), short(*.logged_hz), short(*.rate_hz), short(*.rate_hz / 2.0)
+    )]
+    Reduced {
+        /// As asked for.
+        wide_hz: f64,
+        /// Sample rate of the log.
+        logged_hz: f64,
+        /// Sample rate of the columns.
+        rate_hz: f64,
+    },
     /// A corner of a first-order filter at zero or below, or too fast for the samples.
     #[error(
         "a corner of {} rad/s on samples at {} Hz: it must lie between 0 and {} rad/s",

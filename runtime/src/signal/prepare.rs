@@ -112,7 +112,7 @@ impl Prepared {
 /// full rate, and every `stride`-th sample is kept. Further channels go the way of the torque.
 ///
 /// # Errors
-/// [`SignalError::Bands`] and [`SignalError::Cutoff`] for bands that are not ordered or do not fit the log's rate,
+/// [`SignalError::Bands`], [`SignalError::Cutoff`] and [`SignalError::Reduced`] for bands that are not ordered or do not fit the log's rate,
 /// [`SignalError::TooShort`] where the filters' borders leave nothing of the log.
 ///
 /// # Examples
@@ -167,9 +167,10 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
         None
     };
     // Judged at the reduced rate, where columns are formed.
-    if wide_hz >= 0.5 * rate_hz {
-        return Err(SignalError::Cutoff {
-            cutoff_hz: wide_hz,
+    if wide_hz >= 0.5 * rate_hz && stride > 1 {
+        return Err(SignalError::Reduced {
+            wide_hz,
+            logged_hz,
             rate_hz,
         });
     }

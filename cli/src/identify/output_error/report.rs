@@ -124,9 +124,22 @@ impl OutputReport<'_> {
         self.found.bound.iter().map(|&k| &self.names[k])
     }
 
-    pub fn json(&self) -> JsonReport<'_> {
+    pub fn parameters(&self) -> Vec<Parameter<'_>> {
         let found = self.found;
         let values = self.names.iter().zip(found.values.iter().zip(&found.std));
+        let told = values
+            .enumerate()
+            .map(|(k, (name, (value, std)))| Parameter {
+                name,
+                value: self.has_value(k).then_some(*value),
+                std: *std,
+                interval: None,
+            });
+        told.collect()
+    }
+
+    pub fn json(&self) -> JsonReport<'_> {
+        let found = self.found;
         let told = |judged: Option<&Judged>| {
             judged.and_then(|judged| judged.comparison.torque.as_deref().map(Distances::new))
         };
@@ -135,15 +148,7 @@ impl OutputReport<'_> {
         JsonReport {
             method: "output-error",
             form: "simulation",
-            parameters: values
-                .enumerate()
-                .map(|(k, (name, (value, std)))| Parameter {
-                    name,
-                    value: self.has_value(k).then_some(*value),
-                    std: *std,
-                    interval: None,
-                })
-                .collect(),
+            parameters: self.parameters(),
             rmse: torque.map(|errors| errors.rmse.as_slice()),
             rmse_validate: torque_validate.map(|errors| errors.rmse.as_slice()),
             relative_percent: torque.map(|errors| errors.relative_percent.as_slice()),

@@ -92,6 +92,7 @@ fn torque_keeps_its_band_and_loses_what_would_fold() {
 
 #[test]
 fn refusals_carry_their_numbers() {
+    let fast = log(1000.0, 4.0, f64::sin, f64::cos);
     let log = log(100.0, 0.18, f64::sin, f64::cos);
     let text = |bands: &Bands| {
         prepare(&log, bands)
@@ -108,6 +109,17 @@ fn refusals_carry_their_numbers() {
     assert_eq!(
         text(&Bands::DEFAULT),
         "a low-pass at 90 Hz on samples at 100 Hz: the cutoff must lie between 0 and 50 Hz"
+    );
+    let beyond = prepare(
+        &fast,
+        &Bands {
+            wide_hz: 480.0,
+            ..Bands::DEFAULT
+        },
+    );
+    assert_eq!(
+        beyond.expect_err("must be refused").to_string(),
+        "a wide band of 480 Hz: a log of 1000 Hz is brought down to 500 Hz before columns are formed, so all bands must lie below 250 Hz"
     );
     assert_eq!(
         text(&Bands::for_log(&log)),

@@ -1,0 +1,258 @@
+//! `identify --report`: what was found, as a page with figures.
+
+use std::path::Path;
+
+use robot_model::columns::Arm;
+use robot_model::identify::{Combination, Errors, Estimate};
+use robot_model::log::{Fault, Log};
+use robot_model_codegen::Compiled;
+
+use super::report::{Parameter, counted, identified, shares};
+use crate::Error;
+use crate::output::significant;
+use crate::report::{Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters};
+
+/// Joints whose figures are open from the start.
+const OPEN: usize = 2;
+
+/// What methods of identification have in common for those who look.
+pub(super) struct Evidence<'a> {
+    pub spec: &'a Path,
+    pub compiled: &'a Compiled,
+    pub parameters: Vec<Parameter<'a>>,
+    pub combinations: &'a [Combination],
+    /// Of torques, with what they are of; the last are of a log that was not fitted, if there is one.
+    pub errors: Vec<(&'static str, &'a Errors)>,
+    /// Torques and what they are set against.
+    pub drawn: Option<OnLog<'a>>,
+    /// What was noted of logs and of what was found.
+    pub notes: Vec<String>,
+    pub faults: &'a [(String, Fault)],
+    /// What the program prints.
+    pub printed: &'a str,
+}
+
+/// A model on a log.
+pub(super) struct OnLog<'a> {
+    pub arm: &'a dyn Arm,
+    pub estimate: &'a Estimate,
+    pub log: &'a Log,
+    /// Which log this is.
+    pub which: &'static str,
+}
+
+impl<'a> OnLog<'a> {
+    /// On the log that was not fitted, if there is one, or else on the first of those that were.
+    pub fn of(
+        arm: &'a dyn Arm,
+        estimate: &'a Estimate,
+        fitted: &'a [Log],
+        unseen: Option<&'a Log>,
+    ) -> Option<Self> {
+        let (log, which) = match unseen {
+            Some(log) => (log, "the log that was not fitted"),
+            None => (fitted.first()?, "the first log that was fitted"),
+        };
+        Some(Self {
+            arm,
+            estimate,
+            log,
+            which,
+        })
+    }
+}
+
+impl<'a> Evidence<'a> {
+    /// What equations tell; not what it is drawn on, noted of it, or printed.
+    pub fn of(
+        spec: &'a Path,
+        compiled: &'a Compiled,
+        estimate: &'a Estimate,
+        fitted: &'a Errors,
+        unseen: Option<&'a Errors>,
+    ) -> Self {
+        let errors = std::iter::once(("fitted", fitted));
+        Self {
+            spec,
+            compiled,
+            parameters: identified(estimate),
+            combinations: &estimate.combinations,
+            errors: errors
+                .chain(unseen.map(|errors| ("unseen", errors)))
+                .collect(),
+            drawn: None,
+            notes: Vec::new(),
+            faults: &[],
+            printed: "",
+        }
+    }
+
+    /// The page.
+    pub fn page(&self) -> Result<String, Error> {
+        let mut page = Page::new(
+            &format!("Identification of {}", self.compiled.model.name),
+            &format!(
+                "What logs tell of the arm that {} describes.",
+                self.spec.display()
+            ),
+        );
+        page.section("Verdict");
+        self.verdict(&mut page);
+        page.section("Errors");
+        self.errors(&mut page);
+        page.section("Torques and residuals");
+        self.figures(&mut page)?;
+        page.section("Parameters");
+        parameters(&mut page, self.compiled, &self.parameters);
+        self.combinations(&mut page);
+        page.section("Base parameters");
+        base_parameters(&mut page, self.compiled);
+        page.section("Data");
+        self.data(&mut page);
+        page.section("As printed");
+        page.preformatted(self.printed);
+        page.section("Again");
+        page.text("The same page from the same files:");
+        page.preformatted(&invocation());
+        Ok(page.finish())
+    }
+
+    fn verdict(&self, page: &mut Page) {
+        let untold = self.parameters.iter().filter(|one| one.value.is_none());
+        let untold = untold.count();
+        let count = self.parameters.len();
+        let (class, word) = match (untold, self.notes.is_empty()) {
+            (0, true) => ("good", "Identified"),
+            (0, false) => ("known", "Identified, with notes"),
+            _ => ("open", "Identified in part"),
+        };
+        let told = match untold {
+            0 => format!("All {count} parameters have values of their own."),
+            _ => format!("{untold} of {count} parameters have no value of their own."),
+        };
+        let most = |errors: &Errors| {
+            let left = errors.relative_percent.iter().copied();
+            left.fold(0.0, f64::max)
+        };
+        let left = self.errors.iter().map(|(of, errors)| {
+            format!(
+                "Of the torque of no joint more than {:.2} % is left ({of}).",
+                most(errors)
+            )
+        });
+        let sentences: Vec<String> = std::iter::once(told).chain(left).collect();
+        page.verdict(class, word, &sentences.join(" "));
+        let notes = self.notes.iter();
+        let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note).to_owned());
+        let notes: Vec<String> = notes.collect();
+        if !notes.is_empty() {
+            page.list(&notes);
+        }
+    }
+
+    fn errors(&self, page: &mut Page) {
+        if self.errors.is_empty() {
+            page.text("No torque is computed from equations: least squares finds no filters for these logs.");
+            return;
+        }
+        let heads = self.errors.iter().flat_map(|(of, _)| {
+            ["RMSE", "MAE", "RMS%", "NRMSE fit"].map(|what| format!("{what}, {of}"))
+        });
+        let heads: Vec<String> = std::iter::once("joint".to_owned()).chain(heads).collect();
+        let joints = self.compiled.model.joints.iter().enumerate();
+        let rows = joints.map(|(j, joint)| {
+            let told = |value: Option<f64>| value.map_or("-".to_owned(), |x| significant(x, 4));
+            let percent =
+                |value: Option<f64>| value.map_or("-".to_owned(), |x| format!("{x:.2} %"));
+            let cells = self.errors.iter().flat_map(|(_, errors)| {
+                [
+                    told(counted(errors, &errors.rmse)[j]),
+                    told(counted(errors, &errors.mae)[j]),
+                    percent(shares(&errors.relative_percent)[j]),
+                    percent(errors.nrmse_fit()[j]),
+                ]
+            });
+            std::iter::once(joint.name.clone()).chain(cells).collect()
+        });
+        page.table(
+            "RMSE and MAE in N m (prismatic joints: N), first and last second cut; RMS% is what is left of the torque in the filtered band; \
+             an NRMSE fit of 100 % leaves nothing.",
+            &heads.iter().map(String::as_str).collect::<Vec<_>>(),
+            &rows.collect::<Vec<Vec<String>>>(),
+        );
+        if self.errors.len() == 1 {
+            page.text("Give --validate for a log that is not fitted.");
+        }
+    }
+
+    fn figures(&self, page: &mut Page) -> Result<(), Error> {
+        let Some(OnLog {
+            arm,
+            estimate,
+            log,
+            which,
+        }) = self.drawn
+        else {
+            page.text("No log is at hand to be drawn: those that are fitted are read in pieces. Give --validate.");
+            return Ok(());
+        };
+        page.text(&format!("On {which}, {}.", log.source));
+        let shown = Shown {
+            color: Ink::After,
+            arm,
+            estimate,
+        };
+        let drawn = Drawn::new(&[shown], log)?;
+        // Those of which most is left.
+        let left = &estimate.relative_percent;
+        let mut worst: Vec<usize> = (0..arm.dof()).collect();
+        worst.sort_by(|a, b| left[*b].total_cmp(&left[*a]));
+        worst.truncate(OPEN);
+        figures(
+            page,
+            arm.joints(),
+            &drawn,
+            &[("after", "model")],
+            &|joint| worst.contains(&joint),
+        );
+        Ok(())
+    }
+
+    fn combinations(&self, page: &mut Page) {
+        if self.combinations.is_empty() {
+            return;
+        }
+        let rows = self.combinations.iter().map(|sum| {
+            vec![
+                sum.to_string(),
+                significant(sum.value, 5),
+                significant(sum.std, 3),
+            ]
+        });
+        page.table(
+            "What the logs tell of parameters that have no value of their own",
+            &["sum", "value", "deviation"],
+            &rows.collect::<Vec<_>>(),
+        );
+    }
+
+    fn data(&self, page: &mut Page) {
+        if self.faults.is_empty() {
+            page.text("No fault was found in the logs.");
+            return;
+        }
+        let rows = self.faults.iter().map(|(log, fault)| {
+            vec![
+                log.clone(),
+                fault.kind().to_owned(),
+                fault.channel().to_owned(),
+                fault.to_string(),
+            ]
+        });
+        page.table(
+            "Faults of the logs, which were mended where that can be",
+            &["log", "kind", "channel", "what was found"],
+            &rows.collect::<Vec<_>>(),
+        );
+    }
+}
