@@ -7,10 +7,10 @@ use robot_model::identify::{Factor, Method};
 
 use crate::Error;
 use crate::identify::fit::{ByAcceleration, Fit};
+use crate::identify::noted::{factor_doubts, told_apart};
 use crate::identify::reduced;
 use crate::identify::report::report;
 use crate::identify::table::table;
-use crate::identify::told_apart;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
@@ -103,6 +103,9 @@ impl Merge {
         let estimate = factor.estimate(arm, method, self.leave_out_turns)?;
         if !self.partial {
             told_apart(&estimate)?;
+        }
+        for doubt in factor_doubts(&estimate, &form) {
+            progress.note(&format!("note: {doubt}"));
         }
         let mut faults = Vec::new();
         let validation = match &self.validate {

@@ -131,6 +131,12 @@ pub trait Arm: Columns {
         &[]
     }
 
+    /// Open shapes of the friction of [`Self::dry_joints`], places in [`Columns::shapes`]: rows where joints turn say another thing than
+    /// their law, so such shapes are looked for without these rows where others tell them.
+    fn dry_shapes(&self) -> &[usize] {
+        &[]
+    }
+
     /// Joints whose columns say what a drive at its limit does not deliver, from 0: samples of [clipped](crate::log::Log::clipped) torque
     /// are left out of the fit of all others.
     fn saturated_joints(&self) -> &[usize] {

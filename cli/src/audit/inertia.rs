@@ -8,7 +8,7 @@ use robot_model_spec::model::JointKind;
 
 use super::{Check, Quantity};
 
-/// Poses that are looked at, and the worst of them from which the search goes on.
+/// Poses that are looked at, and the worst of them by each measure, from which the search goes on.
 const POSES: usize = 2000;
 const SEARCHED: usize = 5;
 
@@ -30,23 +30,11 @@ pub(super) fn check(compiled: &Compiled, parameters: &[f64], shapes: &[f64]) -> 
         parameters,
         shapes,
     };
-    let mut poses: Vec<(f64, Vec<f64>)> = (0..POSES)
-        .map(|k| {
-            let pose = pose(&workspace, k);
-            (inertia.least(&pose), pose)
-        })
-        .collect();
-    poses.sort_by(|x, y| x.0.total_cmp(&y.0));
-    poses.truncate(SEARCHED);
-    let searched = poses
-        .into_iter()
-        .map(|(_, pose)| inertia.descend(&workspace, pose));
-    let worst = searched.min_by(|x, y| x.0.total_cmp(&y.0));
-    let (least, pose) = worst.unwrap_or_default();
+    let (least, pose) = inertia.worst(&workspace);
     let rounding = ROUNDING * inertia.eigenvalues(&pose).1.abs();
     let at: Vec<String> = pose.iter().map(|q| format!("{q:.4}")).collect();
     let found = format!("{least:.4e} at q = [{}]", at.join(", "));
-    let scope = format!("least eigenvalue of the inertia over the workspace: {found}");
+    let scope = format!("least eigenvalue of the inertia that was found in the workspace: {found}");
     let findings = if least > rounding {
         Vec::new()
     } else if least >= -rounding {
@@ -103,14 +91,49 @@ struct Inertia<'a> {
     shapes: &'a [f64],
 }
 
+/// What a search goes down. The least eigenvalue is that of the lightest joint nearly everywhere, and says nothing of one that is heavy
+/// elsewhere and next to nothing at a few poses; scaled inertias of joints are of one size.
+#[derive(Clone, Copy)]
+enum Measure<'a> {
+    Least,
+    /// Least eigenvalue of `S^-1/2 M S^-1/2` with the largest inertia of each joint that was seen, `S`.
+    Scaled(&'a [f64]),
+    /// A joint's own inertia.
+    Diagonal(usize),
+}
+
 impl Inertia<'_> {
-    /// Least eigenvalue at a pose.
-    fn least(&self, pose: &[f64]) -> f64 {
-        self.eigenvalues(pose).0
+    /// The least eigenvalue that is found, and where.
+    fn worst(&self, workspace: &[(f64, f64)]) -> (f64, Vec<f64>) {
+        let poses: Vec<Vec<f64>> = (0..POSES).map(|k| pose(workspace, k)).collect();
+        let matrices: Vec<DMatrix<f64>> = poses.iter().map(|pose| self.matrix(pose)).collect();
+        let joints = 0..workspace.len();
+        let largest = |joint: usize| {
+            let all = matrices.iter().map(|matrix| matrix[(joint, joint)].abs());
+            all.fold(f64::MIN_POSITIVE, f64::max)
+        };
+        let largest: Vec<f64> = joints.clone().map(largest).collect();
+        let measures = [Measure::Least, Measure::Scaled(&largest)].into_iter();
+        let measures = measures.chain(joints.map(Measure::Diagonal));
+        let found = measures.flat_map(|measure| {
+            let mut order: Vec<(f64, usize)> = matrices
+                .iter()
+                .enumerate()
+                .map(|(k, matrix)| (measure.of(matrix), k))
+                .collect();
+            order.sort_by(|x, y| x.0.total_cmp(&y.0));
+            order.truncate(SEARCHED);
+            let descended = order.into_iter();
+            descended
+                .map(|(_, k)| self.descend(measure, workspace, poses[k].clone()))
+                .collect::<Vec<_>>()
+        });
+        let found = found.map(|pose| (self.eigenvalues(&pose).0, pose));
+        let worst = found.min_by(|x, y| x.0.total_cmp(&y.0));
+        worst.unwrap_or_default()
     }
 
-    /// Least and largest eigenvalue at a pose.
-    fn eigenvalues(&self, pose: &[f64]) -> (f64, f64) {
+    fn matrix(&self, pose: &[f64]) -> DMatrix<f64> {
         let entries = self.program.eval(&|symbol| match symbol {
             Symbol::Q(joint) => pose[joint],
             Symbol::Parameter(k) => self.parameters[k],
@@ -118,14 +141,18 @@ impl Inertia<'_> {
             _ => 0.0,
         });
         let matrix = DMatrix::from_row_slice(pose.len(), pose.len(), &entries);
-        let symmetric = 0.5 * (&matrix + matrix.transpose());
-        let values = symmetric.symmetric_eigenvalues();
+        0.5 * (&matrix + matrix.transpose())
+    }
+
+    /// Least and largest eigenvalue at a pose.
+    fn eigenvalues(&self, pose: &[f64]) -> (f64, f64) {
+        let values = self.matrix(pose).symmetric_eigenvalues();
         (values.min(), values.max())
     }
 
     /// Goes down one joint after the other, in steps that become smaller.
-    fn descend(&self, workspace: &[(f64, f64)], mut pose: Vec<f64>) -> (f64, Vec<f64>) {
-        let mut least = self.least(&pose);
+    fn descend(&self, measure: Measure, workspace: &[(f64, f64)], mut pose: Vec<f64>) -> Vec<f64> {
+        let mut least = measure.of(&self.matrix(&pose));
         let mut step = 0.1;
         while step > FINE {
             let before = least;
@@ -133,7 +160,7 @@ impl Inertia<'_> {
                 for way in [-1.0, 1.0] {
                     let mut trial = pose.clone();
                     trial[joint] = (pose[joint] + way * step * (high - low)).clamp(low, high);
-                    let value = self.least(&trial);
+                    let value = measure.of(&self.matrix(&trial));
                     if value < least {
                         (least, pose) = (value, trial);
                     }
@@ -143,6 +170,21 @@ impl Inertia<'_> {
                 step *= 0.5;
             }
         }
-        (least, pose)
+        pose
+    }
+}
+
+impl Measure<'_> {
+    fn of(self, matrix: &DMatrix<f64>) -> f64 {
+        match self {
+            Self::Least => matrix.symmetric_eigenvalues().min(),
+            Self::Scaled(largest) => {
+                let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
+                    matrix[(i, k)] / (largest[i] * largest[k]).sqrt()
+                });
+                scaled.symmetric_eigenvalues().min()
+            }
+            Self::Diagonal(joint) => matrix[(joint, joint)],
+        }
     }
 }

@@ -15,6 +15,24 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     said(independent, estimate.rank)
 }
 
+/// Fewer blocks say little of how sure a parameter is.
+const ENOUGH_BLOCKS: usize = 8;
+
+/// What is said of factors with few blocks.
+pub(super) fn blocks_doubt(estimate: &Estimate) -> Option<String> {
+    let count = estimate.blocks?;
+    let of = match count {
+        1 => "those of white noise, as what was reduced is a single block: noise that is slow is in none of them".to_owned(),
+        few if few < ENOUGH_BLOCKS => format!(
+            "from {few} blocks of the logs and large, as so few say little of how sure a parameter is"
+        ),
+        _ => return None,
+    };
+    Some(format!(
+        "deviations are {of}; {ENOUGH_BLOCKS} blocks of a second or more would do, or the logs themselves without `--factor`"
+    ))
+}
+
 fn said(independent: f64, parameters: usize) -> Option<String> {
     let share = independent / parameters.max(1) as f64;
     if share >= ENOUGH {

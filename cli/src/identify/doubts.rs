@@ -162,6 +162,10 @@ fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
     })
 }
 
+/// Why fewer rows are fitted than there are.
+pub(super) const AWAY_FROM_TURNS: &str = "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer \
+     there than its law says, and open shapes of friction would be bent after that";
+
 /// Share of the last step of a grid within which a search that goes to its end comes.
 const AT_END: f64 = 0.02;
 

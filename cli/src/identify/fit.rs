@@ -117,13 +117,21 @@ impl Fit for Filtered {
     }
 }
 
+/// Errors on each of several logs.
+pub(crate) fn errors_of_each(
+    estimate: &Estimate,
+    form: &dyn Fit,
+    logs: &[Log],
+) -> Result<Vec<Errors>, IdentifyError> {
+    let errors = logs.iter().map(|log| form.errors(estimate, log));
+    errors.collect()
+}
+
 /// Errors over several logs: means over all their samples.
 pub(crate) fn errors_of_all(
     estimate: &Estimate,
     form: &dyn Fit,
     logs: &[Log],
 ) -> Result<Errors, IdentifyError> {
-    let errors = logs.iter().map(|log| form.errors(estimate, log));
-    let errors: Vec<Errors> = errors.collect::<Result<_, IdentifyError>>()?;
-    Ok(Errors::of_all(&errors))
+    Ok(Errors::of_all(&errors_of_each(estimate, form, logs)?))
 }

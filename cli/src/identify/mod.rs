@@ -7,6 +7,7 @@ mod drive_gains;
 pub(crate) mod fit;
 mod likeness;
 mod nominal;
+pub(crate) mod noted;
 mod options;
 mod output_error;
 mod page;
@@ -16,6 +17,7 @@ pub(crate) mod report;
 mod results;
 pub(crate) mod table;
 mod twice;
+mod unequal;
 mod units;
 mod untold;
 
@@ -34,7 +36,8 @@ use crate::output::{self, Files};
 use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
-use fit::{ByAcceleration, Filtered, Fit, errors_of_all};
+use fit::{ByAcceleration, Filtered, Fit, errors_of_each};
+use noted::{factor_doubts, told_apart};
 use options::{FormArgument, MethodArgument, WeightsArgument};
 use options::{parse_bands, parse_center, parse_corner, parse_mass};
 use page::{Evidence, OnLog};
@@ -207,9 +210,10 @@ impl IdentifyArguments {
         if !self.partial {
             told_apart(&estimate)?;
         }
+        let each = errors_of_each(&estimate, form, &logs)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
-            ..errors_of_all(&estimate, form, &logs)?
+            ..Errors::of_all(&each)
         };
         let validation = validate
             .as_ref()
@@ -219,6 +223,10 @@ impl IdentifyArguments {
         doubts.extend(units::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
+        doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));
+        if estimate.is_without_turns && !self.rows.leave_out_turns {
+            doubts.push(doubts::AWAY_FROM_TURNS.to_owned());
+        }
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
@@ -280,7 +288,9 @@ impl IdentifyArguments {
         for (source, fault) in unsaid {
             progress.note(&format!("note: {source}: {fault}"));
         }
-        for doubt in twice::doubts(&self.logs, self.validate.as_deref()) {
+        let doubts = twice::doubts(&self.logs, self.validate.as_deref());
+        let doubts = doubts.into_iter().chain(factor_doubts(&estimate, form));
+        for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
         let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
@@ -303,30 +313,6 @@ impl IdentifyArguments {
     }
 }
 
-/// That all parameters have values, or the ways out.
-pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
-    let rows = |of: &[usize], joint: usize| of.get(joint).copied().unwrap_or_default();
-    let joints = estimate.joints.iter().enumerate();
-    // Nearly all of its rows, so that what is left is its way from here to there.
-    let standing = joints.filter(|(k, _)| {
-        10 * (rows(&estimate.turns, *k) + rows(&estimate.held, *k)) > 9 * estimate.samples
-    });
-    let standing: Vec<String> = standing.map(|(_, joint)| format!("`{joint}`")).collect();
-    let standing = match standing.len() {
-        0 => String::new(),
-        _ => format!(
-            "; {} stand or turn nearly all the time, where dry friction holds them with what no law says",
-            standing.join(", ")
-        ),
-    };
-    estimate.separated().map_err(|error| {
-        Error::Argument(format!(
-            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
-             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`"
-        ))
-    })
-}
-
 /// Errors on a log that was not fitted; a log that the filters do not fit is named.
 fn judged(estimate: &Estimate, form: &dyn Fit, log: &Log) -> Result<Errors, Error> {
     form.errors(estimate, log).map_err(|error| match error {
@@ -347,32 +333,6 @@ fn printed(estimate: &Estimate, train: &Errors, validation: Option<&Errors>) -> 
 }
 
 impl IdentifyArguments {
-    /// What is doubtful about logs and what was found of them.
-    fn doubts(
-        &self,
-        form: &dyn Fit,
-        estimate: &Estimate,
-        logs: &[Log],
-        validation: Option<&Errors>,
-    ) -> Vec<String> {
-        let mut all = twice::doubts(&self.logs, self.validate.as_deref());
-        let negative = doubts::negative(estimate, form.unknowns());
-        let explained = doubts::explained(estimate, validation);
-        let is_odd = negative.is_some() || !explained.is_empty();
-        all.extend(negative.into_iter().chain(explained));
-        all.extend(nominal::doubt(form, estimate, logs, is_odd));
-        all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
-        all.extend(doubts::untold_shapes(estimate));
-        all.extend(brief::doubt(estimate));
-        let resting = doubts::resting(form.model(), logs);
-        let apart = doubts::hardly_apart(estimate, form.model(), logs);
-        match apart {
-            Some(apart) => all.push(apart),
-            None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),
-        }
-        all
-    }
-
     /// Files that say where the logs have their columns.
     fn settings_files(&self) -> Vec<PathBuf> {
         let logs = self.logs.iter().chain(&self.validate).chain(&self.payload);

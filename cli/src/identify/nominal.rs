@@ -1,4 +1,5 @@
-//! Logged torques beside those of the spec's nominal links along the same motion: another unit or sign shows as a factor.
+//! Logged torques, less those of the effects that were found, beside those of the spec's nominal links along the same motion: another
+//! unit or sign shows as a factor.
 
 use robot_model::identify::Estimate;
 use robot_model::log::Log;
@@ -36,15 +37,18 @@ pub(super) fn doubt(
         return None;
     }
     let values = nominal(form.compiled())?;
+    let of_effects = of_effects(form.compiled(), estimate);
     let gains = form.model().joints.iter().map(|joint| joint.actuator_gain);
     let gains: Vec<f64> = gains.collect();
     let mut sums = vec![[0.0; 3]; form.dof()];
     for log in logs {
         let torque = form.predict(&values, estimate, log).ok()?;
-        for (joint, ((sums, nominal), gain)) in sums.iter_mut().zip(&torque).zip(&gains).enumerate()
-        {
-            for (nominal, logged) in nominal.iter().zip(&log.tau[joint]) {
-                let logged = gain * logged;
+        let effects = form.predict(&of_effects, estimate, log).ok()?;
+        let torques = torque.iter().zip(&effects).zip(&gains).enumerate();
+        for ((joint, ((nominal, effects), gain)), sums) in torques.zip(&mut sums) {
+            let logged = effects.iter().zip(&log.tau[joint]);
+            let logged = logged.map(|(effects, logged)| gain * logged - effects);
+            for (nominal, logged) in nominal.iter().zip(logged) {
                 sums[0] += nominal * nominal;
                 sums[1] += nominal * logged;
                 sums[2] += logged * logged;
@@ -57,6 +61,16 @@ pub(super) fn doubt(
     };
     let all: Vec<Likeness> = sums.into_iter().map(likeness).collect();
     said(&all, &estimate.joints, is_odd)
+}
+
+/// What was found of friction, rotors and other effects, and nothing of links: friction may well be more than a link's torque.
+fn of_effects(compiled: &Compiled, estimate: &Estimate) -> Vec<f64> {
+    let kept = compiled.base.kept.iter().zip(&estimate.parameters);
+    let value = kept.map(|(&k, found)| match compiled.standard[k].owner {
+        Owner::Effect { .. } if estimate.is_separated(&found.name) => found.value,
+        _ => 0.0,
+    });
+    value.collect()
 }
 
 /// Base parameters of the nominal links, without friction or rotors that the spec has no value for.

@@ -4,13 +4,14 @@ mod bounds;
 mod directions;
 mod law;
 mod options;
+mod recordings;
 mod report;
 mod starts;
 
 use std::path::PathBuf;
 
 use robot_model::identify::output_error::{
-    Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
+    Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Search,
 };
 use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
 use robot_model::log::{Fault, Log};
@@ -31,6 +32,7 @@ use crate::progress::Progress;
 use bounds::bounds;
 pub(super) use options::Options;
 use options::{HoldArgument, SearchArgument};
+use recordings::recordings;
 use report::OutputReport;
 
 /// Where the search starts, and what least squares says where it has a say.
@@ -140,16 +142,9 @@ impl IdentifyArguments {
         )
         .map_err(|error| beginning.refused(&compiled, &error))?;
         settings.hold = found.hold;
-        if let (Some(asked), Some(taken)) = (settings.window, found.window)
-            && taken < asked
-        {
-            progress.note(&format!(
-                "note: the simulated arm runs away from its logs in windows of {asked} s, so they have {taken} s: what moves slowly shows \
-                 little in them"
-            ));
-        }
-        settings.window = found.window;
+        let asked = std::mem::replace(&mut settings.window, found.window);
         let mut said = beginning.doubts(&form, &logs, &found);
+        said.extend(shorter_windows(asked, found.window));
         said.extend(mended_torques(&settings, &faults));
         said.extend(twice::doubts(&self.logs, self.validate.as_deref()));
         for doubt in said {
@@ -193,16 +188,13 @@ impl IdentifyArguments {
             faults: &faults,
         };
         let printed = report.text();
-        let torques = [("fitted", &train)].into_iter();
-        let torques = torques.chain(validation.as_ref().map(|judged| ("unseen", judged)));
-        let torques = torques.filter_map(|(of, judged)| Some((of, judged.torque.as_ref()?)));
         let drawn = |linear| OnLog::of(form.arm(), linear, &logs, validate.as_ref());
         let evidence = Evidence {
             spec: &self.spec,
             compiled: &compiled,
             parameters: report.parameters(),
             combinations: &found.combinations,
-            errors: torques.collect(),
+            errors: torques(&train, validation.as_ref()),
             drawn: linear.as_ref().and_then(drawn),
             notes: progress.noted(),
             faults: &faults,
@@ -337,6 +329,28 @@ impl IdentifyArguments {
     }
 }
 
+/// Says so where windows became shorter.
+fn shorter_windows(asked: Option<f64>, taken: Option<f64>) -> Option<String> {
+    let (asked, taken) = asked.zip(taken)?;
+    (taken < asked).then(|| {
+        format!(
+            "the simulated arm runs away from its logs in windows of {asked} s, so they have {taken} s: what moves slowly shows little in \
+             them"
+        )
+    })
+}
+
+/// Errors of torques from equations, as far as there are some.
+fn torques<'a>(
+    train: &'a Judged,
+    validation: Option<&'a Judged>,
+) -> Vec<(&'static str, &'a Errors)> {
+    let judged = std::iter::once(("fitted", train));
+    let judged = judged.chain(validation.map(|judged| ("unseen", judged)));
+    let torques = judged.filter_map(|(of, judged)| Some((of, judged.torque.as_ref()?)));
+    torques.collect()
+}
+
 /// Says so where torques that drive the simulation were replaced.
 fn mended_torques(settings: &OutputError, faults: &[(String, Fault)]) -> Option<String> {
     let is_mended = |fault: &Fault| match fault {
@@ -361,37 +375,6 @@ fn rmse(found: &OutputEstimate) -> Vec<f64> {
 
 fn refused(error: &OutputErrorError) -> Error {
     Error::Argument(error.to_string())
-}
-
-/// Logs as they drive a simulation.
-fn recordings(compiled: &Compiled, shapes: &[f64], logs: &[Log]) -> Result<Vec<Recording>, Error> {
-    let gain: Vec<f64> = compiled
-        .model
-        .joints
-        .iter()
-        .map(|joint| joint.actuator_gain)
-        .collect();
-    let late = compiled.delay().map_or(0.0, |delay| {
-        delay.eval(&|symbol| match symbol {
-            Symbol::Shape(k) => shapes[k],
-            _ => unreachable!("checked in model-spec: a delay is constant"),
-        })[0]
-    });
-    let channels = compiled.model.inputs();
-    let recording = |log: &Log| {
-        let inputs = channels.iter().map(|name| {
-            let place = log.extra.iter().position(|channel| channel.name == *name);
-            place.ok_or_else(|| {
-                Error::Argument(format!(
-                    "{}: it has no column `{name}`, which a declared effect reads",
-                    log.source
-                ))
-            })
-        });
-        let inputs = inputs.collect::<Result<Vec<usize>, Error>>()?;
-        Ok(Recording::new(log, &gain, late, inputs))
-    };
-    logs.iter().map(recording).collect()
 }
 
 /// What least squares knows of filters, with the parameters of the simulation.

@@ -7,11 +7,12 @@ use robot_model::log::{Fault, Log};
 use serde::Serialize;
 
 use super::fit::{ByAcceleration, Fit, errors_of_all};
+use super::noted::told_apart;
 use super::page::{Evidence, OnLog};
 use super::report::{Parameter, Report, counted, report, shares};
 use super::results::Results;
 use super::table::table;
-use super::{IdentifyArguments, doubts, told_apart, twice};
+use super::{IdentifyArguments, doubts, twice};
 use crate::Error;
 use crate::output::Files;
 use crate::progress::Progress;

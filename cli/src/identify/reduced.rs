@@ -228,7 +228,7 @@ impl Streams<'_> {
         for path in self.logs {
             let bands = match &factor {
                 Some(factor) => factor.bands,
-                None => self.bands(identify, path, progress)?,
+                None => self.bands(identify, progress)?,
             };
             let factor = match &mut factor {
                 Some(factor) => factor,
@@ -254,12 +254,26 @@ impl Streams<'_> {
         factor.ok_or_else(|| Error::from(robot_model::identify::IdentifyError::NoLog))
     }
 
-    fn bands(&self, identify: &Identify, path: &Path, progress: &Progress) -> Result<Bands, Error> {
-        let columns = self.settings.columns(path, self.form.model(), progress)?;
-        let mut pieces = Log::pieces(path, &columns, PIECE, 0.0)?;
-        let first = pieces.next();
-        let first = first.ok_or(robot_model::identify::IdentifyError::NoLog)??;
-        Ok(identify.bands_of(&self.form.0, &first)?)
+    /// Those that the beginning of the slowest log bears.
+    fn bands(&self, identify: &Identify, progress: &Progress) -> Result<Bands, Error> {
+        let firsts = self.logs.iter().map(|path| {
+            let columns = self.settings.columns(path, self.form.model(), progress)?;
+            let mut pieces = Log::pieces(path, &columns, PIECE, 0.0)?;
+            let first = pieces.next();
+            Ok(first.ok_or(robot_model::identify::IdentifyError::NoLog)??)
+        });
+        let mut slowest: Option<Log> = None;
+        for first in firsts {
+            let first: Log = first.map_err(|error: Error| error)?;
+            if slowest
+                .as_ref()
+                .is_none_or(|slowest| first.rate_hz() < slowest.rate_hz())
+            {
+                slowest = Some(first);
+            }
+        }
+        let slowest = slowest.ok_or(robot_model::identify::IdentifyError::NoLog)?;
+        Ok(identify.bands_of(&self.form.0, &slowest)?)
     }
 
     /// Works on every piece of a log, mended, in threads; takes what comes of it and the piece's faults in the order of the pieces.

@@ -42,6 +42,8 @@ pub(crate) struct Report<'a> {
     samples_held: &'a [usize],
     /// Independent samples per joint; null where samples were not at hand.
     effective_samples: Option<&'a [f64]>,
+    /// Blocks of the logs from which deviations are; of factors only.
+    deviation_blocks: Option<usize>,
     bands_hz: [f64; 3],
     /// Of `robust` only: samples per joint that are far from the others.
     outliers: Option<&'a [usize]>,
@@ -229,6 +231,7 @@ pub(crate) fn report<'a>(
         samples_clipped: &estimate.clipped,
         samples_held: &estimate.held,
         effective_samples: estimate.effective_samples.as_deref(),
+        deviation_blocks: estimate.blocks,
         bands_hz: [
             estimate.bands.shared_hz,
             estimate.bands.smooth_hz,

@@ -50,7 +50,7 @@ use band::EffectBlock;
 use measured::Measured;
 use nominal::nominal;
 use program::{run, run_block};
-use rough::{dry_joints, is_rough};
+use rough::{dry_joints, dry_shapes, is_rough};
 use saturated::saturated_joints;
 use shape::grids;
 use signals::{Own, Signals};
@@ -73,6 +73,8 @@ pub struct InterpretedArm {
     known_torque: Program,
     measured: Measured,
     dry: Vec<usize>,
+    /// Open shapes of their friction.
+    dry_shapes: Vec<usize>,
     saturated: Vec<usize>,
 }
 
@@ -93,6 +95,8 @@ impl InterpretedArm {
             .iter()
             .flat_map(|effect| &effect.shapes)
             .map(|value| value.unwrap_or(f64::NAN));
+        let open = free.iter().map(|&k| names[k].as_str());
+        let dry_shapes = dry_shapes(model, open);
         Self {
             unknowns: unknowns(&compiled),
             shapes: free
@@ -121,6 +125,7 @@ impl InterpretedArm {
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
             dry: dry_joints(&compiled.model),
+            dry_shapes,
             saturated: saturated_joints(&compiled.model),
             compiled,
         }
@@ -207,6 +212,10 @@ impl Arm for InterpretedArm {
 
     fn dry_joints(&self) -> &[usize] {
         &self.dry
+    }
+
+    fn dry_shapes(&self) -> &[usize] {
+        &self.dry_shapes
     }
 
     fn saturated_joints(&self) -> &[usize] {

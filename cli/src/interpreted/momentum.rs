@@ -169,6 +169,10 @@ impl Arm for InterpretedMomentum {
         self.arm.dry_joints()
     }
 
+    fn dry_shapes(&self) -> &[usize] {
+        self.arm.dry_shapes()
+    }
+
     fn saturated_joints(&self) -> &[usize] {
         self.arm.saturated_joints()
     }

@@ -38,6 +38,22 @@ pub(super) fn dry_joints(model: &Model) -> Vec<usize> {
     joints.filter(is_dry).collect()
 }
 
+/// Which of some shapes, by their names, are of friction that jumps on joints that are [`dry_joints`].
+pub(super) fn dry_shapes<'a>(model: &Model, shapes: impl Iterator<Item = &'a str>) -> Vec<usize> {
+    let dry = dry_joints(model);
+    let effects = model.effects.iter().enumerate();
+    let effects = effects.filter(|(_, effect)| {
+        let joints = &effect.joints;
+        jumps_at_turns(&effect.definition) && joints.iter().all(|joint| dry.contains(joint))
+    });
+    let prefixes: Vec<String> = effects
+        .map(|(number, _)| format!("{}.", model.effect_name(number)))
+        .collect();
+    let is_dry = |name: &str| prefixes.iter().any(|prefix| name.starts_with(prefix));
+    let shapes = shapes.enumerate().filter(|(_, name)| is_dry(name));
+    shapes.map(|(number, _)| number).collect()
+}
+
 /// Whether a torque has the sign of a velocity in it.
 fn jumps_at_turns(definition: &EffectDefinition) -> bool {
     // Bindings use earlier ones alone.

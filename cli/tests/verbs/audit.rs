@@ -111,6 +111,35 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
 }
 
 /// Effects of a kind that need more than one joint, an instant, or a link.
+/// A turret that is heavy wherever its arms are bent, and has less than no inertia where they are straight; its lightest joint has the least
+/// eigenvalue nearly everywhere else.
+#[test]
+fn an_inertia_that_is_lost_at_a_few_poses_is_found() {
+    let robot = "robot Turret {
+        coordinates q1, q2, q3, q4, q5;
+        parameters I0: kg*m^2, m: kg, J: kg*m^2, w: kg*m^2, v: kg*m^2;
+        constants l = 0.5 m;
+        kinetic = (I0 + m*((l*sin(q2))^2 + (l*sin(q3))^2 + (l*sin(q4))^2))/2*dot(q1)^2
+            + J/2*(dot(q2)^2 + dot(q3)^2 + dot(q4)^2) + (w + v*cos(q5))/2*dot(q5)^2;
+        potential = 0*m;
+    }";
+    for (own, passes) in [(-0.001, false), (-0.02, false), (0.001, true)] {
+        let values = [
+            ("I0", own),
+            ("m", 5.0),
+            ("J", 1.0),
+            ("w", 0.02),
+            ("v", 0.005),
+        ];
+        let values = values.map(|(name, value)| (name.to_owned(), value));
+        let (_, checks, text) = audit(robot, &BTreeMap::from(values));
+        assert_eq!(checks["inertia"]["passed"], passes, "{own}: {text}");
+        let least = checks["inertia"]["quantities"][0]["value"].as_f64();
+        let least = least.expect("a number");
+        assert!((least - own).abs() < 1e-4, "{own}: {least}");
+    }
+}
+
 #[test]
 fn what_drifts_couples_or_is_carried_is_looked_at() {
     let audit_with = |effects: &str, values: &[(&str, f64)]| {

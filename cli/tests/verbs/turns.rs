@@ -4,7 +4,7 @@
 use serde_json::Value;
 
 use crate::common::{Folder, json};
-use crate::payload::folder;
+use crate::payload::{folder, spec};
 
 /// The truth of the arm of `payload`.
 pub(crate) const TRUTH: [(&str, f64); 10] = [
@@ -103,6 +103,51 @@ fn dry_friction_alone_does_not_set_instruments_against_least_squares() {
     let chances = chances(&folder);
     let apart = chances.iter().filter(|chance| **chance < 0.05).count();
     assert!(apart <= RUNS / 10, "{apart}: {chances:?}");
+}
+
+/// Rows at turns, where the joint stands longer than any law says, would bend a Stribeck curve to one of 4.8 N m: they are left out, by all
+/// methods, and that is told.
+#[test]
+fn a_curve_of_friction_is_looked_for_without_the_turns() {
+    let folder = folder("");
+    folder.write("arm.robot", &spec("stribeck on up;"));
+    folder.write(
+        "empty.json",
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 1.5, "lo.coulomb_friction.fc": 0.7,
+            "up.stribeck.fs": 1.0, "up.stribeck.vs": 0.1}"#,
+    );
+    let truth = TRUTH.into_iter();
+    let truth = truth.chain([("up.stribeck.fs", 1.0), ("up.stribeck.vs", 0.1)]);
+    let truth: Vec<(&str, f64)> = truth.collect();
+    let runs = 6;
+    for method in ["wls", "physical", "tls"] {
+        let mut held = 0;
+        for run in 0..runs {
+            let log = format!("log{run}.csv");
+            if method == "wls" {
+                let seed = format!("{}", 7 + run);
+                let simulate = ["simulate", "arm.robot", "--parameters", "empty.json"];
+                let motion = ["--trajectory", "wanted.csv", "--torque-noise", "0.02"];
+                let out = ["--seed", seed.as_str(), "--out", log.as_str()];
+                folder.succeed(&[&simulate[..], &motion, &out].concat());
+            }
+            let identify = ["identify", "arm.robot", &log, "--method", method];
+            let ran = folder.run(&[&identify[..], &["--json", "fit.json"]].concat());
+            assert_eq!(ran.code, Some(0), "{}", ran.stderr);
+            assert!(ran.stderr.contains("turn are left out"), "{}", ran.stderr);
+            let fit = json(&folder.read("fit.json"));
+            let found = fit["parameters"].as_array().expect("a list");
+            for (parameter, (name, truth)) in found.iter().zip(&truth) {
+                assert_eq!(parameter["name"], *name);
+                let number = |key: &str| parameter[key].as_f64().expect("a number");
+                let off = (number("value") - truth) / number("std");
+                assert!(off.abs() < 5.0, "{method}: {name} is off by {off}");
+                held += usize::from(off.abs() < 1.96);
+            }
+        }
+        let share = held as f64 / (runs * truth.len()) as f64;
+        assert!(share > 0.88, "{method}: {share}");
+    }
 }
 
 /// What a log tells by its factor, and by the factors of two logs, is what it tells itself.

@@ -30,6 +30,7 @@ mod windows;
 
 pub use commanded::{Commanded, Piece};
 pub use error::CalibrateError;
+pub(crate) use regression::quantile;
 pub use static_gain::{Hysteresis, StaticGain, Term};
 pub use voltage::MotorVoltage;
 pub use windows::{REACH, Windows};
@@ -50,7 +51,7 @@ pub struct Measured {
 
 impl Measured {
     fn new(value: f64, std: f64, freedom: f64) -> Self {
-        let reach = regression::quantile(freedom) * std;
+        let reach = quantile(freedom) * std;
         Self {
             value,
             std,

@@ -95,7 +95,7 @@ impl Regression {
 }
 
 /// How many standard deviations a value is in its interval.
-pub(super) fn quantile(freedom: f64) -> f64 {
+pub(crate) fn quantile(freedom: f64) -> f64 {
     student(freedom).map_or(f64::INFINITY, |student| {
         student.inverse_cdf(0.5 + 0.5 * CONFIDENCE)
     })

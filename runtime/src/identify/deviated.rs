@@ -11,6 +11,8 @@ pub(super) struct Solved {
     pub solution: Solution,
     pub shapes: Vec<f64>,
     pub shape_std: Vec<Option<f64>>,
+    /// What the shapes add to the deviations of linear unknowns, for methods that know of these alone; nothing where there are none.
+    pub of_shapes: Vec<f64>,
     pub stack: Stack,
 }
 
@@ -29,6 +31,7 @@ impl Identify {
                 solution,
                 shapes,
                 shape_std: Vec::new(),
+                of_shapes: Vec::new(),
                 stack,
             };
         }
@@ -43,20 +46,26 @@ impl Identify {
         let told = self.beside_slopes(&whole, &solution);
         let mut stack = whole;
         stack.truncate(linear);
+        let mut of_shapes = Vec::new();
         let lost = (0..linear).any(|k| told[k].is_none() && !solution.unexcited.contains(&k));
         let shape_std = if lost {
             // A shape does what a linear unknown does: beside it nothing is known of either.
             solution.std = self.deviations(&stack, &solution);
             vec![None; shapes.len()]
         } else {
+            let alone = self.deviations(&stack, &solution);
             let std = told[..linear].iter();
             solution.std = std.map(|std| std.unwrap_or(0.0)).collect();
+            let pairs = solution.std.iter().zip(&alone);
+            let beyond = |(with, alone): (&f64, &f64)| (with.powi(2) - alone.powi(2)).max(0.0);
+            of_shapes = pairs.map(beyond).map(f64::sqrt).collect();
             told[linear..].to_vec()
         };
         Solved {
             solution,
             shapes,
             shape_std,
+            of_shapes,
             stack,
         }
     }

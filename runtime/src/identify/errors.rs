@@ -19,7 +19,8 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Errors over several logs of one arm, or pieces of one: those of all their samples together.
+    /// Errors over several logs of one arm, or pieces of one: those of all their samples together. Of `relative_percent` parts count by
+    /// the power of their torque, as of raw samples.
     #[must_use]
     pub fn of_all(parts: &[Self]) -> Self {
         let joints = 0..parts.first().map_or(0, |part| part.samples.len());
@@ -33,7 +34,12 @@ impl Errors {
         let each = |of: &dyn Fn(usize) -> f64| joints.clone().map(of).collect();
         Self {
             rmse: each(&|j| mean(j, &|part| part.rmse[j].powi(2)).sqrt()),
-            relative_percent: each(&|j| mean(j, &|part| part.relative_percent[j].powi(2)).sqrt()),
+            relative_percent: each(&|j| {
+                let power = |part: &Self| part.spread[j].powi(2) + part.level[j].powi(2);
+                let left = mean(j, &|part| power(part) * part.relative_percent[j].powi(2));
+                let all = mean(j, &power);
+                if all > 0.0 { (left / all).sqrt() } else { 0.0 }
+            }),
             mae: each(&|j| mean(j, &|part| part.mae[j])),
             level: each(&|j| mean(j, &|part| part.level[j])),
             spread: each(&|j| {
@@ -77,6 +83,9 @@ mod tests {
         assert_eq!(all.samples, [40]);
         assert!((all.rmse[0] - 1.75_f64.sqrt()).abs() < 1e-12);
         assert!((all.mae[0] - 1.25).abs() < 1e-12 && (all.level[0] - 2.0).abs() < 1e-12);
+        // Torque powers 10 of 30 samples and 2 of 10.
+        let share: f64 = (30.0 * 10.0 * 1.0 + 10.0 * 2.0 * 4.0) / (30.0 * 10.0 + 10.0 * 2.0);
+        assert!((all.relative_percent[0] - share.sqrt()).abs() < 1e-12);
         // 1 within the parts, 3 between them.
         assert!((all.spread[0] - 2.0).abs() < 1e-12);
     }

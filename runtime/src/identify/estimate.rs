@@ -6,11 +6,12 @@ use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, prepare};
 
 use super::errors::Errors;
+use super::fitted::Fitted;
 use super::instruments::Hausman;
 use super::late::Delay;
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::stack::{Stack, norm, percent, rows_at, torque_of};
+use super::stack::{norm, percent, rows_at, torque_of};
 use super::{Bootstrap, Combination, Essential, IdentifyError, Method, Shared, load_motion};
 
 /// Cut from either end of a log before errors are computed on raw samples, s.
@@ -90,8 +91,11 @@ pub struct Estimate {
     pub outliers: Option<Vec<usize>>,
     /// The comparison with least squares where instruments were taken: [`Method::Instrumental`].
     pub hausman: Option<Hausman>,
-    /// Rows per joint where it turns, see [`Arm::dry_joints`]; they are left out with [`Identify::leave_out_turns`](super::Identify::leave_out_turns).
+    /// Rows per joint where it turns, see [`Arm::dry_joints`]; whether they are fitted says [`Self::is_without_turns`].
     pub turns: Vec<usize>,
+    /// Whether these rows are left out: because of [`Identify::leave_out_turns`](super::Identify::leave_out_turns), or because the arm has
+    /// [`Arm::dry_shapes`] that other rows tell.
+    pub is_without_turns: bool,
     /// Rows per joint that are left out because dry friction holds it nearly all the time.
     pub held: Vec<usize>,
     /// Rows per joint that are left out because its torque stands at a [limit](Log::clipped).
@@ -99,49 +103,14 @@ pub struct Estimate {
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
     /// at hand.
     pub effective_samples: Option<Vec<f64>>,
+    /// Blocks of the logs from which deviations are, of a [`Factor`](super::Factor).
+    pub blocks: Option<usize>,
     /// Intervals from blocks that were drawn, where [`Identify::bootstrap`](super::Identify::bootstrap) asks for them.
     pub bootstrap: Option<Bootstrap>,
     /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
     pub essential: Option<Essential>,
     /// Torques that are late or early against positions, or the position that is instead, in logs without a payload; none of a [`Factor`](super::Factor).
     pub delays: Vec<Delay>,
-}
-
-/// How rows were fitted.
-pub(super) struct Fitted {
-    /// `100 || residual || / || tau ||` per joint.
-    pub relative_percent: Vec<f64>,
-    /// Samples per joint.
-    pub samples: usize,
-    /// Of these, at turns.
-    pub turns: Vec<usize>,
-    /// Of these, left out because torque stands at a limit.
-    pub clipped: Vec<usize>,
-    /// Of these, left out because dry friction holds the joint.
-    pub held: Vec<usize>,
-    /// Of these, independent ones per joint.
-    pub effective_samples: Option<Vec<f64>>,
-    /// Names of the unknowns.
-    pub names: Vec<String>,
-}
-
-impl Fitted {
-    /// By an estimate.
-    pub fn new(stack: &Stack, estimate: &[f64]) -> Self {
-        let residuals = stack.residuals(estimate);
-        let times = stack.correlation_times(&residuals);
-        let effective = stack.counts().into_iter().zip(times);
-        let effective = effective.map(|(count, time)| count as f64 / time);
-        Self {
-            relative_percent: stack.relative_percent(estimate),
-            samples: stack.samples(),
-            turns: stack.turns.iter().map(Vec::len).collect(),
-            clipped: stack.clipped.iter().map(Vec::len).collect(),
-            held: stack.held.iter().map(Vec::len).collect(),
-            effective_samples: Some(effective.collect()),
-            names: stack.unknowns.iter().map(|x| x.name.clone()).collect(),
-        }
-    }
 }
 
 impl Estimate {
@@ -203,6 +172,8 @@ impl Estimate {
             outliers: None,
             hausman: None,
             turns: fitted.turns,
+            is_without_turns: false,
+            blocks: None,
             clipped: fitted.clipped,
             held: fitted.held,
             effective_samples: fitted.effective_samples,

@@ -12,10 +12,12 @@
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
-use super::estimate::{Estimate, Fitted, Form};
+use super::estimate::{Estimate, Form};
+use super::fitted::Fitted;
 use super::least_squares::{Factors, Solution};
 use super::stack::{Stack, percent};
 use super::{Identify, IdentifyError, Method, turns};
+use crate::calibrate::quantile;
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
@@ -28,6 +30,12 @@ pub use block::{FactorBlock, FactorRows};
 
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
+
+/// From fewer blocks deviations are no smaller than those of white noise.
+const FEW_BLOCKS: usize = 8;
+
+/// Of a normal distribution 95 % are within so many deviations.
+const NORMAL: f64 = 1.96;
 
 /// A parameter that moves so many times further without a block than beside it is told by that block alone.
 const MOST_WITHOUT_BLOCK: f64 = 10.0;
@@ -234,15 +242,13 @@ impl Factor {
             effective_samples: None,
             names: self.unknowns.clone(),
         };
-        Ok(Estimate::new(
-            arm,
-            method,
-            Form::Acceleration,
-            self.bands,
-            &solution,
-            Vec::new(),
-            fitted,
-        ))
+        let form = Form::Acceleration;
+        let estimate = Estimate::new(arm, method, form, self.bands, &solution, Vec::new(), fitted);
+        Ok(Estimate {
+            blocks: Some(used.blocks.len()),
+            is_without_turns: leave_out_turns,
+            ..estimate
+        })
     }
 
     /// Sum of squared residuals of a joint.
@@ -273,7 +279,8 @@ impl Factor {
 
     /// Standard deviations from how the estimate moves without each block, `(A - A_b)^-1 s_b` with the block's share `A_b` of the normal
     /// equations and what its own rows lack, `s_b`; with one block those for noise that is white. What only one block tells moves as it
-    /// would beside the others.
+    /// would beside the others. A deviation from `G` blocks is itself unsure: it is larger by Student's t of `G - 1` degrees of freedom over
+    /// the normal distribution's, so that 1.96 of it hold the truth with 95 %, and from few blocks no smaller than that for white noise.
     ///
     /// Source: MacKinnon, Nielsen, Webb 2023, Fast and reliable jackknife and bootstrap methods for cluster-robust inference (CV3).
     fn deviations(&self, solution: &mut Solution) {
@@ -322,9 +329,13 @@ impl Factor {
                 *square += if is_told { most } else { least };
             }
         }
-        let correction = (count as f64 - 1.0) / count as f64;
+        let freedom = count as f64 - 1.0;
+        let correction = freedom / count as f64;
+        let unsure = quantile(freedom) / NORMAL;
         for ((square, length), &c) in squares.iter().zip(&length).zip(&excited) {
-            solution.std[c] = (correction * square).sqrt() / length;
+            let white = solution.std[c];
+            let least = if count < FEW_BLOCKS { white } else { 0.0 };
+            solution.std[c] = (unsure * (correction * square).sqrt() / length).max(least);
         }
     }
 }

@@ -37,6 +37,9 @@ const SPREAD: f64 = 1.5;
 /// A sample of clipped torque is in `L{tau}` for so many time constants: a thousandth is left of it then.
 const TIME_CONSTANTS: f64 = 7.0;
 
+/// What is made up in a hole is nearly right, so a fiftieth of it says nothing.
+const HOLE_TIME_CONSTANTS: f64 = 4.0;
+
 /// The corner where none is given, rad/s: the end of the band that torque and columns share.
 fn default_corner(bands: &Bands) -> f64 {
     std::f64::consts::TAU * bands.shared_hz
@@ -58,6 +61,17 @@ impl Identify {
         corner: Option<f64>,
     ) -> Result<Estimate, IdentifyError> {
         check_logs(arm, logs)?;
+        self.away_from_turns(arm, &|identify| {
+            identify.fit_filtered_rows(arm, logs, corner)
+        })
+    }
+
+    fn fit_filtered_rows(
+        &self,
+        arm: &dyn MomentumArm,
+        logs: &[Log],
+        corner: Option<f64>,
+    ) -> Result<Estimate, IdentifyError> {
         let bands = match self.bands {
             Some(bands) => bands,
             None => self.choose_filtered_bands(arm, logs, corner)?,
@@ -167,7 +181,9 @@ impl<'a> FilteredArm<'a> {
                 }
             }
         }
-        let reach = whole_steps(TIME_CONSTANTS * prepared.rate_hz / self.corner);
+        let samples = |constants: f64| whole_steps(constants * prepared.rate_hz / self.corner);
+        let (reach, behind_holes) = (samples(TIME_CONSTANTS), samples(HOLE_TIME_CONSTANTS));
+        prepared.shared = prepared.shared.longer_holes(behind_holes);
         for clipped in prepared.clipped.iter_mut().flatten() {
             clipped.end += reach;
         }
@@ -321,6 +337,10 @@ impl Arm for FilteredArm<'_> {
 
     fn dry_joints(&self) -> &[usize] {
         self.arm.dry_joints()
+    }
+
+    fn dry_shapes(&self) -> &[usize] {
+        self.arm.dry_shapes()
     }
 
     fn saturated_joints(&self) -> &[usize] {

@@ -14,6 +14,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use statrs::function::erf::erfc;
 
+use super::combination::shared;
 use super::estimate::Identified;
 use super::hac::{Rows, weighed};
 use super::least_squares::{Excited, Factors, Solution};
@@ -45,6 +46,8 @@ pub struct Hausman {
     pub least_squares_percent: Vec<f64>,
     /// Difference of both estimates over its standard deviation, one an unknown.
     pub differences: Vec<f64>,
+    /// Whether both tell a value of an unknown, and not only a sum with others; the others have no difference.
+    pub compared: Vec<bool>,
     /// Probability of a difference like the largest one, anywhere, if least squares has no bias (Bonferroni).
     pub probability: f64,
 }
@@ -69,11 +72,16 @@ impl Hausman {
 
     fn verdict(&self, parameters: &[Identified]) -> Option<String> {
         let differences = self.differences.iter().enumerate();
+        let differences = differences.filter(|(k, _)| self.compared[*k]);
         let (most, difference) = differences.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
         let of_own = |k: usize| {
             let found = &parameters[k];
             let share = (found.value - self.least_squares[k]).abs() / found.std;
-            if share.is_finite() { share } else { 0.0 }
+            if self.compared[k] && share.is_finite() {
+                share
+            } else {
+                0.0
+            }
         };
         let largest = (0..parameters.len()).map(of_own).fold(0.0, f64::max);
         let verdict = if self.probability >= Self::LEVEL {
@@ -189,6 +197,10 @@ pub(super) fn make(
         let n = stack.unknowns.len();
         let excited = Excited::new(&clean, n).columns;
         let silent = excited_by_one(&excited, &ordinary.unexcited, n);
+        // What instruments tell of these is in sums of them with others.
+        let told = (0..n).filter(|c| silent.binary_search(c).is_err());
+        let told = Excited::of(&clean, n, told.collect());
+        solution.shared = shared(&clean, &told, &silent);
         if silent.len() == n {
             return Err(IdentifyError::NothingExcited { unknowns: n });
         }
@@ -268,25 +280,29 @@ fn compare(
     series: &Mat<f64>,
     rows: &Rows,
 ) -> Hausman {
-    let own = Rows::new(stack, &found.unexcited, &ordinary.scale);
+    let own = Rows::new(stack, &ordinary.unexcited, &ordinary.scale);
     let ones = robust::of_all(stack);
     let residuals = weighed(stack.residuals(&ordinary.estimate), &ordinary.scale, &ones);
-    let mut difference = own.influence(&residuals, &own.product(&own));
+    let influence = own.influence(&residuals, &own.product(&own));
+    // A value of its own by both, where they are to be compared.
+    let is_compared = |c: usize| ordinary.is_told(c) && found.is_told(c);
     // Both in units of the instrumental rows' columns.
-    for k in 0..difference.ncols() {
-        let unit = rows.length[k] / own.length[k];
-        let values = difference.col_mut(k).iter_mut();
-        values
-            .zip(series.col(k).iter())
-            .for_each(|(x, y)| *x = y - *x * unit);
-    }
+    let difference = Mat::from_fn(series.nrows(), series.ncols(), |row, k| {
+        match own.excited.binary_search(&rows.excited[k]) {
+            Ok(place) => {
+                series[(row, k)] - influence[(row, place)] * rows.length[k] / own.length[place]
+            }
+            Err(_) => 0.0,
+        }
+    });
     let deviations = rows.deviations(&difference, None);
     let pairs = found.estimate.iter().zip(&ordinary.estimate);
     // What rounding leaves of both is no difference.
     let differences: Vec<f64> = pairs
         .zip(deviations.iter().zip(&found.std))
-        .map(|((one, other), (std, own))| {
-            if (one - other).abs() > ROUNDING * own {
+        .enumerate()
+        .map(|(c, ((one, other), (std, own)))| {
+            if is_compared(c) && (one - other).abs() > ROUNDING * own {
                 (one - other) / std.max(ROUNDING * own)
             } else {
                 0.0
@@ -294,12 +310,13 @@ fn compare(
         })
         .collect();
     let largest = differences.iter().map(|x| x.abs()).fold(0.0, f64::max);
-    let count = rows.excited.len() as f64;
+    let count = (0..differences.len()).filter(|c| is_compared(*c)).count() as f64;
     Hausman {
         least_squares_percent: stack.relative_percent(&ordinary.estimate),
         least_squares: ordinary.estimate.clone(),
         differences,
         probability: (count * erfc(largest / std::f64::consts::SQRT_2)).min(1.0),
+        compared: (0..ordinary.estimate.len()).map(is_compared).collect(),
     }
 }
 

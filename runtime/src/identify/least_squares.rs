@@ -289,6 +289,20 @@ impl Excited {
         Self::chosen(r, n, &|pivots| pivots.take(rank).count())
     }
 
+    /// Those that are given, ascending.
+    pub fn of(r: &Mat<f64>, n: usize, columns: Vec<usize>) -> Self {
+        let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
+        let kept = Mat::from_fn(r.nrows(), columns.len(), |row, k| {
+            let c = columns[k];
+            r[(row, c)] / norms[c].max(f64::MIN_POSITIVE)
+        });
+        Self {
+            columns,
+            norms,
+            kept,
+        }
+    }
+
     /// `rank` says how many, of pivots that fall.
     fn chosen(
         r: &Mat<f64>,

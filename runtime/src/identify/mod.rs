@@ -29,6 +29,7 @@ mod essential;
 mod estimate;
 mod factor;
 mod filtered;
+mod fitted;
 mod hac;
 mod instruments;
 mod late;
@@ -57,9 +58,9 @@ use deviated::Solved;
 pub use error::IdentifyError;
 pub use errors::Errors;
 pub use essential::Essential;
-use estimate::Fitted;
 pub use estimate::{Estimate, Form, Identified};
 pub use factor::{Factor, FactorBlock, FactorRows};
+use fitted::Fitted;
 pub use instruments::Hausman;
 pub(crate) use late::longest_period;
 pub use late::{Delay, is_delay};
@@ -144,6 +145,10 @@ impl Identify {
     /// filtered. Unknowns that the logs do not excite are no error: the estimate names them.
     pub fn fit(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Estimate, IdentifyError> {
         check_logs(arm, logs)?;
+        self.away_from_turns(arm, &|identify| identify.fit_rows(arm, logs))
+    }
+
+    fn fit_rows(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Estimate, IdentifyError> {
         let bands = match self.bands {
             Some(bands) => bands,
             None => self.choose_bands(arm, logs)?,
@@ -204,7 +209,8 @@ impl Identify {
         let Solved {
             mut solution,
             shapes,
-            mut shape_std,
+            shape_std,
+            of_shapes,
             stack,
         } = solved;
         let mut beside = Beside::default();
@@ -212,9 +218,6 @@ impl Identify {
             beside.bootstrap = self.draw(&stack, &solution)?;
             let mut essential = || essential::find(self, stack.clone(), &solution);
             beside.essential = self.essential.then(&mut essential).transpose()?;
-        } else {
-            // Others solve for the linear unknowns alone.
-            shape_std.fill(None);
         }
         match self.method {
             Method::Ls | Method::Wls => {}
@@ -242,6 +245,14 @@ impl Identify {
                 });
             }
         }
+        if !matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
+            // Others solve for the linear unknowns alone.
+            for (std, of_shapes) in solution.std.iter_mut().zip(&of_shapes) {
+                if *std > 0.0 {
+                    *std = std.hypot(*of_shapes);
+                }
+            }
+        }
         let fitted = Fitted::new(&stack, &solution.estimate);
         let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, fitted);
         Ok(Estimate {
@@ -251,6 +262,7 @@ impl Identify {
             bootstrap: beside.bootstrap,
             essential: beside.essential,
             shape_std,
+            is_without_turns: self.leave_out_turns,
             ..estimate
         })
     }

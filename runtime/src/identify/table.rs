@@ -31,7 +31,12 @@ impl fmt::Display for Estimate {
         };
         if self.turns.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.turns.iter().map(usize::to_string).collect();
-            writeln!(f, "of these where joints turn: {}", a_joint(&counts))?;
+            let counts = a_joint(&counts);
+            if self.is_without_turns {
+                writeln!(f, "left out, where joints turn: {counts}")?;
+            } else {
+                writeln!(f, "of these where joints turn: {counts}")?;
+            }
         }
         if self.held.iter().any(|count| *count > 0) {
             let counts: Vec<String> = self.held.iter().map(usize::to_string).collect();

@@ -14,6 +14,7 @@ use std::ops::Range;
 use super::least_squares::{Factors, Solution};
 use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
+use super::{Estimate, Identify, IdentifyError};
 use crate::columns::Arm;
 use crate::motion;
 use crate::signal::Prepared;
@@ -66,6 +67,40 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
         }
     }
     clear_rows(&mut stack.joints, &stack.held);
+}
+
+/// A shape with a deviation above this share of its value is told by nothing.
+const ANYWHERE: f64 = 0.5;
+
+impl Identify {
+    /// Fits an arm with [`Arm::dry_shapes`] without rows at turns: there a joint stands longer than its law says, and a search would bend
+    /// the law after that. With these rows where no others tell all that is looked for.
+    pub(super) fn away_from_turns(
+        &self,
+        arm: &dyn Arm,
+        fit: &dyn Fn(&Self) -> Result<Estimate, IdentifyError>,
+    ) -> Result<Estimate, IdentifyError> {
+        if self.leave_out_turns || self.shapes.is_some() || arm.dry_shapes().is_empty() {
+            return fit(self);
+        }
+        let away = Self {
+            leave_out_turns: true,
+            ..self.clone()
+        };
+        let is_told = |found: &Estimate, shape: usize| {
+            let std = found.shape_std[shape];
+            std.is_some_and(|std| std <= ANYWHERE * found.shapes[shape].1.abs())
+        };
+        match fit(&away) {
+            Ok(found)
+                if found.unexcited.is_empty()
+                    && arm.dry_shapes().iter().all(|&k| is_told(&found, k)) =>
+            {
+                Ok(found)
+            }
+            _ => fit(self),
+        }
+    }
 }
 
 /// Makes the rows zero that turns reach.

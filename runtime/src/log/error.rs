@@ -273,6 +273,25 @@ pub enum LogError {
         /// Its length in median steps.
         steps: f64,
     },
+    /// None of several gaps is too long, and all together are.
+    #[error(
+        "{source_name}: {times} gaps in time take {seconds:.2} s of {all:.2} s, more than {most:.0} %, the first behind {first} s; give the parts \
+         between them as logs of their own"
+    )]
+    Gaps {
+        /// The log.
+        source_name: String,
+        /// How many.
+        times: usize,
+        /// Their length, s.
+        seconds: f64,
+        /// That of the log, s.
+        all: f64,
+        /// Time stamp before the first.
+        first: f64,
+        /// What is borne, percent.
+        most: f64,
+    },
     /// No arm is sampled like that.
     #[error(
         "{source_name}: the sample rate is {rate_hz:.4} Hz, outside {slowest} Hz .. {fastest} Hz; is time in seconds?"

@@ -63,6 +63,16 @@ pub(super) fn fill(
         if let Some(error) = without {
             return Err(error.clone());
         }
+        if gaps.len() > 1 && longest.seconds <= LONGEST_S {
+            return Err(LogError::Gaps {
+                source_name: log.source.clone(),
+                times: gaps.len(),
+                seconds: gaps.iter().map(|gap| gap.seconds).sum(),
+                all,
+                first: log.time[gaps[0].last],
+                most: 100.0 * SHARE,
+            });
+        }
         return Err(LogError::Gap {
             place: log.place(last + 1, lines),
             time: log.time[last + 1],

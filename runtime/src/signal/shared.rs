@@ -68,6 +68,15 @@ impl SharedFilter {
         self
     }
 
+    /// The same with holes that are longer, by so many samples behind each.
+    #[must_use]
+    pub(crate) fn longer_holes(mut self, samples: usize) -> Self {
+        for hole in &mut self.holes {
+            hole.end += samples;
+        }
+        self
+    }
+
     /// Writes the kept samples of the filtered column to `out`, whose memory is used again.
     pub fn apply(&self, column: &[f64], out: &mut Vec<f64>) {
         self.low_pass.apply(column, out);

@@ -180,6 +180,36 @@ fn deviations_from_blocks_are_the_spread_of_the_estimates() {
     }
 }
 
+/// Two squares of errors say little of a deviation, which Student's t knows.
+#[test]
+fn intervals_from_few_blocks_hold_the_truth() {
+    const DRAWS: u32 = 200;
+    for count in [1, 2, 3, 5, 8] {
+        let (mut held, mut furthest) = (0, 0.0_f64);
+        for seed in 0..DRAWS {
+            let mut factor = empty();
+            for part in parts(&stack(u64::from(seed), 0, 200 * count), count) {
+                factor.push_rows(&part);
+            }
+            let mut solution = factor.whole().weighted(&[1.0, 1.0]);
+            factor.deviations(&mut solution);
+            for (c, truth) in TRUTH.iter().enumerate() {
+                let off = (solution.estimate[c] - truth).abs() / solution.std[c];
+                held += u32::from(off < 1.96);
+                furthest = furthest.max(off);
+            }
+        }
+        let share = f64::from(held) / f64::from(3 * DRAWS);
+        if count == 1 {
+            // What one block cannot know is that its noise is correlated.
+            assert!(share < 0.8, "{share}");
+        } else {
+            assert!((0.9..=0.99).contains(&share), "{count} blocks: {share}");
+            assert!(furthest < 15.0, "{count} blocks: {furthest}");
+        }
+    }
+}
+
 /// Rows around turns of the first joint, among which another friction holds.
 fn sticky(seed: u64, count: usize) -> Stack {
     let mut whole = stack(seed, 0, count);

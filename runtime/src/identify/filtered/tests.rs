@@ -150,3 +150,35 @@ fn what_holds_a_joint_that_stands_is_not_in_the_rows_behind_it() {
     assert!(kept > 0.02, "{kept}");
     assert!(left_out < 0.002, "{left_out}");
 }
+
+/// What is made up in a hole is in `L{tau}` for some time behind it.
+#[test]
+fn what_is_made_up_in_holes_is_not_in_the_rows_behind_them() {
+    let [inertia, viscous, _] = TRUTH;
+    let time: Vec<f64> = (0..10_000).map(|k| f64::from(k) / RATE).collect();
+    let sum = |w: f64, of: &dyn Fn(f64, f64) -> f64| -> Vec<f64> {
+        let tones = |t: &f64| of(3.0, *t) + 0.3 * of(7.1, *t) * w;
+        time.iter().map(tones).collect()
+    };
+    let q = sum(1.0, &|w, t| (w * t).sin());
+    let tau = sum(1.0, &|w, t| {
+        viscous * w * (w * t).cos() - inertia * w * w * (w * t).sin()
+    });
+    let mut log = Log::from_samples("wheel", time, vec![q], vec![tau]).expect("samples in order");
+    for start in [3.0, 7.0, 11.0, 15.0] {
+        log.holes.push(start..start + 0.14);
+        let samples = (0..log.time.len())
+            .filter(|&k| log.holes.iter().any(|hole| hole.contains(&log.time[k])));
+        for k in samples.collect::<Vec<usize>>() {
+            log.tau[0][k] = 0.3;
+        }
+    }
+    let found = Identify::default().fit_filtered(&Wheel::new(), &[log], Some(CORNER));
+    let found = found.expect("a log that tells all").values();
+    for (found, truth) in found.iter().zip([inertia, viscous, 0.0]) {
+        assert!(
+            (found - truth).abs() < 2e-3 * viscous,
+            "{found} for {truth}"
+        );
+    }
+}

@@ -99,6 +99,7 @@ fn a_verdict_says_how_much_a_difference_matters() {
             least_squares: vec![2.0, 0.0],
             least_squares_percent: vec![1.0],
             differences: vec![-4.0, 0.0],
+            compared: vec![true, true],
             probability,
         };
         let identified = |name: &str, value: f64, std: f64| Identified {
@@ -147,4 +148,61 @@ fn columns_that_are_their_own_instruments_agree_with_themselves() {
         assert!((solution.estimate[0] - hausman.least_squares[0]).abs() < 1e-12);
         assert!(hausman.probability > 0.999, "{hausman:?}");
     }
+}
+
+/// Two columns that move apart in the log, and as one where the noise is not: instruments tell their sum, and the comparison leaves both alone.
+#[test]
+fn instruments_that_do_not_part_columns_tell_their_sum() {
+    let wave = |rate: f64| -> Vec<f64> { (0..800).map(|k| (rate * f64::from(k)).sin()).collect() };
+    let mut random = ChaCha8Rng::seed_from_u64(5);
+    let mut noise = |size: f64| -> Vec<f64> {
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        (0..800).map(|_| size * normal()).collect()
+    };
+    let sum = |one: &[f64], share: f64, other: &[f64]| -> Vec<f64> {
+        let pairs = one.iter().zip(other);
+        pairs.map(|(x, y)| x + share * y).collect()
+    };
+    let (first, third) = (wave(0.05), wave(0.13));
+    let double: Vec<f64> = first.iter().map(|x| 2.0 * x).collect();
+    let worn = [first.clone(), sum(&double, 1.0, &noise(0.5)), third.clone()];
+    let target = sum(&sum(&first, 1.5, &worn[1]), -0.7, &third);
+    let target = sum(&target, 1.0, &noise(0.1));
+    let [worn, clean] = [worn, [first, double, third]].map(|columns| {
+        let unknown = |name: &str| Unknown {
+            name: name.to_owned(),
+            nonnegative: false,
+        };
+        Stack {
+            unknowns: ["a", "b", "c"].map(unknown).to_vec(),
+            joints: vec![JointRows {
+                tau: target.clone(),
+                target: target.clone(),
+                columns: columns.into_iter().enumerate().collect(),
+            }],
+            ..stacks(0, 0.0)[0].clone()
+        }
+    });
+    let mut solution = Identify::default().solve_stack(&worn).expect("samples");
+    assert!(solution.unexcited.is_empty());
+    let hausman = make(&mut solution, &worn, &clean, Weights::Residual).expect("excited");
+    let [shared] = &solution.shared[..] else {
+        panic!("{:?}", solution.shared);
+    };
+    let [(other, factor)] = shared.others[..] else {
+        panic!("{shared:?}");
+    };
+    assert_eq!(solution.unexcited, [other]);
+    // a + 2 b = 4, however it is written.
+    let truth = [1.0, 1.5];
+    let expected = truth[shared.lead] + factor * truth[other];
+    let off = (solution.estimate[shared.lead] - expected) / solution.std[shared.lead];
+    assert!(off.abs() < 3.0, "{off}");
+    assert!(!solution.is_told(0) && !solution.is_told(1) && solution.is_told(2));
+    assert_eq!(hausman.compared, [false, false, true]);
+    assert_eq!(hausman.differences[..2], [0.0, 0.0]);
+    assert!(
+        hausman.probability > 0.01 && hausman.differences[2].is_finite(),
+        "{hausman:?}"
+    );
 }

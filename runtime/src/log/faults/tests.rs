@@ -111,6 +111,24 @@ fn holds_are_bridged_and_long_ones_cut_out() {
     assert!((hole.end - 3760.0 / RATE).abs() < 1e-9);
 }
 
+/// A joint that others push by some microradians does not move: its velocity is in step with nothing.
+#[test]
+fn velocities_of_a_joint_that_is_held_are_not_late() {
+    let time: Vec<f64> = (0..6000).map(|k| 0.002 * f64::from(k)).collect();
+    let wave = |size: f64, f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        time.iter().map(|t| size * f(*t)).collect()
+    };
+    for (size, is_told) in [(9e-6, false), (0.1, true)] {
+        let q = vec![wave(size, &|t| (6.0 * t).sin())];
+        let tau = vec![wave(1.0, &|t| (3.0 * t).cos())];
+        let mut log = Log::from_samples("a held joint", time.clone(), q, tau).expect("a log");
+        log.dq = vec![wave(6.0 * size, &|t| (6.0 * (t - 0.03)).cos())];
+        let faults = log.mended().faults;
+        let is_late = |fault: &Fault| matches!(fault, Fault::VelocityLate { .. });
+        assert_eq!(faults.iter().any(is_late), is_told, "{size}: {faults:?}");
+    }
+}
+
 #[test]
 fn velocities_late_in_degrees_or_backwards_are_told() {
     let log = clean(3);

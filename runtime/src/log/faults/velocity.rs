@@ -28,6 +28,9 @@ const DIFFERS: f64 = 2e-3;
 /// A joint moves where it goes over this many of the encoder's steps.
 const MOVES: f64 = 20.0;
 
+/// And over so much, rad or m: what couples into a joint that is held is no motion.
+const LEAST: f64 = 1e-3;
+
 pub(super) fn find(log: &Log) -> Vec<Fault> {
     let rate_hz = log.rate_hz();
     let block = whole_steps(rate_hz / RATE_HZ).max(1);
@@ -47,7 +50,7 @@ pub(super) fn find(log: &Log) -> Vec<Fault> {
         let mean: Vec<f64> = (0..blocks).map(mean).collect();
         let high = q.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = q.iter().copied().fold(f64::INFINITY, f64::min);
-        if high - low <= MOVES * Steps::of(q).quantum {
+        if high - low <= LEAST.max(MOVES * Steps::of(q).quantum) {
             continue;
         }
         let most = whole_steps((LONGEST / step).min(blocks as f64 / 4.0));

@@ -173,6 +173,19 @@ fn rows_without_numbers_are_missing() {
     assert!(refused(read(&text("time,q1,tau1", &longer), 1)).starts_with("monday.csv:302: `nan`"));
 }
 
+/// None of them is too long, and all together say too little of what the arm did.
+#[test]
+fn many_short_gaps_are_told_as_many() {
+    let lost = |k: u32| (100..1900).contains(&k) && k % 300 < 60;
+    let regular = |k: u32| 0.002 * f64::from(k);
+    let refused = read(&text("time,q1,tau1", &rows(|k| !lost(k), regular)), 1);
+    let told = refused.expect_err("six gaps").to_string();
+    assert!(
+        told.starts_with("monday.csv: 6 gaps in time take 0.72 s of 4.00 s, more than 5 %, the first behind 0.598 s"),
+        "{told}"
+    );
+}
+
 /// A row without numbers has nothing to do with a gap elsewhere; of several the one inside the gap is named.
 #[test]
 fn gaps_are_told_where_they_are() {

@@ -1,0 +1,68 @@
+//! What is said of logs and of what was found of them, besides numbers.
+
+use robot_model::identify::{Errors, Estimate};
+use robot_model::log::Log;
+
+use super::fit::{ByAcceleration, Fit};
+use super::{IdentifyArguments, brief, doubts, nominal, twice, untold};
+use crate::Error;
+
+/// That all parameters have values, or the ways out.
+pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
+    let rows = |of: &[usize], joint: usize| of.get(joint).copied().unwrap_or_default();
+    let joints = estimate.joints.iter().enumerate();
+    // Nearly all of its rows, so that what is left is its way from here to there.
+    let standing = joints.filter(|(k, _)| {
+        10 * (rows(&estimate.turns, *k) + rows(&estimate.held, *k)) > 9 * estimate.samples
+    });
+    let standing: Vec<String> = standing.map(|(_, joint)| format!("`{joint}`")).collect();
+    let standing = match standing.len() {
+        0 => String::new(),
+        _ => format!(
+            "; {} stand or turn nearly all the time, where dry friction holds them with what no law says",
+            standing.join(", ")
+        ),
+    };
+    estimate.separated().map_err(|error| {
+        Error::Argument(format!(
+            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
+             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`"
+        ))
+    })
+}
+
+/// What is doubtful about an estimate from factors, without their logs.
+pub(crate) fn factor_doubts(estimate: &Estimate, form: &ByAcceleration) -> Vec<String> {
+    let negative = doubts::negative(estimate, form.unknowns());
+    let explained = doubts::explained(estimate, None);
+    let all = brief::blocks_doubt(estimate).into_iter().chain(negative);
+    all.chain(explained).collect()
+}
+
+impl IdentifyArguments {
+    /// What is doubtful about logs and what was found of them.
+    pub(super) fn doubts(
+        &self,
+        form: &dyn Fit,
+        estimate: &Estimate,
+        logs: &[Log],
+        validation: Option<&Errors>,
+    ) -> Vec<String> {
+        let mut all = twice::doubts(&self.logs, self.validate.as_deref());
+        let negative = doubts::negative(estimate, form.unknowns());
+        let explained = doubts::explained(estimate, validation);
+        let is_odd = negative.is_some() || !explained.is_empty();
+        all.extend(negative.into_iter().chain(explained));
+        all.extend(nominal::doubt(form, estimate, logs, is_odd));
+        all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
+        all.extend(doubts::untold_shapes(estimate));
+        all.extend(brief::doubt(estimate));
+        let resting = doubts::resting(form.model(), logs);
+        let apart = doubts::hardly_apart(estimate, form.model(), logs);
+        match apart {
+            Some(apart) => all.push(apart),
+            None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),
+        }
+        all
+    }
+}

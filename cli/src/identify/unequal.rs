@@ -1,0 +1,70 @@
+//! Logs of which one leaves far more of a joint's torque than another.
+
+use robot_model::identify::Errors;
+use robot_model::log::Log;
+
+/// How many times as much.
+const FAR: f64 = 3.0;
+
+/// Joints whose rows count alike in all logs, though what is left of them is not.
+pub(super) fn doubt(joints: &[String], logs: &[Log], errors: &[Errors]) -> Option<String> {
+    let told = joints.iter().enumerate().filter_map(|(joint, name)| {
+        let of = |log: &usize| errors[*log].rmse[joint];
+        let counted = (0..logs.len()).filter(|log| errors[*log].samples[joint] > 0);
+        let counted: Vec<usize> = counted.collect();
+        let most = counted.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
+        let least = counted.iter().min_by(|a, b| of(a).total_cmp(&of(b)))?;
+        (of(most) > FAR * of(least)).then(|| {
+            format!(
+                "`{name}` {:.3} in {}, {:.3} in {}",
+                of(most),
+                logs[*most].source,
+                of(least),
+                logs[*least].source
+            )
+        })
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "logs leave unequal parts of the torque, by RMSE: {}; all rows of a joint count alike, so what is left of the worse log is in \
+             values and deviations: see what it has that the other has not, or fit the better one alone",
+            told.join("; ")
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_joint_and_both_logs_are_named() {
+        let log = |name: &str| {
+            let time: Vec<f64> = (0..4).map(f64::from).collect();
+            let zeros = vec![vec![0.0; 4]; 2];
+            Log::from_samples(name, time, zeros.clone(), zeros).expect("a log")
+        };
+        let errors = |rmse: [f64; 2]| {
+            let part = Errors::of_all(&[]);
+            Errors {
+                rmse: rmse.to_vec(),
+                samples: vec![10; 2],
+                ..part
+            }
+        };
+        let joints = ["up", "lo"].map(str::to_owned);
+        let logs = [log("a.csv"), log("b.csv")];
+        let said = doubt(&joints, &logs, &[errors([0.1, 0.1]), errors([0.2, 0.5])]);
+        let said = said.expect("unequal");
+        assert!(
+            said.contains("`lo` 0.500 in b.csv, 0.100 in a.csv") && !said.contains("`up`"),
+            "{said}"
+        );
+        assert_eq!(
+            doubt(&joints, &logs, &[errors([0.1, 0.1]), errors([0.2, 0.2])]),
+            None
+        );
+        assert_eq!(doubt(&joints, &logs[..1], &[errors([0.1, 0.5])]), None);
+    }
+}
