@@ -13,6 +13,7 @@ mod effects;
 mod held;
 mod mimic;
 mod place;
+mod size;
 mod tree;
 mod write;
 
@@ -140,6 +141,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
             what: "--gravity".to_owned(),
         });
     }
+    size::check(urdf)?;
     let robot = urdf_rs::read_from_string(urdf)
         .map_err(|error| ImportError::Parse(place::explain(urdf, &error.to_string())))?;
     let tree = tree::Tree::new(&robot)?;
