@@ -282,9 +282,13 @@ mod tests {
 
     #[test]
     fn what_is_nested_without_end_is_refused() {
-        for (open, line, column) in [("[", 1, 128), ("{\"a\":", 1, 767), ("[{\"a\":\n", 64, 1)] {
-            let (place, said) = refused(&open.repeat(1_000_000));
-            assert_eq!(place, Some((line, column)), "{said}");
+        for (open, place) in [
+            ("[", (1, 128)),
+            ("{\"a\":", (1, 636)),
+            ("[{\"a\":\n", (64, 2)),
+        ] {
+            let (told, said) = refused(&open.repeat(1_000_000));
+            assert_eq!(told, Some(place), "{said}");
             assert!(said.contains("nested more than a hundred deep"), "{said}");
         }
     }

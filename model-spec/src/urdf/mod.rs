@@ -10,6 +10,7 @@ mod back;
 mod body;
 mod edit;
 mod effects;
+mod far;
 mod held;
 mod mimic;
 mod place;
@@ -191,6 +192,6 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
             let mistakes: Vec<String> = refused.messages_with_help().collect();
             ImportError::Effects(mistakes.join("; "))
         }
-        Err(_) => ImportError::Refused(refused),
+        Err(_) => far::number(&robot).unwrap_or(ImportError::Refused(refused)),
     })
 }

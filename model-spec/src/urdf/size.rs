@@ -149,6 +149,14 @@ mod tests {
     }
 
     #[test]
+    fn dashes_in_comments_are_told() {
+        refused(
+            "<robot name=\"a\">\n<!-- --- links --- -->\n<link name=\"l\"/></robot>",
+            "line 2: a comment has `--` in it",
+        );
+    }
+
+    #[test]
     fn a_thousand_links_are_read() {
         let urdf = chain(1000).replacen("\"fixed\"", "\"continuous\"", 1);
         let imported = import(&urdf, &ImportOptions::default()).expect("a sound URDF");

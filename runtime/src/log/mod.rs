@@ -308,14 +308,7 @@ impl Log {
 
     /// Checks the time stamps and makes them uniform; `lines` has one line number a sample, and `lost` what is between them.
     fn finish(mut self, lines: Option<&[u64]>, lost: &Lost) -> Result<Self, LogError> {
-        if self.time.len() < FEWEST_SAMPLES {
-            let found = self.time.len();
-            return Err(LogError::TooFewSamples {
-                source_name: self.source,
-                found,
-                fewest: FEWEST_SAMPLES,
-            });
-        }
+        self.check_length()?;
         if !self.extra.is_empty() {
             let names = self
                 .extra
@@ -326,6 +319,8 @@ impl Log {
         }
         self.check_plausible(lines)?;
         uniform::make_uniform(&mut self, lines, lost)?;
+        // Rows that are there twice count once.
+        self.check_length()?;
         let rate_hz = self.rate_hz();
         if !RATES_HZ.contains(&rate_hz) {
             return Err(LogError::Rate {
@@ -336,6 +331,18 @@ impl Log {
             });
         }
         Ok(self)
+    }
+
+    fn check_length(&self) -> Result<(), LogError> {
+        let found = self.time.len();
+        if found >= FEWEST_SAMPLES {
+            return Ok(());
+        }
+        Err(LogError::TooFewSamples {
+            source_name: self.source.clone(),
+            found,
+            fewest: FEWEST_SAMPLES,
+        })
     }
 
     /// Refuses positions and torques that no arm has.
