@@ -7,7 +7,7 @@ use std::sync::Arc;
 use flate2::write::GzEncoder;
 use mcap::WriteOptions;
 use mcap::records::MessageHeader;
-use parquet::basic::{Compression, ZstdLevel};
+use parquet::basic::{Compression, GzipLevel, ZstdLevel};
 use parquet::data_type::{DoubleType, Int64Type};
 use parquet::file::properties::{WriterProperties, WriterVersion};
 use parquet::file::writer::SerializedFileWriter;
@@ -91,7 +91,7 @@ pub(crate) fn parquet() -> Vec<Vec<u8>> {
         Compression::UNCOMPRESSED,
         Compression::SNAPPY,
         Compression::ZSTD(ZstdLevel::default()),
-        Compression::GZIP(Default::default()),
+        Compression::GZIP(GzipLevel::default()),
     ];
     let versions = [WriterVersion::PARQUET_1_0, WriterVersion::PARQUET_2_0];
     let mut files = Vec::new();
