@@ -151,7 +151,9 @@ pub fn judge(verb: &str, code: Option<i32>, message: &str) {
     );
     assert!(!message.contains("panicked"), "{verb}: {message}");
     // Numbers that are read and have no arm are told of the spec.
-    let names_it = ["f.json", "arm.robot"].iter().any(|name| message.contains(name));
+    let names_it = ["f.json", "arm.robot"]
+        .iter()
+        .any(|name| message.contains(name));
     assert!(
         code == Some(0) || names_it,
         "{verb}: a message that names no file: {}",
