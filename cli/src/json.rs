@@ -1,16 +1,30 @@
 //! JSON that people write: a key that stands twice in an object is told, where a parser would take one of the two and say
 //! nothing.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::path::Path;
 
-use serde::de::{DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor};
+use serde::de::{
+    self, DeserializeOwned, DeserializeSeed, Deserializer, MapAccess, SeqAccess, Visitor,
+};
 use serde_json::{Map, Number, Value};
 
 use crate::Error;
 use crate::output::names;
 use crate::spec::read_text;
+
+/// Bytes that the values of a file may take: some letters, as of `{"a":0}`, take a hundred times their number.
+const MOST_MEMORY: usize = 1 << 29;
+
+/// Bytes of one value, with as much again for the list in which it stands, which grows by doubling.
+const OF_A_VALUE: usize = 2 * size_of::<Value>();
+
+/// Bytes of an object with something in it: one node of a tree, which has room for eleven keys.
+const OF_AN_OBJECT: usize = 11 * (size_of::<String>() + size_of::<Value>());
+
+/// Keys that stand twice are told as far as these.
+const MOST_TOLD: usize = 100;
 
 /// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<Value, Error> {
@@ -46,19 +60,32 @@ struct Fault {
 }
 
 fn parse(text: &str) -> Result<Value, Fault> {
-    let notes = Notes::default();
+    parse_within(text, MOST_MEMORY)
+}
+
+fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
+    let notes = Notes {
+        room: Cell::new(Some(most)),
+        ..Notes::default()
+    };
     let mut input = serde_json::Deserializer::from_str(text);
     let value = Reader { notes: &notes }.deserialize(&mut input);
     let value = value.and_then(|value| input.end().map(|()| value));
     let value = value.map_err(|error| {
         let said = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
+        let said = said.strip_suffix(&place).unwrap_or(&said);
+        let reason = if notes.room.get().is_none() {
+            format!("the values up to here take more than {most} bytes; write fewer into one file")
+        } else if said == "recursion limit exceeded" {
+            "lists and objects are nested more than a hundred deep; write fewer into one another"
+                .to_owned()
+        } else {
+            format!("it is no JSON: {said}; repair it here")
+        };
         Fault {
             line: Some((error.line(), error.column())),
-            reason: format!(
-                "it is no JSON: {}; repair it here",
-                said.strip_suffix(&place).unwrap_or(&said)
-            ),
+            reason,
         }
     })?;
     let twice = notes.twice.into_inner();
@@ -81,6 +108,8 @@ fn parse(text: &str) -> Result<Value, Fault> {
 struct Notes {
     /// Keys and places in lists that lead to where the reader is: `balls`, `[1]`.
     path: RefCell<Vec<String>>,
+    /// Bytes that values may still take; none once they took more.
+    room: Cell<Option<usize>>,
     /// Paths of keys that stand twice.
     twice: RefCell<Vec<String>>,
 }
@@ -94,7 +123,17 @@ impl Notes {
         found
     }
 
+    /// Counts memory that is about to be taken.
+    fn take<E: de::Error>(&self, bytes: usize) -> Result<(), E> {
+        let left = self.room.get().and_then(|room| room.checked_sub(bytes));
+        self.room.set(left);
+        left.map(|_| ()).ok_or_else(|| E::custom("too large"))
+    }
+
     fn stands_twice(&self, key: &str) {
+        if self.twice.borrow().len() == MOST_TOLD {
+            return;
+        }
         let mut whole = String::new();
         for step in self.path.borrow().iter().map(String::as_str).chain([key]) {
             if !whole.is_empty() && !step.starts_with('[') {
@@ -159,7 +198,10 @@ impl<'de> Visitor<'de> for Reader<'_> {
         loop {
             let step = format!("[{}]", values.len());
             match self.notes.below(step, || list.next_element_seed(self))? {
-                Some(value) => values.push(value),
+                Some(value) => {
+                    self.notes.take(OF_A_VALUE)?;
+                    values.push(value);
+                }
                 None => break,
             }
         }
@@ -169,6 +211,8 @@ impl<'de> Visitor<'de> for Reader<'_> {
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Value, A::Error> {
         let mut object = Map::new();
         while let Some(key) = entries.next_key::<String>()? {
+            let node = if object.is_empty() { OF_AN_OBJECT } else { 0 };
+            self.notes.take(node + OF_A_VALUE)?;
             let below = || entries.next_value_seed(self);
             let value = self.notes.below(key.clone(), below)?;
             if object.insert(key.clone(), value).is_some() {
@@ -234,6 +278,36 @@ mod tests {
             let wanted = format!("it is no JSON: {said}; repair it here");
             assert_eq!(refused(text), (Some(line), wanted), "{text}");
         }
+    }
+
+    #[test]
+    fn what_is_nested_without_end_is_refused() {
+        for (open, place) in [
+            ("[", (1, 128)),
+            ("{\"a\":", (1, 636)),
+            ("[{\"a\":\n", (64, 2)),
+        ] {
+            let (told, said) = refused(&open.repeat(1_000_000));
+            assert_eq!(told, Some(place), "{said}");
+            assert!(said.contains("nested more than a hundred deep"), "{said}");
+        }
+    }
+
+    #[test]
+    fn memory_has_an_end() {
+        let objects = format!("[{}{{}}]", "{\"a\":0},\n".repeat(1000));
+        assert!(super::parse_within(&objects, 1 << 20).is_ok());
+        let fault = super::parse_within(&objects, 1 << 18).expect_err("too large");
+        assert_eq!(
+            fault.reason,
+            "the values up to here take more than 262144 bytes; write fewer into one file"
+        );
+        assert!(
+            fault
+                .line
+                .is_some_and(|(line, _)| (300..500).contains(&line)),
+            "{fault:?}"
+        );
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Input files: specs to models, logs.
 
-use std::fs;
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 use robot_model::log::{Log, MOTION_PHASE, Mended};
@@ -13,14 +14,41 @@ use crate::parameters::no_body;
 use crate::progress::Progress;
 use crate::{Error, output};
 
+/// Bytes of a text that is in memory as a whole. A motion of ten joints at 1 kHz has as many in ten minutes.
+const LARGEST_TEXT: usize = 1 << 28;
+
+/// Bytes of a spec. The largest arms that compile have a hundredth of this.
+const LARGEST_SPEC: usize = 1 << 20;
+
 /// Reads a text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
-    fs::read_to_string(path).map_err(|error| Error::read(path, &error))
+    read_at_most(path, LARGEST_TEXT)
+}
+
+/// Reads the text of a spec.
+pub(crate) fn read_spec(path: &Path) -> Result<String, Error> {
+    read_at_most(path, LARGEST_SPEC)
+}
+
+fn read_at_most(path: &Path, most: usize) -> Result<String, Error> {
+    let failed = |error: &io::Error| Error::read(path, error);
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes))
+        .map_err(|error| failed(&error))?;
+    if bytes.len() > most {
+        return Err(Error::Read {
+            path: path.to_owned(),
+            reason: format!("it has more than {most} bytes; name a smaller file"),
+        });
+    }
+    let no_text = |_| failed(&io::ErrorKind::InvalidData.into());
+    String::from_utf8(bytes).map_err(no_text)
 }
 
 /// Reads and checks a spec.
 pub(crate) fn load(path: &Path) -> Result<Model, Error> {
-    let text = read_text(path)?;
+    let text = read_spec(path)?;
     Ok(robot_model_spec::load(&path.display().to_string(), &text)?)
 }
 

@@ -14,6 +14,7 @@ use crate::emit;
 use crate::measured::NotInstantaneous;
 
 /// Why a spec was not compiled.
+#[non_exhaustive]
 pub enum CompileError {
     /// The spec was not read or the code was not written.
     Io(PathBuf, std::io::Error),

@@ -6,6 +6,8 @@
 //! ```
 
 pub mod base;
+// Of the derive alone: tokens in, tokens out.
+#[doc(hidden)]
 pub mod derive_input;
 pub mod dynamics;
 mod elimination;

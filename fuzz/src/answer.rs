@@ -1,4 +1,4 @@
-//! What the compiler makes of a text.
+//! What a reader makes of a file; here the compiler, of a spec.
 
 use robot_model_codegen::{compile_model, emit};
 use robot_model_spec::load;
@@ -26,6 +26,22 @@ pub enum Answer {
         /// Bytes of the page.
         page: u32,
     },
+    /// Read, with these remarks, as messages are kept; what there is of it, by powers of two.
+    Read {
+        /// Samples of a log, letters of a spec.
+        size: u32,
+        /// Channels of a log, joints of a robot.
+        parts: u32,
+        /// What was said of it.
+        remarks: Vec<String>,
+    },
+}
+
+impl Answer {
+    /// A refusal with one message.
+    pub(crate) fn refused(message: &str) -> Self {
+        Self::Refused(vec![skeleton(message)])
+    }
 }
 
 /// From spec text to emitted code.
@@ -63,7 +79,7 @@ pub fn answer(text: &str) -> Answer {
 }
 
 /// A message without the names and numbers of one spec.
-fn skeleton(message: &str) -> String {
+pub(crate) fn skeleton(message: &str) -> String {
     let mut kept = String::new();
     for (k, part) in message.split('`').enumerate() {
         if k % 2 == 0 {

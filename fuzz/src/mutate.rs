@@ -121,7 +121,26 @@ pub fn mutate(text: &str, other: &str, dice: &mut ChaCha8Rng) -> String {
         damaged = match dice.random_range(0..8) {
             0..3 => statements(&damaged, other, dice),
             3..6 => numbers(&damaged, dice),
-            _ => words(&damaged, other, dice),
+            _ => words(&damaged, other, &WORDS, dice),
+        };
+    }
+    damaged
+}
+
+/// The same for a text of another language, with words of it.
+#[must_use]
+pub(crate) fn mutate_words(
+    text: &str,
+    other: &str,
+    vocabulary: &[&str],
+    dice: &mut ChaCha8Rng,
+) -> String {
+    let mut damaged = text.to_owned();
+    for _ in 0..=dice.random_range(0..3_usize) {
+        damaged = if dice.random_range(0..3) == 0 {
+            numbers(&damaged, dice)
+        } else {
+            words(&damaged, other, vocabulary, dice)
         };
     }
     damaged
@@ -142,7 +161,7 @@ fn numbers(text: &str, dice: &mut ChaCha8Rng) -> String {
     joined(&damaged)
 }
 
-fn words(text: &str, other: &str, dice: &mut ChaCha8Rng) -> String {
+fn words(text: &str, other: &str, vocabulary: &[&str], dice: &mut ChaCha8Rng) -> String {
     let own = pieces(text);
     let foreign = pieces(other);
     if own.is_empty() {
@@ -156,12 +175,12 @@ fn words(text: &str, other: &str, dice: &mut ChaCha8Rng) -> String {
         2 => damaged.swap(at, dice.random_range(0..own.len())),
         3 => damaged[at] = own[dice.random_range(0..own.len())],
         4 if !foreign.is_empty() => damaged[at] = foreign[dice.random_range(0..foreign.len())],
-        5 => damaged.insert(at, WORDS[dice.random_range(0..WORDS.len())]),
+        5 => damaged.insert(at, vocabulary[dice.random_range(0..vocabulary.len())]),
         6 => damaged.insert(
             at,
             ["(", ")", "{", "}", ";", "*", "/", "-", ","][dice.random_range(0..9)],
         ),
-        _ => damaged[at] = WORDS[dice.random_range(0..WORDS.len())],
+        _ => damaged[at] = vocabulary[dice.random_range(0..vocabulary.len())],
     }
     joined(&damaged)
 }
@@ -183,7 +202,7 @@ fn statements(text: &str, other: &str, dice: &mut ChaCha8Rng) -> String {
     let own = spans(text);
     let foreign = spans(other);
     if own.is_empty() {
-        return words(text, other, dice);
+        return words(text, other, &WORDS, dice);
     }
     let (start, end) = own[dice.random_range(0..own.len())];
     let statement = &text[start..end];

@@ -1,16 +1,17 @@
-//! One text under watch: panics are caught, time is measured.
+//! One file under watch: panics are caught, time is measured.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::mpsc;
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::answer::{Answer, answer};
+use crate::answer::Answer;
+use crate::kind::Kind;
 
-/// How a text went wrong.
+/// How a file went wrong.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Failure {
-    /// The compiler panicked with this message.
+    /// The reader panicked with this message, or broke what it promises.
     Panic(String),
     /// No answer in time. The thread that looks for one is still running.
     Slow(Duration),
@@ -25,19 +26,19 @@ impl std::fmt::Display for Failure {
     }
 }
 
-/// The answer to a text, and how long it took.
+/// The answer to a file, and how long it took.
 ///
 /// # Errors
 /// [`Failure`]
-pub fn watched(text: &str, limit: Duration) -> Result<(Answer, Duration), Failure> {
+pub fn watched(kind: Kind, file: &[u8], limit: Duration) -> Result<(Answer, Duration), Failure> {
     let (sender, receiver) = mpsc::channel();
-    let copy = text.to_owned();
+    let copy = file.to_vec();
     let start = Instant::now();
     let worker = thread::Builder::new()
         // As small as the main thread's stack on the systems that have the smallest: recursion is to be bounded.
         .stack_size(1 << 20)
         .spawn(move || {
-            let result = catch_unwind(AssertUnwindSafe(|| answer(&copy)));
+            let result = catch_unwind(AssertUnwindSafe(|| kind.answer(&copy)));
             // Nobody waits any more after the limit.
             let _ = sender.send(result);
         });

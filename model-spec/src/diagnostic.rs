@@ -69,6 +69,7 @@ impl Diagnostic {
     /// A mistake at a place. The message stands alone; the label is short and points.
     #[must_use]
     #[track_caller]
+    #[doc(hidden)]
     pub fn new(span: Span, message: impl Into<String>, label: impl Into<String>) -> Self {
         Self::at(Place::Tokens(span), message.into(), label.into())
     }
@@ -92,6 +93,7 @@ impl Diagnostic {
 
     /// A second place that has to do with it.
     #[must_use]
+    #[doc(hidden)]
     pub fn also(mut self, span: Span, label: impl Into<String>) -> Self {
         self.labels.push(Label {
             place: Place::Tokens(span),
@@ -141,6 +143,7 @@ impl Diagnostic {
 
     /// The place of the mistake.
     #[must_use]
+    #[doc(hidden)]
     pub fn span(&self) -> Span {
         self.labels
             .first()
@@ -149,6 +152,7 @@ impl Diagnostic {
 
     /// For a macro: an error at the same tokens, the help in its message.
     #[must_use]
+    #[doc(hidden)]
     pub fn to_syn_error(&self) -> syn::Error {
         syn_error(self.span(), &self.message, self.help.as_deref())
     }

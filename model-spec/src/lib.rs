@@ -6,6 +6,9 @@
 //! ```
 //! No files are read here: callers bring the text and the name that messages show.
 pub mod amend;
+// Syntax and places in it are of the crates that read it, `robot-model-codegen` and the derive: types of `syn` and `proc-macro2` are in
+// their signatures, which nobody else has to follow.
+#[doc(hidden)]
 pub mod ast;
 mod check;
 pub mod diagnostic;
@@ -23,13 +26,16 @@ mod transform;
 pub mod urdf;
 
 pub use amend::{Amendment, amend};
+#[doc(hidden)]
 pub use ast::Ast;
+#[doc(hidden)]
 pub use check::check;
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use library::standard_effects;
 #[cfg(feature = "log-settings")]
 pub use log_settings::{ColumnKind, LogSettings, log_column_unit, log_settings};
 pub use model::Model;
+#[doc(hidden)]
 pub use parse::parse_tokens;
 pub use transform::upper_camel;
 

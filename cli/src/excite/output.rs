@@ -80,7 +80,6 @@ struct Report<'a> {
     distances: Option<[f64; 2]>,
     columns: usize,
     variables: usize,
-    seconds: f64,
     max_violation: f64,
     violated: Option<&'a str>,
     starts: usize,
@@ -88,7 +87,7 @@ struct Report<'a> {
 }
 
 /// What the motion is worth.
-pub(super) fn report(request: &Request, design: &Design, seconds: f64) -> String {
+pub(super) fn report(request: &Request, design: &Design) -> String {
     let quality = &design.quality;
     json(&Report {
         condition: quality.condition,
@@ -99,7 +98,6 @@ pub(super) fn report(request: &Request, design: &Design, seconds: f64) -> String
         distances: quality.distances.map(|each| each.map(f64::sqrt)),
         columns: request.regressor.columns.len(),
         variables: request.variables(),
-        seconds,
         max_violation: quality.violation,
         violated: quality.violated.as_deref(),
         starts: design.starts,
@@ -108,12 +106,12 @@ pub(super) fn report(request: &Request, design: &Design, seconds: f64) -> String
 }
 
 /// The same for people.
-pub(super) fn summary(request: &Request, design: &Design, seconds: f64) -> String {
+pub(super) fn summary(request: &Request, design: &Design) -> String {
     let quality = &design.quality;
     let mut text = String::new();
     writeln!(
         text,
-        "{} columns, {} joints, {} variables, {} harmonics of {} s; best of {} starts, {seconds:.1} s",
+        "{} columns, {} joints, {} variables, {} harmonics of {} s; best of {} starts",
         request.regressor.columns.len(),
         request.joints.len(),
         request.variables(),

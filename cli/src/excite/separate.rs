@@ -50,7 +50,7 @@ pub(super) fn rivals(
 ) -> Result<(Compiled, Expected), Error> {
     let source = path.display().to_string();
     let said = [said(first)?, said(second)?];
-    let text = spec::read_text(path)?;
+    let text = spec::read_spec(path)?;
     let declared = robot_model_spec::load(&source, &text)?;
     let amendments: Vec<Amendment> = said
         .iter()

@@ -4,10 +4,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
+use std::path::Path;
 
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use robot_model_fuzz::damage::Damage;
+use robot_model_fuzz::json::{SPEC, VERBS, judge};
+use robot_model_fuzz::kind::Kind;
 
 use crate::common::{CART, Folder, Run, cart_log, json};
 
@@ -147,4 +150,92 @@ fn a_thousand_damaged_specs() {
         }
     }
     fates.judge("specs");
+}
+
+/// Gives a file to every verb that reads JSON; how many took it.
+fn through_all_verbs(file: &[u8], case: &str) -> usize {
+    let mut taken = 0;
+    for verb in VERBS {
+        let folder = Folder::new();
+        folder.write("arm.robot", SPEC);
+        std::fs::write(folder.path("f.json"), file).expect("a file");
+        let run = folder.run(verb);
+        judge(&format!("{case}, {}", verb[0]), run.code, &run.stderr);
+        let mut files = folder.files();
+        files.retain(|file| !["arm.robot", "f.json"].contains(&file.as_str()));
+        if run.code == Some(0) {
+            taken += 1;
+        } else {
+            assert!(files.is_empty(), "{case}: {files:?}");
+        }
+    }
+    taken
+}
+
+/// Parameters, factors and states: each sound file is taken by some verb, and damaged ones are taken or refused.
+#[test]
+fn damaged_json_files() {
+    let seeds = Kind::Json.seeds();
+    let mut dice = ChaCha8Rng::seed_from_u64(1);
+    let (mut taken, mut count) = (0, 0);
+    for (k, file) in seeds.iter().enumerate() {
+        let by = through_all_verbs(file, &format!("sound file {k}"));
+        assert!(by > 0, "sound file {k} is taken by none");
+        for number in 0..50 {
+            let other = &seeds[number % seeds.len()];
+            let damaged = Kind::Json.mutate(file, other, &mut dice);
+            taken += through_all_verbs(&damaged, &format!("file {k}, {number}"));
+            count += VERBS.len();
+        }
+    }
+    assert!(taken > 0 && taken < count / 2, "{taken} of {count}");
+}
+
+/// What the fuzzer has found of the program's readers.
+#[test]
+fn json_of_the_corpus() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus");
+    for entry in std::fs::read_dir(corpus).expect("the corpus") {
+        let path = entry.expect("an entry").path();
+        if Kind::of(&path) == Some(Kind::Json) {
+            let file = std::fs::read(&path).expect("a file");
+            through_all_verbs(&file, &path.display().to_string());
+        }
+    }
+}
+
+/// Files that would fill all memory, as a user meets them.
+#[test]
+fn files_beyond_reason_are_refused() {
+    let folder = Folder::new();
+    folder.write("arm.robot", SPEC);
+    folder.write("deep.json", &"[".repeat(1_000_000));
+    folder.write("long.robot", &"// a comment\n".repeat(100_000));
+    folder.write(
+        "long.urdf",
+        &format!("<robot name=\"a\">{}</robot>", "<link/>".repeat(100_000)),
+    );
+    let columns: String = (0..1_000_000).map(|k| format!(",c{k}")).collect();
+    folder.write("wide.csv", &format!("time,q1,tau1{columns}\n"));
+    for (arguments, words) in [
+        (
+            vec!["audit", "arm.robot", "--parameters", "deep.json"],
+            "deep.json:1:128: lists and objects are nested more than a hundred deep",
+        ),
+        (
+            vec!["check", "long.robot"],
+            "cannot read `long.robot`: it has more than 1048576 bytes",
+        ),
+        (
+            vec!["import", "long.urdf", "-o", "arm2.robot"],
+            "line 1: the URDF has more than 1000 links",
+        ),
+        (
+            vec!["identify", "arm.robot", "wide.csv", "--json", "fit.json"],
+            "wide.csv:1: the row is longer than 1000000 bytes",
+        ),
+    ] {
+        let said = folder.refuse(&arguments);
+        assert!(said.contains(words), "{arguments:?}: {said}");
+    }
 }

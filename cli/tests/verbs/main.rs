@@ -44,6 +44,7 @@ mod parameters;
 mod payload;
 mod possible;
 mod printed;
+mod reproducible;
 mod shells;
 mod simulate;
 mod starts;

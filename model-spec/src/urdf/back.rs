@@ -10,9 +10,9 @@ use urdf_rs::JointType;
 
 use super::body::{body, parts, sum};
 use super::edit::Edits;
-use super::place;
 use super::tree::{Chain, ChainJoint, Tree};
 use super::write::Names;
+use super::{ImportError, place, size};
 use crate::export::{Body, ExportError, JointNumbers, Numbers, chain as chain_of, inertial_lines};
 use crate::inertia::surely_has_a_body;
 use crate::model::{JointKind, Model, Transform};
@@ -44,9 +44,13 @@ pub fn write_back(
 ) -> Result<WrittenBack, ExportError> {
     chain_of(model)?;
     let parse = |said: String| ExportError::Parse(place::explain(urdf, &said));
+    size::check(urdf).map_err(|error| match error {
+        ImportError::Parse(said) => ExportError::Parse(said),
+        other => ExportError::Original(other.to_string()),
+    })?;
     let robot = urdf_rs::read_from_string(urdf).map_err(|error| parse(error.to_string()))?;
     let document = Document::parse(urdf).map_err(|error| parse(error.to_string()))?;
-    let original = |error: super::ImportError| ExportError::Original(error.to_string());
+    let original = |error: ImportError| ExportError::Original(error.to_string());
     let tree = Tree::new(&robot).map_err(original)?;
     let chain = chain_of_spec(&tree, model)?;
     check_frames(&chain, model)?;
@@ -149,7 +153,7 @@ fn shares<'a>(
     whole: &Body,
     notes: &mut Vec<String>,
 ) -> Result<Vec<(&'a str, Option<Body>)>, ExportError> {
-    let original = |error: super::ImportError| ExportError::Original(error.to_string());
+    let original = |error: ImportError| ExportError::Original(error.to_string());
     let (parts, _) = parts(tree, chain, joint).map_err(original)?;
     let bodies = parts.iter().map(|(link, pose)| body(link, pose));
     let bodies: Vec<Body> = bodies.collect::<Result<_, _>>().map_err(original)?;

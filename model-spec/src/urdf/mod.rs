@@ -10,9 +10,11 @@ mod back;
 mod body;
 mod edit;
 mod effects;
+mod far;
 mod held;
 mod mimic;
 mod place;
+mod size;
 mod tree;
 mod write;
 
@@ -140,6 +142,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
             what: "--gravity".to_owned(),
         });
     }
+    size::check(urdf)?;
     let robot = urdf_rs::read_from_string(urdf)
         .map_err(|error| ImportError::Parse(place::explain(urdf, &error.to_string())))?;
     let tree = tree::Tree::new(&robot)?;
@@ -189,6 +192,6 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
             let mistakes: Vec<String> = refused.messages_with_help().collect();
             ImportError::Effects(mistakes.join("; "))
         }
-        Err(_) => ImportError::Refused(refused),
+        Err(_) => far::number(&robot).unwrap_or(ImportError::Refused(refused)),
     })
 }

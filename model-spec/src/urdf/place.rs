@@ -274,6 +274,10 @@ fn not_xml(said: &str, open: &[Open]) -> String {
     if said.contains("xacro") {
         return format!("an element {XACRO}");
     }
+    // Lines of dashes in comments are no XML.
+    if said.contains("'--'") {
+        return "a comment has `--` in it, which XML has at its end alone: write `==`".to_owned();
+    }
     match open.last() {
         Some(inner) if said.contains("end of stream") => format!(
             "the file ends inside the `<{}>` of line {}: close it, or read the whole file again",

@@ -65,6 +65,7 @@ pub struct Commanded {
 
 /// A constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Piece {
     /// First sample, s.
     pub start: f64,

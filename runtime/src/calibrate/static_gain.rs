@@ -32,6 +32,7 @@ pub struct StaticGain {
 
 /// A term that a line does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Term {
     /// Its coefficient.
     pub value: Measured,
@@ -56,6 +57,7 @@ impl Term {
 
 /// Friction of a gear holds back what rises and holds up what falls.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Hysteresis {
     /// Torque at falling currents minus that at rising ones, beside a common slope, N m.
     pub difference: Term,

@@ -24,6 +24,7 @@ use crate::model::Vector;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
+#[non_exhaustive]
 pub struct Command<const D: usize> {
     /// Joint torques, N m or N.
     pub torque: Vector<D>,
@@ -63,6 +64,7 @@ pub enum Status {
 /// assert_eq!(reason.to_string(), "the measured position of joint 1 is outside of its limits");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Reason {
     /// A reading or a desired value is infinite or no number.
     NoNumber {
@@ -93,6 +95,7 @@ pub enum Reason {
 /// assert_eq!(Signal::DesiredPosition.to_string(), "desired position");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Signal {
     /// Measured position of a joint.
     Position,

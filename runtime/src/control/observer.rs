@@ -24,6 +24,7 @@ use crate::state::State;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
+#[non_exhaustive]
 pub struct ExternalTorque<const D: usize> {
     /// The estimate, N m or N.
     pub torque: Vector<D>,

@@ -2,6 +2,7 @@
 
 /// A design that cannot be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ExciteError {
     /// A joint that cannot move.
     #[error(

@@ -89,6 +89,7 @@ pub struct Request {
 
 /// Where the search is.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Progress {
     /// Motions that were started from, this one among them.
     pub start: usize,
@@ -98,6 +99,7 @@ pub struct Progress {
 
 /// A motion, and what it is worth.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Design {
     /// The motion.
     pub motion: Fourier,

@@ -17,6 +17,7 @@ const RESERVE: f64 = 1e-3;
 
 /// All criteria at a motion, over one period.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Quality {
     /// Condition number of the counted columns in SI units, each joint's rows over its noise.
     pub condition: f64,

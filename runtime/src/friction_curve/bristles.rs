@@ -48,6 +48,7 @@ const MOST_DEFLECTION: f64 = 0.1;
 
 /// Bristles of a joint: stiffness and, where the log tells it, damping of the `LuGre` model.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Bristles {
     /// `s0`, N m/rad or N/m.
     pub stiffness: Value,

@@ -45,6 +45,7 @@ pub struct Point {
 /// Speeds within 5 % of each other are one. Standard deviations are of each speed's own errors, with their correlation from block to
 /// block: slow noise counts for more. Example: [`Measured`].
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Curve {
     /// Points by rising speed, negative ones first.
     pub points: Vec<Point>,

@@ -51,6 +51,7 @@ pub struct Fall {
 
 /// The static law of a joint's friction. Example: [`super::Measured`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Law {
     /// `F_c`, N m or N.
     pub coulomb: Value,

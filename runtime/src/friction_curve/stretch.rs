@@ -48,6 +48,7 @@ const NOISE: f64 = 3.0;
 /// # Ok::<(), robot_model::log::LogError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Stretch {
     /// Samples of the log.
     pub samples: Range<usize>,

@@ -35,6 +35,7 @@ const INSIDE: f64 = 0.95;
 
 /// Intervals of a bootstrap.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Bootstrap {
     /// How often blocks were drawn.
     pub draws: usize,

@@ -16,6 +16,7 @@ const SHARE: f64 = 1e-4;
 
 /// An unknown that cannot be told from others, and its place in what can be found: `unknowns[lead] + sum factor * unknowns[other]`.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Shared {
     /// The unknown with factor 1, whose place in the estimate holds the value of the combination.
     pub lead: usize,
@@ -25,6 +26,7 @@ pub struct Shared {
 
 /// A combination of parameters that the logs tell, where they do not tell its parts.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Combination {
     /// Names and factors; the first has factor 1.
     pub terms: Vec<(String, f64)>,

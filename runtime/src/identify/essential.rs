@@ -14,6 +14,7 @@ const TOLD: f64 = 1.96;
 
 /// The parameters that are essential, identified without the others.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Essential {
     /// What is left, with values and deviations of its own fit, in the arm's order.
     pub parameters: Vec<Identified>,

@@ -42,6 +42,7 @@ impl Form {
 
 /// One identified parameter.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Identified {
     /// Base parameter or `JOINT.EFFECT.PARAMETER`.
     pub name: String,

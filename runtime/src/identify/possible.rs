@@ -69,6 +69,7 @@ pub struct PossibleLink {
 
 /// A possible arm, nearest to the logs.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Possible {
     /// All standard parameters, name and value; of those that the logs do not tell, values near the nominal ones.
     pub standard: Vec<(String, f64)>,

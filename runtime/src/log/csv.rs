@@ -1,22 +1,50 @@
 //! CSV text, plain or gzip, to columns of finite numbers; rows that lack some are left out.
 
-use std::io::{Cursor, Read};
+use std::cell::Cell;
+use std::io::{self, Cursor, Read};
+use std::rc::Rc;
 
 use csv::{ByteRecord, ReaderBuilder, Trim};
 use flate2::read::MultiGzDecoder;
 
 use super::LogError;
+use super::limits::LONGEST_ROW;
 use super::rows::{Rows, Table, unreadable};
 
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
+/// Text that ends with an error inside a row that does not: what is unpacked may be of any length, and a row is in memory as a whole.
+struct Bounded<'a> {
+    text: Box<dyn Read + 'a>,
+    /// Bytes since the row before was done, but for those that were read ahead.
+    count: Rc<Cell<u64>>,
+}
+
+impl Read for Bounded<'_> {
+    fn read(&mut self, into: &mut [u8]) -> io::Result<usize> {
+        if self.count.get() > LONGEST_ROW {
+            return Err(io::ErrorKind::FileTooLarge.into());
+        }
+        let read = self.text.read(into)?;
+        self.count.set(self.count.get() + read as u64);
+        Ok(read)
+    }
+}
+
+/// Records of a text, each of bounded length.
+struct Records<'a> {
+    source: String,
+    reader: csv::Reader<Bounded<'a>>,
+    count: Rc<Cell<u64>>,
+    record: ByteRecord,
+    /// Of the record.
+    line: u64,
+}
+
 /// Rows of a CSV text, read as they are asked for.
 pub(super) struct CsvRows<'a> {
-    source: String,
-    reader: csv::Reader<Box<dyn Read + 'a>>,
-    record: ByteRecord,
-    line: u64,
+    records: Records<'a>,
     is_at_first: bool,
     names: Vec<String>,
 }
@@ -37,22 +65,17 @@ impl<'a> CsvRows<'a> {
         } else {
             Box::new(whole)
         };
-        let mut reader = ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .trim(Trim::All)
-            .from_reader(text);
-        let mut record = ByteRecord::new();
-        let mut line = 1;
-        if !next(source, &mut reader, &mut record, &mut line)? {
+        let mut records = Records::new(source, text);
+        if !records.next()? {
             return Err(LogError::Empty {
                 source_name: source.to_owned(),
             });
         }
-        let names = record
+        let names = records
+            .record
             .iter()
             .map(|field| {
-                Ok(text_of(source, line, field)?
+                Ok(text_of(source, records.line, field)?
                     .trim_start_matches('\u{feff}')
                     .to_owned())
             })
@@ -68,10 +91,7 @@ impl<'a> CsvRows<'a> {
             });
         }
         Ok(Self {
-            source: source.to_owned(),
-            reader,
-            record,
-            line,
+            records,
             is_at_first: true,
             names,
         })
@@ -86,15 +106,19 @@ impl Rows for CsvRows<'_> {
     fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
         let mut row = Vec::with_capacity(self.names.len());
         while table.lines.len() < most {
-            let (source, record) = (&self.source, &mut self.record);
-            if !next(source, &mut self.reader, record, &mut self.line)? {
+            if !self.records.next()? {
                 return Ok(false);
             }
+            let (source, record, line) = (
+                &self.records.source,
+                &self.records.record,
+                self.records.line,
+            );
             if record.len() != self.names.len() {
                 let (found, expected) = (record.len(), self.names.len());
                 return Err(LogError::ColumnCount {
                     source_name: source.clone(),
-                    line: self.line,
+                    line,
                     found,
                     expected,
                 });
@@ -102,7 +126,7 @@ impl Rows for CsvRows<'_> {
             row.clear();
             let mut lost = None;
             for (k, (field, name)) in record.iter().zip(&self.names).enumerate() {
-                let value = number(source, self.line, name, field);
+                let value = number(source, line, name, field);
                 if self.is_at_first && !table.is_needed[k] {
                     table.is_number[k] = value.is_ok();
                 }
@@ -118,32 +142,56 @@ impl Rows for CsvRows<'_> {
             }
             self.is_at_first = false;
             if let Some(error) = lost {
-                table.lost.push(self.line, error);
+                table.lost.push(line, error);
                 continue;
             }
             for (column, value) in table.columns.iter_mut().zip(&row) {
                 column.push(*value);
             }
-            table.lines.push(self.line);
+            table.lines.push(line);
         }
         Ok(true)
     }
 }
 
-/// Moves on to the next record; `line` follows it. False at the end.
-fn next(
-    source: &str,
-    reader: &mut csv::Reader<impl Read>,
-    record: &mut ByteRecord,
-    line: &mut u64,
-) -> Result<bool, LogError> {
-    let more = reader
-        .read_byte_record(record)
-        .map_err(|error| unreadable(source, *line, &error))?;
-    if let Some(position) = record.position().filter(|_| more) {
-        *line = position.line();
+impl<'a> Records<'a> {
+    fn new(source: &str, text: Box<dyn Read + 'a>) -> Self {
+        let count = Rc::default();
+        let bounded = Bounded {
+            text,
+            count: Rc::clone(&count),
+        };
+        let mut options = ReaderBuilder::new();
+        options.has_headers(false).flexible(true).trim(Trim::All);
+        Self {
+            source: source.to_owned(),
+            reader: options.from_reader(bounded),
+            count,
+            record: ByteRecord::new(),
+            line: 1,
+        }
     }
-    Ok(more)
+
+    /// Moves on to the next record; `line` follows it. False at the end.
+    fn next(&mut self) -> Result<bool, LogError> {
+        self.count.set(0);
+        let begins = self.reader.position().line();
+        let read = self.reader.read_byte_record(&mut self.record);
+        let more = read.map_err(|error| {
+            if self.count.get() > LONGEST_ROW {
+                return LogError::LongRow {
+                    source_name: self.source.clone(),
+                    line: begins,
+                    most: LONGEST_ROW,
+                };
+            }
+            unreadable(&self.source, self.line, &error)
+        })?;
+        if let Some(position) = self.record.position().filter(|_| more) {
+            self.line = position.line();
+        }
+        Ok(more)
+    }
 }
 
 fn number(source: &str, line: u64, column: &str, field: &[u8]) -> Result<f64, LogError> {

@@ -64,6 +64,43 @@ pub enum LogError {
         /// Its place, from 1.
         column: usize,
     },
+    /// More columns than any arm has channels.
+    #[error(
+        "{source_name}:1: the log has {found} columns, more than {most}; leave out those that are no channels of the arm"
+    )]
+    TooManyColumns {
+        /// The file.
+        source_name: String,
+        /// Its columns.
+        found: usize,
+        /// The most that are taken.
+        most: usize,
+    },
+    /// Text without a line end where rows have one.
+    #[error(
+        "{source_name}:{line}: the row is longer than {most} bytes; end every row with a line end, and close every quotation mark"
+    )]
+    LongRow {
+        /// The file.
+        source_name: String,
+        /// The line in which it begins.
+        line: u64,
+        /// The most that are taken.
+        most: u64,
+    },
+    /// More numbers than memory is there for.
+    #[error(
+        "{source_name}: the log has {rows} rows or more, of {columns} column{}: more than 2 GiB of numbers; cut it into several logs, or leave columns out",
+        plural(*.columns)
+    )]
+    TooLarge {
+        /// The file.
+        source_name: String,
+        /// Rows that are there, or are said to be.
+        rows: u64,
+        /// Its columns.
+        columns: usize,
+    },
     /// Two columns of one name.
     #[error(
         "{source_name}:1: column `{name}` stands there twice; delete one of them, or give it another name"

@@ -3,6 +3,9 @@
 //! A name outside the families `time`, `q`, `dq`, `tau` is an extra channel. A name that is nearly of a family is an error:
 //! a misspelled torque that is silently set aside costs an afternoon.
 
+use std::collections::BTreeSet;
+
+use super::limits;
 use super::{Column, Columns, LogError};
 
 /// Families of one channel a joint.
@@ -122,6 +125,8 @@ impl Header {
 
 /// Every column has a name of its own.
 fn check_names(source: &str, names: &[String]) -> Result<(), LogError> {
+    limits::check_columns(source, names.len())?;
+    let mut known = BTreeSet::new();
     for (column, name) in names.iter().enumerate() {
         if name.is_empty() {
             return Err(LogError::UnnamedColumn {
@@ -129,7 +134,7 @@ fn check_names(source: &str, names: &[String]) -> Result<(), LogError> {
                 column: column + 1,
             });
         }
-        if names[..column].contains(name) {
+        if !known.insert(name) {
             return Err(LogError::DuplicateColumn {
                 source_name: source.to_owned(),
                 name: name.clone(),

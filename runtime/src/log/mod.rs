@@ -10,6 +10,7 @@ mod error;
 mod faults;
 mod gaps;
 mod header;
+mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod note;
@@ -35,6 +36,7 @@ pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
 
 use header::{Header, Place};
+use limits::{MOST_NUMBERS, too_large};
 use rows::{Lost, Rows, Table};
 
 /// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
@@ -96,7 +98,8 @@ impl Log {
     /// [`LogError`] names the file and, where there is one, the line: a header that is missing, incomplete or misspelled, a
     /// field that is no number, a twentieth of the rows with fields that are empty or not finite (fewer count as missing), a
     /// row of the wrong length, time that does not rise (but for rows that are there twice), a gap in time of more than half a second or a twentieth of the log,
-    /// too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude.
+    /// too few samples, a sample rate outside 10 Hz .. 100 kHz, a position or torque beyond 1e6 in magnitude, more than 10 000 columns, a
+    /// row of more than a million bytes, more numbers than 2 GiB hold.
     ///
     /// # Examples
     /// ```
@@ -116,7 +119,7 @@ impl Log {
     pub fn read_as(path: impl AsRef<Path>, columns: &Columns) -> Result<Self, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
         let rows = rows::of_file(&source, file, columns)?;
-        Self::from_rows(source, rows, columns)
+        Self::from_rows(source, rows, columns, MOST_NUMBERS)
     }
 
     /// Reads a log as [`Log::read`] does; `source` names it in messages.
@@ -155,17 +158,22 @@ impl Log {
     ) -> Result<Self, LogError> {
         let source = source.into();
         let rows = rows::of_reader(&source, reader, columns)?;
-        Self::from_rows(source, rows, columns)
+        Self::from_rows(source, rows, columns, MOST_NUMBERS)
     }
 
     fn from_rows(
         source: String,
         mut rows: Box<dyn Rows + '_>,
         columns: &Columns,
+        most_numbers: usize,
     ) -> Result<Self, LogError> {
         let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
         let mut table = rows.table(&header.needed());
-        rows.fill(&mut table, usize::MAX)?;
+        let width = table.columns.len();
+        let most = most_numbers / width.max(1);
+        if rows.fill(&mut table, most)? {
+            return Err(too_large(&source, most as u64, width));
+        }
         Self::from_table(source, table, &header)
     }
 
@@ -300,14 +308,7 @@ impl Log {
 
     /// Checks the time stamps and makes them uniform; `lines` has one line number a sample, and `lost` what is between them.
     fn finish(mut self, lines: Option<&[u64]>, lost: &Lost) -> Result<Self, LogError> {
-        if self.time.len() < FEWEST_SAMPLES {
-            let found = self.time.len();
-            return Err(LogError::TooFewSamples {
-                source_name: self.source,
-                found,
-                fewest: FEWEST_SAMPLES,
-            });
-        }
+        self.check_length()?;
         if !self.extra.is_empty() {
             let names = self
                 .extra
@@ -318,6 +319,8 @@ impl Log {
         }
         self.check_plausible(lines)?;
         uniform::make_uniform(&mut self, lines, lost)?;
+        // Rows that are there twice count once.
+        self.check_length()?;
         let rate_hz = self.rate_hz();
         if !RATES_HZ.contains(&rate_hz) {
             return Err(LogError::Rate {
@@ -328,6 +331,18 @@ impl Log {
             });
         }
         Ok(self)
+    }
+
+    fn check_length(&self) -> Result<(), LogError> {
+        let found = self.time.len();
+        if found >= FEWEST_SAMPLES {
+            return Ok(());
+        }
+        Err(LogError::TooFewSamples {
+            source_name: self.source.clone(),
+            found,
+            fewest: FEWEST_SAMPLES,
+        })
     }
 
     /// Refuses positions and torques that no arm has.

@@ -6,12 +6,14 @@ use std::panic::{self, AssertUnwindSafe};
 
 use bytes::Bytes;
 use parquet::basic::{Compression, ConvertedType};
-use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
+use parquet::column::page::{Page, PageMetadata, PageReader};
+use parquet::column::reader::{ColumnReader, ColumnReaderImpl, get_column_reader};
 use parquet::data_type::DataType;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
+use super::limits::{self, MOST_NUMBERS};
 use super::rows::{Input, Rows, Table, unreadable};
 
 /// Rows of a Parquet file.
@@ -47,6 +49,7 @@ impl ParquetRows {
     ) -> Result<Self, LogError> {
         let reader = reader.map_err(|error| unreadable(source, 1, &error))?;
         let schema = reader.metadata().file_metadata().schema_descr();
+        limits::check_columns(source, schema.num_columns())?;
         let columns = schema.columns().iter();
         Ok(Self {
             source: source.to_owned(),
@@ -116,11 +119,27 @@ impl ParquetRows {
         }
     }
 
+    /// What a group says of itself is not what it has: it must not be believed before there is room for it.
+    fn check_room(&self, group: usize) -> Result<(), LogError> {
+        let rows = self.reader.metadata().row_group(group).num_rows();
+        // Fewer than none are refused with the group.
+        let rows = u64::try_from(rows).unwrap_or(0);
+        let columns = self.names.len();
+        let is_room = rows
+            .checked_mul(columns as u64)
+            .is_some_and(|numbers| numbers <= MOST_NUMBERS as u64);
+        if is_room {
+            return Ok(());
+        }
+        Err(limits::too_large(&self.source, rows, columns))
+    }
+
     /// Reads the next group that has rows; false at the end.
     fn read_group(&mut self) -> Result<bool, LogError> {
         while self.next_group < self.reader.num_row_groups() {
             let damaged = |error: ParquetError| unreadable(&self.source, self.rows + 1, &error);
             let place = self.next_group;
+            self.check_room(place)?;
             self.next_group += 1;
             self.next_row = 0;
             let read = guarded(|| {
@@ -180,6 +199,46 @@ fn check_codec(codec: Compression) -> Result<(), ParquetError> {
     )))
 }
 
+/// Pages of a column. Room is made for as many values as a page says it has, so none may say more than the column has rows, and a
+/// dictionary no more than it has bytes. What a page unpacks to is below 2 GiB, as the format has it.
+struct Bounded {
+    pages: Box<dyn PageReader>,
+    rows: usize,
+}
+
+impl Iterator for Bounded {
+    type Item = Result<Page, ParquetError>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.get_next_page().transpose()
+    }
+}
+
+impl PageReader for Bounded {
+    fn get_next_page(&mut self) -> Result<Option<Page>, ParquetError> {
+        let page = self.pages.get_next_page()?;
+        let (values, most) = match &page {
+            Some(page @ Page::DictionaryPage { buf, .. }) => (page.num_values(), buf.len()),
+            Some(page) => (page.num_values(), self.rows),
+            None => return Ok(None),
+        };
+        if usize::try_from(values).is_ok_and(|values| values <= most) {
+            return Ok(page);
+        }
+        Err(ParquetError::General(format!(
+            "a page that is said to have {values} values, where {most} are the most"
+        )))
+    }
+
+    fn peek_next_page(&mut self) -> Result<Option<PageMetadata>, ParquetError> {
+        self.pages.peek_next_page()
+    }
+
+    fn skip_next_page(&mut self) -> Result<(), ParquetError> {
+        self.pages.skip_next_page()
+    }
+}
+
 /// Numbers of a column of a group, NaN where it has none; nothing where it holds something else.
 fn column(
     group: &dyn RowGroupReader,
@@ -210,7 +269,11 @@ fn column(
     };
     check_codec(metadata.compression())?;
     let present = about.max_def_level();
-    let values = match group.get_column_reader(place)? {
+    let pages = Bounded {
+        pages: group.get_column_page_reader(place)?,
+        rows,
+    };
+    let values = match get_column_reader(about, Box::new(pages)) {
         ColumnReader::Int32ColumnReader(reader) if is_unsigned => {
             all(reader, rows, present, |value| {
                 f64::from(value.cast_unsigned())
@@ -239,11 +302,23 @@ where
     T::T: Copy,
 {
     let (mut levels, mut values) = (Vec::new(), Vec::new());
-    while reader
-        .read_records(rows, Some(&mut levels), None, &mut values)?
+    let mut read = 0;
+    loop {
+        let (more, ..) = reader.read_records(rows - read, Some(&mut levels), None, &mut values)?;
+        read += more;
+        if more == 0 || read == rows {
+            break;
+        }
+    }
+    if reader
+        .read_records(1, Some(&mut levels), None, &mut values)?
         .0
         > 0
-    {}
+    {
+        return Err(ParquetError::General(format!(
+            "a column of more than {rows} rows in a group of {rows}"
+        )));
+    }
     let mut numbers = values.into_iter().map(number);
     let numbers: Vec<f64> = if present == 0 {
         numbers.collect()

@@ -165,11 +165,14 @@ pub(super) struct Lost {
 /// The share of all rows from which on they are too many.
 const MANY: f64 = 0.05;
 
+/// Places at which rows may be missing: of a file with more of them no log is made, however long it is.
+const MOST_RUNS: usize = 10_000;
+
 impl Lost {
     /// Adds the row in a line behind all others.
     pub fn push(&mut self, line: u64, error: LogError) {
         let goes_on = self.rows > 0 && line == self.last + 1;
-        if !goes_on {
+        if !goes_on && self.runs.len() <= MOST_RUNS {
             self.runs.push((line, error));
         }
         self.rows += 1;
@@ -182,7 +185,10 @@ impl Lost {
     /// That, where there are many.
     pub fn few(&self, sound: usize) -> Result<Option<(usize, &LogError)>, LogError> {
         match self.runs.first() {
-            Some((_, first)) if self.rows as f64 >= MANY * (sound + self.rows) as f64 => {
+            Some((_, first))
+                if self.runs.len() > MOST_RUNS
+                    || self.rows as f64 >= MANY * (sound + self.rows) as f64 =>
+            {
                 Err(first.clone())
             }
             first => Ok(first.map(|(_, first)| (self.rows, first))),

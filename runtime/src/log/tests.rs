@@ -15,6 +15,7 @@ use super::*;
 mod close;
 mod columns;
 mod gaps;
+mod limits;
 
 /// A log of one joint: rows of `time, q1, tau1` at 10 ms.
 fn rows(count: usize) -> Vec<String> {

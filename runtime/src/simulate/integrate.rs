@@ -40,6 +40,7 @@ impl Default for Tolerances {
 
 /// What a motion took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Work {
     /// Steps of high order for motions that are not stiff.
     pub explicit: u64,

@@ -42,6 +42,7 @@ pub struct Loop {
 
 /// What a loop leaves.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Record {
     /// Time stamps, s.
     pub time: Vec<f64>,

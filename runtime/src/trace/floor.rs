@@ -42,6 +42,7 @@ impl FloorFrom {
 
 /// The least error that a model of a joint's motion can have on the identification logs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Floor {
     /// Root mean square of raw samples, N m or N.
     pub rms: f64,

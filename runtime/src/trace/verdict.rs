@@ -9,6 +9,7 @@ use super::whereabouts::Whereabouts;
 
 /// Why an effect was accepted, in numbers.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Evidence {
     /// `F` statistic of the effect against the residual: every model column projected out, blocks of time as samples.
     pub score: f64,
@@ -24,6 +25,7 @@ pub struct Evidence {
 
 /// A parameter of a found effect.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct FoundParameter {
     /// Name in the effect's definition.
     pub name: String,
@@ -37,6 +39,7 @@ pub struct FoundParameter {
 
 /// An effect that the spec does not declare.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Finding {
     /// Kebab-case name.
     pub kind: String,
@@ -110,6 +113,7 @@ impl fmt::Display for Refusal {
 
 /// A candidate that was judged, at its best shapes.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Tried {
     /// Effects that had been accepted before.
     pub round: usize,

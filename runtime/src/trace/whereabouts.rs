@@ -125,6 +125,7 @@ impl Quantity {
 
 /// How much of a joint's residual follows from one quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Share {
     /// The quantity.
     pub of: Quantity,
@@ -134,6 +135,7 @@ pub struct Share {
 
 /// How much of a joint's residual is one term of the arm's equations.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct TermShare {
     /// The function of the motion, see [`Arm::terms`](crate::columns::Arm::terms).
     pub term: String,
@@ -145,6 +147,7 @@ pub struct TermShare {
 
 /// Where the structure of a joint's residual lives.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Whereabouts {
     /// The joint, from 0.
     pub joint: usize,

@@ -18,7 +18,10 @@ use crate::compiled::Compiled;
 
 /// What is the same in every language, for those who write only this one.
 pub use super::{Cost, Costs, Extent, costs};
+// Of the derive alone: tokens in, tokens out.
+#[doc(hidden)]
 pub use expression::number;
+#[doc(hidden)]
 pub use implementation::{From, Parameters};
 
 /// What a reader of the page has to know; clippy looks at it too.
@@ -50,6 +53,7 @@ pub fn module_of(compiled: &Compiled, extent: Extent) -> String {
 /// The page's functions and the implementation for a type that exists already, hidden in an anonymous constant.
 /// `nominal_shapes` are values for all shape parameters before identification.
 #[must_use]
+#[doc(hidden)]
 pub fn implementation_for(
     compiled: &Compiled,
     name: &Ident,

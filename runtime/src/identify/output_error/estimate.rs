@@ -18,6 +18,7 @@ use crate::simulate::Adjustable;
 
 /// How far a simulated channel is from its log.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Distance {
     /// Root of the mean square.
     pub rmse: f64,

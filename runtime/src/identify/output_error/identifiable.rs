@@ -39,6 +39,7 @@ pub(super) fn audible(lengths: &[f64], values: &[f64]) -> Vec<f64> {
 
 /// What logs say of which parameters.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Identifiability {
     /// Singular values of the sensitivities with columns of length 1, over the largest, falling.
     pub singular: Vec<f64>,

@@ -9,6 +9,7 @@ const ALIKE: f64 = 0.2;
 
 /// A parameter over another, where a common factor of both is all that the logs do not tell of them.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Ratio {
     /// The parameter.
     pub name: String,

@@ -43,6 +43,7 @@ pub enum Search {
 
 /// A place on the way of a search.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Iterate {
     /// Part of the search, from 0: costs of different parts are of other windows, or of joints that are weighed otherwise.
     pub stage: usize,

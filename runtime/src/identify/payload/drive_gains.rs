@@ -42,6 +42,7 @@ pub struct KnownPayload {
 
 /// Torque per unit of what a drive logs.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct DriveGain {
     /// N m or N per unit of the log's channel: the `actuator_gain` of the spec.
     pub value: f64,
@@ -51,6 +52,7 @@ pub struct DriveGain {
 
 /// Gains of the drives, and the arm and its payload with them.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Driven {
     /// One a joint; none where the logs do not tell it.
     pub gains: Vec<Option<DriveGain>>,

@@ -6,6 +6,7 @@ use crate::log::Note;
 
 /// Which channel of a joint is not of the time of the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum LateChannel {
     /// Its torque, against the position.
     Torque,
@@ -163,6 +164,7 @@ pub enum Fault {
 
 /// Samples in a row that are not the sensor's, as often as there are.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Stretches {
     /// How often.
     pub times: usize,

@@ -30,6 +30,9 @@ const ENCODING: &str = "cdr";
 /// Longest record that is taken, bytes: a length that is damaged must not take all memory.
 const LONGEST: usize = 1 << 28;
 
+/// Names of other joints that are kept for a message of what is wrong.
+const MOST_OTHERS: usize = 1000;
+
 /// What a joint has in a message.
 const FIELDS: [&str; 3] = ["position", "velocity", "effort"];
 
@@ -97,7 +100,8 @@ impl McapRows {
         let mut present: Vec<String> = Vec::new();
         while let Some(message) = self.next_message()? {
             if !self.has_joints(&message) {
-                let new = message.names.into_iter();
+                let room = MOST_OTHERS.saturating_sub(present.len());
+                let new = message.names.into_iter().take(room);
                 let new: Vec<String> = new.filter(|name| !present.contains(name)).collect();
                 present.extend(new);
                 continue;

@@ -75,8 +75,8 @@ pub enum NotABag {
     Container(String),
 }
 
-impl From<McapError> for NotABag {
-    fn from(error: McapError) -> Self {
+impl NotABag {
+    fn of_container(error: &McapError) -> Self {
         Self::Container(error.to_string())
     }
 }
@@ -95,16 +95,21 @@ impl JointStates<'_> {
         if !(is_whole(self.q) && is_whole(self.tau) && has_dq) {
             return Err(NotABag::Lengths);
         }
+        let refused = |error: McapError| NotABag::of_container(&error);
         let options = WriteOptions::new()
             .profile("ros2")
             .library(concat!("robot-model/", env!("CARGO_PKG_VERSION")))
             // Threads would be as many as the machine has.
             .compression_threads(0);
-        let mut writer = options.create(Cursor::new(Vec::new()))?;
-        let schema = writer.add_schema(SCHEMA, "ros2msg", DEFINITION.as_bytes())?;
+        let mut writer = options.create(Cursor::new(Vec::new())).map_err(refused)?;
+        let schema = writer
+            .add_schema(SCHEMA, "ros2msg", DEFINITION.as_bytes())
+            .map_err(refused)?;
         let quality = ("offered_qos_profiles".to_owned(), String::new());
         let metadata = BTreeMap::from([quality]);
-        let channel_id = writer.add_channel(schema, self.topic, ENCODING, &metadata)?;
+        let channel_id = writer
+            .add_channel(schema, self.topic, ENCODING, &metadata)
+            .map_err(refused)?;
         for (k, sequence) in (0..samples).zip(0..) {
             let (seconds, nanoseconds) = stamp(self.time[k])?;
             let sample = |family: &[Vec<f64>]| family.iter().map(|channel| channel[k]).collect();
@@ -126,9 +131,11 @@ impl JointStates<'_> {
                 log_time: time,
                 publish_time: time,
             };
-            writer.write_to_known_channel(&header, &message.write())?;
+            writer
+                .write_to_known_channel(&header, &message.write())
+                .map_err(refused)?;
         }
-        writer.finish()?;
+        writer.finish().map_err(refused)?;
         Ok(writer.into_inner().into_inner())
     }
 }

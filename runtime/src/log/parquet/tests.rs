@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, FloatType, Int32Type, Int64Type};
+use parquet::file::metadata::{ParquetMetaDataReader, ParquetMetaDataWriter};
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
@@ -110,6 +111,75 @@ fn a_codec_that_is_not_read_is_named() {
         );
         assert!(said.contains("write it with `snappy`"), "{said}");
     }
+}
+
+/// A footer that claims `rows` in each group, over the pages of a sound file.
+fn claiming(rows: i64) -> Vec<u8> {
+    let sound = written_parquet(None);
+    let bytes = bytes::Bytes::from(sound.clone());
+    let metadata = ParquetMetaDataReader::new().parse_and_finish(&bytes);
+    let metadata = metadata.expect("a sound footer");
+    let groups = metadata.row_groups().iter().map(|group| {
+        let builder = group.clone().into_builder().set_num_rows(rows);
+        builder.build().expect("a group")
+    });
+    let groups = groups.collect();
+    let metadata = metadata.clone().into_builder().set_row_groups(groups);
+    let mut written = sound;
+    ParquetMetaDataWriter::new(&mut written, &metadata.build())
+        .finish()
+        .expect("a footer");
+    written
+}
+
+/// What a file claims is no reason to make room for it.
+#[test]
+fn rows_that_are_not_there_are_refused() {
+    for (rows, words) in [
+        (
+            1 << 60,
+            "the log has 1152921504606846976 rows or more, of 6 columns: more than 2 GiB",
+        ),
+        (i64::MAX / 2, "the log has 4611686018427387903 rows or more"),
+        (40_000_000, "a column of 400 rows in a group of 40000000"),
+        (
+            399,
+            "a page that is said to have 400 values, where 399 are the most",
+        ),
+        (-1, "a group of less than no rows"),
+    ] {
+        let bytes = claiming(rows);
+        let refused = Log::from_reader_as("bomb", bytes.as_slice(), &parquet_columns());
+        let said = refused.expect_err("refused").to_string();
+        assert!(
+            said.contains(words) && said.starts_with("bomb:"),
+            "{rows}: {said}"
+        );
+    }
+    let sound = claiming(400);
+    let refused = Log::from_reader_as("bomb", sound.as_slice(), &parquet_columns());
+    let said = refused.expect_err("the second has 600").to_string();
+    assert!(
+        said.contains("600 values, where 400 are the most"),
+        "{said}"
+    );
+}
+
+/// A table as wide as its schema says.
+#[test]
+fn more_columns_than_an_arm_has_are_refused() {
+    let columns: String = (0..10_001)
+        .map(|k| format!("required double c{k}; "))
+        .collect();
+    let schema = parse_message_type(&format!("message log {{ {columns} }}")).expect("a schema");
+    let mut bytes = Vec::new();
+    let writer = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::default());
+    writer.expect("a writer").close().expect("a file");
+    let refused = Log::from_reader_as("wide", bytes.as_slice(), &parquet_columns());
+    assert_eq!(
+        refused.expect_err("refused").to_string(),
+        "wide:1: the log has 10001 columns, more than 10000; leave out those that are no channels of the arm"
+    );
 }
 
 fn parquet_columns() -> Columns {
