@@ -51,11 +51,22 @@ pub const SPEC: &str = "robot Cart { gravity = [0, 0, -9.81]; convention = origi
     joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; } \
     effects { viscous_friction on rail; coulomb_friction on rail; } }\n";
 
+/// Values of its parameters, in a file `values.json` beside it.
+pub const VALUES: &str =
+    r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.coulomb_friction.fc": 2}"#;
+
 /// Verbs that read a file `f.json`, beside the spec `arm.robot`.
 pub const VERBS: [&[&str]; 4] = [
     &["audit", "arm.robot", "--parameters", "f.json"],
     &["merge", "arm.robot", "f.json", "--json", "out.json"],
-    &["eval", "arm.robot", "--states", "f.json"],
+    &[
+        "eval",
+        "arm.robot",
+        "--parameters",
+        "values.json",
+        "--states",
+        "f.json",
+    ],
     &[
         "export",
         "arm.robot",
@@ -74,11 +85,9 @@ pub fn seeds() -> Vec<Vec<u8>> {
     let identified = r#"{"parameters": [{"name": "cart.m", "value": 3.0, "std": 0.01},
         {"name": "rail.viscous_friction.fv", "value": 5.0, "std": 0.02}, {"name": "rail.coulomb_friction.fc", "value": 2.0, "std": 0.1}],
         "unexcited": []}"#;
-    let states = r#"{"states": [{"q": [0.1], "dq": [0.2], "ddq": [0.3]}, {"q": [1], "dq": [-2], "ddq": [0]}],
-        "parameters": {"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.coulomb_friction.fc": 2}}"#;
-    let plain = r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.coulomb_friction.fc": 2}"#;
+    let states = r#"{"states": [{"q": [0.1], "dq": [0.2], "ddq": [0.3]}, {"q": [1], "dq": [-2], "ddq": [0]}]}"#;
     let factor = include_str!("factor.json");
-    [identified, states, plain, factor]
+    [identified, states, VALUES, factor]
         .map(|text| text.as_bytes().to_vec())
         .into()
 }
@@ -107,6 +116,7 @@ pub fn program() -> PathBuf {
 pub fn answer(program: &Path, file: &[u8]) -> Answer {
     let folder = tempfile::tempdir().expect("a temporary folder");
     fs::write(folder.path().join("arm.robot"), SPEC).expect("a file");
+    fs::write(folder.path().join("values.json"), VALUES).expect("a file");
     fs::write(folder.path().join("f.json"), file).expect("a file");
     let mut said = Vec::new();
     let mut done = 0;

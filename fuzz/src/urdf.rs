@@ -115,6 +115,8 @@ pub(crate) fn answer(urdf: &str) -> Answer {
             let message = error.to_string();
             let names_a_place = message.contains('`')
                 || message.contains("line ")
+                // In a line of the spec that it would become, which is shown.
+                || message.contains("--> ")
                 // As a whole.
                 || message.starts_with("the URDF has no ");
             assert!(

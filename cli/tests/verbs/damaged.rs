@@ -9,7 +9,7 @@ use std::path::Path;
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use robot_model_fuzz::damage::Damage;
-use robot_model_fuzz::json::{SPEC, VERBS, judge};
+use robot_model_fuzz::json::{SPEC, VALUES, VERBS, judge};
 use robot_model_fuzz::kind::Kind;
 
 use crate::common::{CART, Folder, Run, cart_log, json};
@@ -158,11 +158,12 @@ fn through_all_verbs(file: &[u8], case: &str) -> usize {
     for verb in VERBS {
         let folder = Folder::new();
         folder.write("arm.robot", SPEC);
+        folder.write("values.json", VALUES);
         std::fs::write(folder.path("f.json"), file).expect("a file");
         let run = folder.run(verb);
         judge(&format!("{case}, {}", verb[0]), run.code, &run.stderr);
         let mut files = folder.files();
-        files.retain(|file| !["arm.robot", "f.json"].contains(&file.as_str()));
+        files.retain(|file| !["arm.robot", "values.json", "f.json"].contains(&file.as_str()));
         if run.code == Some(0) {
             taken += 1;
         } else {

@@ -59,15 +59,16 @@ mod tests {
         let options = ImportOptions::default();
         assert!(import(sound, &options).is_ok());
         for (number, wanted) in [
-            ("2", "link `arm` has 1e200 in its mass"),
+            ("2", "link `arm` has `mass` 1e200"),
             ("3", "link `arm` has 1e200 in its center of mass"),
             ("5", "joint `turn` has 1e200 in its origin"),
             ("6", "joint `turn` has 1e200 in its axis"),
         ] {
             let far = sound.replace(&format!("{number}\""), "1e200\"");
             let said = import(&far, &options).expect_err("refused").to_string();
-            let way_out = ": write zero, or a number between 1e-30 and 1e30";
-            assert_eq!(said, format!("{wanted}{way_out}"));
+            let way_out = "between 1e-30 and 1e30";
+            assert!(said.starts_with(wanted) && said.contains("1e200"), "{said}");
+            assert!(said.contains(way_out), "{said}");
         }
     }
 }
