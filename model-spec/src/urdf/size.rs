@@ -23,10 +23,8 @@ const MOST_LINKS: usize = 1000;
 /// [`ImportError::Parse`], with the line.
 pub(super) fn check(urdf: &str) -> Result<(), ImportError> {
     let refuse = |at: usize, what: String| {
-        let line = 1 + urdf.as_bytes()[..at]
-            .iter()
-            .filter(|byte| **byte == b'\n')
-            .count();
+        let lines = urdf.as_bytes()[..at].split(|byte| *byte == b'\n');
+        let line = lines.count();
         Err(ImportError::Parse(format!("line {line}: {what}")))
     };
     if urdf.len() > LARGEST {

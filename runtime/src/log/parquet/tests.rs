@@ -168,9 +168,10 @@ fn rows_that_are_not_there_are_refused() {
 /// A table as wide as its schema says.
 #[test]
 fn more_columns_than_an_arm_has_are_refused() {
-    let columns: String = (0..10_001)
+    let columns: Vec<String> = (0..10_001)
         .map(|k| format!("required double c{k}; "))
         .collect();
+    let columns = columns.concat();
     let schema = parse_message_type(&format!("message log {{ {columns} }}")).expect("a schema");
     let mut bytes = Vec::new();
     let writer = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::default());

@@ -79,7 +79,10 @@ fn a_row_without_an_end_is_refused() {
 
 #[test]
 fn more_columns_than_an_arm_has_are_refused() {
-    let names = |count: usize| (0..count).map(|k| format!(",c{k}")).collect::<String>();
+    let names = |count: usize| {
+        let names: Vec<String> = (0..count).map(|k| format!(",c{k}")).collect();
+        names.concat()
+    };
     let most = text(&format!("time,q1,tau1{}", names(MOST_COLUMNS - 3)), &[]);
     assert!(said(most.as_bytes()).contains("the log has 0 samples"));
     let more = format!("time,q1,tau1{}\n", names(MOST_COLUMNS));
