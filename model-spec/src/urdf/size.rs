@@ -23,8 +23,8 @@ const MOST_LINKS: usize = 1000;
 /// [`ImportError::Parse`], with the line.
 pub(super) fn check(urdf: &str) -> Result<(), ImportError> {
     let refuse = |at: usize, what: String| {
-        let before = urdf.get(..at).unwrap_or(urdf);
-        let line = 1 + before.matches('\n').count();
+        let lines = urdf.as_bytes()[..at].split(|byte| *byte == b'\n');
+        let line = lines.count();
         Err(ImportError::Parse(format!("line {line}: {what}")))
     };
     if urdf.len() > LARGEST {
