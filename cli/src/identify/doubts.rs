@@ -58,7 +58,7 @@ pub(super) fn unexplained(estimate: &Estimate) -> Option<&'static str> {
 
 /// What is left of a joint's torque, from where on the model says little of it, percent; and of all joints of several, where two that
 /// are exchanged explain something of each other.
-const MUCH: f64 = 50.0;
+pub(super) const MUCH: f64 = 50.0;
 const MUCH_OF_ALL: f64 = 25.0;
 
 /// The same of a joint of a log that was not fitted, where effects that the other log hardly shows are often missing: a torque with the

@@ -7,6 +7,7 @@ use robot_model::identify::{Combination, Errors, Estimate};
 use robot_model::log::{Fault, Log};
 use robot_model_codegen::Compiled;
 
+use super::doubts;
 use super::report::{Parameter, counted, identified, shares};
 use crate::Error;
 use crate::output::significant;
@@ -121,9 +122,14 @@ impl<'a> Evidence<'a> {
         let untold = self.parameters.iter().filter(|one| one.value.is_none());
         let untold = untold.count();
         let count = self.parameters.len();
-        let (class, word) = match (untold, self.notes.is_empty()) {
-            (0, true) => ("good", "Identified"),
-            (0, false) => ("known", "Identified, with notes"),
+        let is_ill = self.errors.iter().any(|(_, errors)| {
+            let mut left = errors.relative_percent.iter();
+            left.any(|percent| *percent > doubts::MUCH)
+        });
+        let (class, word) = match (is_ill, untold, self.notes.is_empty()) {
+            (true, ..) => ("open", "The model does not fit"),
+            (_, 0, true) => ("good", "Identified"),
+            (_, 0, false) => ("known", "Identified, with notes"),
             _ => ("open", "Identified in part"),
         };
         let told = match untold {

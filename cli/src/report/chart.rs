@@ -80,6 +80,7 @@ impl Chart<'_> {
             all.map(|(x, y)| (place(*x), place(*y)))
         };
         let (x, y) = (roomy(points().map(|p| p.0)), roomy(points().map(|p| p.1)));
+        let (x_span, y_span) = (x.end - x.start, y.end - y.start);
         let mut text = String::new();
         {
             let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
@@ -89,11 +90,13 @@ impl Chart<'_> {
                 .y_label_area_size(52)
                 .build_cartesian_2d(x, y)
                 .expect(DRAWN);
-            let tick = |value: &f64| {
+            let tick = |value: f64, span: f64| {
                 if self.is_logarithmic {
-                    significant(10.0_f64.powf(*value), 1)
+                    significant(10.0_f64.powf(value), 2)
+                } else if value.abs() < ROUNDING * span {
+                    tick(0.0)
                 } else {
-                    tick(*value)
+                    tick(value)
                 }
             };
             chart
@@ -103,8 +106,8 @@ impl Chart<'_> {
                 .axis_style(INK)
                 .x_labels(6)
                 .y_labels(6)
-                .x_label_formatter(&tick)
-                .y_label_formatter(&tick)
+                .x_label_formatter(&|value| tick(*value, x_span))
+                .y_label_formatter(&|value| tick(*value, y_span))
                 .x_desc(self.x)
                 .y_desc(self.y)
                 .label_style(("sans-serif", 11).into_font().color(&INK))
@@ -189,6 +192,9 @@ fn path_of(dots: Option<(&str, String)>) -> String {
     })
 }
 
+/// Ticks below this share of an axis are zero, and off it by rounding.
+const ROUNDING: f64 = 1e-9;
+
 /// A number at an axis.
 fn tick(value: f64) -> String {
     let text = format!("{value:.6}");
@@ -241,6 +247,36 @@ mod tests {
             !svg.contains("http") && !svg.contains("<circle") && !svg.contains("#0"),
             "{svg}"
         );
+    }
+
+    /// A grid from -0.3 to 0.3 in steps of 0.1 has a zero that is none; decades have ticks between them.
+    #[test]
+    fn ticks_are_numbers_that_one_would_write() {
+        let svg = |is_logarithmic: bool, points: Vec<(f64, f64)>| {
+            let series = vec![Series {
+                color: Ink::After,
+                is_line: true,
+                points,
+            }];
+            let chart = Chart {
+                label: "ticks",
+                x: "x",
+                y: "y",
+                is_logarithmic,
+                series,
+            };
+            chart.svg()
+        };
+        let linear = svg(false, vec![(-0.3, -0.3), (0.3, 0.3)]);
+        assert!(!linear.contains("e-1"), "{linear}");
+        let logarithmic = svg(true, vec![(0.25, 0.009), (100.0, 0.02)]);
+        let ticks = logarithmic
+            .lines()
+            .filter(|line| line.trim().starts_with("0.0"));
+        let ticks: Vec<&str> = ticks.map(str::trim).collect();
+        let mut apart = ticks.clone();
+        apart.dedup();
+        assert!(ticks.len() > 2 && ticks == apart, "{ticks:?}");
     }
 
     #[test]

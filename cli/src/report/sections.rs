@@ -8,7 +8,7 @@ use robot_model_spec::parameter::Owner;
 
 use super::{Drawn, Page};
 use crate::identify::report::Parameter;
-use crate::output::significant;
+use crate::output::{decimals, significant};
 
 /// Deviations to either side of an interval that holds a value with 95 %.
 const WIDTH: f64 = 1.96;
@@ -23,12 +23,20 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
         let interval = one
             .interval
             .or_else(|| Some(around(one.value?, one.std.filter(|std| *std > 0.0)?)));
+        // As many decimals as the width of the interval has.
+        let ends = match interval {
+            Some(ends) => {
+                let decimals = decimals(ends[1] - ends[0], 3);
+                ends.map(|end| format!("{end:.decimals$}"))
+            }
+            None => ["-".to_owned(), "-".to_owned()],
+        };
         vec![
             one.name.to_owned(),
             told(one.value, 5),
             told(one.std.filter(|std| *std > 0.0), 3),
-            told(interval.map(|[low, _]| low), 3),
-            told(interval.map(|[_, high]| high), 3),
+            ends[0].clone(),
+            ends[1].clone(),
             meaning(compiled, one.name),
         ]
     });

@@ -99,6 +99,27 @@ fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
     }
 }
 
+/// A torque that has nothing to do with the motion: the page says so first of all.
+#[test]
+fn the_report_of_a_model_that_does_not_fit_says_so() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(40, 2.0, 0.0);
+    let rows = log.lines().enumerate().map(|(k, line)| match k {
+        0 => line.to_owned(),
+        _ => {
+            let fields: Vec<&str> = line.split(',').collect();
+            let noise = ((k * k) % 97) as f64 - 48.0;
+            format!("{},{},{noise}", fields[0], fields[1])
+        }
+    });
+    folder.write("log.csv", &rows.collect::<Vec<_>>().join("\n"));
+    folder.succeed(&["identify", "cart.robot", "log.csv", "--report", "page"]);
+    let page = Html::parse_document(&folder.read("page/index.html"));
+    let verdict = text(all(&page, ".verdict")[0]);
+    assert!(verdict.starts_with("The model does not fit"), "{verdict}");
+}
+
 /// A folder that was made for a report that never came goes with it.
 #[test]
 fn a_refused_identification_leaves_no_report() {
