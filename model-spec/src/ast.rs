@@ -1,4 +1,4 @@
-//! What was written, with spans: the form between [`parse`](crate::parse) and [`check`](crate::check).
+//! What was written, with spans: the form between `parse` and `check`.
 //!
 //! Nothing here is known to make sense: keys may be misspelt, names unresolved, values of the wrong dimension. Every type
 //! can be built by hand and parsed with `syn`, so that a derive makes the same tree from attributes.

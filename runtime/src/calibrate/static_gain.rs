@@ -32,7 +32,6 @@ pub struct StaticGain {
 
 /// A term that a line does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Term {
     /// Its coefficient.
     pub value: Measured,
