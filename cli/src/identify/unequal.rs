@@ -41,8 +41,8 @@ mod tests {
     #[test]
     fn the_joint_and_both_logs_are_named() {
         let log = |name: &str| {
-            let time: Vec<f64> = (0..4).map(f64::from).collect();
-            let zeros = vec![vec![0.0; 4]; 2];
+            let time: Vec<f64> = (0..20).map(f64::from).collect();
+            let zeros = vec![vec![0.0; 20]; 2];
             Log::from_samples(name, time, zeros.clone(), zeros).expect("a log")
         };
         let errors = |rmse: [f64; 2]| {
