@@ -41,7 +41,7 @@ mod tests {
     #[test]
     fn the_joint_and_both_logs_are_named() {
         let log = |name: &str| {
-            let time: Vec<f64> = (0..20).map(f64::from).collect();
+            let time: Vec<f64> = (0..20).map(|k| 0.01 * f64::from(k)).collect();
             let zeros = vec![vec![0.0; 20]; 2];
             Log::from_samples(name, time, zeros.clone(), zeros).expect("a log")
         };
