@@ -110,7 +110,9 @@ impl Inertia<'_> {
         let joints = 0..workspace.len();
         let largest = |joint: usize| {
             let all = matrices.iter().map(|matrix| matrix[(joint, joint)].abs());
-            all.fold(f64::MIN_POSITIVE, f64::max)
+            let most = all.fold(0.0, f64::max);
+            // What nothing resists anywhere has no size.
+            if most > 0.0 { most } else { 1.0 }
         };
         let largest: Vec<f64> = joints.clone().map(largest).collect();
         let measures = [Measure::Least, Measure::Scaled(&largest)].into_iter();
@@ -166,7 +168,8 @@ impl Inertia<'_> {
                     }
                 }
             }
-            if least >= before {
+            // No number is lower than none.
+            if least.total_cmp(&before).is_ge() {
                 step *= 0.5;
             }
         }
@@ -180,7 +183,7 @@ impl Measure<'_> {
             Self::Least => matrix.symmetric_eigenvalues().min(),
             Self::Scaled(largest) => {
                 let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, k| {
-                    matrix[(i, k)] / (largest[i] * largest[k]).sqrt()
+                    matrix[(i, k)] / (largest[i].sqrt() * largest[k].sqrt())
                 });
                 scaled.symmetric_eigenvalues().min()
             }
