@@ -105,13 +105,13 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
     let folder = Folder::new();
     folder.write("cart.robot", CART);
     let log = cart_log(40, 2.0, 0.0);
-    let rows = log.lines().enumerate().map(|(k, line)| match k {
-        0 => line.to_owned(),
-        _ => {
-            let fields: Vec<&str> = line.split(',').collect();
-            let noise = ((k * k) % 97) as f64 - 48.0;
-            format!("{},{},{noise}", fields[0], fields[1])
+    let rows = log.lines().enumerate().map(|(k, line)| {
+        if k == 0 {
+            return line.to_owned();
         }
+        let fields: Vec<&str> = line.split(',').collect();
+        let noise = ((k * k) % 97) as f64 - 48.0;
+        format!("{},{},{noise}", fields[0], fields[1])
     });
     folder.write("log.csv", &rows.collect::<Vec<_>>().join("\n"));
     folder.succeed(&["identify", "cart.robot", "log.csv", "--report", "page"]);
