@@ -1,6 +1,6 @@
 //! Logs that are too short for their deviations to be believed.
 
-use robot_model::identify::Estimate;
+use robot_model::identify::{Estimate, Factor};
 
 /// Independent samples of all joints for a parameter. Of 80 simulated logs each of a two-link arm, with noise correlated over 20 ms, intervals
 /// of 95 % held the truth in 80, 83, 84, 88, 90, 94 and 95 % of the cases with 2, 4, 7, 10, 13, 20 and 33 of them.
@@ -15,21 +15,19 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     said(independent, estimate.rank)
 }
 
-/// Fewer blocks say little of how sure a parameter is.
-const ENOUGH_BLOCKS: usize = 8;
-
 /// What is said of factors with few blocks.
 pub(super) fn blocks_doubt(estimate: &Estimate) -> Option<String> {
     let count = estimate.blocks?;
     let of = match count {
         1 => "those of white noise, as what was reduced is a single block: noise that is slow is in none of them".to_owned(),
-        few if few < ENOUGH_BLOCKS => format!(
+        few if few < Factor::ENOUGH_BLOCKS => format!(
             "from {few} blocks of the logs and large, as so few say little of how sure a parameter is"
         ),
         _ => return None,
     };
     Some(format!(
-        "deviations are {of}; {ENOUGH_BLOCKS} blocks of a second or more would do, or the logs themselves without `--factor`"
+        "deviations are {of}; {} blocks of a second or more would do, or the logs themselves without `--factor`",
+        Factor::ENOUGH_BLOCKS
     ))
 }
 

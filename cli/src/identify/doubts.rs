@@ -1,7 +1,7 @@
 //! What looks like another unit, sign or order than the spec's.
 
 use robot_model::columns::{Shape, Unknown};
-use robot_model::identify::{Errors, Estimate, Identified};
+use robot_model::identify::{Errors, Estimate, Identified, is_shape_told};
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
@@ -142,9 +142,6 @@ fn worse_judged(fitted: &[f64], judged: &[f64], joints: &[String]) -> Option<Str
     })
 }
 
-/// A deviation above this share of its value leaves a shape anywhere.
-const ANYWHERE: f64 = 0.5;
-
 /// Shapes that the logs do not tell: what has such a shape may not be there at all.
 pub(super) fn untold_shapes(estimate: &Estimate) -> Vec<String> {
     let pairs = estimate.shapes.iter().zip(&estimate.shape_std);
@@ -154,7 +151,7 @@ pub(super) fn untold_shapes(estimate: &Estimate) -> Vec<String> {
 
 fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
     let effect = name.rsplit_once('.').map_or(name, |(effect, _)| effect);
-    (std > ANYWHERE * value.abs()).then(|| {
+    (!is_shape_told(value, std)).then(|| {
         format!(
             "the logs do not tell `{name}`, {value:.2e} +- {std:.2e}, nor with it the values of `{effect}`: see whether errors on a log that is \
              not fitted are less with that effect, and leave it out where they are not"

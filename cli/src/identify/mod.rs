@@ -135,6 +135,15 @@ struct RowOptions {
     as_logged: bool,
 }
 
+/// What a method with equations found.
+struct OfEquations<'a> {
+    estimate: &'a Estimate,
+    train: &'a Errors,
+    validation: Option<&'a Errors>,
+    faults: &'a [(String, Fault)],
+    drawn: Option<OnLog<'a>>,
+}
+
 impl IdentifyArguments {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.corner.is_some() && self.form == FormArgument::Acceleration {
@@ -232,22 +241,14 @@ impl IdentifyArguments {
         }
         faults.extend(self.late_channels(&estimate, &progress));
 
-        let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
-        let printed = printed(&estimate, &train, validation.as_ref());
-        let found = Evidence {
-            drawn: OnLog::of(form.arm(), &estimate, &logs, validate.as_ref()),
-            notes: progress.noted(),
+        let found = OfEquations {
+            estimate: &estimate,
+            train: &train,
+            validation: validation.as_ref(),
             faults: &faults,
-            printed: &printed,
-            ..Evidence::of(
-                &self.spec,
-                form.compiled(),
-                &estimate,
-                &train,
-                validation.as_ref(),
-            )
+            drawn: OnLog::of(form.arm(), &estimate, &logs, validate.as_ref()),
         };
-        results.give(&report, &found, progress)
+        self.hand_over(form, found, results, progress)
     }
 
     /// As [`Self::fit`], in memory that does not grow with the logs.
@@ -293,23 +294,41 @@ impl IdentifyArguments {
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
-        let report = report(&estimate, Some(&train), validation.as_ref(), &faults);
-        let printed = printed(&estimate, &train, validation.as_ref());
-        let found = Evidence {
-            drawn: OnLog::of(&form.0, &estimate, &[], validate.as_ref()),
-            notes: progress.noted(),
+        let found = OfEquations {
+            estimate: &estimate,
+            train: &train,
+            validation: validation.as_ref(),
             faults: &faults,
-            printed: &printed,
-            ..Evidence::of(
-                &self.spec,
-                form.compiled(),
-                &estimate,
-                &train,
-                validation.as_ref(),
-            )
+            drawn: OnLog::of(form.arm(), &estimate, &[], validate.as_ref()),
         };
         let results = results.with(out, reduced::text(&reduced));
-        results.give(&report, &found, progress)
+        self.hand_over(form, found, results, progress)
+    }
+
+    fn hand_over(
+        &self,
+        form: &dyn Fit,
+        found: OfEquations,
+        results: Results,
+        progress: Progress,
+    ) -> Result<(), Error> {
+        let OfEquations {
+            estimate,
+            train,
+            validation,
+            faults,
+            drawn,
+        } = found;
+        let printed = printed(estimate, train, validation);
+        let evidence = Evidence {
+            drawn,
+            notes: progress.noted(),
+            faults,
+            printed: &printed,
+            ..Evidence::of(&self.spec, form.compiled(), estimate, train, validation)
+        };
+        let report = report(estimate, Some(train), validation, faults);
+        results.give(&report, &evidence, progress)
     }
 }
 

@@ -256,20 +256,19 @@ impl Streams<'_> {
 
     /// Those that the beginning of the slowest log bears.
     fn bands(&self, identify: &Identify, progress: &Progress) -> Result<Bands, Error> {
-        let firsts = self.logs.iter().map(|path| {
+        let first = |path: &PathBuf| -> Result<Log, Error> {
             let columns = self.settings.columns(path, self.form.model(), progress)?;
             let mut pieces = Log::pieces(path, &columns, PIECE, 0.0)?;
             let first = pieces.next();
             Ok(first.ok_or(robot_model::identify::IdentifyError::NoLog)??)
-        });
+        };
+        // One of them at a time is in memory, beside the slowest so far.
         let mut slowest: Option<Log> = None;
-        for first in firsts {
-            let first: Log = first.map_err(|error: Error| error)?;
-            if slowest
-                .as_ref()
-                .is_none_or(|slowest| first.rate_hz() < slowest.rate_hz())
-            {
-                slowest = Some(first);
+        for path in self.logs {
+            let log = first(path)?;
+            let is_slower = |slowest: &Log| log.rate_hz() < slowest.rate_hz();
+            if slowest.as_ref().is_none_or(is_slower) {
+                slowest = Some(log);
             }
         }
         let slowest = slowest.ok_or(robot_model::identify::IdentifyError::NoLog)?;

@@ -31,9 +31,6 @@ pub use block::{FactorBlock, FactorRows};
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
 
-/// From fewer blocks deviations are no smaller than those of white noise.
-const FEW_BLOCKS: usize = 8;
-
 /// Of a normal distribution 95 % are within so many deviations.
 const NORMAL: f64 = 1.96;
 
@@ -57,6 +54,9 @@ pub struct Factor {
 }
 
 impl Factor {
+    /// Fewer blocks say little of how sure a parameter is; deviations from fewer are no smaller than those of white noise.
+    pub const ENOUGH_BLOCKS: usize = 8;
+
     /// One of no log, with these filters.
     ///
     /// # Errors
@@ -334,7 +334,11 @@ impl Factor {
         let unsure = quantile(freedom) / NORMAL;
         for ((square, length), &c) in squares.iter().zip(&length).zip(&excited) {
             let white = solution.std[c];
-            let least = if count < FEW_BLOCKS { white } else { 0.0 };
+            let least = if count < Self::ENOUGH_BLOCKS {
+                white
+            } else {
+                0.0
+            };
             solution.std[c] = (unsure * (correction * square).sqrt() / length).max(least);
         }
     }

@@ -73,7 +73,7 @@ pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
-pub use table::relative_deviation;
+pub use table::{is_shape_told, relative_deviation};
 pub(crate) use turns::leave_out as leave_out_turns;
 
 use crate::columns::{Arm, Nominal};

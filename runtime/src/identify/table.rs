@@ -76,6 +76,19 @@ impl fmt::Display for Estimate {
 const MOST: f64 = 999.0;
 const LEAST: f64 = 1e-3;
 
+/// Whether logs tell a shape: its standard deviation is at most half of its value. With a larger one it may be anywhere.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::is_shape_told;
+/// assert!(is_shape_told(0.4, 0.05) && !is_shape_told(0.0072, 0.0072));
+/// ```
+#[must_use]
+pub fn is_shape_told(value: f64, std: f64) -> bool {
+    const ANYWHERE: f64 = 0.5;
+    std <= ANYWHERE * value.abs()
+}
+
 /// A deviation in percent of its value, as tables have it: beyond 999 % the number says no more, and beside a value that is nothing
 /// there is none.
 ///

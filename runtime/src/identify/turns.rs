@@ -14,7 +14,7 @@ use std::ops::Range;
 use super::least_squares::{Factors, Solution};
 use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
-use super::{Estimate, Identify, IdentifyError};
+use super::{Estimate, Identify, IdentifyError, is_shape_told};
 use crate::columns::Arm;
 use crate::motion;
 use crate::signal::Prepared;
@@ -69,9 +69,6 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     clear_rows(&mut stack.joints, &stack.held);
 }
 
-/// A shape with a deviation above this share of its value is told by nothing.
-const ANYWHERE: f64 = 0.5;
-
 impl Identify {
     /// Fits an arm with [`Arm::dry_shapes`] without rows at turns: there a joint stands longer than its law says, and a search would bend
     /// the law after that. With these rows where no others tell all that is looked for.
@@ -89,7 +86,7 @@ impl Identify {
         };
         let is_told = |found: &Estimate, shape: usize| {
             let std = found.shape_std[shape];
-            std.is_some_and(|std| std <= ANYWHERE * found.shapes[shape].1.abs())
+            std.is_some_and(|std| is_shape_told(found.shapes[shape].1, std))
         };
         match fit(&away) {
             Ok(found)
