@@ -127,7 +127,7 @@ pub(crate) struct IdentifyArguments {
 /// Which rows of logs are fitted.
 #[derive(Debug, Args)]
 struct RowOptions {
-    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations.
+    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations, and only open curves of friction are looked for without them.
     #[arg(long)]
     leave_out_turns: bool,
     /// Take logs as they are: spikes and holds are left where they stand.

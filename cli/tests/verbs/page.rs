@@ -99,6 +99,47 @@ fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
     }
 }
 
+/// With a payload the page has the arm's parameters, the payload's, and errors of logs without and with it.
+#[test]
+fn the_report_of_a_payload_says_what_is_carried() {
+    let folder = crate::payload::folder("");
+    let identify = [
+        "identify",
+        "arm.robot",
+        "empty.csv",
+        "--payload",
+        "loaded.csv",
+    ];
+    let outputs = [
+        "--validate",
+        "other.csv",
+        "--json",
+        "fit.json",
+        "--report",
+        "page",
+    ];
+    for known in [&[][..], &["--payload-mass", "0.8"]] {
+        folder.succeed(&[&identify[..], &outputs, known].concat());
+        let fit = json(&folder.read("fit.json"));
+        let page = Html::parse_document(&folder.read("page/index.html"));
+        let rows = cells(&page, "Parameters in SI units");
+        let found = [&fit["parameters"], &fit["payload"]["parameters"]];
+        let names = found
+            .into_iter()
+            .flat_map(|list| list.as_array().expect("a list"));
+        let names: Vec<&str> = names
+            .map(|one| one["name"].as_str().expect("a name"))
+            .collect();
+        assert!(names.contains(&"lo.payload.mx"), "{names:?}");
+        assert_eq!(
+            rows.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
+            names
+        );
+        assert_eq!(cells(&page, "RMSE and MAE")[0].len(), 13, "{known:?}");
+        assert!(!all(&page, "svg").is_empty());
+    }
+}
+
 /// A torque that has nothing to do with the motion: the page says so first of all.
 #[test]
 fn the_report_of_a_model_that_does_not_fit_says_so() {

@@ -106,8 +106,8 @@ pub struct Identify {
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
     pub essential: bool,
-    /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in the deviations of
-    /// least squares otherwise.
+    /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in the deviations
+    /// otherwise, but for arms with [`Arm::dry_shapes`] that other rows tell: these are fitted without them in any case.
     pub leave_out_turns: bool,
 }
 
