@@ -38,7 +38,7 @@ use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_each};
 use noted::{factor_doubts, told_apart};
-use options::{FormArgument, MethodArgument, WeightsArgument};
+use options::{FormArgument, MethodArgument, RowOptions, WeightsArgument};
 use options::{parse_bands, parse_center, parse_corner, parse_mass};
 use page::{Evidence, OnLog};
 use reduced::Streams;
@@ -122,17 +122,6 @@ pub(crate) struct IdentifyArguments {
     report: Option<PathBuf>,
     #[command(flatten)]
     output_error: output_error::Options,
-}
-
-/// Which rows of logs are fitted.
-#[derive(Debug, Args)]
-struct RowOptions {
-    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations, and only open curves of friction are looked for without them.
-    #[arg(long)]
-    leave_out_turns: bool,
-    /// Take logs as they are: spikes and holds are left where they stand.
-    #[arg(long)]
-    as_logged: bool,
 }
 
 /// What a method with equations found.

@@ -1,6 +1,6 @@
 //! Options of `identify`, and which of them belong together.
 
-use clap::ValueEnum;
+use clap::{Args, ValueEnum};
 use robot_model::identify::{Method, Weights};
 use robot_model::signal::Bands;
 
@@ -72,6 +72,17 @@ pub(super) enum FormArgument {
     Acceleration,
     /// Without accelerations; errors are of the filtered torque.
     Filtered,
+}
+
+/// Which rows of logs are fitted.
+#[derive(Debug, Args)]
+pub(super) struct RowOptions {
+    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations, and only open curves of friction are looked for without them.
+    #[arg(long)]
+    pub leave_out_turns: bool,
+    /// Take logs as they are: spikes and holds are left where they stand.
+    #[arg(long)]
+    pub as_logged: bool,
 }
 
 pub(super) fn parse_corner(text: &str) -> Result<f64, String> {

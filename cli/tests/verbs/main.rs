@@ -40,6 +40,7 @@ mod new;
 mod output_error;
 mod outputs;
 mod page;
+mod page_of_identify;
 mod parameters;
 mod payload;
 mod possible;

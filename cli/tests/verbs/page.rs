@@ -6,14 +6,15 @@ use std::process::Command;
 
 use scraper::{ElementRef, Html, Selector};
 
-use crate::common::{CART, Folder, cart_log, json};
+use crate::common::{CART, Folder, cart_log};
+use crate::page_of_identify::identified;
 
-fn all<'a>(page: &'a Html, what: &str) -> Vec<ElementRef<'a>> {
+pub(crate) fn all<'a>(page: &'a Html, what: &str) -> Vec<ElementRef<'a>> {
     let selector = Selector::parse(what).expect("a selector");
     page.select(&selector).collect()
 }
 
-fn text(element: ElementRef) -> String {
+pub(crate) fn text(element: ElementRef) -> String {
     element.text().collect::<String>().trim().to_owned()
 }
 
@@ -34,142 +35,6 @@ fn a_report_is_readable_without_seeing_it() {
     is_readable(&traced().read("page/index.html"));
     let folder = identified(&[]);
     is_readable(&folder.read("page/index.html"));
-}
-
-/// The report of an identification.
-fn identified(more: &[&str]) -> Folder {
-    let folder = Folder::new();
-    folder.write("cart.robot", CART);
-    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
-    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
-    let identify = ["identify", "cart.robot", "log.csv", "--report", "page"];
-    folder.succeed(&[&identify[..], more].concat());
-    folder
-}
-
-/// The cells of the first table whose caption has some words, row by row.
-fn cells(page: &Html, caption: &str) -> Vec<Vec<String>> {
-    let [head, rows, row_cells] =
-        ["caption", "tbody tr", "th, td"].map(|what| Selector::parse(what).expect("a selector"));
-    let mut tables = all(page, "table").into_iter();
-    let table = tables.find(|table| {
-        let mut captions = table.select(&head);
-        captions.any(|found| text(found).contains(caption))
-    });
-    let table = table.unwrap_or_else(|| panic!("no table {caption}"));
-    let row = |row: ElementRef| row.select(&row_cells).map(text).collect();
-    table.select(&rows).map(row).collect()
-}
-
-#[test]
-fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
-    let validate = ["--validate", "other.csv"];
-    let simulate = ["--method", "output-error", "--validate", "other.csv"];
-    let factor = ["--factor", "factor.json"];
-    let physical = ["--method", "physical", "--form", "acceleration"];
-    for (more, columns, is_drawn) in [
-        (&[][..], 5, true),
-        (&validate, 9, true),
-        (&["--form", "filtered"], 5, true),
-        (&simulate, 9, true),
-        (&factor, 5, false),
-        (&physical, 5, true),
-    ] {
-        let folder = identified(&[more, &["--json", "fit.json"]].concat());
-        let html = folder.read("page/index.html");
-        let page = Html::parse_document(&html);
-        let fit = json(&folder.read("fit.json"));
-        // The parameters of the page are those of JSON.
-        let rows = cells(&page, "Parameters in SI units");
-        let found = fit["parameters"].as_array().expect("a list");
-        assert_eq!(rows.len(), found.len(), "{more:?}");
-        for (row, parameter) in rows.iter().zip(found) {
-            assert_eq!(parameter["name"], row[0].as_str());
-            let value = parameter["value"].as_f64().expect("a number");
-            let shown: f64 = row[1].parse().expect("a number");
-            assert!((shown - value).abs() <= 1e-4 * value.abs(), "{row:?}");
-            let [low, high] = [3, 4].map(|k| row[k].parse::<f64>().expect("a number"));
-            assert!(low < shown && shown < high, "{row:?}");
-        }
-        let rows = cells(&page, "RMSE and MAE");
-        assert_eq!(rows[0].len(), columns, "{more:?}: {rows:?}");
-        let figures = all(&page, "svg").len();
-        assert_eq!(figures > 0, is_drawn, "{more:?}: {figures}");
-        assert!(html.contains("identify cart.robot log.csv --report page"));
-    }
-}
-
-/// With a payload the page has the arm's parameters, the payload's, and errors of logs without and with it.
-#[test]
-fn the_report_of_a_payload_says_what_is_carried() {
-    let folder = crate::payload::folder("");
-    let identify = [
-        "identify",
-        "arm.robot",
-        "empty.csv",
-        "--payload",
-        "loaded.csv",
-    ];
-    let outputs = [
-        "--validate",
-        "other.csv",
-        "--json",
-        "fit.json",
-        "--report",
-        "page",
-    ];
-    for known in [&[][..], &["--payload-mass", "0.8"]] {
-        folder.succeed(&[&identify[..], &outputs, known].concat());
-        let fit = json(&folder.read("fit.json"));
-        let page = Html::parse_document(&folder.read("page/index.html"));
-        let rows = cells(&page, "Parameters in SI units");
-        let found = [&fit["parameters"], &fit["payload"]["parameters"]];
-        let names = found
-            .into_iter()
-            .flat_map(|list| list.as_array().expect("a list"));
-        let names: Vec<&str> = names
-            .map(|one| one["name"].as_str().expect("a name"))
-            .collect();
-        assert!(names.contains(&"lo.payload.mx"), "{names:?}");
-        assert_eq!(
-            rows.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
-            names
-        );
-        assert_eq!(cells(&page, "RMSE and MAE")[0].len(), 13, "{known:?}");
-        assert!(!all(&page, "svg").is_empty());
-    }
-}
-
-/// A torque that has nothing to do with the motion: the page says so first of all.
-#[test]
-fn the_report_of_a_model_that_does_not_fit_says_so() {
-    let folder = Folder::new();
-    folder.write("cart.robot", CART);
-    let log = cart_log(40, 2.0, 0.0);
-    let rows = log.lines().enumerate().map(|(k, line)| {
-        if k == 0 {
-            return line.to_owned();
-        }
-        let fields: Vec<&str> = line.split(',').collect();
-        let noise = ((k * k) % 97) as f64 - 48.0;
-        format!("{},{},{noise}", fields[0], fields[1])
-    });
-    folder.write("log.csv", &rows.collect::<Vec<_>>().join("\n"));
-    folder.succeed(&["identify", "cart.robot", "log.csv", "--report", "page"]);
-    let page = Html::parse_document(&folder.read("page/index.html"));
-    let verdict = text(all(&page, ".verdict")[0]);
-    assert!(verdict.starts_with("The model does not fit"), "{verdict}");
-}
-
-/// A folder that was made for a report that never came goes with it.
-#[test]
-fn a_refused_identification_leaves_no_report() {
-    let folder = Folder::new();
-    folder.write("cart.robot", CART);
-    folder.write("log.csv", "time,q1,tau1\n0,0,0\n");
-    let before = folder.files();
-    folder.refuse(&["identify", "cart.robot", "log.csv", "--report", "page"]);
-    assert_eq!(folder.files(), before);
 }
 
 fn is_readable(html: &str) {
