@@ -38,13 +38,17 @@ pub(super) fn dry_joints(model: &Model) -> Vec<usize> {
     joints.filter(is_dry).collect()
 }
 
-/// Which of some shapes, by their names, are of friction that jumps on joints that are [`dry_joints`].
+/// Which of some shapes, by their names, are of friction that jumps on joints that are [`dry_joints`]. A law that has its own branch for
+/// slow joints is told by rows at turns, so its shapes are not among them.
 pub(super) fn dry_shapes<'a>(model: &Model, shapes: impl Iterator<Item = &'a str>) -> Vec<usize> {
     let dry = dry_joints(model);
     let effects = model.effects.iter().enumerate();
     let effects = effects.filter(|(_, effect)| {
         let joints = &effect.joints;
-        jumps_at_turns(&effect.definition) && joints.iter().all(|joint| dry.contains(joint))
+        let definition = &effect.definition;
+        jumps_at_turns(definition)
+            && !has_branch_of_slow(definition)
+            && joints.iter().all(|joint| dry.contains(joint))
     });
     let prefixes: Vec<String> = effects
         .map(|(number, _)| format!("{}.", model.effect_name(number)))
@@ -56,6 +60,27 @@ pub(super) fn dry_shapes<'a>(model: &Model, shapes: impl Iterator<Item = &'a str
 
 /// Whether a torque has the sign of a velocity in it.
 fn jumps_at_turns(definition: &EffectDefinition) -> bool {
+    has_part(
+        definition,
+        &|part, moving| matches!(part, Expr::Call(Function::Sign, of) if has_velocity(of, moving)),
+    )
+}
+
+/// Whether a torque has another law below a speed that is a shape.
+fn has_branch_of_slow(definition: &EffectDefinition) -> bool {
+    let is_shape = |part: &EffectExpr| matches!(part, Expr::Leaf(EffectLeaf::Shape(_)));
+    has_part(definition, &|part, moving| {
+        let Expr::Choice(choice) = part else {
+            return false;
+        };
+        let sides = [&choice.greater, &choice.smaller];
+        sides.iter().any(|side| has_velocity(side, moving))
+            && sides.iter().any(|side| side.contains(&is_shape))
+    })
+}
+
+/// Whether a binding or a torque has a part that is so; the test is told which bindings read a velocity.
+fn has_part(definition: &EffectDefinition, is_so: &dyn Fn(&EffectExpr, &[bool]) -> bool) -> bool {
     // Bindings use earlier ones alone.
     let mut moving: Vec<bool> = Vec::new();
     for binding in &definition.bindings {
@@ -64,11 +89,7 @@ fn jumps_at_turns(definition: &EffectDefinition) -> bool {
     }
     let bindings = definition.bindings.iter().map(|binding| &binding.value);
     let mut all = bindings.chain(definition.torque_equations());
-    all.any(|value| {
-        value.contains(
-            &|part| matches!(part, Expr::Call(Function::Sign, of) if has_velocity(of, &moving)),
-        )
-    })
+    all.any(|value| value.contains(&|part| is_so(part, &moving)))
 }
 
 /// Whether an expression reads a velocity; `moving` tells it of the bindings so far.
@@ -131,21 +152,31 @@ impl Known {
 mod tests {
     use super::*;
 
+    fn model(effects: &str) -> Model {
+        let text = format!(
+            "robot A {{
+                gravity = [0, 0, -9.81];
+                convention = standard_dh;
+                joint a: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+                joint b: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+                effects {{ {effects} }}
+            }}"
+        );
+        let model = robot_model_spec::load("a.robot", &text);
+        model.unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    #[test]
+    fn a_law_with_a_branch_of_its_own_for_slow_joints_is_told_at_turns() {
+        let dry = |effects: &str, shape| dry_shapes(&model(effects), [shape].into_iter());
+        let stribeck = "coulomb_friction on all; stribeck on a;";
+        assert_eq!(dry(stribeck, "a.stribeck.vs"), [0]);
+        assert_eq!(dry("rokae on a;", "a.rokae.eps"), [0; 0]);
+    }
+
     #[test]
     fn dry_friction_is_seen_through_names_and_not_where_something_remembers() {
-        let dry = |effects: &str| {
-            let text = format!(
-                "robot A {{
-                    gravity = [0, 0, -9.81];
-                    convention = standard_dh;
-                    joint a: revolute {{ a = 0.5; alpha = 0; d = 0; }}
-                    joint b: revolute {{ a = 0.4; alpha = 0; d = 0; }}
-                    effects {{ {effects} }}
-                }}"
-            );
-            let model = robot_model_spec::load("a.robot", &text);
-            dry_joints(&model.unwrap_or_else(|errors| panic!("{errors}")))
-        };
+        let dry = |effects: &str| dry_joints(&model(effects));
         assert_eq!(dry("viscous_friction on all;"), [0; 0]);
         assert_eq!(dry("coulomb_friction on b;"), [1]);
         assert_eq!(dry("rokae on all;"), [0, 1]);
