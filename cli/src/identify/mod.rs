@@ -12,13 +12,13 @@ mod options;
 mod output_error;
 mod page;
 mod payload;
+mod readings;
 pub(crate) mod reduced;
 pub(crate) mod report;
 mod results;
 pub(crate) mod table;
 mod twice;
 mod unequal;
-mod units;
 mod untold;
 
 use std::path::{Path, PathBuf};
@@ -218,7 +218,7 @@ impl IdentifyArguments {
             .map(|log| judged(&estimate, form, log))
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
-        doubts.extend(units::others(form, &identify, &logs, &estimate));
+        doubts.extend(readings::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));

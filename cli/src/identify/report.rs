@@ -86,7 +86,7 @@ struct StandardReport<'a> {
     value: f64,
     /// Where the logs tell it.
     std: Option<f64>,
-    /// `logs`, `spec` where it is fixed, `nominal` where the logs tell it in a sum at most.
+    /// `logs`, `spec` where it is fixed, `nominal` where the logs tell it in a sum at most, `assumed` where the spec has no nominal value then.
     from: &'static str,
 }
 

@@ -119,6 +119,11 @@ fn noise_makes_no_impossible_arm() {
         assert!(*with < 1.05 * without, "{out}");
     }
     assert!(free["possible"].is_null());
+    // The spec has no nominal bodies, so no value is near one.
+    let from = standard.as_array().expect("a list").iter();
+    let from: Vec<&str> = from.filter_map(|entry| entry["from"].as_str()).collect();
+    assert!(from.contains(&"logs") && from.contains(&"assumed"));
+    assert!(!from.contains(&"nominal"), "{standard}");
     // What is written can be read: the arm in standard parameters.
     folder.write("standard.json", &format!("{{\"parameters\": {standard}}}"));
     let arguments = [

@@ -109,6 +109,8 @@ pub struct Identify {
     /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in the deviations
     /// otherwise, but for arms with [`Arm::dry_shapes`] that other rows tell: these are fitted without them in any case.
     pub leave_out_turns: bool,
+    /// Whether to look for channels that are late or early, see [`Estimate::delays`]: it takes longer than the fit where little is explained.
+    pub delays: bool,
 }
 
 impl Default for Identify {
@@ -123,6 +125,7 @@ impl Default for Identify {
             bootstrap: 0,
             essential: false,
             leave_out_turns: false,
+            delays: true,
         }
     }
 }

@@ -3,7 +3,8 @@
 //! A body's mass is spread over space, so its pseudo-inertia `P = [[S, h], [h^T, m]]` with `S = tr(I)/2 1 - I` is positive
 //! semidefinite, and conversely; friction and rotors take energy. The fit minimizes, over all standard parameters,
 //! `|| W (tau - Y_b beta) ||^2 / 2 + w sum over links of (tr(P0^-1 P) - ln det P)`: the second part is the entropic distance
-//! to the nominal body `P0`, and for small `w` decides only where the logs do not.
+//! to the nominal body `P0`, and for small `w` decides only where the logs do not. A body of CAD has the weight of a guess that may be
+//! off by its own size, one that stands for what nobody said a thousandth of that.
 //!
 //! Source: Wensing, Kim, Slotine 2018, Linear matrix inequalities for physically consistent inertial parameter
 //! identification; Lee, Wensing, Park 2019, Geometric robot dynamic identification.
@@ -21,7 +22,7 @@ use super::stack::Stack;
 use crate::columns::Arm;
 use crate::link::Inertial;
 
-use barrier::{Barrier, Cone, Found};
+use barrier::{Barrier, Cone, Found, LAST_WEIGHT};
 pub use origin::Origin;
 
 /// Bodies of links whose spec says none, all alike: powers of ten of a mass, kg, of which that is taken with which the logs agree
@@ -31,6 +32,10 @@ const UNKNOWN_SPREAD: f64 = 0.1;
 
 /// What a friction, rotor or other parameter that is not negative is of the order of, where the logs are silent.
 const UNKNOWN_EFFECT: f64 = 1.0;
+
+/// Weight of the pull to bodies of CAD, in units of half a squared residual over its variance: one that is off by its
+/// own size costs as much as one deviation. With less, logs that tell little bend bodies to where noise is.
+const CAD_WEIGHT: f64 = 1.0;
 
 /// Principal second moments of a nominal body below this share of the largest are this share: a rod has an inside too.
 const THINNEST: f64 = 1e-3;
@@ -65,6 +70,14 @@ pub struct PossibleLink {
     pub parameters: [usize; 10],
     /// Those of CAD, where the spec has them.
     pub nominal: Option<[f64; 10]>,
+}
+
+impl PossibleLink {
+    /// The pseudo-inertia of CAD, made one of a body with an inside; `None` where the spec says none, or that of a point or of nothing.
+    fn body(&self) -> Option<Mat<f64>> {
+        let nominal = self.nominal?;
+        thick(&Inertial::from(nominal))
+    }
 }
 
 /// A possible arm, nearest to the logs.
@@ -115,7 +128,7 @@ pub(super) fn make(
         values: &solution.estimate,
         deviations: &solution.std,
     };
-    let nearest = arms.nearest(&factor, &told);
+    let nearest = arms.nearest(&factor, &told, CAD_WEIGHT);
     let nearest = nearest.ok_or(IdentifyError::NoEnd)?;
     let border = arms.border(&solution.estimate, &nearest.standard);
     solution.estimate = nearest.estimate;
@@ -160,12 +173,12 @@ impl PossibleArms {
                 0.0
             }
         });
-        let nearest = self.nearest(&factor, &Told { values, deviations })?;
+        let nearest = self.nearest(&factor, &Told { values, deviations }, LAST_WEIGHT)?;
         Some((nearest.estimate, nearest.standard))
     }
 
-    /// The possible arm nearest to a triangular factor `[R | r]` of the weighted rows.
-    fn nearest(&self, factor: &Mat<f64>, told: &Told<'_>) -> Option<Nearest> {
+    /// The possible arm nearest to a triangular factor `[R | r]` of the weighted rows, with the weight of bodies of CAD.
+    fn nearest(&self, factor: &Mat<f64>, told: &Told<'_>, of_cad: f64) -> Option<Nearest> {
         let unknowns = self.kept.len();
         // Variables: the unknowns, then what the logs may be silent about.
         let silent: Vec<usize> = (0..self.names.len())
@@ -183,7 +196,7 @@ impl PossibleArms {
         for (place, &standard) in silent.iter().enumerate() {
             by_variable[(standard, unknowns + place)] = 1.0;
         }
-        let cones = self.cones(factor, told);
+        let cones = self.cones(factor, told, of_cad);
         let start = self.start(&cones);
         let mut first = self.unknowns_of(&start);
         first.extend(silent.iter().map(|&k| start[k]));
@@ -251,10 +264,10 @@ impl PossibleArms {
     }
 
     /// Bodies and effects, with nominal ones that are of the order of what the logs tell.
-    fn cones(&self, factor: &Mat<f64>, told: &Told<'_>) -> Vec<Cone> {
+    fn cones(&self, factor: &Mat<f64>, told: &Told<'_>, of_cad: f64) -> Vec<Cone> {
         let n = self.kept.len();
         let missed = |mass: &f64| -> f64 {
-            let unknowns = self.unknowns_of(&self.start(&self.cones_of(*mass, told)));
+            let unknowns = self.unknowns_of(&self.start(&self.cones_of(*mass, told, of_cad)));
             let rows = 0..factor.nrows();
             rows.map(|row| {
                 let fitted: f64 = (0..n).map(|k| factor[(row, k)] * unknowns[k]).sum();
@@ -262,27 +275,28 @@ impl PossibleArms {
             })
             .sum()
         };
-        let best = if self.links.iter().all(|link| link.nominal.is_some()) {
+        let best = if self.links.iter().all(|link| link.body().is_some()) {
             None
         } else {
             let masses = UNKNOWN_MASSES.map(|power| 10f64.powi(power));
             masses.min_by(|x, y| missed(x).total_cmp(&missed(y)))
         };
-        self.cones_of(best.unwrap_or(1.0), told)
+        self.cones_of(best.unwrap_or(1.0), told, of_cad)
     }
 
-    fn cones_of(&self, mass: f64, told: &Told<'_>) -> Vec<Cone> {
+    fn cones_of(&self, mass: f64, told: &Told<'_>, of_cad: f64) -> Vec<Cone> {
         let unknown = unknown_body(mass);
         let links = self.links.iter().map(|link| {
-            let nominal = link
-                .nominal
-                .and_then(|nominal| thick(&Inertial::from(nominal)));
+            let (nominal, least) = match link.body() {
+                Some(body) => (body, of_cad),
+                None => (unknown.clone(), LAST_WEIGHT),
+            };
             let terms = link.parameters.iter().enumerate().map(|(k, &parameter)| {
                 let mut unit = [0.0; 10];
                 unit[k] = 1.0;
                 (parameter, pseudo_inertia(&Inertial::from(unit)))
             });
-            Cone::new(terms.collect(), nominal.unwrap_or_else(|| unknown.clone()))
+            Cone::new(terms.collect(), nominal, least)
         });
         let free = self.nonnegative.iter();
         let free = free.filter(|&&k| self.fixed[k].is_none());
@@ -291,7 +305,7 @@ impl PossibleArms {
             let place = self.kept.iter().position(|&kept| kept == k);
             let size = place.map(|place| told.values[place].max(told.deviations[place]));
             let size = size.filter(|size| *size > 0.0).unwrap_or(UNKNOWN_EFFECT);
-            Cone::new(vec![(k, one)], Mat::from_fn(1, 1, |_, _| size))
+            Cone::new(vec![(k, one)], Mat::from_fn(1, 1, |_, _| size), LAST_WEIGHT)
         });
         links.chain(effects).collect()
     }

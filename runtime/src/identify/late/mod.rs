@@ -99,7 +99,7 @@ struct Torques {
 
 impl Identify {
     /// Torques that are late or early, or the one position that is instead, for an estimate on its own stack; none where the logs do not
-    /// say so.
+    /// say so or nobody asks.
     pub(super) fn delays(
         &self,
         arm: &dyn Arm,
@@ -107,6 +107,9 @@ impl Identify {
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Vec<Delay> {
+        if !self.delays {
+            return Vec::new();
+        }
         let is_poor = stack
             .relative_percent(estimate)
             .iter()
@@ -147,6 +150,9 @@ impl Identify {
         bands: &Bands,
         shapes: &[f64],
     ) -> Vec<Delay> {
+        if !self.delays {
+            return Vec::new();
+        }
         let Ok(mut prepared) = prepare_all(logs, bands) else {
             return Vec::new();
         };

@@ -3,8 +3,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
-/// Weight of the barrier in the end, in units of half a squared residual over its variance: far less than a deviation.
-const LAST_WEIGHT: f64 = 1e-3;
+/// Weight of a barrier in the end, in units of half a squared residual over its variance: far less than a deviation.
+pub(super) const LAST_WEIGHT: f64 = 1e-3;
 
 /// How the barrier fades from round to round.
 const FADE: f64 = 0.2;
@@ -32,11 +32,13 @@ pub(super) struct Cone {
     nominal: Mat<f64>,
     /// Of the nominal matrix.
     inverse: Mat<f64>,
+    /// Its weight does not fade below this.
+    least: f64,
 }
 
 impl Cone {
-    /// `nominal` is positive definite.
-    pub(super) fn new(terms: Vec<(usize, Mat<f64>)>, nominal: Mat<f64>) -> Self {
+    /// `nominal` is positive definite; `least` is what it weighs in the end, no less than [`LAST_WEIGHT`].
+    pub(super) fn new(terms: Vec<(usize, Mat<f64>)>, nominal: Mat<f64>, least: f64) -> Self {
         let size = nominal.nrows();
         let identity = Mat::<f64>::identity(size, size);
         let inverse = match nominal.llt(Side::Lower) {
@@ -47,7 +49,13 @@ impl Cone {
             terms,
             nominal,
             inverse,
+            least,
         }
+    }
+
+    /// Its weight while those that fade have this one.
+    fn weight(&self, fading: f64) -> f64 {
+        fading.max(self.least)
     }
 
     /// Whether a standard parameter is in the matrix.
@@ -189,7 +197,7 @@ impl Barrier<'_> {
         let loose: f64 = self.loose.iter().map(|&k| variables[k].powi(2)).sum();
         let mut sum = self.cost(variables) + 0.5 * weight * loose;
         for cone in self.cones {
-            sum += weight * cone.value(&standard)?;
+            sum += cone.weight(weight) * cone.value(&standard)?;
         }
         Some(sum)
     }
@@ -219,11 +227,14 @@ impl Barrier<'_> {
                 // The barrier's rate of exchange times its degree bounds what `-ln det` costs; the pull to the nominal
                 // matrices costs what it has gained.
                 let standard = self.standard(&variables);
-                let pull: f64 = self.cones.iter().map(|cone| cone.pull(&standard)).sum();
+                let cones = self.cones.iter();
+                let excess: f64 = cones
+                    .map(|cone| cone.weight(weight) * (cone.size() as f64 + cone.pull(&standard)))
+                    .sum();
                 return Some(Found {
                     variables,
                     steps,
-                    gap: weight * (degree + pull) / cost.max(f64::MIN_POSITIVE),
+                    gap: excess / cost.max(f64::MIN_POSITIVE),
                 });
             }
             weight = (FADE * weight).max(LAST_WEIGHT);
@@ -270,7 +281,7 @@ impl Barrier<'_> {
         let mut slope = vec![0.0; standard.len()];
         let mut curvature = Mat::zeros(standard.len(), standard.len());
         for cone in self.cones {
-            cone.add(&standard, weight, &mut slope, &mut curvature)?;
+            cone.add(&standard, cone.weight(weight), &mut slope, &mut curvature)?;
         }
         let back = self.by_variable.transpose();
         let slope = back * column(&slope);

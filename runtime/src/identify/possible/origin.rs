@@ -9,9 +9,10 @@ pub enum Origin {
     Logs,
     /// The spec fixes it.
     Spec,
-    /// The logs tell it in a sum at most; of all values that make this sum it is the nearest to the nominal one, or to that which stands
-    /// for one where the spec has none.
+    /// The logs tell it in a sum at most; of all values that make this sum it is the nearest to the nominal one.
     Nominal,
+    /// The same where the spec has no nominal value: nearest to what stands for one.
+    Assumed,
 }
 
 impl Origin {
@@ -22,6 +23,7 @@ impl Origin {
             Self::Logs => "logs",
             Self::Spec => "spec",
             Self::Nominal => "nominal",
+            Self::Assumed => "assumed",
         }
     }
 }
@@ -42,12 +44,17 @@ impl PossibleArms {
                     && solution.shared.iter().all(|shared| shared.lead != c)
             })
         };
+        let has_nominal = |k: usize| {
+            let mut links = self.links.iter();
+            links.any(|link| link.parameters.contains(&k) && link.body().is_some())
+        };
         let fixed = self.fixed.iter().enumerate();
         fixed
             .map(|(k, fixed)| match fixed {
                 Some(_) => Origin::Spec,
                 None if is_told(k) => Origin::Logs,
-                None => Origin::Nominal,
+                None if has_nominal(k) => Origin::Nominal,
+                None => Origin::Assumed,
             })
             .collect()
     }

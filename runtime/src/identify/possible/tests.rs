@@ -22,7 +22,7 @@ fn nearest(arms: &PossibleArms, factor: &Mat<f64>) -> Nearest {
         values: &zeros,
         deviations: &zeros,
     };
-    arms.nearest(factor, &told).expect("an end")
+    arms.nearest(factor, &told, CAD_WEIGHT).expect("an end")
 }
 
 /// A link whose ten parameters are all unknowns.
@@ -127,6 +127,33 @@ fn where_the_logs_are_silent_there_is_cad() {
     for (found, cad) in silent.standard.iter().zip(BODY) {
         assert!((found - cad).abs() < 1e-4, "{found} {cad}");
     }
+}
+
+/// Logs that tell nearly nothing do not bend a body of CAD to where their noise is; one that nobody knows they do.
+#[test]
+fn what_is_hardly_told_stays_near_cad() {
+    let mut arms = one_link(Some(BODY));
+    arms.combinations = vec![vec![(9, 1.0)]];
+    arms.kept = vec![9];
+    // `izz` is 20 times that of CAD by the logs, and nothing at two deviations.
+    let (told, deviation) = (8.0, 4.0);
+    let factor = Mat::from_fn(1, 2, |_, k| {
+        if k == 0 {
+            1.0 / deviation
+        } else {
+            told / deviation
+        }
+    });
+    let near = nearest(&arms, &factor).standard;
+    assert!((0.5..4.0).contains(&(near[9] / BODY[9])), "{near:?}");
+    assert!((0.5..2.0).contains(&(near[0] / BODY[0])), "{near:?}");
+    let lightly = Told {
+        values: &[told],
+        deviations: &[deviation],
+    };
+    let far = arms.nearest(&factor, &lightly, LAST_WEIGHT);
+    let far = far.expect("an end").standard;
+    assert!(far[9] > 10.0 * BODY[9], "{far:?}");
 }
 
 #[test]

@@ -1,0 +1,329 @@
+//! Whether a log is to be read in another way than the spec says, asked of its torques: angles in another unit, columns in another order.
+//!
+//! In: logs whose torques a model does not explain. Out: a sentence about the reading with which it explains them far better, if any.
+
+use robot_model::identify::{Estimate, Identify, Method};
+use robot_model::log::Log;
+use robot_model_spec::Model;
+use robot_model_spec::model::JointKind;
+
+use super::fit::Fit;
+use crate::output::names;
+
+/// Degrees are asked for where a joint moves further than this, rad: less is a motion of less than three degrees.
+const LEAST_RANGE: f64 = 3.0;
+
+/// A model that explains its torques to this, percent, has their unit and order.
+const WELL: f64 = 15.0;
+
+/// By which factor errors have to be less in another reading.
+const FACTOR: f64 = 2.0;
+
+/// Turns are asked for where no joint moves by more of them than this.
+const MOST_TURNS: f64 = 3.0;
+
+/// A model that explains its torques to this, percent, has them in radians: positions that are six times too small leave a sixth of what
+/// gravity bends, which other parameters make up for.
+const WELL_IN_TURNS: f64 = 5.0;
+
+/// An exchange of columns is a step to their order where it leaves this share of the errors, and a reading is better than a plainer one.
+const LESS: f64 = 0.9;
+
+/// Samples of the first log that are asked: more say no more of units and orders.
+const MOST_SAMPLES: usize = 20_000;
+
+/// A unit of angles.
+#[derive(Clone, Copy)]
+struct Unit {
+    plural: &'static str,
+    /// Name in a spec.
+    name: &'static str,
+    /// Its size, rad.
+    size: f64,
+}
+
+const DEGREES: Unit = Unit {
+    plural: "degrees",
+    name: "deg",
+    size: std::f64::consts::PI / 180.0,
+};
+const TURNS: Unit = Unit {
+    plural: "revolutions",
+    name: "rev",
+    size: std::f64::consts::TAU,
+};
+
+/// Columns that are in an order of joints.
+#[derive(Clone, Copy)]
+enum Columns {
+    Torques,
+    Positions,
+    Both,
+}
+
+/// What is done to a log.
+#[derive(Clone)]
+enum Reading {
+    /// Positions of joints are in a unit.
+    In(Unit, Vec<usize>),
+    /// Joint `k` of the spec has the columns of joint `order[k]`.
+    Ordered(Columns, Vec<usize>),
+}
+
+impl Reading {
+    fn of(&self, log: &Log) -> Log {
+        let mut read = log.clone();
+        match self {
+            Self::In(unit, joints) => {
+                for &joint in joints {
+                    for q in &mut read.q[joint] {
+                        *q *= unit.size;
+                    }
+                }
+            }
+            Self::Ordered(columns, order) => {
+                if !matches!(columns, Columns::Positions) {
+                    read.tau = ordered(&log.tau, order);
+                    read.clipped = ordered(&log.clipped, order);
+                }
+                if !matches!(columns, Columns::Torques) {
+                    read.q = ordered(&log.q, order);
+                    read.dq = ordered(&log.dq, order);
+                    read.turn_speeds = ordered(&log.turn_speeds, order);
+                }
+            }
+        }
+        read
+    }
+
+    /// What it is, and a question.
+    fn said(&self, joints: &[String]) -> [String; 2] {
+        let of = |joints: &mut dyn Iterator<Item = usize>, all: &[String]| {
+            let list: Vec<&str> = joints.map(|joint| all[joint].as_str()).collect();
+            names(&list)
+        };
+        match self {
+            Self::In(unit, which) => {
+                let plural = unit.plural;
+                let whose = if which.len() == 1 && joints.len() > 1 {
+                    format!(" of {}", of(&mut which.iter().copied(), joints))
+                } else {
+                    String::new()
+                };
+                let position = if whose.is_empty() {
+                    "positions"
+                } else {
+                    "the position"
+                };
+                let is_it = if whose.is_empty() {
+                    "are they"
+                } else {
+                    "is it"
+                };
+                [
+                    format!("{position}{whose} in {plural}"),
+                    format!(
+                        "{is_it} in {plural}? Logs are in rad, or as the spec says: `log {{ q = \"q{}\": {}, ..; }}`",
+                        which.first().map_or(1, |joint| joint + 1),
+                        unit.name
+                    ),
+                ]
+            }
+            Self::Ordered(columns, order) => {
+                let columns = match columns {
+                    Columns::Torques => "the torques",
+                    Columns::Positions => "the positions",
+                    Columns::Both => "positions and torques",
+                };
+                let mut moved = (0..order.len()).filter(|&joint| order[joint] != joint);
+                let how = if moved.clone().count() == 2 {
+                    format!(
+                        "of {} exchanged",
+                        of(&mut moved, joints).replace(", ", " and ")
+                    )
+                } else {
+                    format!("in the order {}", of(&mut order.iter().copied(), joints))
+                };
+                [
+                    format!("{columns} {how}"),
+                    "is the order of the columns that of the spec's joints? The spec's `log` says which column is whose".to_owned(),
+                ]
+            }
+        }
+    }
+}
+
+fn ordered<T: Clone>(columns: &[T], order: &[usize]) -> Vec<T> {
+    // Logs need not have them.
+    let known = order.iter().filter_map(|&k| columns.get(k).cloned());
+    known.collect()
+}
+
+/// Says so where the torques follow positions in degrees or revolutions, or columns in another order, far better than as the spec has them.
+/// Where nothing bends with positions, as on a lone joint without gravity, no torque can tell.
+pub(super) fn others(
+    form: &dyn Fit,
+    identify: &Identify,
+    logs: &[Log],
+    found: &Estimate,
+) -> Option<String> {
+    let mut percents = found.relative_percent.clone();
+    percents.sort_unstable_by(|x, y| y.total_cmp(x));
+    let worst = *percents.first()?;
+    if worst <= WELL_IN_TURNS {
+        return None;
+    }
+    let asked = Asked {
+        form,
+        identify: plain(identify),
+        log: beginning(logs.first()?),
+    };
+    let as_logged = asked.left(&asked.log)?;
+    let mut candidates = Vec::new();
+    for reading in units(form.model(), &asked.log, worst) {
+        candidates.extend(asked.read(reading));
+    }
+    if percents.get(1).is_some_and(|second| *second > WELL) {
+        for columns in [Columns::Torques, Columns::Positions, Columns::Both] {
+            candidates.extend(asked.order(columns, &as_logged));
+        }
+    }
+    // Of readings that are as good, the plainest.
+    let best = candidates.into_iter().reduce(|best, next| {
+        if all(&next.left) < LESS * all(&best.left) {
+            next
+        } else {
+            best
+        }
+    })?;
+    let most = |percents: &[f64]| percents.iter().copied().fold(0.0, f64::max);
+    (FACTOR * all(&best.left) < all(&as_logged)).then(|| {
+        let [what, question] = best.reading.said(&found.joints);
+        format!(
+            "with {what} the model leaves {:.1} % of the torque of its worst joint, as logged {:.0} %: {question}",
+            most(&best.left),
+            most(&as_logged)
+        )
+    })
+}
+
+/// Units that a log may be in.
+fn units(model: &Model, log: &Log, worst: f64) -> Vec<Reading> {
+    let ranges = ranges(model, log);
+    let all = || ranges.iter().map(|(joint, _)| *joint).collect::<Vec<_>>();
+    let far: Vec<usize> = ranges
+        .iter()
+        .filter(|(_, range)| *range > LEAST_RANGE)
+        .map(|(joint, _)| *joint)
+        .collect();
+    let mut readings = Vec::new();
+    if worst > WELL && !far.is_empty() {
+        readings.push(Reading::In(DEGREES, all()));
+    }
+    if ranges.iter().all(|(_, range)| *range < MOST_TURNS) {
+        readings.push(Reading::In(TURNS, all()));
+    }
+    if worst > WELL && ranges.len() > 1 {
+        readings.extend(
+            far.into_iter()
+                .map(|joint| Reading::In(DEGREES, vec![joint])),
+        );
+    }
+    readings
+}
+
+/// How far revolute joints move in a log, by joint.
+fn ranges(model: &Model, log: &Log) -> Vec<(usize, f64)> {
+    let joints = model.joints.iter().enumerate();
+    let revolute = joints.filter(|(_, joint)| joint.kind != JointKind::Prismatic);
+    let range = |joint: usize| {
+        let (low, high) = log.q[joint]
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| {
+                (low.min(*q), high.max(*q))
+            });
+        high - low
+    };
+    revolute.map(|(k, _)| (k, range(k))).collect()
+}
+
+/// The beginning of a log.
+fn beginning(log: &Log) -> Log {
+    let mut log = log.clone();
+    log.time.truncate(MOST_SAMPLES);
+    let extra = log.extra.iter_mut().map(|channel| &mut channel.values);
+    let columns = log.q.iter_mut().chain(&mut log.dq).chain(&mut log.tau);
+    for values in columns.chain(extra) {
+        values.truncate(MOST_SAMPLES);
+    }
+    log
+}
+
+/// Without what units and orders do not need.
+fn plain(identify: &Identify) -> Identify {
+    Identify {
+        bootstrap: 0,
+        essential: false,
+        delays: false,
+        instruments: Vec::new(),
+        method: Method::Wls,
+        ..identify.clone()
+    }
+}
+
+/// A reading and what it leaves of each joint's torque, percent.
+struct Candidate {
+    reading: Reading,
+    left: Vec<f64>,
+}
+
+/// What is asked.
+struct Asked<'a> {
+    form: &'a dyn Fit,
+    identify: Identify,
+    log: Log,
+}
+
+impl Asked<'_> {
+    fn left(&self, log: &Log) -> Option<Vec<f64>> {
+        let found = self.form.fit(&self.identify, std::slice::from_ref(log));
+        let left = found.ok()?.relative_percent;
+        all(&left).is_finite().then_some(left)
+    }
+
+    fn read(&self, reading: Reading) -> Option<Candidate> {
+        let left = self.left(&reading.of(&self.log))?;
+        Some(Candidate { reading, left })
+    }
+
+    /// The order that exchanges of two columns lead to, one after the other, each of which leaves less.
+    fn order(&self, columns: Columns, as_logged: &[f64]) -> Option<Candidate> {
+        let dof = self.form.dof();
+        let mut order: Vec<usize> = (0..dof).collect();
+        let mut best: Option<Candidate> = None;
+        for _ in 1..dof {
+            let pairs = (0..dof).flat_map(|i| (i + 1..dof).map(move |k| (i, k)));
+            let exchanged = pairs.filter_map(|(i, k)| {
+                let mut order = order.clone();
+                order.swap(i, k);
+                self.read(Reading::Ordered(columns, order))
+            });
+            let next = exchanged.min_by(|x, y| all(&x.left).total_cmp(&all(&y.left)))?;
+            let so_far = best.as_ref().map_or(as_logged, |best| &best.left);
+            if all(&next.left) > LESS * all(so_far) {
+                break;
+            }
+            if let Reading::Ordered(_, found) = &next.reading {
+                order.clone_from(found);
+            }
+            best = Some(next);
+        }
+        best
+    }
+}
+
+/// Percents of all joints as one.
+fn all(percents: &[f64]) -> f64 {
+    let squares: f64 = percents.iter().map(|percent| percent * percent).sum();
+    (squares / percents.len().max(1) as f64).sqrt()
+}

@@ -1,0 +1,175 @@
+//! Logs in another unit or order than the spec's, where no limit of a joint tells it.
+
+use std::fmt::Write;
+
+use crate::common::Folder;
+
+const SPEC: &str = "robot P {
+    gravity = [0, -9.81, 0];
+    convention = standard_dh;
+    joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
+    LOG
+}";
+
+/// A pendulum that swings by 20 degrees; `unit` is what one of the logged positions is worth, rad.
+fn log(unit: f64) -> String {
+    swinging(unit, 1.0)
+}
+
+/// One that swings so many times as far.
+fn swinging(unit: f64, times: f64) -> String {
+    let mut log = String::from("time,q1,tau1\n");
+    for k in 0..4000 {
+        let t = f64::from(k) / 200.0;
+        let swing = |a: f64, w: f64| {
+            let a = times * a;
+            (a * (w * t).sin(), -a * w * w * (w * t).sin())
+        };
+        let ((q, ddq), (more, faster)) = (swing(0.25, 1.7), swing(0.1, 4.3));
+        let tau = 0.3 * (ddq + faster) + 2.0 * (q + more).sin();
+        writeln!(log, "{t},{},{tau}", (q + more) / unit).expect("a string takes all");
+    }
+    log
+}
+
+#[test]
+fn degrees_within_all_limits_are_told_by_the_torques() {
+    let folder = Folder::new();
+    let declared = SPEC.replace("LOG", "log { q = \"q1\": deg; }");
+    folder.write("plain.robot", &SPEC.replace("LOG", ""));
+    folder.write("declared.robot", &declared);
+    folder.write("degrees.csv", &log(1.0_f64.to_radians()));
+    folder.write("radians.csv", &log(1.0));
+    let told = |spec: &str, log: &str| {
+        let said = folder.run(&["identify", spec, log]).stderr;
+        said.contains("are they in degrees? Logs are in rad")
+    };
+    assert!(told("plain.robot", "degrees.csv"));
+    assert!(!told("declared.robot", "degrees.csv"));
+    assert!(!told("plain.robot", "radians.csv"));
+}
+
+#[test]
+fn revolutions_are_told_by_the_torques() {
+    let folder = Folder::new();
+    folder.write("plain.robot", &SPEC.replace("LOG", ""));
+    let declared = SPEC.replace("LOG", "log { q = \"q1\": rev; }");
+    folder.write("declared.robot", &declared);
+    folder.write("turns.csv", &swinging(std::f64::consts::TAU, 5.0));
+    folder.write("radians.csv", &swinging(1.0, 5.0));
+    let told = |spec: &str, log: &str| {
+        let said = folder.run(&["identify", spec, log]).stderr;
+        said.contains("are they in revolutions? Logs are in rad")
+    };
+    assert!(told("plain.robot", "turns.csv"));
+    assert!(!told("declared.robot", "turns.csv"));
+    assert!(!told("plain.robot", "radians.csv"));
+}
+
+/// An arm of three joints with friction; of its links the spec knows nothing, or all.
+fn three_joints(links: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, 0, -9.81];
+            convention = standard_dh;
+            joint turn: revolute {{ a = 0; alpha = 90 deg; d = 0.4; }}
+            joint lift: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            joint bend: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            {links}
+            effects {{ viscous_friction on all; coulomb_friction on all; }}
+        }}"
+    )
+}
+
+const BODIES: &str = "
+    link turn: fixed { mass = 4; com = [0, -0.1, 0.02]; inertia = [0.02, 0, 0, 0.01, 0, 0.02]; }
+    link lift: fixed { mass = 3; com = [-0.25, 0.02, 0]; inertia = [0.005, 0, 0, 0.06, 0, 0.06]; }
+    link bend: fixed { mass = 1.5; com = [-0.2, 0, 0.03]; inertia = [0.002, 0, 0, 0.02, 0, 0.02]; }";
+
+/// `arm.robot`, and the header and the rows of a log of it.
+fn moved(folder: &Folder) -> (String, String) {
+    folder.write("true.robot", &three_joints(BODIES));
+    folder.write("arm.robot", &three_joints(""));
+    let friction = ["turn", "lift", "bend"].map(|joint| {
+        format!("\"{joint}.viscous_friction.fv\": 0.6, \"{joint}.coulomb_friction.fc\": 0.8")
+    });
+    let parameters = format!("{{{}}}", friction.join(", "));
+    folder.write("true.json", &parameters);
+    let mut wanted = String::from("time,q1,q2,q3\n");
+    for k in 0..=4000 {
+        let t = f64::from(k) / 200.0;
+        let q = [(0.9, 1.9, 0.3), (0.7, 2.7, 1.1), (0.8, 3.7, 2.0)]
+            .map(|(a, w, phase)| a * ((w * t + phase).sin() + 0.5 * (0.43 * w * t).sin()));
+        writeln!(wanted, "{t},{},{},{}", q[0], q[1], q[2]).expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let simulate = ["simulate", "true.robot", "--parameters", "true.json"];
+    let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
+    let noise = ["--torque-noise", "0.05", "--seed", "1"];
+    folder.succeed(&[&simulate[..], &motion, &noise].concat());
+    let log = folder.read("log.csv");
+    let (header, rows) = log.split_once('\n').expect("a header");
+    (header.to_owned(), rows.to_owned())
+}
+
+/// Names of columns that stand for others, all at once.
+fn renamed(header: &str, names: &[(&str, &str)]) -> String {
+    let columns = header.split(',').map(|column| {
+        let new = names.iter().find(|(old, _)| *old == column);
+        new.map_or(column, |(_, new)| *new)
+    });
+    columns.collect::<Vec<_>>().join(",")
+}
+
+#[test]
+fn columns_in_another_order_are_told_by_the_torques() {
+    let folder = Folder::new();
+    let (header, rows) = moved(&folder);
+    let said = |names: &[(&str, &str)]| {
+        let log = format!("{}\n{rows}", renamed(&header, names));
+        folder.write("other.csv", &log);
+        folder.run(&["identify", "arm.robot", "other.csv"]).stderr
+    };
+    let exchanged = said(&[("tau1", "tau2"), ("tau2", "tau1")]);
+    let told = "with the torques of `turn` and `lift` exchanged the model leaves";
+    assert!(exchanged.contains(told), "{exchanged}");
+    let around = said(&[("tau1", "tau2"), ("tau2", "tau3"), ("tau3", "tau1")]);
+    // The spec's first joint has what is called `tau2`.
+    let told = "with the torques in the order `lift`, `bend`, `turn` the model leaves";
+    assert!(around.contains(told), "{around}");
+    let moved = [("q2", "q3"), ("q3", "q2"), ("dq2", "dq3"), ("dq3", "dq2")];
+    let positions = said(&moved);
+    let told = "with the positions of `lift` and `bend` exchanged the model leaves";
+    assert!(positions.contains(told), "{positions}");
+    let torques = [("tau2", "tau3"), ("tau3", "tau2")];
+    let both = said(&[&moved[..], &torques].concat());
+    let told = "with positions and torques of `lift` and `bend` exchanged the model leaves";
+    assert!(both.contains(told), "{both}");
+    let right = said(&[]);
+    assert!(!right.contains("the model leaves"), "{right}");
+}
+
+#[test]
+fn one_joint_in_degrees_is_told_by_the_torques() {
+    let folder = Folder::new();
+    let (header, rows) = moved(&folder);
+    let names: Vec<&str> = header.split(',').collect();
+    let lift = names.iter().position(|name| *name == "q2").expect("q2");
+    let mut log = format!(
+        "{}\n",
+        renamed(&header, &[("dq1", "a"), ("dq2", "b"), ("dq3", "c")])
+    );
+    for row in rows.lines() {
+        let fields = row.split(',').enumerate().map(|(k, field)| {
+            let value: f64 = field.parse().expect("a number");
+            if k == lift { value.to_degrees() } else { value }
+        });
+        let fields: Vec<String> = fields.map(|value| value.to_string()).collect();
+        writeln!(log, "{}", fields.join(",")).expect("a string takes all");
+    }
+    folder.write("degrees.csv", &log);
+    let said = folder.run(&["identify", "arm.robot", "degrees.csv"]).stderr;
+    let told = "with the position of `lift` in degrees the model leaves";
+    assert!(said.contains(told), "{said}");
+    assert!(said.contains("`log { q = \"q2\": deg, ..; }`"), "{said}");
+}
