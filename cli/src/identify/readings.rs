@@ -29,8 +29,9 @@ const WELL_IN_TURNS: f64 = 5.0;
 /// An exchange of columns is a step to their order where it leaves this share of the errors, and a reading is better than a plainer one.
 const LESS: f64 = 0.9;
 
-/// Samples of the first log that are asked: more say no more of units and orders.
-const MOST_SAMPLES: usize = 20_000;
+/// What of the first log is asked, s and Hz: more says no more of units and orders.
+const LONGEST: f64 = 100.0;
+const FASTEST: f64 = 200.0;
 
 /// A unit of angles.
 #[derive(Clone, Copy)]
@@ -167,25 +168,25 @@ pub(super) fn others(
     logs: &[Log],
     found: &Estimate,
 ) -> Option<String> {
-    let mut percents = found.relative_percent.clone();
-    percents.sort_unstable_by(|x, y| y.total_cmp(x));
-    let worst = *percents.first()?;
+    let worst = found.relative_percent.iter().copied().fold(0.0, f64::max);
     if worst <= WELL_IN_TURNS {
         return None;
     }
     let asked = Asked {
         form,
         identify: plain(identify),
-        log: beginning(logs.first()?),
+        log: excerpt(logs.first()?),
     };
     let as_logged = asked.left(&asked.log)?;
     let mut candidates = Vec::new();
     for reading in units(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
     }
-    if percents.get(1).is_some_and(|second| *second > WELL) {
+    let ill = found.relative_percent.iter().map(|left| *left > WELL);
+    let ill: Vec<bool> = ill.collect();
+    if ill.iter().filter(|is_ill| **is_ill).count() > 1 {
         for columns in [Columns::Torques, Columns::Positions, Columns::Both] {
-            candidates.extend(asked.order(columns, &as_logged));
+            candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
     // Of readings that are as good, the plainest.
@@ -247,15 +248,23 @@ fn ranges(model: &Model, log: &Log) -> Vec<(usize, f64)> {
     revolute.map(|(k, _)| (k, range(k))).collect()
 }
 
-/// The beginning of a log.
-fn beginning(log: &Log) -> Log {
+/// The beginning of a log, at a rate that motions need.
+fn excerpt(log: &Log) -> Log {
     let mut log = log.clone();
-    log.time.truncate(MOST_SAMPLES);
+    let rate = log.rate_hz();
+    let every = (1_usize..).find(|every| rate < FASTEST * (every + 1) as f64);
+    let every = every.unwrap_or(1);
+    let samples = log
+        .time
+        .partition_point(|time| time - log.time[0] < LONGEST);
+    let thin = |values: &mut Vec<f64>| {
+        values.truncate(samples);
+        *values = values.iter().step_by(every).copied().collect();
+    };
+    thin(&mut log.time);
     let extra = log.extra.iter_mut().map(|channel| &mut channel.values);
     let columns = log.q.iter_mut().chain(&mut log.dq).chain(&mut log.tau);
-    for values in columns.chain(extra) {
-        values.truncate(MOST_SAMPLES);
-    }
+    columns.chain(extra).for_each(thin);
     log
 }
 
@@ -296,13 +305,18 @@ impl Asked<'_> {
         Some(Candidate { reading, left })
     }
 
-    /// The order that exchanges of two columns lead to, one after the other, each of which leaves less.
-    fn order(&self, columns: Columns, as_logged: &[f64]) -> Option<Candidate> {
+    /// The order that exchanges of two columns lead to, one after the other, each of which leaves less. Torques that are another joint's
+    /// are explained ill on both, positions at least on one.
+    fn order(&self, columns: Columns, ill: &[bool], as_logged: &[f64]) -> Option<Candidate> {
         let dof = self.form.dof();
         let mut order: Vec<usize> = (0..dof).collect();
         let mut best: Option<Candidate> = None;
         for _ in 1..dof {
             let pairs = (0..dof).flat_map(|i| (i + 1..dof).map(move |k| (i, k)));
+            let pairs = pairs.filter(|&(i, k)| match columns {
+                Columns::Torques => ill[i] && ill[k],
+                Columns::Positions | Columns::Both => ill[i] || ill[k],
+            });
             let exchanged = pairs.filter_map(|(i, k)| {
                 let mut order = order.clone();
                 order.swap(i, k);

@@ -3,15 +3,16 @@
 //! Each joint's block is reduced once to its triangular factor; weights, ranks and solutions then work on matrices of the
 //! size of the unknowns, however long the logs are.
 
+mod excited;
+
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::combination::{Shared, shared};
 use super::stack::{JointRows, Stack};
 
-/// A column is called not excited when its pivot, after every column was scaled to unit norm, is below this: its estimate
-/// would amplify errors a million times.
-pub const RANK_TOLERANCE: f64 = 1e-6;
+pub(super) use excited::Excited;
+pub use excited::RANK_TOLERANCE;
 
 /// Smallest deviation of a joint's residual relative to the largest.
 const LEAST_SIGMA: f64 = 1e-6;
@@ -56,6 +57,14 @@ impl Solution {
         };
         !self.unexcited.contains(&unknown) && !self.shared.iter().any(is_in)
     }
+}
+
+/// Least squares on the rows of all joints.
+struct Solved {
+    /// The triangular factor of all rows with the target.
+    r: Mat<f64>,
+    excited: Excited,
+    estimate: Vec<f64>,
 }
 
 impl Factors {
@@ -146,22 +155,34 @@ impl Factors {
     /// iteration from ordinary least squares.
     #[must_use]
     pub fn weighted(&self, correlation: &[f64]) -> Solution {
-        let mut solution = self.ordinary(correlation);
-        for _ in 0..REWEIGHTINGS {
-            solution = self.solve(&solution.sigma, correlation);
-        }
-        solution
+        self.solve(&self.noise(REWEIGHTINGS), correlation)
+    }
+
+    /// Standard deviations of each joint's residual by [`Self::weighted`].
+    pub(super) fn weighted_sigma(&self) -> Vec<f64> {
+        self.noise(REWEIGHTINGS + 1)
+    }
+
+    /// Standard deviations of each joint's residual after so many fits, of which each is weighted by those before.
+    fn noise(&self, fits: usize) -> Vec<f64> {
+        let ones = vec![1.0; self.joints.len()];
+        (0..fits).fold(ones, |scale, _| {
+            let solved = self.solved(&not_tiny(&scale));
+            self.sigma(&solved.estimate, solved.excited.columns.len())
+        })
     }
 
     /// Least squares with each joint's rows divided by `scale`; no scale counts as less than a tiny share of the largest.
     ///
     /// `correlation` is per joint the number of samples that count as one independent sample (1 for white residuals).
     pub(super) fn solve(&self, scale: &[f64], correlation: &[f64]) -> Solution {
-        let scale = &not_tiny(scale);
-        let n = self.unknowns;
-        let r = self.stacked(scale);
-        let found = Excited::new(&r, n);
-        let unexcited: Vec<usize> = (0..n)
+        let scale = not_tiny(scale);
+        let Solved {
+            r,
+            excited: found,
+            estimate,
+        } = self.solved(&scale);
+        let unexcited: Vec<usize> = (0..self.unknowns)
             .filter(|c| found.columns.binary_search(c).is_err())
             .collect();
         let shared = shared(&r, &found, &unexcited);
@@ -171,15 +192,8 @@ impl Factors {
             kept,
         } = found;
         let rank = excited.len();
-        let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
-        let qr = kept.qr();
-        let solved = qr.solve_lstsq(&right);
-        let mut estimate = vec![0.0; n];
-        for (k, &c) in excited.iter().enumerate() {
-            estimate[c] = solved[(k, 0)] / norms[c];
-        }
         let sigma = self.sigma(&estimate, rank);
-        let std = self.deviations(&estimate, &excited, &norms, scale, &sigma, correlation);
+        let std = self.deviations(&estimate, &excited, &norms, &scale, &sigma, correlation);
         let condition = match kept.singular_values() {
             Ok(values) if rank > 0 => values[0] / values[rank - 1],
             _ => f64::INFINITY,
@@ -191,7 +205,25 @@ impl Factors {
             shared,
             condition,
             sigma,
-            scale: scale.clone(),
+            scale,
+        }
+    }
+
+    fn solved(&self, scale: &[f64]) -> Solved {
+        let n = self.unknowns;
+        // Joints share columns: one factor of all is as high as it is wide, and pivoting costs what it should.
+        let r = self.stacked(scale).qr().thin_R().to_owned();
+        let excited = Excited::new(&r, n);
+        let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
+        let solution = excited.kept.qr().solve_lstsq(&right);
+        let mut estimate = vec![0.0; n];
+        for (k, &c) in excited.columns.iter().enumerate() {
+            estimate[c] = solution[(k, 0)] / excited.norms[c];
+        }
+        Solved {
+            r,
+            excited,
+            estimate,
         }
     }
 
@@ -266,84 +298,10 @@ impl Factors {
     }
 }
 
-/// The columns of a factor that can be told from each other.
-pub(super) struct Excited {
-    /// Which, ascending.
-    pub columns: Vec<usize>,
-    /// Lengths of all columns.
-    pub norms: Vec<f64>,
-    /// Those columns over their lengths.
-    pub kept: Mat<f64>,
-}
-
-impl Excited {
-    /// Among the first `n` columns of a factor.
-    pub fn new(r: &Mat<f64>, n: usize) -> Self {
-        Self::chosen(r, n, &|pivots| {
-            pivots.take_while(|pivot| *pivot > RANK_TOLERANCE).count()
-        })
-    }
-
-    /// So many of them, those that are told apart best.
-    pub fn of_rank(r: &Mat<f64>, n: usize, rank: usize) -> Self {
-        Self::chosen(r, n, &|pivots| pivots.take(rank).count())
-    }
-
-    /// Those that are given, ascending.
-    pub fn of(r: &Mat<f64>, n: usize, columns: Vec<usize>) -> Self {
-        let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
-        let kept = Mat::from_fn(r.nrows(), columns.len(), |row, k| {
-            let c = columns[k];
-            r[(row, c)] / norms[c].max(f64::MIN_POSITIVE)
-        });
-        Self {
-            columns,
-            norms,
-            kept,
-        }
-    }
-
-    /// `rank` says how many, of pivots that fall.
-    fn chosen(
-        r: &Mat<f64>,
-        n: usize,
-        rank: &dyn Fn(&mut dyn Iterator<Item = f64>) -> usize,
-    ) -> Self {
-        let norms: Vec<f64> = (0..n).map(|c| column_norm(r, c)).collect();
-        let scaled = Mat::from_fn(r.nrows(), n, |row, c| {
-            if norms[c] > 0.0 {
-                r[(row, c)] / norms[c]
-            } else {
-                0.0
-            }
-        });
-        let pivoted = scaled.col_piv_qr();
-        let diagonal = pivoted.thin_R();
-        let order = pivoted.P().arrays().0;
-        let mut pivots = (0..n.min(diagonal.nrows())).map(|k| diagonal[(k, k)].abs());
-        let rank = rank(&mut pivots);
-        let mut columns: Vec<usize> = order[..rank].to_vec();
-        columns.sort_unstable();
-        let kept = Mat::from_fn(r.nrows(), rank, |row, k| scaled[(row, columns[k])]);
-        Self {
-            columns,
-            norms,
-            kept,
-        }
-    }
-}
-
 /// A channel that is fitted exactly, such as a dead one, has no infinite weight.
 fn not_tiny(sigma: &[f64]) -> Vec<f64> {
     let floor = LEAST_SIGMA * sigma.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     sigma.iter().map(|s| s.max(floor)).collect()
-}
-
-fn column_norm(matrix: &Mat<f64>, column: usize) -> f64 {
-    (0..matrix.nrows())
-        .map(|row| matrix[(row, column)].powi(2))
-        .sum::<f64>()
-        .sqrt()
 }
 
 /// Samples that count as one independent sample: `1 + 2 * (sum of autocorrelations up to the first that is not positive)`.

@@ -382,16 +382,17 @@ impl Identify {
             Method::Robust => robust::factors(stack),
             _ => Factors::new(stack),
         };
-        let solve = |correlation: &[f64]| match (self.method, self.weights) {
-            (Method::Ls, _) => factors.ordinary(correlation),
+        let white = vec![1.0; stack.dof()];
+        let first = match (self.method, self.weights) {
+            (Method::Ls, _) => factors.ordinary(&white),
             (method, weights) if method.takes_weights() && weights != Weights::Residual => {
-                factors.solve(&weights.scale(stack), correlation)
+                factors.solve(&weights.scale(stack), &white)
             }
-            _ => factors.weighted(correlation),
+            _ => factors.weighted(&white),
         };
-        let first = solve(&vec![1.0; stack.dof()]);
         Self::check_excited(&first)?;
         let residuals = stack.residuals(&first.estimate);
-        Ok(solve(&stack.correlation_times(&residuals)))
+        // The same fit again, with what its residuals say of deviations.
+        Ok(factors.solve(&first.scale, &stack.correlation_times(&residuals)))
     }
 }

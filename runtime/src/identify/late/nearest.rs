@@ -49,7 +49,7 @@ pub(super) fn nearest(rows: &Rows<'_>) -> Vec<f64> {
         let blocks = choices.iter().enumerate();
         let blocks = blocks.map(|(joint, choice)| of_joint(joint, *choice));
         let factors = Factors::from_joints(unknowns, factors.counts().to_vec(), blocks.collect());
-        logarithm(&factors.weighted(&vec![1.0; dof]).sigma)
+        logarithm(&factors.weighted_sigma())
     };
     let common = (0..TRIED.len()).map(|choice| vec![choice; dof]);
     let common = common.map(|choices| (left(&choices), choices));
