@@ -22,6 +22,7 @@ use crate::progress::Progress;
 use crate::{Error, spec};
 
 use criterion::CriterionArgument;
+pub(crate) use separate::have_own_columns;
 
 /// Design the motion that identifies an arm best, within its limits.
 ///

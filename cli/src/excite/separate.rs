@@ -48,10 +48,28 @@ pub(super) fn rivals(
     first: &str,
     second: &str,
 ) -> Result<(Compiled, Expected), Error> {
-    let source = path.display().to_string();
-    let said = [said(first)?, said(second)?];
     let text = spec::read_spec(path)?;
-    let declared = robot_model_spec::load(&source, &text)?;
+    rivals_of(&path.display().to_string(), &text, first, second)
+}
+
+/// Whether each parameter of two effects has a column of its own beside those of a spec's arm, so that a motion can be asked for: an effect
+/// may be a part of the other, or of the arm.
+pub(crate) fn have_own_columns(source: &str, text: &str, first: &str, second: &str) -> bool {
+    let rivals = rivals_of(source, text, first, second);
+    rivals.is_ok_and(|(compiled, Expected(both))| {
+        let mut linear = both.iter().flat_map(|one| &one.linear);
+        linear.all(|(name, _)| compiled.base.names.contains(name))
+    })
+}
+
+fn rivals_of(
+    source: &str,
+    text: &str,
+    first: &str,
+    second: &str,
+) -> Result<(Compiled, Expected), Error> {
+    let said = [said(first)?, said(second)?];
+    let declared = robot_model_spec::load(source, text)?;
     let amendments: Vec<Amendment> = said
         .iter()
         .map(|said| said.0.clone())
@@ -66,8 +84,8 @@ pub(super) fn rivals(
     if said[0].0 == said[1].0 {
         return Err(alike());
     }
-    let amended = amend(&source, &text, &amendments)?;
-    let mut model = robot_model_spec::load(&source, &amended)?;
+    let amended = amend(source, text, &amendments)?;
+    let mut model = robot_model_spec::load(source, &amended)?;
     let [first, second] = &said;
     let both = [
         one(&model, &first.0, &first.1)?,
@@ -301,5 +319,28 @@ impl OneOfTwo {
             self.name,
             shapes.join(" = 0.01, ")
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_that_is_a_part_of_another_has_no_column_of_its_own() {
+        let text = "robot A {
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
+            effects { viscous_friction on all; }
+        }";
+        let told = |first: &str, second: &str| have_own_columns("a.robot", text, first, second);
+        assert!(told(
+            "coulomb_friction on turn",
+            "stribeck(vs = 0.1) on turn"
+        ));
+        // A spring whose rest is open has an offset in it; a rotor of the last joint is an inertia of the link.
+        assert!(!told("torque_offset on turn", "joint_spring on turn"));
+        assert!(!told("motor_inertia on turn", "stribeck(vs = 0.1) on turn"));
     }
 }

@@ -8,12 +8,13 @@ use robot_model_spec::model::EffectLeaf;
 
 use super::report::effect;
 use crate::close_the_loop::Loop;
+use crate::excite::have_own_columns;
 use crate::output::significant;
 
 const PUT: &str = "a string takes all";
 
-/// One line an alternative, and for the spec at a path the command that designs the motion for the first doubt that has one.
-pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
+/// One line an alternative, and for the spec at a path, of a text, the command that designs the motion for the first doubt that has one.
+pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
     let mut out = String::new();
     let alternatives = &closed.verdict.alternatives;
     for alternative in alternatives {
@@ -29,7 +30,8 @@ pub(super) fn doubt(spec: &str, closed: &Loop) -> String {
     let command = alternatives.iter().find_map(|rival| {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
-        experiment(spec, closed, finding, place, rival)
+        let both = rivals(closed, finding, place, rival)?;
+        have_own_columns(spec, text, &both[0], &both[1]).then(|| experiment(spec, &both))
     });
     if let Some(command) = command {
         writeln!(
@@ -54,14 +56,21 @@ pub(super) fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     })
 }
 
-/// The command; none where an effect follows from more than the motion, or is no torque that is added.
-fn experiment(
-    spec: &str,
+/// The command.
+fn experiment(spec: &str, [own, other]: &[String; 2]) -> String {
+    format!(
+        "robot-model excite {} --separate '{own}' --from '{other}' --out next.csv",
+        quoted(spec)
+    )
+}
+
+/// What is told and what may be instead; none where an effect follows from more than the motion, or is no torque that is added.
+fn rivals(
     closed: &Loop,
     finding: &Finding,
     place: usize,
     rival: &Alternative,
-) -> Option<String> {
+) -> Option<[String; 2]> {
     let (own, other) = (
         of_motion(closed, &finding.effect)?,
         of_motion(closed, &rival.effect)?,
@@ -79,15 +88,15 @@ fn experiment(
         shapes if shapes.is_empty() => String::new(),
         shapes => format!("({})", shapes.join(", ")),
     };
-    Some(format!(
-        "robot-model excite {} --separate '{}{shapes} on {}: {}' --from '{} on {}' --out next.csv",
-        quoted(spec),
-        own.name,
-        joints(closed, &finding.joints),
-        said(&own.linear).join(", "),
-        other.name,
-        joints(closed, &rival.joints),
-    ))
+    Some([
+        format!(
+            "{}{shapes} on {}: {}",
+            own.name,
+            joints(closed, &finding.joints),
+            said(&own.linear).join(", ")
+        ),
+        format!("{} on {}", other.name, joints(closed, &rival.joints)),
+    ])
 }
 
 /// A path as a shell takes it.

@@ -24,7 +24,7 @@ pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Erro
         &format!("What {spec} does not say of the arm, by its logs."),
     );
     page.section("Verdict");
-    verdict(&mut page, spec, closed);
+    verdict(&mut page, spec, text, closed);
     page.section("Errors before and after");
     errors(&mut page, closed);
     let change = diff(text, &closed.amended);
@@ -50,7 +50,7 @@ pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Erro
     Ok(page.finish())
 }
 
-fn verdict(page: &mut Page, spec: &str, closed: &Loop) {
+fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let verdict = &closed.verdict;
     match closed.outcome() {
         Outcome::NothingMissing => page.verdict(
@@ -103,7 +103,7 @@ fn verdict(page: &mut Page, spec: &str, closed: &Loop) {
     }
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
         page.part("What these logs cannot tell from it");
-        page.preformatted(&doubt(spec, closed));
+        page.preformatted(&doubt(spec, text, closed));
     }
     let left: String = verdict
         .left

@@ -63,7 +63,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         .enumerate()
         .for_each(|(place, finding)| show(finding, place));
     if verdict.outcome == Outcome::Explained {
-        out.push_str(&doubt(spec, closed));
+        out.push_str(&doubt(spec, text, closed));
     }
 
     if verdict.leads.len() >= MOST_EFFECTS {

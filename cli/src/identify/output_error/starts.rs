@@ -97,12 +97,20 @@ pub(super) fn search(
     progress: &Progress,
 ) -> Result<OutputEstimate, OutputErrorError> {
     let (plant, names) = (&beginning.plant, &beginning.names);
+    let mut part = 0;
     let mut tell = |iterate: &Iterate| {
         let what = format!(
             "simulation {}: cost {:.6e}",
             iterate.simulations, iterate.cost
         );
-        progress.step(&what);
+        // Costs of different parts cannot be compared.
+        let begins = iterate.stage > part;
+        part = iterate.stage;
+        let of_part = format!(
+            " of part {} of the search, which has other windows or weighs joints by the errors so far",
+            iterate.stage + 1
+        );
+        progress.step(&(what + if begins { &of_part } else { "" }));
     };
     let mut begun = 0_u32;
     let mut compare = |iterate: &Iterate| {
