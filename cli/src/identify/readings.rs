@@ -252,8 +252,9 @@ fn ranges(model: &Model, log: &Log) -> Vec<(usize, f64)> {
 fn excerpt(log: &Log) -> Log {
     let mut log = log.clone();
     let rate = log.rate_hz();
-    let every = (1_usize..).find(|every| rate < FASTEST * (every + 1) as f64);
-    let every = every.unwrap_or(1);
+    let slower = 2..log.time.len();
+    let every = slower.take_while(|every| rate >= FASTEST * *every as f64);
+    let every = every.last().unwrap_or(1);
     let samples = log
         .time
         .partition_point(|time| time - log.time[0] < LONGEST);
