@@ -27,6 +27,14 @@ impl Inertial {
     /// From the inertia about the center of mass, as CAD programs and URDF give it: `I = I_com + m (|c|^2 1 - c c^T)`.
     ///
     /// `mass` in kg, `com` in m in the link's frame, `inertia` in kg m^2 along the axes of the link's frame.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Inertial;
+    /// // A rod of 1.2 kg and 0.4 m, held at its end: m l^2 / 3.
+    /// let rod = Inertial::about_com(1.2, [0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.016, 0.0, 0.016]);
+    /// assert!((rod.inertia[5] - 1.2 * 0.16 / 3.0).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn about_com(mass: f64, com: [f64; 3], inertia: [f64; 6]) -> Self {
         let [x, y, z] = com;
@@ -50,6 +58,15 @@ impl Inertial {
     }
 
     /// Center of mass in the link's frame, m; `None` where the mass is zero, as it is after regrouping.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Inertial;
+    /// let link = Inertial { mass: 2.0, first_moments: [1.0, 0.0, -0.5], ..Inertial::default() };
+    /// assert_eq!(link.com(), Some([0.5, 0.0, -0.25]));
+    /// // Base parameters may have no mass left.
+    /// assert_eq!(Inertial { mass: 0.0, ..link }.com(), None);
+    /// ```
     #[must_use]
     pub fn com(&self) -> Option<[f64; 3]> {
         (self.mass != 0.0).then(|| self.first_moments.map(|moment| moment / self.mass))

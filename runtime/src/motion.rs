@@ -120,6 +120,15 @@ impl Motion {
     }
 
     /// A further channel of the log, where it has one of that name.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{log::Channel, motion::Motion};
+    /// let oil = Channel { name: "oil".to_owned(), values: vec![20.0, 21.0] };
+    /// let motion = Motion { extra: vec![oil], ..Motion::default() };
+    /// assert_eq!(motion.channel("oil"), Some([20.0, 21.0].as_slice()));
+    /// assert_eq!(motion.channel("air"), None);
+    /// ```
     #[must_use]
     pub fn channel(&self, name: &str) -> Option<&[f64]> {
         let found = self.extra.iter().find(|channel| channel.name == name);
@@ -133,6 +142,14 @@ fn add(sum: &mut [f64], values: &[f64]) {
 }
 
 /// `values` at some samples, a part of a sample later (`-1 ..= 1`), linearly between samples; the last (or first) sample is held.
+///
+/// # Examples
+/// ```
+/// use robot_model::motion::between;
+/// // A quarter of a sample after sample 1, and before it.
+/// assert_eq!(between(&[0.0, 4.0, 8.0], 0.25, &[1]), [5.0]);
+/// assert_eq!(between(&[0.0, 4.0, 8.0], -0.25, &[1]), [3.0]);
+/// ```
 #[must_use]
 pub fn between(values: &[f64], part: f64, samples: &[usize]) -> Vec<f64> {
     let last = values.len().saturating_sub(1);

@@ -76,6 +76,14 @@ pub trait Scalar:
     /// Sines and cosines of angles in rad, all at once: `let [[sin_a, sin_b], [cos_a, cos_b]] = S::sines_cosines([a, b])`.
     ///
     /// Within 2 units in the last place.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// let [[sin_a, sin_b], [cos_a, cos_b]] = f64::sines_cosines([0.3, 0.5]);
+    /// // sin(a + b)
+    /// assert!((sin_a * cos_b + cos_a * sin_b - 0.8_f64.sin()).abs() < 1e-15);
+    /// ```
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2];
 
     /// Sine of an angle in rad.
@@ -121,14 +129,35 @@ pub trait Scalar:
     fn abs(self) -> Self;
 
     /// -1, 0 or 1; 0 at 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// // Not 1 at rest, as `f64::signum` is.
+    /// assert_eq!([-3.0, 0.0, 3.0].map(|dq: f64| Scalar::sign(dq)), [-1.0, 0.0, 1.0]);
+    /// ```
     #[must_use]
     fn sign(self) -> Self;
 
     /// `positive` where the condition is greater than 0, `otherwise` elsewhere.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// // Friction that is larger one way than the other, in any scalar.
+    /// let friction = |dq: f64| Scalar::choose(dq, 0.8 * dq, 0.5 * dq);
+    /// assert_eq!((friction(2.0), friction(-2.0)), (1.6, -1.0));
+    /// ```
     #[must_use]
     fn choose(condition: Self, positive: Self, otherwise: Self) -> Self;
 
     /// Itself, and `fallback` where it is infinite or no number.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// assert_eq!(((1.0_f64 / 0.0).finite_or(7.0), 2.0_f64.finite_or(7.0)), (7.0, 2.0));
+    /// ```
     #[must_use]
     fn finite_or(self, fallback: Self) -> Self;
 
@@ -142,6 +171,14 @@ pub trait Scalar:
     fn least(self) -> f64;
 
     /// The largest value over the lanes; of a dual number that of its value. NaN where one is NaN.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Lanes4;
+    /// let torques = Lanes4::from([1.0, -4.0, 2.5, 0.0]);
+    /// assert_eq!((torques.least(), torques.most()), (-4.0, 2.5));
+    /// ```
     #[must_use]
     fn most(self) -> f64 {
         -(-self).least()

@@ -56,6 +56,13 @@ impl<const DOF: usize, S: Scalar> State<DOF, 0, 0, S> {
     }
 
     /// A position at rest.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector};
+    /// let state = State::at_rest(Vector::from([0.3, 0.1]));
+    /// assert_eq!((state.q[1], state.dq[1], state.ddq[0], state.time), (0.1, 0.0, 0.0, 0.0));
+    /// ```
     #[must_use]
     pub fn at_rest(q: SVector<S, DOF>) -> Self {
         Self::new(q, SVector::zeros(), SVector::zeros())
@@ -66,6 +73,15 @@ impl<const DOF: usize, const STATES: usize, const INPUTS: usize, S: Scalar>
     State<DOF, STATES, INPUTS, S>
 {
     /// The same instant with these internal states of effects.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector};
+    /// // A deflection of bristles, and the temperature of the oil.
+    /// let state = State::at_rest(Vector::from([0.3, 0.1]));
+    /// let state = state.with_memory(Vector::from([1e-4])).with_inputs(Vector::from([42.0]));
+    /// assert_eq!((state.q[0], state.memory[0], state.inputs[0]), (0.3, 1e-4, 42.0));
+    /// ```
     #[must_use]
     pub fn with_memory<const N: usize>(self, memory: SVector<S, N>) -> State<DOF, N, INPUTS, S> {
         self.with(memory, self.inputs)

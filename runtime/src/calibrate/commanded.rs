@@ -119,6 +119,21 @@ impl Commanded {
     ///
     /// # Examples
     /// See the [module](super): its wave switches at 0.5, 1.5, 2.5 and 3.5 s, to half a sample.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::calibrate::Commanded;
+    /// # let time: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();
+    /// # let velocity: Vec<f64> = time.iter().map(|t| (5.0 * t).sin()).collect();
+    /// let wave = |t: f64| if (t - 0.5).rem_euclid(2.0) < 1.0 { 3.0 } else { -3.0 };
+    /// let drop: Vec<f64> = time.iter().zip(&velocity).map(|(&t, w)| wave(t) - 1.5 * w).collect();
+    /// let switches = Commanded::find(&time, &drop, &velocity)?.switches();
+    /// for (switch, truth) in switches.iter().zip([0.5, 1.5, 2.5, 3.5]) {
+    ///     assert!((switch - truth).abs() < 0.02);
+    /// }
+    /// # assert_eq!(switches.len(), 4);
+    /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
+    /// ```
     #[must_use]
     pub fn switches(&self) -> Vec<f64> {
         let pairs = self.pieces.windows(2);

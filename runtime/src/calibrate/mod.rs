@@ -39,6 +39,20 @@ pub use windows::{REACH, Windows};
 const CONFIDENCE: f64 = 0.95;
 
 /// A value with its standard deviation and the interval that holds it with 95 % (Student's t).
+///
+/// # Examples
+/// ```
+/// use robot_model::calibrate::Commanded;
+/// # let time: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();
+/// # let velocity: Vec<f64> = time.iter().map(|t| (5.0 * t).sin()).collect();
+/// # let wave = |t: f64| if (t - 0.5).rem_euclid(2.0) < 1.0 { 3.0 } else { -3.0 };
+/// # let noise = |k: usize| 0.05 * (12.9898 * k as f64).sin();
+/// let drop: Vec<f64> = (0..200).map(|k| wave(time[k]) - 1.5 * velocity[k] + noise(k)).collect();
+/// let found = Commanded::find(&time, &drop, &velocity)?.back_emf;
+/// let [low, high] = found.interval;
+/// assert!(low < 1.5 && 1.5 < high && high - low < 0.1);
+/// # Ok::<(), robot_model::calibrate::CalibrateError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
     /// The value, in the unit of its kind.

@@ -13,6 +13,21 @@ pub struct Basis {
 
 impl Basis {
     /// Parameters by name, and the entries of `K`, `(column of the regressor, parameter)`, which is square and regular.
+    ///
+    /// # Examples
+    /// The sum and the difference of two parameters, `ia = s + d` and `k = s - d`, told as well as the parameters themselves:
+    /// ```
+    /// # mod rotor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/rotor.rs")); }
+    /// use robot_model::excite::{Basis, Fourier};
+    /// let mut request = rotor::request();
+    /// let motion = Fourier { period: 4.0, coefficients: vec![vec![0.0, 0.6, 0.0, 0.6, 0.0, 0.0, 0.0]] };
+    /// let own = request.quality(&motion)?.log_det;
+    /// let names = vec!["s".to_owned(), "d".to_owned()];
+    /// request.basis = Some(Basis::new(names, |row, column| if row == 1 && column == 1 { -1.0 } else { 1.0 }));
+    /// // det K^T A K = det A (det K)^2, and det K = -2.
+    /// assert!((request.quality(&motion)?.log_det - own - 4.0_f64.ln()).abs() < 1e-9);
+    /// # Ok::<(), robot_model::excite::ExciteError>(())
+    /// ```
     #[must_use]
     pub fn new(names: Vec<String>, entry: impl Fn(usize, usize) -> f64) -> Self {
         Self {

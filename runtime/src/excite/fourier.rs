@@ -36,6 +36,16 @@ impl Fourier {
     }
 
     /// The motion at each of these times.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::excite::Fourier;
+    /// // q = 0.3 + 0.5 / pi sin(pi t)
+    /// let motion = Fourier { period: 2.0, coefficients: vec![vec![0.3, 0.5, 0.0]] };
+    /// let along = motion.motion(&[0.0, 1.0, 2.0]);
+    /// assert!((along.q[0][0] - along.q[0][2]).abs() < 1e-12); // it repeats
+    /// assert!((along.dq[0][0] - 0.5).abs() < 1e-12 && (along.dq[0][1] + 0.5).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn motion(&self, time: &[f64]) -> Kinematics {
         let rows: Vec<[Vec<f64>; 3]> = time
@@ -58,6 +68,14 @@ impl Fourier {
     }
 
     /// `count` instants of one period, in the middle of as many equal parts.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::excite::Fourier;
+    /// let motion = Fourier { period: 2.0, coefficients: vec![vec![0.0, 0.5, 0.1, 0.0, 0.0]] };
+    /// assert_eq!(motion.harmonics(), 2);
+    /// assert_eq!(motion.instants(4), [0.25, 0.75, 1.25, 1.75]);
+    /// ```
     #[must_use]
     pub fn instants(&self, count: usize) -> Vec<f64> {
         instants(self.period, count)

@@ -19,6 +19,15 @@ pub struct Limits {
 
 impl Limits {
     /// No limit at all.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::excite::Limits;
+    /// // Two joints, of which the second may go from -1 to 2 rad.
+    /// let mut limits = Limits::none(2);
+    /// limits.position[1] = (-1.0, 2.0);
+    /// assert!(limits.position[0].1.is_infinite() && limits.velocity[1].is_infinite());
+    /// ```
     #[must_use]
     pub fn none(dof: usize) -> Self {
         Self {

@@ -117,6 +117,18 @@ impl Request {
     ///
     /// # Errors
     /// Limits that leave no motion, numbers that are none, columns that no motion within the limits excites.
+    ///
+    /// # Examples
+    /// A rotor with a spring, `tau = ia ddq + k q`, that may move by 0.5 rad at 2 rad/s:
+    /// ```
+    /// # mod rotor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/rotor.rs")); }
+    /// let request = rotor::request();
+    /// let design = request.run(&|_| true)?;
+    /// let along = design.motion.motion(&design.motion.instants(1000));
+    /// assert!(along.q[0].iter().all(|q| q.abs() < 0.5) && along.dq[0].iter().all(|dq| dq.abs() < 2.0));
+    /// assert_eq!(design.quality.violation, 0.0);
+    /// # Ok::<(), robot_model::excite::ExciteError>(())
+    /// ```
     pub fn run(&self, watch: &dyn Fn(Progress) -> bool) -> Result<Design, ExciteError> {
         self.check()?;
         let weights: Vec<f64> = self.noise.iter().map(|noise| 1.0 / noise).collect();
@@ -165,6 +177,13 @@ impl Request {
     }
 
     /// Number of variables that the search has.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod rotor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/rotor.rs")); }
+    /// // One joint with three harmonics: its mean, three sines and three cosines.
+    /// assert_eq!(rotor::request().variables(), 1 + 2 * 3);
+    /// ```
     #[must_use]
     pub fn variables(&self) -> usize {
         let joints = 0..self.joints.len();

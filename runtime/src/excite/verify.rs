@@ -45,6 +45,19 @@ impl Request {
     ///
     /// # Errors
     /// Columns that it does not excite, a motion of another arm, and what [`Self::run`] refuses.
+    ///
+    /// # Examples
+    /// A rotor with a spring, `tau = ia ddq + k q`: along one wave `ddq = -w^2 q`, and nothing tells one from the other.
+    /// ```
+    /// # mod rotor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/rotor.rs")); }
+    /// use robot_model::excite::Fourier;
+    /// let request = rotor::request();
+    /// let wave = |a_3: f64| Fourier { period: 4.0, coefficients: vec![vec![0.0, 0.6, 0.0, a_3, 0.0, 0.0, 0.0]] };
+    /// assert!(request.quality(&wave(0.0))?.condition_of_unit_columns > 1e6);
+    /// let quality = request.quality(&wave(0.6))?;
+    /// assert!(quality.condition_of_unit_columns < 10.0 && quality.violation == 0.0);
+    /// # Ok::<(), robot_model::excite::ExciteError>(())
+    /// ```
     pub fn quality(&self, motion: &Fourier) -> Result<Quality, ExciteError> {
         self.check()?;
         size(

@@ -34,6 +34,21 @@ const LEAST_SHARE: f64 = 0.9;
 const INSIDE: f64 = 0.95;
 
 /// Intervals of a bootstrap.
+///
+/// # Examples
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// # use robot_model::identify::Identify;
+/// let identify = Identify { bootstrap: 400, ..Identify::default() };
+/// let estimate = identify.fit(&pendulum(), &[measure(0.0)])?;
+/// let found = estimate.bootstrap.as_ref().expect("it was asked for");
+/// for (interval, value) in found.intervals.iter().zip(estimate.values()) {
+///     let [low, high] = interval.expect("the log tells all three");
+///     assert!(low < value && value < high && high - low < 0.02 * value);
+/// }
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Bootstrap {

@@ -107,6 +107,19 @@ pub(super) fn shared(factor: &Mat<f64>, excited: &Excited, unexcited: &[usize]) 
 
 impl Estimate {
     /// Whether a parameter has a value of its own: the logs excite it, and not only in a combination with others.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let mut estimate = Identify::default().fit(&pendulum(), &[measure(0.0)])?;
+    /// assert!(estimate.is_separated("link.izz"));
+    /// // What a log without acceleration would leave:
+    /// estimate.unexcited = vec!["link.izz".to_owned()];
+    /// assert!(!estimate.is_separated("link.izz") && estimate.is_separated("link.mx"));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn is_separated(&self, name: &str) -> bool {
         let in_combination = |combination: &Combination| combination.terms[0].0 == name;
@@ -119,6 +132,20 @@ impl Estimate {
     ///
     /// # Errors
     /// [`IdentifyError::NotSeparated`] with what the logs tell instead.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let mut estimate = Identify::default().fit(&pendulum(), &[measure(0.0)])?;
+    /// estimate.separated()?; // before one takes its values for those of the parameters
+    /// // What a log without acceleration would leave:
+    /// estimate.unexcited = vec!["link.izz".to_owned()];
+    /// let error = estimate.separated().unwrap_err();
+    /// assert!(error.to_string().contains("nothing is told of `link.izz`"));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn separated(&self) -> Result<(), IdentifyError> {
         if self.unexcited.is_empty() || matches!(self.method, Method::Physical | Method::Ridge) {
             return Ok(());

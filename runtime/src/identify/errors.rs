@@ -21,6 +21,23 @@ pub struct Errors {
 impl Errors {
     /// Errors over several logs of one arm, or pieces of one: those of all their samples together. Of `relative_percent` parts count by
     /// the power of their torque, as of raw samples.
+    ///
+    /// # Examples
+    /// A tenth of a second that is predicted seven times worse than another one:
+    /// ```
+    /// use robot_model::identify::Errors;
+    /// let piece = |rmse: f64| Errors {
+    ///     rmse: vec![rmse],
+    ///     relative_percent: vec![10.0],
+    ///     mae: vec![rmse],
+    ///     level: vec![0.0],
+    ///     spread: vec![10.0],
+    ///     samples: vec![100],
+    /// };
+    /// let all = Errors::of_all(&[piece(1.0), piece(7.0)]);
+    /// // The squares have the mean 25.
+    /// assert_eq!((all.rmse[0], all.mae[0], all.samples[0]), (5.0, 4.0, 200));
+    /// ```
     #[must_use]
     pub fn of_all(parts: &[Self]) -> Self {
         let joints = 0..parts.first().map_or(0, |part| part.samples.len());
@@ -53,6 +70,21 @@ impl Errors {
 
     /// `100 (1 - || tau - prediction || / || tau - mean(tau) ||)` per joint, the NRMSE fit: 100 where nothing is left, 0 where the
     /// prediction is no better than a constant; none where the torque is constant.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let arm = pendulum();
+    /// let estimate = Identify::default().fit(&arm, &[measure(0.0)])?;
+    /// let mut errors = estimate.errors(&arm, &measure(0.0))?;
+    /// assert!(errors.nrmse_fit()[0].is_some_and(|fit| fit > 99.0 && fit < 100.0));
+    /// // A prediction that is off by a quarter of what there is to be predicted:
+    /// errors.rmse[0] = 0.25 * errors.spread[0];
+    /// assert_eq!(errors.nrmse_fit(), [Some(75.0)]);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn nrmse_fit(&self) -> Vec<Option<f64>> {
         let pairs = self.rmse.iter().zip(&self.spread);

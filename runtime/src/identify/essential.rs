@@ -13,6 +13,25 @@ use super::{Identified, Identify, IdentifyError};
 const TOLD: f64 = 1.96;
 
 /// The parameters that are essential, identified without the others.
+///
+/// # Examples
+/// A pendulum whose friction is next to nothing: what the logs cannot tell from zero is left out.
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// # use robot_model::identify::Identify;
+/// let mut log = measure(0.0);
+/// // The log without its friction of 1 N m s/rad.
+/// for k in 1..log.time.len() - 1 {
+///     log.tau[0][k] -= (log.q[0][k + 1] - log.q[0][k - 1]) / 0.004;
+/// }
+/// let identify = Identify { essential: true, ..Identify::default() };
+/// let estimate = identify.fit(&pendulum(), &[log])?;
+/// let essential = estimate.essential.as_ref().expect("it was asked for");
+/// let names: Vec<&str> = essential.parameters.iter().map(|one| one.name.as_str()).collect();
+/// assert_eq!(names, ["link.izz", "link.mx"]);
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Essential {

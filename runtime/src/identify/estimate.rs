@@ -31,6 +31,12 @@ pub enum Form {
 
 impl Form {
     /// Name on the command line and in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::Form;
+    /// assert_eq!(Form::Filtered { corner: 30.0 }.name(), "filtered");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -185,6 +191,19 @@ impl Estimate {
     }
 
     /// Whether [`Method::Physical`] holds a parameter where no arm has it: its deviation, of the logs alone, says nothing of such a value.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure_with, pendulum};
+    /// # use robot_model::identify::{Identify, Method};
+    /// // A log by which friction would drive the joint.
+    /// let log = measure_with([2.0, 9.0, -0.5], 0.0);
+    /// let identify = Identify { method: Method::Physical, ..Identify::default() };
+    /// let estimate = identify.fit(&pendulum(), &[log])?;
+    /// assert!(estimate.is_held("joint.viscous_friction.fv") && !estimate.is_held("link.izz"));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn is_held(&self, name: &str) -> bool {
         let border = self.possible.iter().flat_map(|possible| &possible.border);
@@ -194,6 +213,17 @@ impl Estimate {
     }
 
     /// Values of the unknowns, in the arm's order.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let estimate = Identify::default().fit(&pendulum(), &[measure(0.0)])?;
+    /// let [izz, mx, fv] = estimate.values()[..] else { panic!("three unknowns") };
+    /// assert!((izz - 2.0).abs() < 0.02 && (mx - 9.0).abs() < 0.09 && (fv - 1.0).abs() < 0.01);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn values(&self) -> Vec<f64> {
         self.parameters.iter().map(|p| p.value).collect()

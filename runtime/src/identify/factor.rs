@@ -38,6 +38,23 @@ const NORMAL: f64 = 1.96;
 const MOST_WITHOUT_BLOCK: f64 = 10.0;
 
 /// What some logs tell of an arm's unknowns.
+///
+/// # Examples
+/// Logs that come one after the other, and are not kept:
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// use robot_model::identify::{Factor, Identify, Method};
+/// let (arm, log) = (pendulum(), measure(0.0));
+/// let bands = Identify::default().bands_of(&arm, &log)?;
+/// let mut factor = Factor::new(&arm, bands)?;
+/// factor.push(&arm, &log)?;
+/// assert_eq!(factor.counts(), [factor.samples()]);
+/// let estimate = factor.estimate(&arm, Method::Wls, false)?;
+/// assert!((estimate.values()[0] - 2.0).abs() < 0.02);
+/// assert!(factor.rmse(&estimate.values())[0] < 0.05); // N m, of the log's noise
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Factor {
@@ -108,6 +125,23 @@ impl Factor {
     ///
     /// # Errors
     /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations or filters.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::{Factor, Identify};
+    /// let arm = pendulum();
+    /// let bands = Identify::default().bands_of(&arm, &measure(0.0))?;
+    /// let [mut monday, mut tuesday] = [Factor::new(&arm, bands)?, Factor::new(&arm, bands)?];
+    /// monday.push(&arm, &measure(0.0))?;
+    /// tuesday.push(&arm, &measure(0.1))?;
+    /// assert_eq!(monday.common_blocks(&tuesday), 0); // so no log counts twice
+    /// let samples = monday.samples() + tuesday.samples();
+    /// monday.merge(tuesday)?;
+    /// assert_eq!(monday.samples(), samples);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn merge(&mut self, other: Self) -> Result<(), IdentifyError> {
         self.check(&other)?;
         self.blocks.extend(other.blocks);

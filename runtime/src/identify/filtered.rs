@@ -54,6 +54,20 @@ impl Identify {
     ///
     /// # Errors
     /// Those of [`Self::fit`], and [`IdentifyError::Signal`] for a corner that does not fit the logs' rate.
+    ///
+    /// # Examples
+    /// A pendulum, `tau = d/dt (izz dq) + mx sin(q) + fv dq`:
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// use robot_model::identify::{Form, Identify};
+    /// let estimate = Identify::default().fit_filtered(&pendulum(), &[measure(0.0)], Some(60.0))?;
+    /// assert_eq!(estimate.form, Form::Filtered { corner: 60.0 });
+    /// for (value, truth) in estimate.values().iter().zip([2.0, 9.0, 1.0]) {
+    ///     assert!((value - truth).abs() < 0.01 * truth);
+    /// }
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn fit_filtered(
         &self,
         arm: &dyn MomentumArm,
@@ -123,6 +137,19 @@ impl Estimate {
     ///
     /// # Errors
     /// [`IdentifyError`] where the log is of another arm or cannot be filtered.
+    ///
+    /// # Examples
+    /// `L` takes noise off the torque, which raw samples have:
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let (arm, log) = (pendulum(), measure(0.0));
+    /// let estimate = Identify::default().fit_filtered(&arm, &[log.clone()], None)?;
+    /// let filtered = estimate.filtered_errors(&arm, &log)?.rmse[0];
+    /// assert!(filtered < 0.6 * estimate.errors(&arm, &log)?.rmse[0]);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn filtered_errors(
         &self,
         arm: &dyn MomentumArm,

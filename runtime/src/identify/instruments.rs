@@ -36,6 +36,23 @@ const SAME: f64 = 1e-6;
 const STILL: f64 = 1e-18;
 
 /// The comparison with least squares.
+///
+/// # Examples
+/// The motion without the noise of its encoder is the instrument:
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// use robot_model::{identify::{Identify, Method}, simulate::Trajectory};
+/// let log = measure(0.0);
+/// let wanted = Trajectory::new(log.time.clone(), log.q.clone(), vec![], vec![], vec![]).expect("rising times");
+/// let identify = Identify { method: Method::Instrumental, instruments: vec![wanted], ..Identify::default() };
+/// let estimate = identify.fit(&pendulum(), &[log])?;
+/// let hausman = estimate.hausman.as_ref().expect("instruments were taken");
+/// // This encoder has none, so least squares has no bias.
+/// assert!((hausman.least_squares[0] - 2.0).abs() < 0.02 && (estimate.values()[0] - 2.0).abs() < 0.02);
+/// assert!(hausman.probability > 0.05);
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Hausman {

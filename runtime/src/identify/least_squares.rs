@@ -21,6 +21,20 @@ const LEAST_SIGMA: f64 = 1e-6;
 const REWEIGHTINGS: usize = 5;
 
 /// Triangular factors `R_j` of the blocks `[W_j target_j]`, all columns in place.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::{Factors, JointRows, Stack};
+/// // 3 = 0.25 k + fc, 2 = 0.25 k - fc
+/// let tau = vec![3.0, 2.0];
+/// let columns = vec![(0, vec![0.25, 0.25]), (1, vec![1.0, -1.0])];
+/// let rows = JointRows { target: tau.clone(), tau, columns };
+/// # let unknown = |name: &str| robot_model::columns::Unknown { name: name.to_owned(), nonnegative: true };
+/// let stack = Stack { unknowns: vec![unknown("k"), unknown("fc")], joints: vec![rows], ..Stack::default() };
+/// let solution = Factors::new(&stack).ordinary(&[1.0]);
+/// assert!((solution.estimate[0] - 10.0).abs() < 1e-9 && (solution.estimate[1] - 0.5).abs() < 1e-9);
+/// assert!(solution.is_told(0) && (solution.condition - 1.0).abs() < 1e-9);
+/// ```
 #[derive(Debug, Clone)]
 pub struct Factors {
     unknowns: usize,
@@ -305,6 +319,14 @@ fn not_tiny(sigma: &[f64]) -> Vec<f64> {
 }
 
 /// Samples that count as one independent sample: `1 + 2 * (sum of autocorrelations up to the first that is not positive)`.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::correlation_time;
+/// // Five samples of one sign, five of the other: autocorrelations are 0.6, 0.2, -0.2, ..
+/// let residual: Vec<f64> = (0..1000).map(|k| if k / 5 % 2 == 0 { 1.0 } else { -1.0 }).collect();
+/// assert!((correlation_time(&residual) - (1.0 + 2.0 * (0.6 + 0.2))).abs() < 0.01);
+/// ```
 #[must_use]
 pub fn correlation_time(residual: &[f64]) -> f64 {
     let n = residual.len();

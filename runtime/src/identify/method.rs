@@ -41,6 +41,13 @@ impl Method {
     }
 
     /// Whether joints may be weighed by something else than their residuals.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::Method;
+    /// assert!(Method::Wls.takes_weights());
+    /// assert!(!Method::Ls.takes_weights());
+    /// ```
     #[must_use]
     pub const fn takes_weights(self) -> bool {
         match self {
@@ -52,6 +59,18 @@ impl Method {
 }
 
 /// What a joint's rows are divided by; methods that do not [take](Method::takes_weights) any have their own.
+///
+/// # Examples
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// use robot_model::identify::{Identify, Weights};
+/// // One joint weighs what it weighs.
+/// let fit = |weights| Identify { weights, ..Identify::default() }.fit(&pendulum(), &[measure(0.0)]);
+/// let (residual, torque) = (fit(Weights::Residual)?, fit(Weights::TorqueNorm)?);
+/// assert!((residual.values()[0] - torque.values()[0]).abs() < 1e-9);
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Weights {
     /// The standard deviation of its residual, by iteration: of linear weights those with the least variance where joints have noise of

@@ -3,8 +3,7 @@
 //! # Examples
 //! A pendulum, `tau = izz ddq + mx sin(q) + fv dq`, whose machine has `izz = 2`, `mx = 9`, `fv = 1`.
 //! ```
-//! # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
-//! # use pendulum::{measure, pendulum};
+//! # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); } use pendulum::{measure, pendulum};
 //! use robot_model::identify::Identify;
 //!
 //! let (arm, log) = (pendulum(), measure(0.0));
@@ -146,6 +145,13 @@ impl Identify {
     /// # Errors
     /// [`IdentifyError`]: no log, a log of another arm, too few samples, an arm that does not move, signals that cannot be
     /// filtered. Unknowns that the logs do not excite are no error: the estimate names them.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); } use pendulum::*;
+    /// let found = robot_model::identify::Identify::default().fit(&pendulum(), &[measure(0.0)]).expect("it moves");
+    /// assert!((found.values()[0] - 2.0).abs() < 0.02); // kg m^2
+    /// ```
     pub fn fit(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Estimate, IdentifyError> {
         check_logs(arm, logs)?;
         self.away_from_turns(arm, &|identify| identify.fit_rows(arm, logs))

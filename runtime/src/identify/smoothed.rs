@@ -79,6 +79,23 @@ impl Estimate {
     ///
     /// # Errors
     /// Those of [`Self::predict`].
+    ///
+    /// # Examples
+    /// A drive that logs its torque through a low-pass of 1 Hz, `L(s) = w / (s + w)`:
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::{identify::Identify, signal::FirstOrder};
+    /// let (arm, mut log) = (pendulum(), measure(0.0));
+    /// let estimate = Identify::default().fit(&arm, std::slice::from_ref(&log))?;
+    /// assert_eq!(estimate.smoothed(&arm, &log)?, None);
+    /// let lag = FirstOrder::new(std::f64::consts::TAU, log.rate_hz()).expect("below the log's rate");
+    /// let torque = log.tau[0].clone();
+    /// lag.apply(torque[0], &torque, &mut log.tau[0]);
+    /// let found = estimate.smoothed(&arm, &log)?.expect("all torques are rounded");
+    /// assert!(found.lags && (found.cutoff_hz - 1.0).abs() < 0.2);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn smoothed(&self, arm: &dyn Arm, log: &Log) -> Result<Option<Smoothed>, IdentifyError> {
         let predicted = self.predict(arm, log)?;
         let gains = arm.actuator_gain().iter();

@@ -28,6 +28,25 @@ pub struct JointRows {
 }
 
 /// The stacked regressor of one or several logs.
+///
+/// # Examples
+/// A spring whose torque has something else in it:
+/// ```
+/// use robot_model::columns::{Entry, Unknown};
+/// use robot_model::identify::{JointRows, Stack};
+/// let unknown = |name: &str| Unknown { name: name.to_owned(), nonnegative: true };
+/// let tau = vec![3.0, 2.0];
+/// let spring = JointRows { target: tau.clone(), tau, columns: vec![(0, vec![0.25, 0.25])] };
+/// let mut stack = Stack { unknowns: vec![unknown("k")], joints: vec![spring], ..Stack::default() };
+/// assert_eq!((stack.dof(), stack.samples(), stack.counts()), (1, 2, vec![2]));
+/// assert_eq!(stack.residuals(&[10.0]), [[0.5, -0.5]]);
+///
+/// let friction = Entry { joint: 0, column: 0, values: vec![1.0, -1.0] };
+/// assert_eq!(stack.append(&[unknown("fc")], &[friction]), 1);
+/// assert_eq!(stack.residuals(&[10.0, 0.5]), [[0.0, 0.0]]);
+/// stack.truncate(1);
+/// assert_eq!(stack.residuals(&[10.0]), [[0.5, -0.5]]);
+/// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stack {
     /// The unknowns, one per column.
@@ -299,6 +318,19 @@ fn subtract(target: &mut [f64], factor: f64, values: &[f64]) {
 }
 
 /// Columns over several logs, each log through its own shared filter, the logs' samples one after the other.
+///
+/// # Examples
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// # use robot_model::{identify::filtered_columns, signal::{Bands, prepare}};
+/// let log = measure(0.0);
+/// let prepared = prepare(&log, &Bands::for_log(&log))?;
+/// let columns = filtered_columns(&pendulum(), &[prepared], &[]);
+/// assert_eq!(columns.len(), 3); // of izz, mx and fv
+/// assert!(columns[0].values.len() < log.time.len()); // decimated
+/// # Ok::<(), robot_model::signal::SignalError>(())
+/// ```
 #[must_use]
 pub fn filtered_columns<C: Columns + ?Sized>(
     columns: &C,

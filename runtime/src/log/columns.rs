@@ -47,6 +47,14 @@ pub struct Columns {
 
 impl Columns {
     /// `time`, `q1..qn`, `dq1..dqn`, `tau1..taun`, in SI units.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Columns;
+    /// let columns = Columns::standard(2);
+    /// assert_eq!((columns.dof(), columns.time.name.as_str()), (2, "time"));
+    /// assert_eq!((columns.q[1].name.as_str(), columns.tau[1].name.as_str()), ("q2", "tau2"));
+    /// ```
     #[must_use]
     pub fn standard(dof: usize) -> Self {
         let family = |family: &str| {

@@ -116,6 +116,19 @@ impl Log {
     ///
     /// # Errors
     /// As [`Log::read`].
+    ///
+    /// # Examples
+    /// A log in degrees:
+    /// ```
+    /// use robot_model::log::{Columns, Log};
+    /// let path = std::env::temp_dir().join("robot-model-read-as.csv");
+    /// let rows: String = (0..20).map(|k| format!("{},180,{k}\n", 0.01 * f64::from(k))).collect();
+    /// std::fs::write(&path, format!("time,q1,tau1\n{rows}"))?;
+    /// let mut columns = Columns::standard(1);
+    /// columns.q[0].unit = std::f64::consts::PI / 180.0;
+    /// assert_eq!(Log::read_as(&path, &columns)?.q[0][7], std::f64::consts::PI);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn read_as(path: impl AsRef<Path>, columns: &Columns) -> Result<Self, LogError> {
         let (source, file) = Self::open(path.as_ref())?;
         let rows = rows::of_file(&source, file, columns)?;
@@ -284,6 +297,15 @@ impl Log {
     }
 
     /// Sample rate, Hz.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..101).map(|k| 0.02 * f64::from(k)).collect();
+    /// let log = Log::from_samples("a plant", time, vec![vec![0.0; 101]], vec![vec![0.0; 101]])?;
+    /// assert!((log.rate_hz() - 50.0).abs() < 1e-9 && (log.seconds() - 2.0).abs() < 1e-12);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn rate_hz(&self) -> f64 {
         let last = self.time.len() - 1;

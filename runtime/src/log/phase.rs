@@ -30,6 +30,17 @@ impl Log {
 
     /// Adds the channel [`MOTION_PHASE`], `(t - t_0) / T mod 1` with the log's own [period](Self::period) `T`, or with `otherwise` where it
     /// has none. A log that has such a channel, or neither period, stays as it is.
+    ///
+    /// # Examples
+    /// A log that is shorter than twice the period which one knows it to have:
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..300).map(|k| 0.01 * f64::from(k)).collect();
+    /// let q = vec![time.iter().map(|t| (0.5 * t).sin()).collect()];
+    /// let log = Log::from_samples("a plant", time, q, vec![vec![0.0; 300]])?.with_motion_phase(Some(4.0));
+    /// assert!((log.extra[0].values[100] - 0.25).abs() < 1e-9);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn with_motion_phase(mut self, otherwise: Option<f64>) -> Self {
         if self.extra.iter().any(|one| one.name == MOTION_PHASE) {

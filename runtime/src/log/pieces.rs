@@ -28,6 +28,20 @@ impl Log {
     ///
     /// # Errors
     /// As [`Log::read`], here and with each piece.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{Columns, Log};
+    /// let path = std::env::temp_dir().join("robot-model-pieces.csv");
+    /// let rows: String = (0..1000).map(|k| format!("{},0.5,{k}\n", 0.0625 * f64::from(k))).collect();
+    /// std::fs::write(&path, format!("time,q1,tau1\n{rows}"))?;
+    /// let mut seconds = Vec::new();
+    /// for piece in Log::pieces(&path, &Columns::standard(1), 300, 0.0)? {
+    ///     seconds.push(piece?.seconds());
+    /// }
+    /// assert!(seconds.len() == 3 && seconds.iter().sum::<f64>() < 62.5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn pieces(
         path: impl AsRef<Path>,
         columns: &Columns,

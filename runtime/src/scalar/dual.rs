@@ -40,6 +40,14 @@ impl<S: Scalar> Dual<S> {
     }
 
     /// What does not depend on the variable.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::scalar::Dual;
+    /// let (x, c) = (Dual::variable(3.0), Dual::constant(5.0));
+    /// // d (c x) / dx
+    /// assert_eq!((c * x).slope, 5.0);
+    /// ```
     #[must_use]
     pub fn constant(value: S) -> Self {
         Self {

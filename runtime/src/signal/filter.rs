@@ -64,12 +64,32 @@ impl LowPass {
 
     /// Samples by which a signal is continued at both ends: two periods of the cutoff, in which the slowest pole decays to
     /// under a hundredth for the orders in use, and never fewer than three per coefficient.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::LowPass;
+    /// // Two periods of 10 Hz at 500 Hz.
+    /// assert_eq!(LowPass::butterworth(4, 10.0, 500.0)?.padding(), 100);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn padding(&self) -> usize {
         self.padding
     }
 
     /// Writes the filtered signal to `out`, whose memory is used again. Signals shorter than two samples come out as they are.
+    ///
+    /// # Examples
+    /// What a zero-phase filter leaves of a wave at its cutoff is half, the half-power of both directions:
+    /// ```
+    /// use robot_model::signal::LowPass;
+    /// let filter = LowPass::butterworth(4, 10.0, 500.0)?;
+    /// let wave: Vec<f64> = (0..2000).map(|k| (std::f64::consts::TAU * 10.0 * 0.002 * f64::from(k)).sin()).collect();
+    /// let mut filtered = Vec::new();
+    /// filter.apply(&wave, &mut filtered);
+    /// assert!((filtered[1000..1050].iter().copied().fold(0.0, f64::max) - 0.5).abs() < 0.01);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     pub fn apply(&self, signal: &[f64], out: &mut Vec<f64>) {
         out.clear();
         let ([first, .., last] | [first @ last]) = signal else {

@@ -43,6 +43,14 @@ impl FirstOrder {
     ///
     /// # Errors
     /// [`SignalError::Corner`] where the corner is not between zero and half the rate.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::FirstOrder;
+    /// assert_eq!(FirstOrder::new(20.0, 500.0)?.corner(), 20.0);
+    /// assert!(FirstOrder::new(2000.0, 500.0).is_err()); // beyond half the rate, 500 pi rad/s
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     pub fn new(corner: f64, rate_hz: f64) -> Result<Self, SignalError> {
         let largest = std::f64::consts::PI * rate_hz;
         if !(corner > 0.0 && corner < largest && rate_hz.is_finite()) {

@@ -59,6 +59,15 @@ impl Bands {
     }
 
     /// [`Bands::for_rate`] at the rate of a log. Where several logs are fitted together, take the bands of the slowest.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{log::Log, signal::Bands};
+    /// let time: Vec<f64> = (0..100).map(|k| 0.02 * f64::from(k)).collect();
+    /// let log = Log::from_samples("a plant", time, vec![vec![0.0; 100]], vec![vec![0.0; 100]])?;
+    /// assert!((Bands::for_log(&log).shared_hz - 5.0).abs() < 1e-9); // a tenth of 50 Hz
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn for_log(log: &Log) -> Self {
         Self::for_rate(log.rate_hz())
@@ -136,6 +145,17 @@ pub fn prepare(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
 ///
 /// # Errors
 /// Those of [`prepare`].
+///
+/// # Examples
+/// ```
+/// use robot_model::{log::Log, signal::{Bands, prepare_velocities}};
+/// let time: Vec<f64> = (0..4000).map(|k| 0.001 * f64::from(k)).collect();
+/// let q = vec![time.iter().map(|t| (3.0 * t).sin()).collect()];
+/// let log = Log::from_samples("a plant", time, q, vec![vec![0.0; 4000]])?;
+/// let smooth = prepare_velocities(&log, &Bands::for_log(&log))?.motion.smooth;
+/// assert!((smooth.dq[0][500] - 3.0 * 3.0_f64.cos()).abs() < 1e-3 && smooth.ddq.is_empty()); // at 1 s
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn prepare_velocities(log: &Log, bands: &Bands) -> Result<Prepared, SignalError> {
     prepare_rates(log, bands, false)
 }

@@ -60,6 +60,20 @@ impl SharedFilter {
     }
 
     /// The same, which keeps no sample within a border's length of holes, given in samples.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::{Bands, SharedFilter};
+    /// let filter = SharedFilter::new(&Bands::for_rate(500.0), 500.0)?;
+    /// let (stride, border) = (filter.stride(), filter.border());
+    /// let all = filter.kept(3000).count();
+    /// // Of 200 samples that are made up none is kept, nor of those beside them.
+    /// let filter = filter.around([1400..1600]);
+    /// let near = 1400 - border..1600 + border;
+    /// assert!(filter.kept(3000).all(|k| !near.contains(&k)));
+    /// assert!(all - filter.kept(3000).count() <= near.len() / stride + 1);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn around(mut self, holes: impl IntoIterator<Item = Range<usize>>) -> Self {
         let border = self.border;

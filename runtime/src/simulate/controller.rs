@@ -101,6 +101,19 @@ pub struct Pd {
 
 impl Pd {
     /// `inertia` is that of each joint for which the frequency holds, kg m^2 or kg.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::{Controller, Desired, Gains, Measured, Pd};
+    /// // kp = w^2 = 400 1/s^2, of 0.5 kg m^2.
+    /// let mut controller = Pd::new(Gains::new(20.0, 1.0)?, vec![0.5]);
+    /// let measured = Measured { time: 0.0, period: 0.001, q: &[0.9], dq: &[0.0], inputs: &[] };
+    /// let desired = Desired { q: vec![1.0], dq: vec![0.0], ddq: vec![0.0] };
+    /// let mut torque = [0.0];
+    /// controller.torque(&measured, &desired, &mut torque);
+    /// assert!((torque[0] - 0.5 * 400.0 * 0.1).abs() < 1e-12);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn new(gains: Gains, inertia: Vec<f64>) -> Self {
         Self { gains, inertia }
@@ -161,6 +174,15 @@ impl Torques {
     ///
     /// # Errors
     /// [`SimulateError::Size`] where columns differ in length, [`SimulateError::Setting`] where time does not rise or is empty.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::{SimulateError, Torques};
+    /// assert!(Torques::new(vec![0.0, 0.1], vec![vec![1.0, 2.0]]).is_ok());
+    /// // One joint whose column is short.
+    /// let error = Torques::new(vec![0.0, 0.1], vec![vec![1.0]]);
+    /// assert!(matches!(error, Err(SimulateError::Size { found: 1, expected: 2, .. })));
+    /// ```
     pub fn new(time: Vec<f64>, torque: Vec<Vec<f64>>) -> Result<Self, SimulateError> {
         if time.is_empty() {
             return Err(SimulateError::Setting {

@@ -213,6 +213,19 @@ impl<P: Plant> Integrator<P> {
     }
 
     /// From here on torque and inputs are these; degrees of freedom without a motor have no torque.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::{Drive, Integrator, Tolerances};
+    /// // 2 kg that are pushed with 4 N, from 7 s on.
+    /// let mut block = Integrator::new(block::Block([2.0, 0.0]), &[0.0], &[0.0], Tolerances::default())?.begun_at(7.0);
+    /// block.drive(Drive { torque: vec![4.0], ..Drive::default() });
+    /// assert_eq!(block.accelerations()?, [2.0]);
+    /// block.advance(10.0)?;
+    /// assert!((block.dq()[0] - 6.0).abs() < 1e-9 && (block.q()[0] - 9.0).abs() < 1e-9);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn drive(&mut self, mut drive: Drive) {
         if drive.torque.len() == self.moving.plant.joints() {
             drive.torque.resize(self.moving.plant.dof(), 0.0);

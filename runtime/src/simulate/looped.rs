@@ -131,6 +131,23 @@ impl Loop {
     ///
     /// # Errors
     /// [`SimulateError`]: a setting out of its range, or a motion without continuation.
+    ///
+    /// # Examples
+    /// A block that is to follow a slow wave, with a controller of each joint by itself:
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::Block;
+    /// use robot_model::simulate::{Gains, Loop, Pd, Trajectory};
+    /// let time: Vec<f64> = (0..=100).map(|k| 0.02 * f64::from(k)).collect();
+    /// let wave = vec![time.iter().map(|t| 0.1 * (3.0 * t).sin()).collect()];
+    /// let wanted = Trajectory::new(time, wave, Vec::new(), Vec::new(), Vec::new())?;
+    /// let mut controller = Pd::new(Gains::new(100.0, 1.0)?, vec![2.0]);
+    /// let settings = Loop { duration: 2.0, log_rate: 100.0, ..Loop::default() };
+    /// let (record, _) = settings.run(Block([2.0, 0.7]), &mut controller, &wanted, &mut |_| ())?;
+    /// assert_eq!(record.time.len(), 201);
+    /// assert!(record.tracking[0] < 1e-3); // m
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn run<P: Plant>(
         &self,
         plant: P,

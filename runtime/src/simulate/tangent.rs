@@ -116,6 +116,24 @@ pub struct Tangent {
 
 impl Tangent {
     /// Where only the start depends on unknowns, as `state` says.
+    ///
+    /// # Examples
+    /// How far a block goes changes with its mass: `q = F t^2 / (2 m)`, so `dq/dm = -q / m`.
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::Block;
+    /// use nalgebra::DMatrix;
+    /// use robot_model::simulate::{Drive, Integrator, Tangent, Tolerances};
+    /// let plant = Block([2.0, 0.0]);
+    /// // Two rows, of position and velocity; unknown are `m` and `c`, on which the start does not depend.
+    /// let mut tangent = Tangent::new(&plant, DMatrix::zeros(2, 2));
+    /// let mut block = Integrator::new(plant, &[0.0], &[0.0], Tolerances::default())?;
+    /// block.drive(Drive { torque: vec![4.0], ..Drive::default() });
+    /// block.advance_with(3.0, &mut tangent)?;
+    /// assert!((block.q()[0] - 9.0).abs() < 1e-9);
+    /// assert!((tangent.state[(0, 0)] + 4.5).abs() < 1e-9);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn new(plant: &impl Adjustable, state: DMatrix<f64>) -> Self {
         Self {

@@ -94,12 +94,34 @@ impl Trajectory {
     }
 
     /// How long it is, s.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::Trajectory;
+    /// let time: Vec<f64> = (0..5).map(f64::from).collect();
+    /// let steady = vec![vec![0.0, 2.0, 4.0, 6.0, 8.0]];
+    /// let wanted = Trajectory::new(time, steady, Vec::new(), Vec::new(), Vec::new())?;
+    /// assert_eq!((wanted.duration(), wanted.dof()), (4.0, 1));
+    /// assert!((wanted.at(1.5).q[0] - 3.0).abs() < 1e-12);
+    /// // Beyond its end it stands.
+    /// assert_eq!((wanted.at(9.0).q[0], wanted.at(9.0).dq[0]), (8.0, 0.0));
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn duration(&self) -> f64 {
         self.time[self.time.len() - 1] - self.time[0]
     }
 
     /// Where samples are missing: the first step in time of more than five median ones, from when to when.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::Trajectory;
+    /// let time = vec![0.0, 0.1, 0.2, 0.3, 2.0, 2.1];
+    /// let wanted = Trajectory::new(time, vec![vec![0.0; 6]], Vec::new(), Vec::new(), Vec::new())?;
+    /// assert_eq!(wanted.hole(), Some([0.3, 2.0]));
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn hole(&self) -> Option<[f64; 2]> {
         let pairs = || self.time.windows(2);

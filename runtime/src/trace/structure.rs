@@ -44,6 +44,14 @@ pub struct Structure {
 
 impl Structure {
     /// Whether something is missing on this joint that matters.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::trace::Structure;
+    /// // A tenth of the residual's power is what filters and noise leave, half of it is an effect.
+    /// let structure = |share: f64| Structure { power: 0.04, share, ratio: 30.0 };
+    /// assert!(!structure(0.1).is_material() && structure(0.5).is_material());
+    /// ```
     #[must_use]
     pub fn is_material(&self) -> bool {
         self.share > MATERIAL_SHARE

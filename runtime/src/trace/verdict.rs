@@ -145,6 +145,12 @@ pub struct Alternative {
 }
 
 /// How a trace ended.
+///
+/// # Examples
+/// ```
+/// use robot_model::trace::Outcome;
+/// assert_eq!(Outcome::NothingMissing.name(), "nothing-missing");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
     /// The declared model leaves no structure that matters.

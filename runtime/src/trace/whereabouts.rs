@@ -69,6 +69,12 @@ impl Quantity {
     }
 
     /// The joint, from 0; none of time.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::trace::Quantity;
+    /// assert_eq!((Quantity::Velocity(2).joint(), Quantity::Time.joint()), (Some(2), None));
+    /// ```
     #[must_use]
     pub const fn joint(self) -> Option<usize> {
         match self {

@@ -1,6 +1,7 @@
 // The arm of the documentation's examples, which include this file: one pendulum, its columns written by hand, a candidate, a log.
 
-use robot_model::columns::{Arm, Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::columns::{Arm, Candidate, Columns, Entry, MomentumArm, Shape, Unknown};
+use robot_model::identify::{PossibleArms, PossibleLink};
 use robot_model::log::Log;
 use robot_model::motion::Motion;
 
@@ -37,6 +38,11 @@ pub fn dry_friction() -> DryFriction {
 
 /// 20 s at 500 Hz of a pendulum with `izz = 2`, `mx = 9`, `fv = 1`, dry friction `fc`, and a little noise.
 pub fn measure(fc: f64) -> Log {
+    measure_with([2.0, 9.0, 1.0], fc)
+}
+
+/// The same of a pendulum with other parameters.
+pub fn measure_with([izz, mx, fv]: [f64; 3], fc: f64) -> Log {
     let time: Vec<f64> = (0..10_000).map(|k| 0.002 * f64::from(k)).collect();
     let wave = |t: f64, power: i32, shift: f64| -> f64 {
         let terms = [(0.1, 0.9), (0.4, 0.4), (0.9, 0.1)].iter();
@@ -55,7 +61,7 @@ pub fn measure(fc: f64) -> Log {
         );
         random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let noise = 0.1 * (f64::from(random) / f64::from(u32::MAX) - 0.5);
-        2.0 * ddq + 9.0 * q.sin() + dq + fc * robot_model::Scalar::sign(dq) + noise
+        izz * ddq + mx * q.sin() + fv * dq + fc * robot_model::Scalar::sign(dq) + noise
     });
     let tau = vec![tau.collect()];
     let q = vec![time.iter().map(|&t| wave(t, 0, 0.0)).collect()];
@@ -110,6 +116,42 @@ impl Arm for Pendulum {
                 .map(|(ddq, q)| estimate[0] * ddq + estimate[1] * q.sin())
                 .collect(),
         ]
+    }
+    /// Of a body that is `link`, and friction; where it hangs `g` is 1, so that `mx` is a first moment.
+    fn possible_arms(&self) -> Option<PossibleArms> {
+        let own = ["m", "mx", "my", "mz", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+        let mut names: Vec<String> = own.iter().map(|own| format!("link.{own}")).collect();
+        names.push(self.unknowns[2].name.clone());
+        let mut arms = PossibleArms::default();
+        (arms.names, arms.fixed) = (names, vec![None; 11]);
+        arms.kept = vec![9, 1, 10];
+        arms.combinations = arms.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
+        arms.links = vec![PossibleLink {
+            name: "link".to_owned(),
+            parameters: std::array::from_fn(|k| k),
+            nominal: None,
+        }];
+        arms.nonnegative = vec![10];
+        Some(arms)
+    }
+}
+
+/// `tau = d/dt (izz dq) + mx sin(q) + fv dq`
+impl MomentumArm for Pendulum {
+    fn momentum(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        vec![entry(0, motion.smooth.dq[0].iter().copied())]
+    }
+    fn drift(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        vec![
+            entry(1, motion.smooth.q[0].iter().map(|q| -q.sin())),
+            entry(2, motion.wide.dq[0].iter().map(|dq| -dq)),
+        ]
+    }
+    fn known_momentum(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]]
+    }
+    fn known_drift(&self, motion: &Motion, _: &[f64]) -> Vec<Vec<f64>> {
+        vec![vec![0.0; motion.time.len()]]
     }
 }
 

@@ -41,6 +41,12 @@ pub struct FactorRows {
 
 impl FactorRows {
     /// Those of so many joints where there are none.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::FactorRows;
+    /// assert_eq!(FactorRows::none(6).counts, [0; 6]);
+    /// ```
     #[must_use]
     pub fn none(joints: usize) -> Self {
         Self {
@@ -98,6 +104,22 @@ impl FactorBlock {
     ///
     /// # Errors
     /// Those of [`Identify::fit`](super::super::Identify::fit) for a log that does not fit the arm or the filters.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::{Factor, FactorBlock, Identify};
+    /// let (arm, log) = (pendulum(), measure(0.0));
+    /// let bands = Identify::default().bands_of(&arm, &log)?;
+    /// let blocks = std::thread::scope(|s| s.spawn(|| FactorBlock::of_log(&arm, &log, &bands)).join());
+    /// let mut factor = Factor::new(&arm, bands)?;
+    /// factor.extend(blocks.expect("no panic")?);
+    /// let mut same = Factor::new(&arm, bands)?;
+    /// same.push(&arm, &log)?;
+    /// assert_eq!(factor, same);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn of_log(arm: &dyn Arm, log: &Log, bands: &Bands) -> Result<Vec<Self>, IdentifyError> {
         check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare_all(std::slice::from_ref(log), bands)?;
@@ -113,6 +135,19 @@ impl FactorBlock {
     }
 
     /// Rows as one block.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::{FactorBlock, JointRows, Stack};
+    /// // One unknown, seen as 3 and 4: as much as a single row of 5 says.
+    /// let rows = JointRows { tau: vec![6.0, 8.0], target: vec![6.0, 8.0], columns: vec![(0, vec![3.0, 4.0])] };
+    /// # let unknown = robot_model::columns::Unknown { name: "k".to_owned(), nonnegative: false };
+    /// let stack = Stack { unknowns: vec![unknown], joints: vec![rows], ..Stack::default() };
+    /// let block = FactorBlock::of_rows(&stack);
+    /// assert_eq!((block.samples, block.away.torque_squares[0]), (2, 100.0));
+    /// let row = &block.away.rows[0][0];
+    /// assert!((row[0].abs() - 5.0).abs() < 1e-12 && (row[1] / row[0] - 2.0).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn of_rows(stack: &Stack) -> Self {
         let at_turns = turns::are_at(stack);

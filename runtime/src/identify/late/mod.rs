@@ -61,6 +61,13 @@ pub struct Delay {
 }
 
 /// Whether torque that is late by so many seconds, or early, is more than how a drive samples it; `period` is that of the log, s.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::is_delay;
+/// assert!(is_delay(0.004, 0.001)); // four samples
+/// assert!(!is_delay(-0.0005, 0.001)); // means over the interval behind the position
+/// ```
 #[must_use]
 pub fn is_delay(seconds: f64, period: f64) -> bool {
     !(-HELD..=LATE).contains(&(seconds / period))

@@ -237,6 +237,15 @@ pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool
 
 impl Distance {
     /// Of pairs of a measured and a simulated value, at least one.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::output_error::Distance;
+    /// // Measured 1 and 3, simulated 2 both times: no better than the mean.
+    /// let distance = Distance::new(&[(1.0, 2.0), (3.0, 2.0)]);
+    /// assert_eq!((distance.rmse, distance.mae), (1.0, 1.0));
+    /// assert_eq!(distance.nrmse_fit_percent, Some(0.0));
+    /// ```
     #[must_use]
     pub fn new(pairs: &[(f64, f64)]) -> Self {
         let count = pairs.len().max(1) as f64;

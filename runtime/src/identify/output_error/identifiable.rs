@@ -69,6 +69,15 @@ impl Direction {
     }
 
     /// Whether it scales all of its parameters by the same factor: then their ratios are known.
+    ///
+    /// # Examples
+    /// Masses and friction that only torques would tell from twice as much of all:
+    /// ```
+    /// use robot_model::identify::output_error::Direction;
+    /// let moves = vec![("m".to_owned(), 1.0), ("fv".to_owned(), 1.0)];
+    /// let direction = Direction { singular: 1e-9, moves };
+    /// assert!(direction.is_silent() && direction.is_scale());
+    /// ```
     #[must_use]
     pub fn is_scale(&self) -> bool {
         self.scales_within(0.05)

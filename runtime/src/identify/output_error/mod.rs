@@ -76,6 +76,20 @@ impl OutputError {
     ///
     /// # Errors
     /// [`OutputErrorError`].
+    ///
+    /// # Examples
+    /// A block on oil, `m ddq + c dq = tau` with 2 kg and 0.7 N s/m; its [`Adjustable`] plant is 25 lines.
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let recording = Recording::new(&measure(), &[1.0], 0.0, Vec::new());
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let (start, names) = ([3.0, 0.2], ["m", "c"].map(str::to_owned));
+    /// let found = settings.fit(&Block(start), &names, &start, &[recording], &mut |_| ())?;
+    /// assert!((found.values[0] - 2.0).abs() < 1e-4 && (found.values[1] - 0.7).abs() < 1e-4);
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
     pub fn fit<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,
@@ -136,6 +150,19 @@ impl OutputError {
     ///
     /// # Errors
     /// As [`Self::fit`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// # use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let recordings = [Recording::new(&measure(), &[1.0], 0.0, Vec::new())];
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let rmse = |m: f64| Ok(settings.compare(&Block([m, 0.7]), &[m, 0.7], &recordings)?.position[0].rmse);
+    /// assert!(rmse(2.0)? < 1e-6);
+    /// assert!(rmse(2.2)? > 1e-3); // m, of a block that is a tenth too heavy
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
     pub fn compare<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,

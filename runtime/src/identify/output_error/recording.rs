@@ -36,6 +36,21 @@ impl Recording {
 
     /// `gain` is joint torque over what is logged, one a joint; logged torques are `late` by so many seconds; `inputs` are channels that
     /// effects read, by their places.
+    ///
+    /// # Examples
+    /// A drive that logs a current, 0.5 N/A:
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// # use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let mut log = measure();
+    /// log.tau[0].iter_mut().for_each(|tau| *tau /= 0.5);
+    /// let recording = Recording::new(&log, &[0.5], 0.0, Vec::new());
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let found = settings.compare(&Block([2.0, 0.7]), &[2.0, 0.7], &[recording])?;
+    /// assert!(found.position[0].rmse < 1e-6);
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
     #[must_use]
     pub fn new(log: &Log, gain: &[f64], late: f64, inputs: Vec<usize>) -> Self {
         let (first, last) = (log.time[0], log.time[log.time.len() - 1]);

@@ -15,6 +15,20 @@ impl OutputError {
     ///
     /// # Errors
     /// [`OutputErrorError`] where nothing can be simulated.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// # use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let recordings = [Recording::new(&measure(), &[1.0], 0.0, Vec::new())];
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let names = ["m", "c"].map(str::to_owned);
+    /// let starts = [vec![500.0, 30.0], vec![1.8, 0.5]];
+    /// let led = settings.nearest(&Block([2.0, 0.7]), &names, &starts, &recordings, &mut |_| ())?;
+    /// assert!((led[0][0] - 2.0).abs() < 0.01);
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
     pub fn nearest<P: Adjustable + Clone + Sync>(
         &self,
         plant: &P,

@@ -103,6 +103,28 @@ impl Identify {
     /// # Errors
     /// Those of [`Self::fit_payload`]; [`IdentifyError::PayloadMass`], [`IdentifyError::PayloadHidden`] where no gain is told,
     /// [`IdentifyError::PayloadLost`].
+    ///
+    /// # Examples
+    /// A drive that logs a current, 0.4 of each N m, and a payload of 1 kg in a distance of 1 m (where `g` is 1):
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure_with, pendulum};
+    /// # use robot_model::identify::{Identify, KnownPayload};
+    /// let current = |parameters: [f64; 3]| {
+    ///     let mut log = measure_with(parameters, 0.0);
+    ///     log.tau[0].iter_mut().for_each(|tau| *tau *= 0.4);
+    ///     log
+    /// };
+    /// let (alone, loaded) = (current([2.0, 9.0, 1.0]), current([3.0, 10.0, 1.0]));
+    /// let known = KnownPayload { mass: 1.0, center: Some([1.0, 0.0, 0.0]) };
+    /// let arm = pendulum();
+    /// let driven = Identify::default().fit_drive_gains(&arm, &[alone.clone()], &[loaded], None, &known)?;
+    /// let gain = driven.gains[0].expect("the payload is seen").value;
+    /// assert!((gain - 1.0 / 0.4).abs() < 0.05);
+    /// let torque = driven.rescaled(&alone).tau[0][500];
+    /// assert!((torque - gain * alone.tau[0][500]).abs() < 1e-9);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn fit_drive_gains(
         &self,
         arm: &dyn Arm,

@@ -64,6 +64,24 @@ impl Identify {
     ///
     /// # Errors
     /// Those of [`Self::fit`]; [`IdentifyError::NoLink`], [`IdentifyError::FixedLink`], [`IdentifyError::NoBodies`].
+    ///
+    /// # Examples
+    /// A body of 0.5 kg m^2 and 1 kg m about the joint:
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure_with, pendulum};
+    /// # use robot_model::identify::Identify;
+    /// let alone = measure_with([2.0, 9.0, 1.0], 0.0);
+    /// let loaded = measure_with([2.5, 10.0, 1.0], 0.0);
+    /// let carried = Identify::default().fit_payload(&pendulum(), &[alone], &[loaded], None)?;
+    /// let found: Vec<(&str, f64)> = carried.payload().iter().map(|p| (p.name.as_str(), p.value)).collect();
+    /// for (name, truth) in [("link.payload.izz", 0.5), ("link.payload.mx", 1.0)] {
+    ///     assert!(found.iter().any(|(own, value)| *own == name && (value - truth).abs() < 0.02));
+    /// }
+    /// // Torques of one joint do not tell the mass itself.
+    /// assert_eq!(carried.mass_and_center().0, None);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn fit_payload(
         &self,
         arm: &dyn Arm,

@@ -17,6 +17,12 @@ pub enum Origin {
 
 impl Origin {
     /// Name in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::Origin;
+    /// assert_eq!(Origin::Nominal.name(), "nominal");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -16,6 +16,12 @@ pub enum LateChannel {
 
 impl LateChannel {
     /// Name of that column of a joint, from 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::LateChannel;
+    /// assert_eq!(LateChannel::Torque.column(2), "tau3");
+    /// ```
     #[must_use]
     pub fn column(self, joint: usize) -> String {
         let name = match self {
@@ -225,6 +231,19 @@ impl Fault {
     }
 
     /// Kebab-case name of its kind.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..1000).map(|k| 0.001 * f64::from(k)).collect();
+    /// let q = time.iter().map(|t| (6.0 * t).sin()).collect();
+    /// let mut tau: Vec<f64> = time.iter().map(|t| (6.0 * t).cos()).collect();
+    /// tau[300] = 50.0;
+    /// let mended = Log::from_samples("a plant", time, vec![q], vec![tau])?.mended();
+    /// let fault = &mended.faults[0];
+    /// assert_eq!((fault.kind(), fault.channel(), fault.is_in_report()), ("spikes", "tau1", false));
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub const fn kind(&self) -> &'static str {
         match self {
