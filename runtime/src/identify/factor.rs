@@ -14,9 +14,9 @@ use faer::linalg::solvers::Solve;
 
 use super::estimate::{Estimate, Form};
 use super::fitted::Fitted;
-use super::least_squares::{Factors, Solution};
+use super::least_squares::{Factors, Solution, check_counts, check_excited};
 use super::stack::{Stack, percent};
-use super::{Identify, IdentifyError, Method, turns};
+use super::{IdentifyError, Method, turns};
 use crate::calibrate::quantile;
 use crate::columns::Arm;
 use crate::log::Log;
@@ -253,7 +253,7 @@ impl Factor {
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
-        Identify::check_counts(&used.counts(), self.unknowns.len())?;
+        check_counts(&used.counts(), self.unknowns.len())?;
         let mut solution = match method {
             Method::Ls => factors.ordinary(&ones),
             Method::Wls => factors.weighted(&ones),
@@ -262,7 +262,7 @@ impl Factor {
                 return Err(IdentifyError::NotReduced { why });
             }
         };
-        Identify::check_excited(&solution)?;
+        check_excited(&solution)?;
         used.deviations(&mut solution);
         if let (Some(away), false) = (&away, leave_out_turns) {
             turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);

@@ -8,6 +8,7 @@ mod excited;
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
+use super::IdentifyError;
 use super::combination::{Shared, shared};
 use super::stack::{JointRows, Stack};
 
@@ -310,6 +311,32 @@ impl Factors {
         }
         std
     }
+}
+
+/// Whether there are more rows than unknowns; `counts` are those of each joint that say something.
+pub(super) fn check_counts(counts: &[usize], unknowns: usize) -> Result<(), IdentifyError> {
+    let rows: usize = counts.iter().sum();
+    if rows > unknowns {
+        return Ok(());
+    }
+    if rows == 0 {
+        // The logs are long enough, and no joint says anything in them.
+        return Err(IdentifyError::NothingExcited { unknowns });
+    }
+    Err(IdentifyError::TooFewSamples {
+        rows,
+        dof: counts.len(),
+        unknowns,
+    })
+}
+
+/// Whether the rows tell anything.
+pub(super) fn check_excited(solution: &Solution) -> Result<(), IdentifyError> {
+    let unknowns = solution.estimate.len();
+    if solution.unexcited.len() < unknowns || unknowns == 0 {
+        return Ok(());
+    }
+    Err(IdentifyError::NothingExcited { unknowns })
 }
 
 /// A channel that is fitted exactly, such as a dead one, has no infinite weight.

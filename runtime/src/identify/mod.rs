@@ -64,6 +64,7 @@ pub use instruments::Hausman;
 pub(crate) use late::longest_period;
 pub use late::{Delay, is_delay};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
+use least_squares::{check_counts, check_excited};
 use logs::update_load;
 pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};
 pub use method::{Method, Weights};
@@ -343,31 +344,6 @@ impl Identify {
             .sum())
     }
 
-    /// `counts` are rows of each joint that say something.
-    fn check_counts(counts: &[usize], unknowns: usize) -> Result<(), IdentifyError> {
-        let rows: usize = counts.iter().sum();
-        if rows > unknowns {
-            return Ok(());
-        }
-        if rows == 0 {
-            // The logs are long enough, and no joint says anything in them.
-            return Err(IdentifyError::NothingExcited { unknowns });
-        }
-        Err(IdentifyError::TooFewSamples {
-            rows,
-            dof: counts.len(),
-            unknowns,
-        })
-    }
-
-    fn check_excited(solution: &Solution) -> Result<(), IdentifyError> {
-        let unknowns = solution.estimate.len();
-        if solution.unexcited.len() < unknowns || unknowns == 0 {
-            return Ok(());
-        }
-        Err(IdentifyError::NothingExcited { unknowns })
-    }
-
     /// The bands of a first log, chosen as for a fit.
     ///
     /// # Errors
@@ -383,7 +359,7 @@ impl Identify {
     /// # Errors
     /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
-        Self::check_counts(&stack.counts(), stack.unknowns.len())?;
+        check_counts(&stack.counts(), stack.unknowns.len())?;
         let factors = match self.method {
             Method::Robust => robust::factors(stack),
             _ => Factors::new(stack),
@@ -396,7 +372,7 @@ impl Identify {
             }
             _ => factors.weighted(&white),
         };
-        Self::check_excited(&first)?;
+        check_excited(&first)?;
         let residuals = stack.residuals(&first.estimate);
         // The same fit again, with what its residuals say of deviations.
         Ok(factors.solve(&first.scale, &stack.correlation_times(&residuals)))
