@@ -232,7 +232,7 @@ impl Factor {
     }
 
     /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`]. By how much rows at turns move the estimate is in its
-    /// deviations, or they are left out, as by [`Identify::leave_out_turns`].
+    /// deviations, or they are left out, as by [`super::Identify::leave_out_turns`].
     ///
     /// # Errors
     /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for a method that needs the rows themselves,

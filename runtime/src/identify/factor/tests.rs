@@ -6,6 +6,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::*;
 use crate::columns::Unknown;
+use crate::identify::Identify;
 use crate::identify::{JointRows, Segment};
 
 const TRUTH: [f64; 3] = [2.0, -0.5, 0.1];
