@@ -6,6 +6,8 @@ mod build_script;
 mod close_the_loop;
 #[path = "../examples/derive.rs"]
 mod derive;
+#[path = "../examples/node.rs"]
+mod node;
 #[path = "../examples/scalars.rs"]
 mod scalars;
 
@@ -17,6 +19,11 @@ fn build_script() {
 #[test]
 fn derive() {
     derive::main();
+}
+
+#[test]
+fn node() {
+    node::pushed_arm().unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]
