@@ -55,6 +55,19 @@ pub trait Mechanics<
     ///
     /// `None` where the inertia is singular, or not positive definite: no arm that could be built has such parameters. With
     /// friction that depends on the load, `None` too where that holds the arm in a way that Newton's method does not resolve.
+    ///
+    /// # Examples
+    /// What accelerates an arm, from what it takes to accelerate it:
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let arm = arms::two_link();
+    /// let (q, dq, ddq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]), Vector::from([2.0, -3.0]));
+    /// let tau = arm.inverse_dynamics(&q, &dq, &ddq);
+    /// let found = arm.forward_dynamics(&q, &dq, &tau).expect("an arm that could be built");
+    /// assert!((found - ddq).norm() < 1e-12);
+    /// ```
     fn forward_dynamics<S: Scalar>(
         &self,
         q: &SVector<S, DOF>,
@@ -80,6 +93,20 @@ pub trait Mechanics<
 
     /// `[i][j] = d tau_i / d q_j` of the inverse dynamics at time zero, effects included. Jumps, such as that of dry friction at
     /// rest, have no slope here.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let arm = arms::two_link();
+    /// let (q, dq, ddq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]), Vector::from([2.0, -3.0]));
+    /// let step = Vector::from([0.0, 1e-5]);
+    /// let torque = |q| arm.inverse_dynamics(&q, &dq, &ddq);
+    /// let difference = (torque(q + step) - torque(q - step)) / 2e-5;
+    /// let slopes = arm.inverse_dynamics_by_position(&q, &dq, &ddq);
+    /// assert!((slopes.column(1) - difference).norm() < 1e-6);
+    /// ```
     fn inverse_dynamics_by_position<S: Scalar>(
         &self,
         q: &SVector<S, DOF>,
@@ -102,6 +129,19 @@ pub trait Mechanics<
     ) -> SMatrix<S, DOF, DOF>;
 
     /// `[i][j] = d tau_i / d dq_j` of the inverse dynamics at time zero, effects included.
+    ///
+    /// # Examples
+    /// At rest only friction depends on how fast a joint would move; Coulomb friction is flat beside its jump.
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, Vector};
+    /// let (q, slow) = (Vector::from([0.3, -0.8]), Vector::from([1e-9, 1e-9]));
+    /// let slopes = arms::two_link().inverse_dynamics_by_velocity(&q, &slow, &Vector::zeros());
+    /// // fv of the shoulder and of the elbow
+    /// assert!((slopes[(0, 0)] - 1.5).abs() < 1e-6 && (slopes[(1, 1)] - 0.6).abs() < 1e-6);
+    /// assert!(slopes[(0, 1)].abs() < 1e-6 && slopes[(1, 0)].abs() < 1e-6);
+    /// ```
     fn inverse_dynamics_by_velocity<S: Scalar>(
         &self,
         q: &SVector<S, DOF>,
@@ -128,6 +168,17 @@ pub trait Mechanics<
     /// No acceleration is in it. Effects that read accelerations otherwise, as friction that depends on the load does, have no
     /// such form: their columns are zero here and in `Y_h`, and the equation holds for the torque without them. The emitted
     /// functions say which they are.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let arm = arms::two_link();
+    /// let (q, dq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
+    /// let momentum = arms::TwoLink::momentum_regressor(&q, &dq) * arm.standard();
+    /// assert!((momentum - arm.mass_matrix(&q) * dq).norm() < 1e-12);
+    /// ```
     #[must_use]
     fn momentum_regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -151,6 +202,17 @@ pub trait Mechanics<
 
     /// Drift regressor `Y_h`, DOF x STANDARD: what changes the momentum beside the torque. For the rigid body
     /// `Y_h * standard = C^T dq - G`. Zero columns as in [`Self::momentum_regressor`].
+    ///
+    /// # Examples
+    /// At rest nothing but gravity changes the momentum:
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let (arm, q) = (arms::two_link(), Vector::from([0.3, -0.8]));
+    /// let drift = arms::TwoLink::drift_regressor(&q, &Vector::zeros()) * arm.standard();
+    /// assert!((drift + arm.gravity(&q)).norm() < 1e-12);
+    /// ```
     #[must_use]
     fn drift_regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -223,11 +285,35 @@ pub trait Mechanics<
 /// value only shape parameters count, such as the offset of an encoder.
 pub trait Kinematics<const DOF: usize> {
     /// Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Kinematics, Vector};
+    /// use std::f64::consts::FRAC_PI_2;
+    /// // Links of 0.5 m and 0.4 m: the upper one along x, the other one up.
+    /// let [elbow, tip] = arms::two_link().forward_kinematics(&Vector::from([0.0, FRAC_PI_2]));
+    /// assert!((elbow[(0, 3)] - 0.5).abs() < 1e-12);
+    /// assert!((tip[(0, 3)] - 0.5).abs() < 1e-12 && (tip[(1, 3)] - 0.4).abs() < 1e-12);
+    /// ```
     fn forward_kinematics<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 4, 4>; DOF];
 
     /// Geometric Jacobian, 6 x DOF: `jacobian * dq` is the velocity of the origin of the last link's frame, m/s, then the
     /// link's angular velocity, rad/s, both in the axes of the base frame. A force and a moment at the tip, stacked alike,
     /// load the joints with `jacobian^T * wrench`.
+    ///
+    /// # Examples
+    /// A force at the tip, and what the joints hold it with:
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Kinematics, Vector};
+    /// // Stretched along x, 5 N upward at 0.9 m from the shoulder, 0.4 m from the elbow.
+    /// let jacobian = arms::two_link().jacobian(&Vector::from([0.0, 0.0]));
+    /// let torque = jacobian.transpose() * Vector::from([0.0, 5.0, 0.0, 0.0, 0.0, 0.0]);
+    /// assert!((torque - Vector::from([5.0 * 0.9, 5.0 * 0.4])).norm() < 1e-12);
+    /// ```
     fn jacobian<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, 6, DOF>;
 }
 

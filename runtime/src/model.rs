@@ -100,6 +100,16 @@ pub trait RobotModel<
     /// no more. The slope of the torque by `ddq` with all of it is what
     /// [`forward_dynamics`](crate::Mechanics::forward_dynamics) solves with; for computed torque call
     /// [`Self::inverse_dynamics`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let (arm, q, dq) = (arms::two_link(), Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
+    /// let energy = 0.5 * dq.dot(&(arm.mass_matrix(&q) * dq));
+    /// assert!((energy - arm.kinetic_energy(&q, &dq)).abs() < 1e-12);
+    /// ```
     fn mass_matrix<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, DOF, DOF>;
 
     /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew.
@@ -110,6 +120,16 @@ pub trait RobotModel<
     ) -> SMatrix<S, DOF, DOF>;
 
     /// Gravity torque `G(q)`, N m or N.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// // Stretched: 4 kg at 0.25 m, 2.5 kg at 0.7 m from the shoulder and 0.2 m from the elbow.
+    /// let gravity = arms::two_link().gravity(&Vector::from([0.0, 0.0]));
+    /// assert!((gravity - Vector::from([9.81 * (4.0 * 0.25 + 2.5 * 0.7), 9.81 * 2.5 * 0.2])).norm() < 1e-12);
+    /// ```
     fn gravity<S: Scalar>(&self, q: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Bias torque `C * dq + G`, N m or N.
@@ -291,6 +311,15 @@ pub trait FromParameters<
 >: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS> + Sized
 {
     /// An arm with these standard and shape parameters. What the spec fixes stays as it is.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{FromParameters, RobotModel, Vector};
+    /// let arm = arms::two_link();
+    /// assert_eq!(arms::TwoLink::from_parameters(&arm.standard(), &Vector::zeros()), arm);
+    /// ```
     fn from_parameters(standard: &Vector<STANDARD>, shapes: &Vector<SHAPES>) -> Self;
 
     /// An arm with these standard parameters and nominal shapes.

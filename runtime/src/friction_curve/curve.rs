@@ -80,6 +80,21 @@ impl Measured<'_> {
     /// # Errors
     /// [`FrictionError`]: no stretch of constant speed; a rigid body's torque that the motion does not tell from friction; logs that cannot
     /// be filtered.
+    ///
+    /// # Examples
+    /// A motor alone, 2 s at each of six speeds:
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// let motor = motor::motor();
+    /// let curve = motor::measured(&motor).curve(&[motor::runs()])?;
+    /// assert_eq!(curve.points.len(), 6);
+    /// for (k, point) in curve.points.iter().enumerate() {
+    ///     let speed = 0.5 * (k + 1) as f64;
+    ///     assert!((point.speed - speed).abs() < 1e-6);
+    ///     assert!((point.torque.value - (0.5 + 0.1 * speed)).abs() < 1e-3); // N m
+    /// }
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     pub fn curve(&self, logs: &[Log]) -> Result<Curve, FrictionError> {
         let Runs {
             rows,

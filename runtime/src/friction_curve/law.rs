@@ -90,6 +90,18 @@ impl Law {
     /// # Errors
     /// [`FrictionError::TooFewSpeeds`] of fewer than four speeds, [`FrictionError::SpeedsAlike`] where they do not tell the
     /// parameters apart.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// use robot_model::friction_curve::Law;
+    /// let motor = motor::motor();
+    /// let law = Law::fit(&motor::measured(&motor).curve(&[motor::runs()])?)?;
+    /// // 0.5 + 0.1 v, with no fall at low speeds.
+    /// assert!((law.coulomb.value - 0.5).abs() < 1e-3 && law.fall.is_none());
+    /// assert!((law.torque(2.0) - 0.7).abs() < 1e-3 && (law.torque(-2.0) + 0.7).abs() < 1e-3);
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     pub fn fit(curve: &Curve) -> Result<Self, FrictionError> {
         let found = speeds(&curve.points);
         let has_both = curve.points.iter().any(|point| point.speed < 0.0)

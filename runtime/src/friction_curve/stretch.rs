@@ -106,6 +106,14 @@ fn white(q: &[f64]) -> f64 {
 
 impl Stretch {
     /// All of a log in which joint `joint`, from 0, moves and the others stand, in the order of time; none within its holes.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// use robot_model::friction_curve::Stretch;
+    /// // Six speeds, one after the other.
+    /// assert_eq!(Stretch::find(&motor::runs(), 0).len(), 6);
+    /// ```
     #[must_use]
     pub fn find(log: &Log, joint: usize) -> Vec<Self> {
         let step = 1.0 / log.rate_hz();

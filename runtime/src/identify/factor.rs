@@ -103,6 +103,9 @@ impl Factor {
     ///
     /// # Errors
     /// Those of [`FactorBlock::of_log`].
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
         self.extend(FactorBlock::of_log(arm, log, &self.bands)?);
         Ok(())
@@ -169,6 +172,9 @@ impl Factor {
     }
 
     /// Blocks that another factor has, too: what they say would count twice.
+    ///
+    /// # Examples
+    /// That of [`Self::merge`].
     #[must_use]
     pub fn common_blocks(&self, other: &Self) -> usize {
         let is_there = |block: &&FactorBlock| other.blocks.iter().any(|other| block.is_same(other));
@@ -237,6 +243,9 @@ impl Factor {
     /// # Errors
     /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for a method that needs the rows themselves,
     /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     pub fn estimate(
         &self,
         arm: &dyn Arm,
@@ -292,6 +301,9 @@ impl Factor {
     }
 
     /// Root of the mean squared residual per joint, of filtered torque.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     #[must_use]
     pub fn rmse(&self, estimate: &[f64]) -> Vec<f64> {
         let counts = self.counts().into_iter().enumerate();

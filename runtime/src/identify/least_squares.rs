@@ -161,6 +161,9 @@ impl Factors {
     }
 
     /// Ordinary least squares: every joint has the same weight.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     #[must_use]
     pub fn ordinary(&self, correlation: &[f64]) -> Solution {
         self.solve(&vec![1.0; self.joints.len()], correlation)

@@ -240,6 +240,9 @@ impl Stack {
     }
 
     /// Appends columns of an effect that the arm does not have; returns the index of the first.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     pub fn append(&mut self, unknowns: &[Unknown], columns: &[Entry]) -> usize {
         let first = self.unknowns.len();
         self.unknowns.extend_from_slice(unknowns);
@@ -263,6 +266,9 @@ impl Stack {
     }
 
     /// Forgets the columns behind the first `unknowns`.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     pub fn truncate(&mut self, unknowns: usize) {
         self.unknowns.truncate(unknowns);
         for rows in &mut self.joints {
@@ -271,6 +277,9 @@ impl Stack {
     }
 
     /// `target - columns * estimate`, `[joint][sample]`.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     #[must_use]
     pub fn residuals(&self, estimate: &[f64]) -> Vec<Vec<f64>> {
         self.joints

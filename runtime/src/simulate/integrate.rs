@@ -237,6 +237,9 @@ impl<P: Plant> Integrator<P> {
     ///
     /// # Errors
     /// As [`Self::advance`].
+    ///
+    /// # Examples
+    /// That of [`Self::drive`].
     pub fn accelerations(&mut self) -> Result<Vec<f64>, SimulateError> {
         self.moving.settle(self.time, &mut self.x)?;
         self.moving.rate(self.time, &self.x)?;
@@ -247,6 +250,9 @@ impl<P: Plant> Integrator<P> {
     ///
     /// # Errors
     /// [`SimulateError`] says where the motion has no continuation.
+    ///
+    /// # Examples
+    /// That of [the type](Self).
     pub fn advance(&mut self, end: f64) -> Result<(), SimulateError> {
         self.go(end, &mut ())
     }
@@ -255,6 +261,9 @@ impl<P: Plant> Integrator<P> {
     ///
     /// # Errors
     /// As [`Self::advance`].
+    ///
+    /// # Examples
+    /// That of [`Tangent::new`].
     pub fn advance_with(&mut self, end: f64, tangent: &mut Tangent) -> Result<(), SimulateError>
     where
         P: Adjustable,

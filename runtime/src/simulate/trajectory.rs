@@ -153,6 +153,9 @@ impl Trajectory {
     }
 
     /// The motion `time` seconds after its start; at rest beyond its end, where it was last.
+    ///
+    /// # Examples
+    /// That of [`Self::duration`].
     #[must_use]
     pub fn at(&self, time: f64) -> Desired {
         let (k, s) = self.place(time);

@@ -57,6 +57,9 @@ pub(super) struct State<'a> {
 impl<'a> Trace<'a> {
     /// A trace with these candidates; those that the spec declares are left out by the caller, those that read a channel
     /// that some log does not have by [`Self::run`].
+    ///
+    /// # Examples
+    /// That of the [module](super).
     #[must_use]
     pub fn new(candidates: Vec<&'a dyn Candidate>) -> Self {
         Self {
@@ -76,6 +79,9 @@ impl<'a> Trace<'a> {
     ///
     /// # Errors
     /// Those of [`Identify::fit`].
+    ///
+    /// # Examples
+    /// That of the [module](super).
     pub fn run(
         &self,
         arm: &dyn Arm,

@@ -54,5 +54,6 @@ pub fn measure() -> Log {
         });
         block.advance(t + 0.01).expect("a smooth motion");
     }
-    Log::from_samples("block", time, vec![q], vec![tau]).expect("the samples are finite and uniform")
+    Log::from_samples("block", time, vec![q], vec![tau])
+        .expect("the samples are finite and uniform")
 }

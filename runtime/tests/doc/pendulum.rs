@@ -119,7 +119,9 @@ impl Arm for Pendulum {
     }
     /// Of a body that is `link`, and friction; where it hangs `g` is 1, so that `mx` is a first moment.
     fn possible_arms(&self) -> Option<PossibleArms> {
-        let own = ["m", "mx", "my", "mz", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+        let own = [
+            "m", "mx", "my", "mz", "ixx", "ixy", "ixz", "iyy", "iyz", "izz",
+        ];
         let mut names: Vec<String> = own.iter().map(|own| format!("link.{own}")).collect();
         names.push(self.unknowns[2].name.clone());
         let mut arms = PossibleArms::default();

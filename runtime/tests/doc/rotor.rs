@@ -1,8 +1,6 @@
 // What the documentation's examples of excitation, which include this file, ask for: a motion of one rotor with a spring.
 
-use robot_model::excite::{
-    Criterion, Ends, Function, Limits, Regressor, Request, Scaling,
-};
+use robot_model::excite::{Criterion, Ends, Function, Limits, Regressor, Request, Scaling};
 use robot_model::motion::Kinematics;
 
 /// Columns of `tau = ia ddq + k q`.

@@ -64,6 +64,9 @@ pub struct Driven {
 
 impl Driven {
     /// A log whose torques are those of the gains, for [`Estimate::errors`] with the same arm.
+    ///
+    /// # Examples
+    /// That of [`Identify::fit_drive_gains`].
     #[must_use]
     pub fn rescaled(&self, log: &Log) -> Log {
         rescaled(log, &self.factors)

@@ -36,6 +36,9 @@ pub struct Carried {
 
 impl Carried {
     /// The payload's parameters, as the estimate has them. Those that no torque depends on are not among them.
+    ///
+    /// # Examples
+    /// That of [`Identify::fit_payload`].
     #[must_use]
     pub fn payload(&self) -> &[Identified] {
         &self.estimate.parameters[self.loaded.parameters.len()..]
@@ -43,6 +46,9 @@ impl Carried {
 
     /// Its mass, kg, with the standard deviation, and its center of mass in the link's frame, m, each as far as the logs tell; no center where
     /// the mass is not two deviations above zero.
+    ///
+    /// # Examples
+    /// That of [`Identify::fit_payload`].
     #[must_use]
     pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<f64>; 3]) {
         let told = |own: &str| {
