@@ -1,6 +1,7 @@
 //! `robot-model identify`: parameters from measured logs.
 
 mod brief;
+mod coarse;
 mod data_faults;
 pub(crate) mod doubts;
 mod drive_gains;

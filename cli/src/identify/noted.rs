@@ -4,7 +4,7 @@ use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
 
 use super::fit::{ByAcceleration, Fit};
-use super::{IdentifyArguments, brief, doubts, nominal, twice, untold};
+use super::{IdentifyArguments, brief, coarse, doubts, nominal, twice, untold};
 use crate::Error;
 
 /// That all parameters have values, or the ways out.
@@ -58,6 +58,7 @@ impl IdentifyArguments {
         all.extend(doubts::untold_shapes(estimate));
         all.extend(brief::doubt(estimate));
         let resting = doubts::resting(form.model(), logs);
+        all.extend(coarse::doubt(estimate, form.model(), logs, &resting));
         let apart = doubts::hardly_apart(estimate, form.model(), logs);
         match apart {
             Some(apart) => all.push(apart),

@@ -173,3 +173,33 @@ fn one_joint_in_degrees_is_told_by_the_torques() {
     assert!(said.contains(told), "{said}");
     assert!(said.contains("`log { q = \"q2\": deg, ..; }`"), "{said}");
 }
+
+#[test]
+fn accelerations_of_a_coarse_encoder_are_told() {
+    let folder = Folder::new();
+    folder.write("plain.robot", &SPEC.replace("LOG", ""));
+    // 10 bits a turn, or 20.
+    let coarse = |bits: i32| {
+        let step = std::f64::consts::TAU / f64::powi(2.0, bits);
+        let fine = log(1.0);
+        let rows = fine.lines().enumerate().map(|(k, row)| {
+            let fields: Vec<&str> = row.split(',').collect();
+            if k == 0 {
+                return row.to_owned();
+            }
+            let q: f64 = fields[1].parse().expect("a number");
+            format!("{},{},{}", fields[0], (q / step).round() * step, fields[2])
+        });
+        rows.collect::<Vec<_>>().join("\n") + "\n"
+    };
+    folder.write("coarse.csv", &coarse(10));
+    folder.write("fine.csv", &coarse(20));
+    let said = |log: &str| folder.run(&["identify", "plain.robot", log]).stderr;
+    let told = "accelerations are to a large part noise of the positions";
+    let coarse = said("coarse.csv");
+    assert!(
+        coarse.contains(told) && coarse.contains("`turn` "),
+        "{coarse}"
+    );
+    assert!(!said("fine.csv").contains(told));
+}

@@ -1,0 +1,45 @@
+//! Accelerations that are noise of encoders.
+
+use robot_model::identify::{Estimate, Form};
+use robot_model::log::Log;
+use robot_model::signal::{acceleration_noise, prepare};
+use robot_model_spec::Model;
+
+/// Shares of an acceleration's power from where on they are told: inertias are too small by as much, which is several times what logs leave
+/// open elsewhere.
+const MUCH: f64 = 0.1;
+
+/// Joints whose accelerations are noise to a large part in the best of all logs, but for those that `rest`.
+pub(super) fn doubt(
+    estimate: &Estimate,
+    model: &Model,
+    logs: &[Log],
+    resting: &[&str],
+) -> Option<String> {
+    if estimate.form != Form::Acceleration {
+        return None;
+    }
+    let mut least = vec![f64::INFINITY; model.joints.len()];
+    for log in logs {
+        let prepared = prepare(log, &estimate.bands).ok()?;
+        let shares = acceleration_noise(&prepared, &estimate.bands);
+        for (least, share) in least.iter_mut().zip(shares) {
+            *least = least.min(share);
+        }
+    }
+    let joints = model.joints.iter().zip(least);
+    let noisy = joints.filter(|(joint, share)| {
+        *share > MUCH && share.is_finite() && !resting.contains(&joint.name.as_str())
+    });
+    let noisy: Vec<String> = noisy
+        .map(|(joint, share)| format!("`{}` {:.0} %", joint.name, 100.0 * share))
+        .collect();
+    (!noisy.is_empty()).then(|| {
+        format!(
+            "accelerations are to a large part noise of the positions, as a coarse encoder makes it (of their power within the filters: {}): \
+             inertias come out too small by about as much; `--form filtered` and `--method iv` do without or with less of it, faster motion has \
+             more to show",
+            noisy.join(", ")
+        )
+    })
+}

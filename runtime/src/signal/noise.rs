@@ -1,0 +1,99 @@
+//! Noise of positions, and how much of an acceleration it is.
+
+use std::f64::consts::TAU;
+
+use super::{Bands, Prepared};
+
+/// The median size of a normal number of deviation 1.
+const MEDIAN_OF_NORMAL: f64 = 0.6745;
+
+/// Which share of the power of each joint's acceleration, within the band that least squares sees, is noise of its position: a parameter of
+/// that acceleration alone comes out too small by it. 1 where there is nothing but noise, 0 of a joint that stands still exactly.
+///
+/// White noise of density `S` in a position has the density `(2 pi f)^2 S` in its velocity and `(2 pi f)^4 S` in its acceleration. What the
+/// velocity has above the smooth band and below the wide one, `(2 pi)^2 S (wide^3 - smooth^3) / 3`, says `S`, and that `(2 pi)^4 S shared^5 / 5`
+/// below the shared one. Medians, as a motion may reach beyond the smooth band for moments.
+///
+/// # Examples
+/// A swing that is small for its encoder of 12 bits, and ten times as far:
+/// ```
+/// use robot_model::{log::Log, signal::{Bands, acceleration_noise, prepare}};
+/// let time: Vec<f64> = (0..5000).map(|k| 0.004 * f64::from(k)).collect();
+/// let step = std::f64::consts::TAU / 4096.0;
+/// let share = |far: f64| -> Result<f64, Box<dyn std::error::Error>> {
+///     let q = time.iter().map(|t| (far * (1.3 * t).sin() / step).round() * step);
+///     let log = Log::from_samples("a joint", time.clone(), vec![q.collect()], vec![vec![0.0; 5000]])?;
+///     let bands = Bands::for_log(&log);
+///     Ok(acceleration_noise(&prepare(&log, &bands)?, &bands)[0])
+/// };
+/// assert!(share(0.3)? > 0.3 && share(3.0)? < 0.1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[must_use]
+pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Vec<f64> {
+    let beyond = bands.wide_hz.powi(3) - bands.smooth_hz.powi(3);
+    let (wide, smooth) = (&prepared.motion.wide, &prepared.motion.smooth);
+    let joints = smooth.ddq.iter().zip(smooth.dq.iter().zip(&wide.dq));
+    let shares = joints.map(|(ddq, (dq, faster))| {
+        let mut filtered = Vec::new();
+        prepared.shared.apply(ddq, &mut filtered);
+        let power = filtered.iter().map(|x| x * x).sum::<f64>() / filtered.len().max(1) as f64;
+        let mut rest: Vec<f64> = dq.iter().zip(faster).map(|(x, y)| (x - y).abs()).collect();
+        rest.sort_unstable_by(f64::total_cmp);
+        let median = rest.get(rest.len() / 2).copied().unwrap_or_default();
+        let velocity = (median / MEDIAN_OF_NORMAL).powi(2);
+        let noise = velocity * TAU.powi(2) * 3.0 / 5.0 * bands.shared_hz.powi(5) / beyond;
+        if power > 0.0 && beyond > 0.0 {
+            (noise / power).min(1.0)
+        } else {
+            0.0
+        }
+    });
+    shares.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng;
+    use rand_chacha::ChaCha8Rng;
+    use rand_distr::{Distribution, Normal};
+
+    use super::*;
+    use crate::log::Log;
+    use crate::signal::prepare;
+
+    /// Least squares of a torque `ddq` on a noisy acceleration is small by the share that is told.
+    #[test]
+    fn an_inertia_is_too_small_by_the_noise_of_accelerations() {
+        let time: Vec<f64> = (0..20_000).map(|k| 0.002 * f64::from(k)).collect();
+        let mut random = ChaCha8Rng::seed_from_u64(1);
+        for deviation in [1e-5, 3e-4, 1e-3] {
+            let normal = Normal::new(0.0, deviation).expect("a deviation");
+            let swing = |t: f64| 0.2 * (1.7 * t).sin();
+            let q = time.iter().map(|&t| swing(t) + normal.sample(&mut random));
+            let tau = time.iter().map(|&t| -1.7 * 1.7 * swing(t));
+            let log = Log::from_samples(
+                "a joint",
+                time.clone(),
+                vec![q.collect()],
+                vec![tau.collect()],
+            );
+            let log = log.expect("a sound log");
+            let bands = Bands::for_log(&log);
+            let prepared = prepare(&log, &bands).expect("a long log");
+            let told = acceleration_noise(&prepared, &bands)[0];
+            let [mut ddq, mut tau] = [Vec::new(), Vec::new()];
+            prepared
+                .shared
+                .apply(&prepared.motion.smooth.ddq[0], &mut ddq);
+            prepared.shared.apply(&prepared.tau[0], &mut tau);
+            let both: f64 = ddq.iter().zip(&tau).map(|(x, y)| x * y).sum();
+            let own: f64 = ddq.iter().map(|x| x * x).sum();
+            let short = 1.0 - both / own;
+            assert!(
+                told > 0.6 * short - 1e-3 && told < 1.6 * short + 1e-3,
+                "{deviation}: {told} told, {short} missing"
+            );
+        }
+    }
+}
