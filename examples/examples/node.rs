@@ -2,12 +2,11 @@
 //! the arm goes out.
 //!
 //! A bag plays the part of the subscription and another one that of the publisher; in a node of a client library for ROS 2 the callback
-//! stays as it is. `cargo run -p robot-model-examples --example node -- IN.mcap OUT.mcap` plays a bag with the joints `shoulder` and `slide`;
+//! stays as it is. `cargo run -p robot-model-examples --example node -- --play IN.mcap OUT.mcap` plays a bag with the joints `shoulder` and `slide`;
 //! without arguments the arm is pushed in a bag of its own making.
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
-use std::path::PathBuf;
 
 use robot_model::control::{ControlError, ExternalTorque, MomentumObserver};
 use robot_model::effects::ViscousFriction;
@@ -80,7 +79,7 @@ fn play(bag: &Log) -> Result<Vec<Vec<f64>>, Box<dyn Error>> {
         .into());
     }
     let mut node = ContactNode::new(1.0 / bag.rate_hz())?;
-    let mut external = vec![Vec::with_capacity(bag.time.len()); 2];
+    let mut external = vec![Vec::new(); 2];
     for k in 0..bag.time.len() {
         let [q, dq, tau] =
             [&bag.q, &bag.dq, &bag.tau].map(|channel| Vector::from([channel[0][k], channel[1][k]]));
@@ -146,7 +145,7 @@ fn push(t: f64) -> f64 {
 }
 
 /// Plays the bag of its own making: a push is seen where it is and nowhere else.
-pub fn pushed_arm() -> Result<(), Box<dyn Error>> {
+fn pushed_arm() -> Result<(), Box<dyn Error>> {
     let bag = Log::from_reader_as("pushed.mcap", pushed()?.as_slice(), &columns())?;
     let external = play(&bag)?;
     // Joint states as any other: a second node could subscribe to them.
@@ -175,18 +174,17 @@ pub fn pushed_arm() -> Result<(), Box<dyn Error>> {
 }
 
 /// Plays one bag into another, or the one of its own making.
+///
+/// # Errors
+/// Bags that cannot be read or written, or are of another arm.
 pub fn main() -> Result<(), Box<dyn Error>> {
-    let paths: Vec<PathBuf> = std::env::args_os().skip(1).map(PathBuf::from).collect();
-    let [from, to] = paths.as_slice() else {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let ["--play", from, to] = arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] else {
         return pushed_arm();
     };
     let bag = Log::read_as(from, &columns())?;
     let external = play(&bag)?;
     std::fs::write(to, published(&bag, &external)?)?;
-    println!(
-        "{} messages on /external_torque in {}",
-        bag.time.len(),
-        to.display()
-    );
+    println!("{} messages on /external_torque in {to}", bag.time.len());
     Ok(())
 }

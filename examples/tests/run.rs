@@ -23,7 +23,7 @@ fn derive() {
 
 #[test]
 fn node() {
-    node::pushed_arm().unwrap_or_else(|error| panic!("{error}"));
+    node::main().unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]
