@@ -15,18 +15,18 @@ const MEDIAN_OF_NORMAL: f64 = 0.6745;
 /// below the shared one. Medians, as a motion may reach beyond the smooth band for moments.
 ///
 /// # Examples
-/// A swing that is small for its encoder of 12 bits, and ten times as far:
+/// A swing by 0.3 rad, with encoders of 12 and of 20 bits a turn:
 /// ```
 /// use robot_model::{log::Log, signal::{Bands, acceleration_noise, prepare}};
 /// let time: Vec<f64> = (0..5000).map(|k| 0.004 * f64::from(k)).collect();
-/// let step = std::f64::consts::TAU / 4096.0;
-/// let share = |far: f64| -> Result<f64, Box<dyn std::error::Error>> {
-///     let q = time.iter().map(|t| (far * (1.3 * t).sin() / step).round() * step);
+/// let share = |bits: i32| -> Result<f64, Box<dyn std::error::Error>> {
+///     let step = std::f64::consts::TAU / 2.0_f64.powi(bits);
+///     let q = time.iter().map(|t| (0.3 * (1.3 * t).sin() / step).round() * step);
 ///     let log = Log::from_samples("a joint", time.clone(), vec![q.collect()], vec![vec![0.0; 5000]])?;
 ///     let bands = Bands::for_log(&log);
 ///     Ok(acceleration_noise(&prepare(&log, &bands)?, &bands)[0])
 /// };
-/// assert!(share(0.3)? > 0.3 && share(3.0)? < 0.1);
+/// assert!(share(12)? > 0.1 && share(20)? < 0.001);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
