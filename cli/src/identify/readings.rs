@@ -99,34 +99,19 @@ impl Reading {
 
     /// What it is, and a question.
     fn said(&self, joints: &[String]) -> [String; 2] {
-        let of = |joints: &mut dyn Iterator<Item = usize>, all: &[String]| {
-            let list: Vec<&str> = joints.map(|joint| all[joint].as_str()).collect();
-            names(&list)
-        };
         match self {
-            Self::In(unit, which) => {
-                let plural = unit.plural;
-                let whose = if which.len() == 1 && joints.len() > 1 {
-                    format!(" of {}", of(&mut which.iter().copied(), joints))
-                } else {
-                    String::new()
+            Self::In(Unit { plural, name, .. }, which) => {
+                let (positions, are_they) = match which.as_slice() {
+                    [joint] if joints.len() > 1 => {
+                        (format!("the position of `{}`", joints[*joint]), "is it")
+                    }
+                    _ => ("positions".to_owned(), "are they"),
                 };
-                let position = if whose.is_empty() {
-                    "positions"
-                } else {
-                    "the position"
-                };
-                let is_it = if whose.is_empty() {
-                    "are they"
-                } else {
-                    "is it"
-                };
+                let first = which.first().map_or(1, |joint| joint + 1);
                 [
-                    format!("{position}{whose} in {plural}"),
+                    format!("{positions} in {plural}"),
                     format!(
-                        "{is_it} in {plural}? Logs are in rad, or as the spec says: `log {{ q = \"q{}\": {}, ..; }}`",
-                        which.first().map_or(1, |joint| joint + 1),
-                        unit.name
+                        "{are_they} in {plural}? Logs are in rad, or as the spec says: `log {{ q = \"q{first}\": {name}, ..; }}`"
                     ),
                 ]
             }
@@ -136,14 +121,15 @@ impl Reading {
                     Columns::Positions => "the positions",
                     Columns::Both => "positions and torques",
                 };
-                let mut moved = (0..order.len()).filter(|&joint| order[joint] != joint);
-                let how = if moved.clone().count() == 2 {
-                    format!(
-                        "of {} exchanged",
-                        of(&mut moved, joints).replace(", ", " and ")
-                    )
-                } else {
-                    format!("in the order {}", of(&mut order.iter().copied(), joints))
+                let moved = (0..order.len()).filter(|&joint| order[joint] != joint);
+                let how = match moved.collect::<Vec<_>>()[..] {
+                    [one, other] => {
+                        format!("of `{}` and `{}` exchanged", joints[one], joints[other])
+                    }
+                    _ => {
+                        let order: Vec<&str> = order.iter().map(|&k| joints[k].as_str()).collect();
+                        format!("in the order {}", names(&order))
+                    }
                 };
                 [
                     format!("{columns} {how}"),

@@ -246,9 +246,10 @@ mod tests {
             command.is_some() && told.contains("--from 'stribeck on rail' --out next.csv"),
             "{told}"
         );
-        // No motion tells a channel or time; it tells a memory.
+        // No motion tells a channel or time, nor a rotor from the mass that it moves with; it tells a memory.
         for (kind, is_told) in [
             ("dahl", true),
+            ("motor_inertia", false),
             ("temperature_viscous", false),
             ("parameter_drift", false),
         ] {

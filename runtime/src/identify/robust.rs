@@ -6,12 +6,10 @@
 
 use super::least_squares::Factors;
 use super::stack::Stack;
+use crate::signal::MEDIAN_OF_NORMAL;
 
 /// `k`: 95 % as efficient as least squares where noise is normal.
 const CORNER: f64 = 1.345;
-
-/// Median of the absolute value of normal noise, in deviations.
-pub(super) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// What nine of ten of them are below.
 const NINE_OF_TEN_OF_NORMAL: f64 = 1.6449;

@@ -12,13 +12,12 @@
 use std::ops::Range;
 
 use super::least_squares::{Factors, Solution};
-use super::robust::MEDIAN_OF_NORMAL;
 use super::stack::{Stack, clear_rows, rows_at};
 use super::{Estimate, Identify, IdentifyError, is_shape_told};
 use crate::columns::Arm;
 use crate::motion;
-use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
+use crate::signal::{MEDIAN_OF_NORMAL, Prepared};
 
 /// A joint stands below so many deviations of its velocity's noise, which is what the wide band has beyond the smooth one.
 const NOISE: f64 = 5.0;

@@ -20,6 +20,7 @@ use encoder::turn_speed;
 pub use error::SignalError;
 pub use filter::LowPass;
 pub use first_order::FirstOrder;
+pub(crate) use noise::MEDIAN_OF_NORMAL;
 pub use noise::acceleration_noise;
 pub(crate) use prepare::MOTION_ORDER;
 pub use prepare::{Bands, Prepared, prepare, prepare_velocities};

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::{Bands, Prepared};
 
 /// The median size of a normal number of deviation 1.
-const MEDIAN_OF_NORMAL: f64 = 0.6745;
+pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// Which share of the power of each joint's acceleration, within the band that least squares sees, is noise of its position: a parameter of
 /// that acceleration alone comes out too small by it. 1 where there is nothing but noise, 0 of a joint that stands still exactly.

@@ -45,6 +45,22 @@ const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
 
 /// A channel that is not of the time of the others.
+///
+/// # Examples
+/// A torque that comes ten samples late, and a fit that does not ask:
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// # use pendulum::{measure, pendulum};
+/// # use robot_model::identify::Identify;
+/// let mut log = measure(0.0);
+/// log.tau[0].rotate_right(10);
+/// let late = 10.0 / log.rate_hz();
+/// let found = Identify::default().fit(&pendulum(), &[log.clone()])?.delays;
+/// assert!(found.len() == 1 && (found[0].seconds - late).abs() < 0.1 * late);
+/// let plain = Identify { delays: false, ..Identify::default() };
+/// assert!(plain.fit(&pendulum(), &[log])?.delays.is_empty());
+/// # Ok::<(), robot_model::identify::IdentifyError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub struct Delay {
