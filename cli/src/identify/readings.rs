@@ -122,14 +122,11 @@ impl Reading {
                     Columns::Both => "positions and torques",
                 };
                 let moved = (0..order.len()).filter(|&joint| order[joint] != joint);
-                let how = match moved.collect::<Vec<_>>()[..] {
-                    [one, other] => {
-                        format!("of `{}` and `{}` exchanged", joints[one], joints[other])
-                    }
-                    _ => {
-                        let order: Vec<&str> = order.iter().map(|&k| joints[k].as_str()).collect();
-                        format!("in the order {}", names(&order))
-                    }
+                let how = if let [one, other] = moved.collect::<Vec<_>>()[..] {
+                    format!("of `{}` and `{}` exchanged", joints[one], joints[other])
+                } else {
+                    let order: Vec<&str> = order.iter().map(|&k| joints[k].as_str()).collect();
+                    format!("in the order {}", names(&order))
                 };
                 [
                     format!("{columns} {how}"),
