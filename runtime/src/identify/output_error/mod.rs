@@ -39,6 +39,7 @@ pub use search::{Ending, Iterate, Search};
 use estimate::{comparison, result};
 use parts::Parts;
 use problem::{Place, Problem};
+use search::End;
 use window::Window;
 
 /// By how much the sum of the logarithms of errors has to be less where torque is held between samples, for that to be told from means.
@@ -112,7 +113,7 @@ impl OutputError {
         let first = match self.first_window() {
             Some(first) => match problem(Some(first), hold) {
                 Err(OutputErrorError::Short { .. }) => None,
-                problem => Some(parts.search(problem?, Some(first), start, None)?),
+                problem => Some(parts.search(problem?, Some(first), start, None, End::Rough)?),
             },
             None => None,
         };
@@ -122,10 +123,20 @@ impl OutputError {
             self.window,
             values,
             first.as_ref(),
+            End::Fine,
         );
         let mut part = match (whole, first) {
             // The arm runs away along the longer motion; the shorter ones have told what they could.
-            (Err(_), Some(first)) => first,
+            (Err(_), Some(first)) => {
+                let (window, values) = (first.window, &first.place.values);
+                parts.search(
+                    problem(window, hold)?,
+                    window,
+                    values,
+                    Some(&first),
+                    End::Fine,
+                )?
+            }
             (whole, _) => whole?,
         };
         // A search that has not come to its end would only be given more time.
@@ -136,6 +147,7 @@ impl OutputError {
                 window,
                 &part.place.values,
                 Some(&part),
+                End::Fine,
             );
             // An arm that runs away was not driven so.
             part = match other {
@@ -238,6 +250,7 @@ impl OutputError {
             hold,
             held_starts: self.held_starts.as_deref(),
             most: self.iterations.unwrap_or(search::MOST),
+            end: End::Fine,
             plant,
         })
     }

@@ -2,7 +2,7 @@
 
 use super::problem::{Place, Problem};
 use super::run::Run;
-use super::search::{self, Found};
+use super::search::{self, End, Found};
 use super::{Iterate, OutputError, OutputErrorError, Recording};
 use crate::simulate::Adjustable;
 use crate::simulate::SimulateError;
@@ -58,6 +58,7 @@ impl<'s> Parts<'s> {
         window: Option<f64>,
         values: &[f64],
         before: Option<&Part<'_, P>>,
+        end: End,
     ) -> Result<Part<'a, P>, OutputErrorError> {
         let mut place = problem.place(values);
         if let Some(before) = before {
@@ -65,7 +66,10 @@ impl<'s> Parts<'s> {
         }
         let weighed = self.scale.len() > 1;
         let mut last = None;
-        for _ in 0..if weighed { 2 } else { 1 } {
+        // The first round tells what joints are weighed by in the second.
+        let rounds: &[End] = if weighed { &[End::Rough, end] } else { &[end] };
+        for &end in rounds {
+            problem.end = end;
             problem.scale.clone_from(&self.scale);
             let runs = problem.run(&place, false);
             let runs = runs.map_err(|error| no_start(&problem, error))?;

@@ -5,6 +5,7 @@ use nalgebra::DVector;
 use super::law::Law;
 use super::recording::Hold;
 use super::run::Run;
+use super::search::End;
 use super::window::{Rows, Window};
 use crate::simulate::{Adjustable, SimulateError};
 use crate::threads;
@@ -28,6 +29,7 @@ pub(super) struct Problem<'a, P> {
     pub scale: Vec<f64>,
     /// Iterations of a search.
     pub most: usize,
+    pub end: End,
 }
 
 impl<P: Adjustable + Clone + Sync> Problem<'_, P> {

@@ -31,6 +31,18 @@ const WITHIN_NOISE: f64 = 0.01;
 const LITTLE: f64 = 1e-5;
 const IN_A_ROW: usize = 2;
 
+/// The same of a search from whose end another goes on.
+const ROUGH: f64 = 1e-3;
+
+/// How near to the least cost a search has to come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// As near as the noise lets it.
+    Fine,
+    /// Into its valley: another search, of other windows or weights, goes on from there.
+    Rough,
+}
+
 /// Who looks for the least cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Search {
@@ -258,8 +270,13 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
         };
         let size = DVector::from_column_slice(&trial.values).component_mul(&scale);
         let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
-        let is_quiet = cost - after <= LITTLE * cost
-            && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise;
+        let is_quiet = match problem.end {
+            End::Rough => cost - after <= ROUGH * cost,
+            End::Fine => {
+                cost - after <= LITTLE * cost
+                    && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise
+            }
+        };
         quiet = if is_quiet { quiet + 1 } else { 0 };
         let is_over = cost - after <= STILL * cost
             || step.length <= NO_STEP * size.norm()
