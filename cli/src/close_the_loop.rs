@@ -13,6 +13,7 @@ use crate::Error;
 use crate::data_gate;
 pub use crate::data_gate::DataFault;
 use crate::identify::doubts;
+use crate::identify::noted::too_slow;
 use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
 use crate::spec::clear;
@@ -100,6 +101,9 @@ pub fn close(
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
     let before = Stage::identify(declared, &sound, turned.as_ref(), &Identify::default())?;
     let (arm, estimate) = (&before.arm, &before.estimate);
+    if let Some(slow) = turned.as_ref().and_then(|log| too_slow(estimate, log)) {
+        progress.note(&format!("note: {slow}"));
+    }
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
     if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {

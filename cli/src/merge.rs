@@ -7,7 +7,7 @@ use robot_model::identify::{Factor, Method};
 
 use crate::Error;
 use crate::identify::fit::{ByAcceleration, Fit};
-use crate::identify::noted::{factor_doubts, told_apart};
+use crate::identify::noted::{factor_doubts, told_apart, too_slow};
 use crate::identify::reduced;
 use crate::identify::report::report;
 use crate::identify::table::table;
@@ -115,6 +115,9 @@ impl Merge {
                 let source = path.display().to_string();
                 let found = mended.faults.into_iter();
                 faults.extend(found.map(|fault| (source.clone(), fault)));
+                if let Some(slow) = too_slow(&estimate, &mended.log) {
+                    progress.note(&format!("note: {slow}"));
+                }
                 Some(form.errors(&estimate, &mended.log)?)
             }
         };

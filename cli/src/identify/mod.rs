@@ -38,7 +38,7 @@ use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_each};
-use noted::{factor_doubts, told_apart};
+use noted::{factor_doubts, told_apart, too_slow};
 use options::{FormArgument, MethodArgument, RowOptions, WeightsArgument};
 use options::{parse_bands, parse_center, parse_corner, parse_mass};
 use page::{Evidence, OnLog};
@@ -216,9 +216,10 @@ impl IdentifyArguments {
         };
         let validation = validate
             .as_ref()
-            .map(|log| judged(&estimate, form, log))
+            .map(|log| form.errors(&estimate, log))
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
+        doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
         doubts.extend(readings::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
@@ -272,7 +273,7 @@ impl IdentifyArguments {
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let validation = validate
             .as_ref()
-            .map(|log| judged(&estimate, form, log))
+            .map(|log| form.errors(&estimate, log))
             .transpose()?;
         // The reader has told what is in its report.
         let unsaid = faults.iter().filter(|(_, fault)| !fault.is_in_report());
@@ -280,7 +281,9 @@ impl IdentifyArguments {
             progress.note(&format!("note: {source}: {fault}"));
         }
         let doubts = twice::doubts(&self.logs, self.validate.as_deref());
-        let doubts = doubts.into_iter().chain(factor_doubts(&estimate, form));
+        let slow = validate.iter().filter_map(|log| too_slow(&estimate, log));
+        let doubts = doubts.into_iter().chain(slow);
+        let doubts = doubts.chain(factor_doubts(&estimate, form));
         for doubt in doubts {
             progress.note(&format!("note: {doubt}"));
         }
@@ -320,17 +323,6 @@ impl IdentifyArguments {
         let report = report(estimate, Some(train), validation, faults);
         results.give(&report, &evidence, progress)
     }
-}
-
-/// Errors on a log that was not fitted; a log that the filters do not fit is named.
-fn judged(estimate: &Estimate, form: &dyn Fit, log: &Log) -> Result<Errors, Error> {
-    form.errors(estimate, log).map_err(|error| match error {
-        IdentifyError::Signal(fault) => Error::Argument(format!(
-            "{}: {fault}; the filters are those of the identification: give `--bands` that both can bear",
-            log.source
-        )),
-        other => other.into(),
-    })
 }
 
 /// Parameters, and errors side by side.

@@ -31,6 +31,19 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
     })
 }
 
+/// That a log is not judged in the band of the fit, since it comes too slowly for that.
+pub(crate) fn too_slow(estimate: &Estimate, log: &Log) -> Option<String> {
+    let rate_hz = log.rate_hz();
+    let bands = estimate.bands.at_rate(rate_hz);
+    (bands != estimate.bands).then(|| {
+        format!(
+            "{}: {rate_hz:.0} samples a second are too few for the filters of the identification, so its errors are those below {:.1} Hz, in \
+             place of {:.1} Hz",
+            log.source, bands.shared_hz, estimate.bands.shared_hz
+        )
+    })
+}
+
 /// What is doubtful about an estimate from factors, without their logs.
 pub(crate) fn factor_doubts(estimate: &Estimate, form: &ByAcceleration) -> Vec<String> {
     let negative = doubts::negative(estimate, form.unknowns());

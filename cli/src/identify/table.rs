@@ -31,7 +31,12 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
             "torque through L(s) = w/(s + w) with w = {corner:.1} rad/s"
         )),
     };
-    let mut text = format!("{domain}\n{:width$}", "joint");
+    let rests = if estimate.held.iter().any(|rows| *rows > 0) {
+        ", without the rests of joints that dry friction holds"
+    } else {
+        ""
+    };
+    let mut text = format!("{domain}{rests}\n{:width$}", "joint");
     for (name, _) in columns {
         write!(text, "  {name:>46}").expect("a string takes all");
     }

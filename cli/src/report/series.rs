@@ -47,8 +47,8 @@ impl Drawn {
     /// Models on a log. Rows are those of the first model's filters.
     pub(crate) fn new(models: &[Shown], log: &Log) -> Result<Self, Error> {
         let (first, last) = (&models[0], &models[models.len() - 1]);
-        let prepared = prepare(log, &first.estimate.bands)
-            .map_err(robot_model::identify::IdentifyError::from)?;
+        let bands = first.estimate.bands.at_rate(log.rate_hz());
+        let prepared = prepare(log, &bands).map_err(robot_model::identify::IdentifyError::from)?;
         let samples = prepared.motion.time.len();
         let kept: Vec<usize> = prepared.shared.kept(samples).collect();
         let pick = |values: &Vec<f64>| kept.iter().map(|&k| values[k]).collect::<Vec<f64>>();

@@ -1,9 +1,11 @@
 //! Rows around the turns of joints with dry friction: what they move estimates by is in deviations, or they are left out, and intervals
 //! hold the truth of arms that move under a controller.
 
+use std::fmt::Write;
+
 use serde_json::Value;
 
-use crate::common::{Folder, json};
+use crate::common::{CART, Folder, json, numbers, white};
 use crate::payload::{folder, spec};
 
 /// The truth of the arm of `payload`.
@@ -21,6 +23,75 @@ pub(crate) const TRUTH: [(&str, f64); 10] = [
 ];
 
 const RUNS: usize = 32;
+
+/// A log of the cart, which dry friction of 2 N holds with 1.5 N before it moves.
+fn waiting(seconds: f64) -> String {
+    let mut log = String::from("time,q1,tau1\n");
+    let mut state = 7;
+    for k in 0..4000 {
+        let time = 0.005 * f64::from(k);
+        let (angle, rate) = (1.9 * (time - seconds).max(0.0), 1.9);
+        let (q, dq, ddq) = (
+            0.2 * (1.0 - angle.cos()),
+            0.2 * rate * angle.sin(),
+            0.2 * rate * rate * angle.cos(),
+        );
+        let tau = if time < seconds {
+            1.5
+        } else {
+            3.0 * ddq + 5.0 * dq + 2.0 * dq.signum()
+        };
+        writeln!(
+            log,
+            "{time:.3},{q:.8},{:.6}",
+            tau + 0.05 * white(&mut state)
+        )
+        .expect("a string takes all");
+    }
+    log
+}
+
+#[test]
+fn a_log_that_waits_is_judged_as_it_would_be_fitted() {
+    let folder = Folder::new();
+    folder.write(
+        "cart.robot",
+        &CART.replace(
+            "viscous_friction on rail;",
+            "viscous_friction on rail; coulomb_friction on rail;",
+        ),
+    );
+    folder.write("moves.csv", &waiting(0.0));
+    folder.write("waits.csv", &waiting(8.0));
+    let identify = |fitted: &str, other: &str| {
+        let table = folder.succeed(&[
+            "identify",
+            "cart.robot",
+            fitted,
+            "--validate",
+            other,
+            "--json",
+            "fit.json",
+        ]);
+        let fit = json(&folder.read("fit.json"));
+        let of = |key: &str| numbers(&fit[key])[0];
+        let names = [
+            "relative_percent",
+            "relative_percent_validate",
+            "rmse_validate",
+        ];
+        (table, names.map(of))
+    };
+    let (_, [fitted, judged, raw]) = identify("moves.csv", "waits.csv");
+    assert!(judged < 1.5 * fitted && fitted < 10.0, "{judged} {fitted}");
+    assert!(raw > 0.9, "{raw}");
+    let (table, [fitted, judged, _]) = identify("waits.csv", "moves.csv");
+    assert!(judged < 1.5 * fitted && fitted < 10.0, "{judged} {fitted}");
+    assert!(
+        table.contains("without the rests of joints that dry friction holds"),
+        "{table}"
+    );
+}
 
 /// A log with encoders of 14 bits and noise of its own.
 fn log_of(folder: &Folder, run: usize) -> String {

@@ -160,7 +160,8 @@ impl Estimate {
             Form::Filtered { corner } => Some(corner),
             Form::Acceleration => None,
         };
-        let filtered = FilteredArm::new(arm, self.bands, corner);
+        let bands = self.bands.at_rate(log.rate_hz());
+        let filtered = FilteredArm::new(arm, bands, corner);
         let prepared = filtered.prepare(log)?;
         Ok(self.errors_of(&filtered, &prepared, &prepared.tau, 1))
     }

@@ -60,3 +60,13 @@ pub(crate) fn missing_input<'a>(inputs: &'a [String], log: &Log) -> Option<&'a s
         .find(|name| !is_there(name))
         .map(String::as_str)
 }
+
+/// A log through filters, or through narrower ones that it can bear.
+pub(super) fn prepare_at_own_rate(
+    arm: &dyn Arm,
+    log: &Log,
+    bands: Bands,
+) -> Result<Prepared, IdentifyError> {
+    check_logs(arm, std::slice::from_ref(log))?;
+    Ok(prepare(log, &bands.at_rate(log.rate_hz()))?)
+}

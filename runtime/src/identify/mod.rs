@@ -31,6 +31,7 @@ mod filtered;
 mod fitted;
 mod hac;
 mod instruments;
+mod judged;
 mod late;
 mod least_squares;
 mod logs;

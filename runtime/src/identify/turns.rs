@@ -49,23 +49,45 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     for (number, log) in logs.iter().enumerate() {
         let start = stack.segments[number].start;
         for &joint in arm.dry_joints() {
-            let motion = Motion::new(&log.motion, joint);
-            let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
-            let mut near = motion.near_turns(reach);
-            if motion.standing() > HELD {
-                stack.held[joint].extend(rows_at(start, log, &near));
-                continue;
-            }
-            let mut rests = vec![false; near.len()];
-            for rest in motion.rests(&near, reach, log.rate_hz) {
-                near[rest.clone()].fill(false);
-                rests[rest].fill(true);
-            }
-            stack.held[joint].extend(rows_at(start, log, &rests));
-            stack.turns[joint].extend(rows_at(start, log, &near));
+            let Standing { turns, held } = Standing::of(log, joint);
+            stack.held[joint].extend(rows_at(start, log, &held));
+            stack.turns[joint].extend(rows_at(start, log, &turns));
         }
     }
     clear_rows(&mut stack.joints, &stack.held);
+}
+
+/// Which samples of a log are left out, since the dry friction of a joint holds it.
+pub(super) fn held(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
+    if arm.dry_joints().contains(&joint) {
+        Standing::of(log, joint).held
+    } else {
+        Vec::new()
+    }
+}
+
+/// Which samples of a log the turns of a joint reach, and at which it is held.
+struct Standing {
+    turns: Vec<bool>,
+    held: Vec<bool>,
+}
+
+impl Standing {
+    fn of(log: &Prepared, joint: usize) -> Self {
+        let motion = Motion::new(&log.motion, joint);
+        let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
+        let mut turns = motion.near_turns(reach);
+        let mut held = vec![false; turns.len()];
+        if motion.standing() > HELD {
+            std::mem::swap(&mut turns, &mut held);
+        } else {
+            for rest in motion.rests(&turns, reach, log.rate_hz) {
+                turns[rest.clone()].fill(false);
+                held[rest].fill(true);
+            }
+        }
+        Self { turns, held }
+    }
 }
 
 impl Identify {

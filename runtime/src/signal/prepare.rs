@@ -58,6 +58,31 @@ impl Bands {
         }
     }
 
+    /// The same where samples come fast enough for them, at the rate that [`prepare`] brings them down to: two in a period of the widest are
+    /// too few. Or else no wider ones than [`Bands::for_rate`].
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::Bands;
+    /// assert_eq!(Bands::DEFAULT.at_rate(250.0), Bands::DEFAULT);
+    /// assert_eq!(Bands::DEFAULT.at_rate(50.0), Bands::for_rate(50.0));
+    /// let wide = Bands { wide_hz: 300.0, ..Bands::DEFAULT };
+    /// assert_eq!((wide.at_rate(700.0), wide.at_rate(1000.0)), (wide, Bands::DEFAULT)); // 1000 Hz are brought down to 500
+    /// ```
+    #[must_use]
+    pub fn at_rate(self, rate_hz: f64) -> Self {
+        let widest = self.shared_hz.max(self.smooth_hz).max(self.wide_hz);
+        if widest < 0.5 * rate_hz / stride(rate_hz) as f64 {
+            return self;
+        }
+        let most = Self::for_rate(rate_hz);
+        Self {
+            smooth_hz: self.smooth_hz.min(most.smooth_hz),
+            wide_hz: self.wide_hz.min(most.wide_hz),
+            shared_hz: self.shared_hz.min(most.shared_hz),
+        }
+    }
+
     /// [`Bands::for_rate`] at the rate of a log. Where several logs are fitted together, take the bands of the slowest.
     ///
     /// # Examples
@@ -160,6 +185,12 @@ pub fn prepare_velocities(log: &Log, bands: &Bands) -> Result<Prepared, SignalEr
     prepare_rates(log, bands, false)
 }
 
+/// Samples of a log for one of its motion.
+fn stride(logged_hz: f64) -> usize {
+    // The small slack keeps 999.99 Hz from becoming a stride of one.
+    resample::whole_steps(logged_hz / RATE_HZ + 1e-3).max(1)
+}
+
 fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepared, SignalError> {
     let Bands {
         smooth_hz,
@@ -174,8 +205,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
         });
     }
     let logged_hz = log.rate_hz();
-    // The small slack keeps 999.99 Hz from becoming a stride of one.
-    let stride = resample::whole_steps(logged_hz / RATE_HZ + 1e-3).max(1);
+    let stride = stride(logged_hz);
     let rate_hz = logged_hz / stride as f64;
     let anti_alias = if stride > 1 {
         Some(LowPass::butterworth(
