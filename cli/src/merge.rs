@@ -6,11 +6,11 @@ use clap::{Args, ValueEnum};
 use robot_model::identify::{Factor, Method};
 
 use crate::Error;
+use crate::identify::factor_file;
 use crate::identify::fit::{ByAcceleration, Fit};
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
-use crate::identify::reduced;
 use crate::identify::report::report;
-use crate::identify::table::table;
+use crate::identify::table::{share, table};
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
@@ -77,7 +77,7 @@ impl Merge {
         for (k, path) in self.factors.iter().enumerate() {
             let done = k as f64 / self.factors.len() as f64;
             progress.part(&format!("reading {}", path.display()), done);
-            let factor = reduced::read(path, arm)?;
+            let factor = factor_file::read(path, arm)?;
             for doubt in twice(path, &factor, &read) {
                 progress.note(&format!("note: {doubt}"));
             }
@@ -123,7 +123,7 @@ impl Merge {
         };
         drop(progress);
         if let Some(file) = out {
-            file.commit(reduced::text(&factor).as_bytes())?;
+            file.commit(factor_file::text(&factor).as_bytes())?;
         }
         if let Some(file) = json {
             let report = report(&estimate, None, validation.as_ref(), &faults);
@@ -131,7 +131,10 @@ impl Merge {
         }
         let joints = estimate.joints.iter().zip(&estimate.relative_percent);
         let fitted: Vec<String> = joints
-            .map(|(name, percent)| format!("{name} {percent:.2} %"))
+            .map(|(name, percent)| match share(*percent) {
+                Some(percent) => format!("{name} {percent:.2} %"),
+                None => format!("{name} -"),
+            })
             .collect();
         let errors = validation.as_ref().map(|errors| ("validation", errors));
         let errors: Vec<_> = errors.into_iter().collect();
@@ -150,13 +153,12 @@ impl Merge {
 /// Factors that have blocks of a log which one before them has, too.
 fn twice(path: &Path, factor: &Factor, before: &[(&PathBuf, Factor)]) -> Vec<String> {
     let told = before.iter().filter_map(|(first, other)| {
-        let common = factor.common_blocks(other);
+        let common = factor.common_parts(other);
         (common > 0).then(|| {
             format!(
-                "{} has {common} of its {} in {}, too: the same log is in both, what it says counts twice, and deviations come out too \
-                 small; give it once",
+                "{} has {} of a log that {} has, too: what it says counts twice, and deviations come out too small; give it once",
                 path.display(),
-                counted(factor.blocks.len(), "block"),
+                counted(common, "part"),
                 first.display()
             )
         })

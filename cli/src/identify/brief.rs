@@ -2,6 +2,8 @@
 
 use robot_model::identify::{Estimate, Factor};
 
+use crate::output;
+
 /// Independent samples of all joints for a parameter. Of 80 simulated logs each of a two-link arm, with noise correlated over 20 ms, intervals
 /// of 95 % held the truth in 80, 83, 84, 88, 90, 94 and 95 % of the cases with 2, 4, 7, 10, 13, 20 and 33 of them.
 const ENOUGH: f64 = 15.0;
@@ -13,6 +15,19 @@ const TOO_FEW: f64 = 3.0;
 pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     let independent: f64 = estimate.effective_samples.as_ref()?.iter().sum();
     said(independent, estimate.rank)
+}
+
+/// What is said of parameters that one block of many tells.
+pub(super) fn lone_doubt(estimate: &Estimate) -> Option<String> {
+    let names: Vec<&str> = estimate.of_one_block.iter().map(String::as_str).collect();
+    let verb = if names.len() == 1 { "shows" } else { "show" };
+    (!names.is_empty()).then(|| {
+        format!(
+            "{} {verb} in one block of the logs alone, and how estimates move from block to block says nothing of them: their deviations are \
+             those of white noise, times what these are too small by for the others; more logs that move them would tell",
+            output::names(&names)
+        )
+    })
 }
 
 /// What is said of factors with few blocks.

@@ -22,7 +22,7 @@ pub(super) fn doubt(
     let mut least = vec![f64::INFINITY; model.joints.len()];
     for log in logs {
         let prepared = prepare(log, &estimate.bands).ok()?;
-        let shares = acceleration_noise(&prepared, &estimate.bands);
+        let shares = acceleration_noise(&prepared, &estimate.bands)?;
         for (least, share) in least.iter_mut().zip(shares) {
             *least = least.min(share);
         }

@@ -66,8 +66,8 @@ impl IdentifyArguments {
         }
         let own = of_arm(carried, &judged.train);
         let mut payload = judged.report(&own, carried);
-        payload.payload.mass = Some(known.mass);
-        payload.payload.center = center(&found, known);
+        let [place, std] = center(&found, known);
+        payload.payload.know(known.mass, place, std);
         let printed = format!(
             "{}{}\n{}",
             carried.estimate,
@@ -101,18 +101,21 @@ fn gains<'a>(
     })
 }
 
-/// The payload's center of mass in the link's frame, m, as far as it was given or is told.
-fn center(found: &Driven, known: &KnownPayload) -> [Option<f64>; 3] {
+/// The payload's center of mass in the link's frame, m, and its deviations, as far as it was given or is told.
+fn center(found: &Driven, known: &KnownPayload) -> [[Option<f64>; 3]; 2] {
     if let Some(center) = known.center {
-        return center.map(Some);
+        return [center.map(Some), [None; 3]];
     }
     let carried = &found.carried;
-    ["mx", "my", "mz"].map(|own| {
+    let moments = ["mx", "my", "mz"].map(|own| {
         let name = format!("{}.payload.{own}", carried.link);
         let moment = carried.payload().iter().find(|p| p.name == name)?;
-        let is_told = carried.estimate.is_separated(&name);
-        is_told.then_some(moment.value / known.mass)
-    })
+        carried.estimate.is_separated(&name).then_some(moment)
+    });
+    [
+        moments.map(|moment| Some(moment?.value / known.mass)),
+        moments.map(|moment| Some(moment?.std / known.mass)),
+    ]
 }
 
 /// Gains that are hard to believe.

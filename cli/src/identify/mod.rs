@@ -5,6 +5,7 @@ mod coarse;
 mod data_faults;
 pub(crate) mod doubts;
 mod drive_gains;
+pub(crate) mod factor_file;
 pub(crate) mod fit;
 mod likeness;
 mod nominal;
@@ -14,7 +15,7 @@ mod output_error;
 mod page;
 mod payload;
 mod readings;
-pub(crate) mod reduced;
+mod reduced;
 pub(crate) mod report;
 mod results;
 pub(crate) mod table;
@@ -224,7 +225,8 @@ impl IdentifyArguments {
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));
-        if estimate.is_without_turns && !self.rows.leave_out_turns {
+        let is_of_instruments = estimate.hausman.is_some();
+        if estimate.is_without_turns && !self.rows.leave_out_turns && !is_of_instruments {
             doubts.push(doubts::AWAY_FROM_TURNS.to_owned());
         }
         for doubt in doubts {
@@ -280,6 +282,9 @@ impl IdentifyArguments {
         for (source, fault) in unsaid {
             progress.note(&format!("note: {source}: {fault}"));
         }
+        if let (Err(error), false) = (told_apart(&estimate), self.partial) {
+            progress.note(&format!("note: {error}"));
+        }
         let doubts = twice::doubts(&self.logs, self.validate.as_deref());
         let slow = validate.iter().filter_map(|log| too_slow(&estimate, log));
         let doubts = doubts.into_iter().chain(slow);
@@ -294,7 +299,7 @@ impl IdentifyArguments {
             faults: &faults,
             drawn: OnLog::of(form.arm(), &estimate, &[], validate.as_ref()),
         };
-        let results = results.with(out, reduced::text(&reduced));
+        let results = results.with(out, factor_file::text(&reduced));
         self.hand_over(form, found, results, progress)
     }
 

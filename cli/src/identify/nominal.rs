@@ -25,6 +25,19 @@ struct Likeness {
     cosine: f64,
 }
 
+/// What nominal values pull away from the logs.
+pub(super) fn pulled(estimate: &Estimate) -> Option<String> {
+    let pulled = &estimate.possible.as_ref()?.pulled;
+    let pulled: Vec<&str> = pulled.iter().map(String::as_str).collect();
+    (!pulled.is_empty()).then(|| {
+        format!(
+            "nominal values of the spec move {} by more than three deviations away from where the logs would have a possible arm; see whether \
+             their units, frames and payload are those of the arm, or take them out of the spec",
+            names(&pulled)
+        )
+    })
+}
+
 /// Where all links have nominal values. A heavy rotor behind gears moves against what gravity asks of a link, so a sign is told only where
 /// what was found `is_odd`, too. Links behind springs move with torques of their own.
 pub(super) fn doubt(

@@ -48,7 +48,8 @@ pub(crate) fn too_slow(estimate: &Estimate, log: &Log) -> Option<String> {
 pub(crate) fn factor_doubts(estimate: &Estimate, form: &ByAcceleration) -> Vec<String> {
     let negative = doubts::negative(estimate, form.unknowns());
     let explained = doubts::explained(estimate, None);
-    let all = brief::blocks_doubt(estimate).into_iter().chain(negative);
+    let blocks = [brief::blocks_doubt(estimate), brief::lone_doubt(estimate)];
+    let all = blocks.into_iter().flatten().chain(negative);
     all.chain(explained).collect()
 }
 
@@ -67,6 +68,7 @@ impl IdentifyArguments {
         let is_odd = negative.is_some() || !explained.is_empty();
         all.extend(negative.into_iter().chain(explained));
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
+        all.extend(nominal::pulled(estimate));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));
         all.extend(brief::doubt(estimate));

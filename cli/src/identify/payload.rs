@@ -32,13 +32,21 @@ pub(super) struct Body<'a> {
     /// About the origin of the link's frame.
     parameters: Vec<Parameter<'a>>,
     /// kg, and its standard deviation.
-    pub mass: Option<f64>,
-    pub mass_std: Option<f64>,
-    /// In the link's frame, m.
-    pub center: [Option<f64>; 3],
+    mass: Option<f64>,
+    mass_std: Option<f64>,
+    /// In the link's frame, m, and its standard deviations.
+    center: [Option<f64>; 3],
+    center_std: [Option<f64>; 3],
     /// Of logs with it.
     rmse: Vec<Option<f64>>,
     relative_percent: Vec<Option<f64>>,
+}
+
+impl Body<'_> {
+    /// Puts what is known of the body in the place of what was found.
+    pub fn know(&mut self, mass: f64, center: [Option<f64>; 3], center_std: [Option<f64>; 3]) {
+        (self.mass, self.center, self.center_std) = (Some(mass), center, center_std);
+    }
 }
 
 /// Logs of `identify --payload`, and what was found in them.
@@ -182,7 +190,8 @@ impl Judged {
                 parameters: parameters(found),
                 mass: mass.map(|[mass, _]| mass),
                 mass_std: mass.map(|[_, std]| std),
-                center,
+                center: center.map(|place| place.map(|[place, _]| place)),
+                center_std: center.map(|place| place.map(|[_, std]| std)),
                 rmse: counted(&self.carrying, &self.carrying.rmse),
                 relative_percent: shares(&self.carrying.relative_percent),
             },
@@ -259,7 +268,7 @@ fn told(found: &Carried) -> String {
     };
     let axes = ["x", "y", "z"].into_iter().zip(center);
     let places = axes.map(|(axis, place)| match place {
-        Some(place) => format!("{axis} {place:.4} m"),
+        Some([place, std]) => format!("{axis} {place:.4} m +- {std:.1e}"),
         None => format!("{axis} not told"),
     });
     let places: Vec<String> = places.collect();

@@ -78,6 +78,8 @@ struct PossibleReport<'a> {
     border: &'a [String],
     steps: usize,
     gap: f64,
+    /// Parameters that CAD moves far away from where the logs have them.
+    pulled: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -121,6 +123,7 @@ struct Term<'a> {
 #[derive(Serialize)]
 struct EssentialReport<'a> {
     parameters: Vec<Parameter<'a>>,
+    combinations: Vec<CombinationReport<'a>>,
     relative_percent: Vec<Option<f64>>,
 }
 
@@ -169,6 +172,7 @@ fn essential(found: &Essential) -> EssentialReport<'_> {
                 interval: None,
             })
             .collect(),
+        combinations: found.combinations.iter().map(combination).collect(),
         relative_percent: shares(&found.relative_percent),
     }
 }
@@ -244,6 +248,7 @@ pub(crate) fn report<'a>(
             border: &possible.border,
             steps: possible.steps,
             gap: possible.gap,
+            pulled: &possible.pulled,
         }),
         hausman: estimate.hausman.as_ref().map(|hausman| HausmanReport {
             probability: hausman.probability,

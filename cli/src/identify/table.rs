@@ -7,7 +7,7 @@ use robot_model::identify::{Errors, Estimate, Form};
 use crate::output;
 
 /// A relative error; none of a joint without a row that counts, as there is no share of nothing.
-pub(super) fn share(percent: f64) -> Option<f64> {
+pub(crate) fn share(percent: f64) -> Option<f64> {
     Some(percent).filter(|percent| *percent > 0.0)
 }
 
@@ -54,12 +54,17 @@ pub(crate) fn table(estimate: &Estimate, columns: &[(&str, &Errors)]) -> String 
             let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
             let share = share(errors.relative_percent[joint]);
             let share = share.map_or("-".to_owned(), |percent| format!("{percent:.2} %"));
-            write!(
-                text,
-                "  {:>10.4}  {:>10.4}  {share:>10}  {fit:>10}",
-                errors.rmse[joint], errors.mae[joint]
-            )
-            .expect("a string takes all");
+            let counts = errors.samples[joint] > 0;
+            let error = |error: f64| {
+                if counts {
+                    format!("{error:.4}")
+                } else {
+                    "-".to_owned()
+                }
+            };
+            let [rmse, mae] = [errors.rmse[joint], errors.mae[joint]].map(error);
+            write!(text, "  {rmse:>10}  {mae:>10}  {share:>10}  {fit:>10}")
+                .expect("a string takes all");
         }
         text.push('\n');
     }

@@ -146,7 +146,7 @@ fn strangers() -> Folder {
     folder.write("cut.json", &text[..text.len() / 2]);
     folder.write(
         "form.json",
-        &text.replacen("\"factor\":2", "\"factor\":9", 1),
+        &text.replacen("\"factor\":3", "\"factor\":9", 1),
     );
     folder.write("old.json", "{\"factor\":1,\"unknowns\":[]}");
     folder.write(
@@ -183,11 +183,11 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         (&["merge", "cart.robot", "cut.json"], "cut.json"),
         (
             &["merge", "cart.robot", "form.json"],
-            "a factor of form 9, this program reads form 2; write it anew with `identify --factor`",
+            "a factor of form 9, this program reads form 3; write it anew with `identify --factor`",
         ),
         (
             &["merge", "cart.robot", "old.json"],
-            "a factor of form 1, this program reads form 2",
+            "a factor of form 1, this program reads form 3",
         ),
         (
             &["merge", "cart.robot", "negative.json"],
@@ -302,7 +302,7 @@ fn a_log_that_is_in_two_factors_is_noted() {
         assert_eq!(run.code, Some(0), "{}", run.stderr);
         let told = format!("note: {again} has ");
         assert!(
-            run.stderr.contains(&told) && run.stderr.contains("in one.json, too"),
+            run.stderr.contains(&told) && run.stderr.contains(" of a log that one.json has, too"),
             "{}",
             run.stderr
         );

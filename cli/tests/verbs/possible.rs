@@ -253,3 +253,34 @@ fn what_logs_do_not_tell_is_no_claim_of_the_possible_arm() {
         assert!((again[0] - so[0]).abs() < 0.05, "{again:?} {so:?}");
     }
 }
+
+/// CAD in grams, on a log that tells little, pulls the arm away from it.
+#[test]
+fn cad_that_is_far_off_is_told() {
+    let folder = folder("0.3");
+    let arm = folder
+        .read("true.robot")
+        .replace(" { mass", ": nominal { mass");
+    folder.write("arm.robot", &arm);
+    let pulled = |out: &Value| out["possible"]["pulled"].as_array().expect("a list").len();
+    let noted = || {
+        let arguments = ["identify", "arm.robot", "log.csv", "--method", "physical"];
+        let run = folder.run(&arguments);
+        run.stderr.contains("nominal values of the spec move")
+    };
+    let (_, out) = identify(&folder, "physical");
+    assert_eq!((pulled(&out), noted()), (0, false), "{out}");
+    let gap = |out: &Value| out["possible"]["gap"].as_f64().expect("a number");
+    assert!(gap(&out) < 0.01, "{out}");
+    let light = arm.lines().map(|line| match line.split_once("mass = ") {
+        Some((before, after)) => {
+            let (mass, rest) = after.split_once(';').expect("an end");
+            format!("{before}mass = {mass} g;{}", rest.replace("0.0", "0.0000"))
+        }
+        None => line.to_owned(),
+    });
+    let light: Vec<String> = light.collect();
+    folder.write("arm.robot", &light.join("\n"));
+    let (_, out) = identify(&folder, "physical");
+    assert!(pulled(&out) > 0 && noted(), "{out}");
+}

@@ -8,7 +8,7 @@ use std::fmt;
 use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 
-use super::least_squares::Excited;
+use super::least_squares::{Excited, Solution};
 use super::{Estimate, IdentifyError, Method};
 
 /// Shares of a column in another, both of one length, below this are rounding, filters or noise.
@@ -37,6 +37,15 @@ pub struct Combination {
 }
 
 impl Combination {
+    /// Those of a solution; parts that the logs do not tell are 0, or what a method has found for them elsewhere.
+    pub(super) fn all(solution: &Solution, names: &[String]) -> Vec<Self> {
+        let shared = solution.shared.iter();
+        let of = |shared: &Shared| {
+            Self::of(shared, &solution.estimate, names, solution.std[shared.lead])
+        };
+        shared.map(of).collect()
+    }
+
     /// One of unknowns with values and names.
     pub(super) fn of(shared: &Shared, values: &[f64], names: &[String], std: f64) -> Self {
         let others = shared.others.iter().copied();

@@ -134,7 +134,7 @@ impl Identify {
     }
 
     /// Whether rows at turns are in estimates.
-    fn has_turns(&self, stack: &Stack) -> bool {
+    pub(super) fn has_turns(&self, stack: &Stack) -> bool {
         !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty())
     }
 

@@ -197,6 +197,12 @@ pub enum IdentifyError {
         /// Name of the log.
         source_name: String,
     },
+    /// A method that does not solve for an arm and its payload at once.
+    #[error("a payload is identified by `ls`, `wls` or `robust`, and not by `{method}`")]
+    PayloadMethod {
+        /// Name of the method.
+        method: &'static str,
+    },
     /// Rows that cannot be reduced to a factor.
     #[error("a factor does not hold what is wanted: {why}; identify from the logs themselves")]
     NotReduced {

@@ -3,7 +3,8 @@
 /// Errors of a model on a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors {
-    /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut; N m or N.
+    /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut, of less than four
+    /// seconds a quarter at either end; N m or N.
     pub rmse: Vec<f64>,
     /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated: RMS% of Tafazoli et
     /// al. 2004 (equation 15). Without long rests of joints with dry friction, as where it is fitted: that holds them with a torque that no

@@ -7,7 +7,7 @@
 
 use super::least_squares::Solution;
 use super::stack::Stack;
-use super::{Identified, Identify, IdentifyError};
+use super::{Combination, Identified, Identify, IdentifyError};
 
 /// A value is told from zero when it is at least so many deviations from it: 95 %.
 const TOLD: f64 = 1.96;
@@ -37,6 +37,8 @@ const TOLD: f64 = 1.96;
 pub struct Essential {
     /// What is left, with values and deviations of its own fit, in the arm's order.
     pub parameters: Vec<Identified>,
+    /// Sums of parameters that the logs tell, of whose parts they tell none.
+    pub combinations: Vec<Combination>,
     /// `100 || residual || / || tau ||` per joint with those alone.
     pub relative_percent: Vec<f64>,
 }
@@ -59,14 +61,16 @@ pub(super) fn find(
         solution = identify.solve_stack(&stack)?;
         solution.std = identify.deviations(&stack, &solution);
     }
-    let told = (0..solution.estimate.len()).filter(|c| !solution.unexcited.contains(c));
+    let names: Vec<String> = stack.unknowns.iter().map(|one| one.name.clone()).collect();
+    let told = (0..solution.estimate.len()).filter(|c| solution.is_told(*c));
     let parameters = told.map(|c| Identified {
-        name: stack.unknowns[c].name.clone(),
+        name: names[c].clone(),
         value: solution.estimate[c],
         std: solution.std[c],
     });
     Ok(Essential {
         parameters: parameters.collect(),
+        combinations: Combination::all(&solution, &names),
         relative_percent: stack.relative_percent(&solution.estimate),
     })
 }

@@ -8,7 +8,7 @@ use super::instruments::Hausman;
 use super::late::Delay;
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::{Bootstrap, Combination, Essential, Method, Shared};
+use super::{Bootstrap, Combination, Essential, Method};
 
 /// Which equations the parameters were identified with; both have the same parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,7 +75,7 @@ pub struct Estimate {
     /// What the logs tell of parameters that they do not tell apart. The first term of each has no value of its own; in
     /// `parameters` it has that which makes the sum.
     pub combinations: Vec<Combination>,
-    /// Condition number of the weighted regressor with columns of unit norm.
+    /// Condition number of the weighted regressor with columns of unit norm; of [`Method::Ridge`] of logs and nominal values together, as the rank.
     pub condition: f64,
     /// Numerical rank of the regressor.
     pub rank: usize,
@@ -105,6 +105,9 @@ pub struct Estimate {
     pub effective_samples: Option<Vec<f64>>,
     /// Blocks of the logs from which deviations are, of a [`Factor`](super::Factor).
     pub blocks: Option<usize>,
+    /// Parameters that a single one of these blocks tells: their deviations are those of white noise, times what that is too small by for the
+    /// others.
+    pub of_one_block: Vec<String>,
     /// Intervals from blocks that were drawn, where [`Identify::bootstrap`](super::Identify::bootstrap) asks for them.
     pub bootstrap: Option<Bootstrap>,
     /// The parameters that are essential, where [`Identify::essential`](super::Identify::essential) asks for them.
@@ -124,20 +127,6 @@ impl Estimate {
         fitted: Fitted,
     ) -> Self {
         let name = |c: &usize| fitted.names[*c].clone();
-        let combination = |shared: &Shared| {
-            let others = shared.others.iter();
-            let others = others.map(|(c, factor)| (name(c), *factor));
-            // Parts that the logs do not tell are 0, or what a method has found for them elsewhere.
-            let parts = shared.others.iter();
-            let parts = parts.map(|(c, factor)| factor * solution.estimate[*c]);
-            Combination {
-                terms: std::iter::once((name(&shared.lead), 1.0))
-                    .chain(others)
-                    .collect(),
-                value: solution.estimate[shared.lead] + parts.sum::<f64>(),
-                std: solution.std[shared.lead],
-            }
-        };
         let parameters = fitted
             .names
             .iter()
@@ -162,7 +151,7 @@ impl Estimate {
                 .collect(),
             shape_std: vec![None; arm.shapes().len()],
             unexcited: solution.unexcited.iter().map(name).collect(),
-            combinations: solution.shared.iter().map(combination).collect(),
+            combinations: Combination::all(solution, &fitted.names),
             condition: solution.condition,
             rank: solution.estimate.len() - solution.unexcited.len(),
             relative_percent: fitted.relative_percent,
@@ -174,6 +163,7 @@ impl Estimate {
             turns: fitted.turns,
             is_without_turns: false,
             blocks: None,
+            of_one_block: Vec::new(),
             clipped: fitted.clipped,
             held: fitted.held,
             effective_samples: fitted.effective_samples,

@@ -9,20 +9,17 @@
 //! Sources: Golub, Van Loan, Matrix Computations, on updating; Demmel, Grigori, Hoemmen, Langou 2012, Communication-optimal parallel and
 //! sequential QR; MacKinnon, Nielsen, Webb 2023 for deviations from blocks.
 
-use faer::Mat;
-use faer::linalg::solvers::Solve;
-
 use super::estimate::{Estimate, Form};
 use super::fitted::Fitted;
-use super::least_squares::{Factors, Solution, check_counts, check_excited};
+use super::least_squares::{Factors, check_counts, check_excited};
 use super::stack::{Stack, percent};
 use super::{IdentifyError, Method, turns};
-use crate::calibrate::quantile;
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
 
 mod block;
+mod deviations;
 mod equations;
 
 use block::reduced;
@@ -30,12 +27,6 @@ pub use block::{FactorBlock, FactorRows};
 
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
-
-/// Of a normal distribution 95 % are within so many deviations.
-const NORMAL: f64 = 1.96;
-
-/// A parameter that moves so many times further without a block than beside it is told by that block alone.
-const MOST_WITHOUT_BLOCK: f64 = 10.0;
 
 /// What some logs tell of an arm's unknowns.
 ///
@@ -139,7 +130,7 @@ impl Factor {
     /// let [mut monday, mut tuesday] = [Factor::new(&arm, bands)?, Factor::new(&arm, bands)?];
     /// monday.push(&arm, &measure(0.0))?;
     /// tuesday.push(&arm, &measure(0.1))?;
-    /// assert_eq!(monday.common_blocks(&tuesday), 0); // so no log counts twice
+    /// assert_eq!(monday.common_parts(&tuesday), 0); // so no log counts twice
     /// let samples = monday.samples() + tuesday.samples();
     /// monday.merge(tuesday)?;
     /// assert_eq!(monday.samples(), samples);
@@ -171,14 +162,19 @@ impl Factor {
         }
     }
 
-    /// Blocks that another factor has, too: what they say would count twice.
+    /// Parts of logs that another factor has, too: what they say would count twice. Of many parts some stand for all of them.
     ///
     /// # Examples
     /// That of [`Self::merge`].
     #[must_use]
-    pub fn common_blocks(&self, other: &Self) -> usize {
-        let is_there = |block: &&FactorBlock| other.blocks.iter().any(|other| block.is_same(other));
-        self.blocks.iter().filter(is_there).count()
+    pub fn common_parts(&self, other: &Self) -> usize {
+        let prints = |factor: &Self| -> Vec<f64> {
+            let blocks = factor.blocks.iter();
+            let mut prints: Vec<f64> = blocks.flat_map(|block| block.prints.clone()).collect();
+            prints.sort_unstable_by(f64::total_cmp);
+            prints
+        };
+        block::common(&prints(self), &prints(other))
     }
 
     /// Samples per joint.
@@ -272,7 +268,7 @@ impl Factor {
             }
         };
         check_excited(&solution)?;
-        used.deviations(&mut solution);
+        let lone = used.deviations(&mut solution);
         if let (Some(away), false) = (&away, leave_out_turns) {
             turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
         }
@@ -289,6 +285,7 @@ impl Factor {
         let estimate = Estimate::new(arm, method, form, self.bands, &solution, Vec::new(), fitted);
         Ok(Estimate {
             blocks: Some(used.blocks.len()),
+            of_one_block: lone.iter().map(|&k| self.unknowns[k].clone()).collect(),
             is_without_turns: leave_out_turns,
             ..estimate
         })
@@ -321,72 +318,6 @@ impl Factor {
             percent(self.squares(joint, estimate).sqrt(), torque.sqrt())
         };
         joints.map(of).collect()
-    }
-
-    /// Standard deviations from how the estimate moves without each block, `(A - A_b)^-1 s_b` with the block's share `A_b` of the normal
-    /// equations and what its own rows lack, `s_b`; with one block those for noise that is white. What only one block tells moves as it
-    /// would beside the others. A deviation from `G` blocks is itself unsure: it is larger by Student's t of `G - 1` degrees of freedom over
-    /// the normal distribution's, so that 1.96 of it hold the truth with 95 %, and from few blocks no smaller than that for white noise.
-    ///
-    /// Source: MacKinnon, Nielsen, Webb 2023, Fast and reliable jackknife and bootstrap methods for cluster-robust inference (CV3).
-    fn deviations(&self, solution: &mut Solution) {
-        let count = self.blocks.len();
-        if count < 2 {
-            return;
-        }
-        let n = self.unknowns.len();
-        let is_in = |c: &usize| solution.unexcited.binary_search(c).is_err();
-        let excited: Vec<usize> = (0..n).filter(is_in).collect();
-        let size = excited.len();
-        let own = |block: &FactorBlock| {
-            let mut information = Mat::<f64>::zeros(size, size);
-            let mut score = Mat::<f64>::zeros(size, 1);
-            for (joint, scale) in solution.scale.iter().enumerate() {
-                let rows: Vec<&Vec<f64>> = block.rows(joint).collect();
-                let columns =
-                    Mat::from_fn(rows.len(), size, |row, k| rows[row][excited[k]] / scale);
-                let rest = Mat::from_fn(rows.len(), 1, |row, _| {
-                    residual(rows[row], &solution.estimate) / scale
-                });
-                score += columns.transpose() * rest;
-                information += columns.transpose() * &columns;
-            }
-            (information, score)
-        };
-        let parts: Vec<(Mat<f64>, Mat<f64>)> = self.blocks.iter().map(own).collect();
-        let zero = Mat::<f64>::zeros(size, size);
-        let all = parts.iter().fold(zero, |sum, (part, _)| sum + part);
-        let length: Vec<f64> = (0..size).map(|k| all[(k, k)].sqrt()).collect();
-        let moved = |information: &Mat<f64>, score: &Mat<f64>| {
-            let scaled = Mat::from_fn(size, size, |i, k| {
-                information[(i, k)] / (length[i] * length[k])
-            });
-            let right = Mat::from_fn(size, 1, |k, _| score[(k, 0)] / length[k]);
-            scaled.partial_piv_lu().solve(right)
-        };
-        let mut squares = vec![0.0; size];
-        for (part, score) in &parts {
-            let beside = moved(&all, score);
-            let without = moved(&(&all - part), score);
-            for (k, square) in squares.iter_mut().enumerate() {
-                let (least, most) = (beside[(k, 0)].powi(2), without[(k, 0)].powi(2));
-                // Without the only block that tells it a parameter may be anywhere.
-                let is_told = most <= MOST_WITHOUT_BLOCK.powi(2) * least;
-                *square += if is_told { most } else { least };
-            }
-        }
-        let freedom = count as f64 - 1.0;
-        let correction = freedom / count as f64;
-        let unsure = quantile(freedom) / NORMAL;
-        for ((square, length), &c) in squares.iter().zip(&length).zip(&excited) {
-            let white = solution.std[c];
-            let least = if count < Self::ENOUGH_BLOCKS {
-                white
-            } else {
-                0.0
-            };
-            solution.std[c] = (unsure * (correction * square).sqrt() / length).max(least);
-        }
     }
 }
 

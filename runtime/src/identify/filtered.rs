@@ -18,8 +18,7 @@ use crate::signal::{Bands, FirstOrder, Prepared, SignalError, border, prepare_ve
 use super::errors::Errors;
 use super::estimate::{Estimate, Form};
 use super::possible::PossibleArms;
-use super::stack::Stack;
-use super::{Identify, IdentifyError, band, check_logs, shapes, slowest_bands, turns};
+use super::{Identify, IdentifyError, band, check_logs, instruments, shapes, slowest_bands, turns};
 
 /// An arm whose columns and torques have passed `L`.
 struct FilteredArm<'a> {
@@ -103,7 +102,7 @@ impl Identify {
         let solved = self.deviated(&filtered, &prepared, solved);
         let estimate = self.estimate(&filtered, form, bands, solved, &|| {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
-            Ok(Stack::new(&filtered, &wanted, &shapes))
+            Ok(instruments::rows(&filtered, &wanted, &shapes))
         })?;
         Ok(Estimate {
             delays: self.delays_of_logs(arm, logs, &bands, &shapes),

@@ -17,14 +17,13 @@ use statrs::function::erf::erfc;
 use super::combination::shared;
 use super::estimate::Identified;
 use super::hac::{Rows, weighed};
-use super::least_squares::{Excited, Factors, Solution};
+use super::least_squares::{Excited, Factors, Solution, condition};
 use super::stack::Stack;
 use super::{IdentifyError, Weights, robust, turns};
+use crate::columns::Arm;
 use crate::log::Log;
+use crate::signal::Prepared;
 use crate::simulate::Trajectory;
-
-/// Rounds of weights, as for least squares.
-const REWEIGHTINGS: usize = 5;
 
 /// Both estimates are one where they differ by less than this share of their deviation.
 const ROUNDING: f64 = 1e-7;
@@ -181,6 +180,13 @@ fn is_same_motion(one: &[Vec<f64>], other: &[Vec<f64>]) -> bool {
     !found.is_empty() && found.iter().all(|is_same| *is_same)
 }
 
+/// Columns along motions without noise, with the rows at their turns.
+pub(super) fn rows(arm: &dyn Arm, wanted: &[Prepared], shapes: &[f64]) -> Stack {
+    let mut stack = Stack::new(arm, wanted, shapes);
+    turns::find(&mut stack, arm, wanted);
+    stack
+}
+
 /// Both stacks without the rows that turns of dry joints in either motion reach: there the wanted motion has another direction than the
 /// measured one, which is no noise of columns.
 pub(super) fn without_turns(stack: &Stack, instruments: &Stack) -> [Stack; 2] {
@@ -206,15 +212,13 @@ pub(super) fn make(
     weights: Weights,
 ) -> Result<Hausman, IdentifyError> {
     let ordinary = solution.clone();
-    let factors = Factors::new(stack);
-    let rounds = match weights {
-        Weights::Residual => REWEIGHTINGS,
-        Weights::TorqueNorm | Weights::MaxTorque => 1,
-    };
+    let (factors, clean_factors) = (Factors::new(stack), Factors::new(instruments));
+    let ones = robust::of_all(stack);
+    let rounds = weights.rounds();
     let mut influence = None;
     for round in 1..=rounds {
         let scale = &solution.scale;
-        let clean = Factors::new(instruments).stacked(scale);
+        let clean = clean_factors.stacked(scale);
         let n = stack.unknowns.len();
         let excited = Excited::new(&clean, n).columns;
         let silent = excited_by_one(&excited, &ordinary.unexcited, n);
@@ -229,7 +233,6 @@ pub(super) fn make(
             Rows::new(instruments, &silent, scale),
             Rows::new(stack, &silent, scale),
         );
-        let ones = robust::of_all(stack);
         let target: Vec<Vec<f64>> = stack
             .joints
             .iter()
@@ -283,13 +286,7 @@ fn solve(z: &Rows, w: &Rows, target: &[Vec<f64>]) -> (Vec<f64>, f64) {
         target[row / samples][row % samples]
     });
     let projected = basis.transpose() * stacked(&w.joints);
-    let condition = match projected.singular_values() {
-        Ok(values) => values
-            .first()
-            .zip(values.last())
-            .map_or(f64::INFINITY, |(most, least)| most / least),
-        Err(_) => f64::INFINITY,
-    };
+    let condition = condition(&projected);
     let solved = projected.partial_piv_lu().solve(basis.transpose() * right);
     (solved.col(0).iter().copied().collect(), condition)
 }

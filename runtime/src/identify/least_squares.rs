@@ -8,9 +8,9 @@ mod excited;
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
-use super::IdentifyError;
 use super::combination::{Shared, shared};
 use super::stack::{JointRows, Stack};
+use super::{IdentifyError, Weights};
 
 pub(super) use excited::Excited;
 pub use excited::RANK_TOLERANCE;
@@ -20,6 +20,23 @@ const LEAST_SIGMA: f64 = 1e-6;
 
 /// How often weights follow the residuals of the estimate that they gave.
 const REWEIGHTINGS: usize = 5;
+
+impl Weights {
+    /// How often an estimate is made until its weights are those of its own residuals; once where weights do not follow these.
+    pub(super) fn rounds(self) -> usize {
+        match self {
+            Self::Residual => REWEIGHTINGS,
+            Self::TorqueNorm | Self::MaxTorque => 1,
+        }
+    }
+}
+
+/// The largest singular value over the smallest.
+pub(super) fn condition(matrix: &Mat<f64>) -> f64 {
+    let values = matrix.singular_values().unwrap_or_default();
+    let ends = values.first().zip(values.last());
+    ends.map_or(f64::INFINITY, |(most, least)| most / least)
+}
 
 /// Triangular factors `R_j` of the blocks `[W_j target_j]`, all columns in place.
 ///
@@ -212,10 +229,7 @@ impl Factors {
         let rank = excited.len();
         let sigma = self.sigma(&estimate, rank);
         let std = self.deviations(&estimate, &excited, &norms, &scale, &sigma, correlation);
-        let condition = match kept.singular_values() {
-            Ok(values) if rank > 0 => values[0] / values[rank - 1],
-            _ => f64::INFINITY,
-        };
+        let condition = condition(&kept);
         Solution {
             estimate,
             std,

@@ -175,7 +175,7 @@ impl Identify {
             let mut wanted = prepare_all(&wanted, &bands)?;
             // What effects read of the load is that of the estimate.
             update_load(arm, &mut wanted, shapes, &found);
-            Ok(Stack::new(arm, &wanted, shapes))
+            Ok(instruments::rows(arm, &wanted, shapes))
         };
         let estimate = self.estimate(arm, Form::Acceleration, bands, solved, &|| {
             instruments(&shapes)
@@ -222,9 +222,10 @@ impl Identify {
             shapes,
             shape_std,
             of_shapes,
-            stack,
+            mut stack,
         } = solved;
         let mut beside = Beside::default();
+        let mut is_without_turns = self.leave_out_turns;
         if matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
             beside.bootstrap = self.draw(&stack, &solution)?;
             let mut essential = || essential::find(self, stack.clone(), &solution);
@@ -244,16 +245,20 @@ impl Identify {
                 total::make(solution, stack, self.weights)
             })?,
             Method::Instrumental => {
-                let instruments = instruments()?;
+                let mut instruments = instruments()?;
                 let [rest, clean] = instruments::without_turns(&stack, &instruments);
-                let found = self.solve_stack(&rest)?;
-                beside.hausman = Some(if found.unexcited == solution.unexcited {
-                    solution = found;
-                    instruments::make(&mut solution, &rest, &clean, self.weights)?
-                } else {
-                    // Turns are all that some parameter shows in.
-                    instruments::make(&mut solution, &stack, &instruments, self.weights)?
-                });
+                let found = self.solve_stack(&rest).ok();
+                // Or turns are all that some parameter shows in.
+                if let Some(found) = found.filter(|found| found.unexcited == solution.unexcited) {
+                    (solution, stack, instruments) = (found, rest, clean);
+                    is_without_turns |= self.has_turns(&stack);
+                }
+                beside.hausman = Some(instruments::make(
+                    &mut solution,
+                    &stack,
+                    &instruments,
+                    self.weights,
+                )?);
             }
         }
         if !matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
@@ -273,7 +278,7 @@ impl Identify {
             bootstrap: beside.bootstrap,
             essential: beside.essential,
             shape_std,
-            is_without_turns: self.leave_out_turns,
+            is_without_turns,
             ..estimate
         })
     }

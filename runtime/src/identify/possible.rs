@@ -37,6 +37,9 @@ const UNKNOWN_EFFECT: f64 = 1.0;
 /// own size costs as much as one deviation. With less, logs that tell little bend bodies to where noise is.
 const CAD_WEIGHT: f64 = 1.0;
 
+/// CAD contradicts the logs where it moves a parameter by more than so many deviations.
+const FAR: f64 = 3.0;
+
 /// Principal second moments of a nominal body below this share of the largest are this share: a rod has an inside too.
 const THINNEST: f64 = 1e-3;
 
@@ -95,8 +98,11 @@ pub struct Possible {
     pub border: Vec<String>,
     /// Steps of Newton's method.
     pub steps: usize,
-    /// By how much the weighted sum of squared residuals may exceed the least possible one, as a share of it.
+    /// By how much the weighted sum of squared residuals exceeds the least one of a possible arm, as a share of it: what the pull to CAD costs,
+    /// and what the barriers that are left cost at most, about.
     pub gap: f64,
+    /// Parameters that CAD moves by more than three deviations away from where the logs alone would have them.
+    pub pulled: Vec<String>,
 }
 
 /// What the logs tell of the unknowns.
@@ -111,6 +117,8 @@ struct Nearest {
     estimate: Vec<f64>,
     standard: Vec<f64>,
     steps: usize,
+    /// Half the sum of squares.
+    cost: f64,
     gap: f64,
 }
 
@@ -123,13 +131,31 @@ pub(super) fn make(
 ) -> Result<Possible, IdentifyError> {
     let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
     let unconstrained_percent = stack.relative_percent(&solution.estimate);
-    let factor = Factors::new(stack).stacked(&solution.sigma);
+    // As many samples as correlated ones are worth, so that the weight of CAD is that beside deviations.
+    let times = stack.correlation_times(&stack.residuals(&solution.estimate));
+    let scale = times.iter().zip(&solution.sigma);
+    let scale: Vec<f64> = scale.map(|(time, sigma)| sigma * time.sqrt()).collect();
+    let factor = Factors::new(stack).stacked(&scale);
     let told = Told {
         values: &solution.estimate,
         deviations: &solution.std,
     };
     let nearest = arms.nearest(&factor, &told, CAD_WEIGHT);
     let nearest = nearest.ok_or(IdentifyError::NoEnd)?;
+    // Where all barriers fade the search may come to no end, and nothing is known of what CAD costs.
+    let has_cad = arms.links.iter().any(|link| link.body().is_some());
+    let freest = has_cad
+        .then(|| arms.nearest(&factor, &told, LAST_WEIGHT))
+        .flatten();
+    let freest = freest.as_ref().unwrap_or(&nearest);
+    let pairs = nearest.estimate.iter().zip(&freest.estimate).enumerate();
+    let pulled = pairs.filter(|(k, (near, free))| {
+        solution.is_told(*k) && (*near - *free).abs() > FAR * solution.std[*k]
+    });
+    let pulled = pulled
+        .map(|(k, _)| stack.unknowns[k].name.clone())
+        .collect();
+    let gap = (nearest.cost / freest.cost.max(f64::MIN_POSITIVE) - 1.0).max(0.0) + freest.gap;
     let border = arms.border(&solution.estimate, &nearest.standard);
     solution.estimate = nearest.estimate;
     let origins = arms.origins(solution);
@@ -140,7 +166,8 @@ pub(super) fn make(
         unconstrained_percent,
         border,
         steps: nearest.steps,
-        gap: nearest.gap,
+        gap,
+        pulled,
     })
 }
 
@@ -216,6 +243,7 @@ impl PossibleArms {
         let Found {
             variables,
             steps,
+            cost,
             gap,
         } = barrier.minimize(first)?;
         let mut standard = barrier.standard(&variables);
@@ -226,6 +254,7 @@ impl PossibleArms {
             estimate: variables[..unknowns].to_vec(),
             standard,
             steps,
+            cost,
             gap,
         })
     }

@@ -9,7 +9,7 @@ use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::combination::shared;
-use super::least_squares::{Excited, Factors, Solution};
+use super::least_squares::{Excited, Factors, Solution, condition};
 use super::stack::Stack;
 use super::{IdentifyError, Nominal};
 
@@ -55,6 +55,7 @@ pub(super) fn make(
         kept,
     } = excited;
     let right = Mat::from_fn(all.nrows(), 1, |row, _| all[(row, n)]);
+    solution.condition = condition(&kept);
     let qr = kept.qr();
     let solved = qr.solve_lstsq(&right);
     let inverse = (kept.transpose() * &kept)

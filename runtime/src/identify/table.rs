@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::Estimate;
+use super::{Combination, Estimate};
 
 /// Outliers are many from one sample in so many on.
 const MANY: usize = 10;
@@ -176,7 +176,7 @@ impl Estimate {
         let percents = percents.zip(&possible.unconstrained_percent);
         let joints = self.joints.iter().zip(percents);
         let told: Vec<String> = joints
-            .map(|(name, (with, without))| format!("{name} {with:.2} for {without:.2} %"))
+            .map(|(name, (with, without))| both_told(name, *with, *without))
             .collect();
         writeln!(
             f,
@@ -218,10 +218,7 @@ impl Estimate {
                 "not separable: the logs tell these only in sums with others"
             )?;
         }
-        for combination in &self.combinations {
-            let (value, std) = (combination.value, combination.std);
-            writeln!(f, "  {combination} = {value:.5} +- {std:.2e}")?;
-        }
+        tell_sums(f, &self.combinations)?;
         if self.possible.is_some() {
             writeln!(
                 f,
@@ -235,11 +232,15 @@ impl Estimate {
         let Some(essential) = &self.essential else {
             return Ok(());
         };
-        let count = essential.parameters.len();
+        let (count, sums) = (essential.parameters.len(), essential.combinations.len());
         let of = self.parameters.len();
+        let sums = match sums {
+            0 => String::new(),
+            one => format!(" and {one} sums of them"),
+        };
         writeln!(
             f,
-            "essential: {count} of {of} parameters, told from zero when all others are left out"
+            "essential: {count} of {of} parameters{sums}, told from zero when all others are left out"
         )?;
         let names = essential.parameters.iter().map(|p| p.name.len());
         let width = names.max().unwrap_or(0);
@@ -251,11 +252,29 @@ impl Estimate {
                 p.name, p.value, p.std
             )?;
         }
+        tell_sums(f, &essential.combinations)?;
         let joints = self.joints.iter().zip(&essential.relative_percent);
         let joints = joints.zip(&self.relative_percent);
         let told: Vec<String> = joints
-            .map(|((name, alone), all)| format!("{name} {alone:.2} for {all:.2} %"))
+            .map(|((name, alone), all)| both_told(name, *alone, *all))
             .collect();
         writeln!(f, "relative error with these alone: {}", told.join(", "))
     }
+}
+
+/// Two relative errors of a joint; one without rows has none.
+fn both_told(joint: &str, one: f64, other: f64) -> String {
+    if one > 0.0 || other > 0.0 {
+        format!("{joint} {one:.2} for {other:.2} %")
+    } else {
+        format!("{joint} -")
+    }
+}
+
+fn tell_sums(f: &mut fmt::Formatter<'_>, sums: &[Combination]) -> fmt::Result {
+    for sum in sums {
+        let (value, std) = (sum.value, sum.std);
+        writeln!(f, "  {sum} = {value:.5} +- {std:.2e}")?;
+    }
+    Ok(())
 }

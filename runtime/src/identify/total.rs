@@ -12,9 +12,6 @@ use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use super::{IdentifyError, Weights, robust};
 
-/// Rounds of weights, as for least squares.
-const REWEIGHTINGS: usize = 5;
-
 /// `s^2` as a share of the least squared singular value of the columns alone: beyond this the errors that are taken for granted hide how
 /// columns differ.
 const MOST_SHARE: f64 = 0.25;
@@ -36,10 +33,7 @@ pub(super) fn make(
     weights: Weights,
 ) -> Result<(), IdentifyError> {
     let factors = Factors::new(stack);
-    let rounds = match weights {
-        Weights::Residual => REWEIGHTINGS,
-        Weights::TorqueNorm | Weights::MaxTorque => 1,
-    };
+    let rounds = weights.rounds();
     for round in 1..=rounds {
         let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
         let total = Total::new(&factors, &rows, &solution.scale)?;

@@ -8,7 +8,8 @@ use super::{Bands, Prepared};
 pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
 /// Which share of the power of each joint's acceleration, within the band that least squares sees, is noise of its position: a parameter of
-/// that acceleration alone comes out too small by it. 1 where there is nothing but noise, 0 of a joint that stands still exactly.
+/// that acceleration alone comes out too small by it. 1 where there is nothing but noise, 0 of a joint that stands still exactly; none where the
+/// wide band is no wider than the smooth one, so that nothing tells the noise.
 ///
 /// White noise of density `S` in a position has the density `(2 pi f)^2 S` in its velocity and `(2 pi f)^4 S` in its acceleration. What the
 /// velocity has above the smooth band and below the wide one, `(2 pi)^2 S (wide^3 - smooth^3) / 3`, says `S`, and that `(2 pi)^4 S shared^5 / 5`
@@ -24,14 +25,17 @@ pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 ///     let q = time.iter().map(|t| (0.3 * (1.3 * t).sin() / step).round() * step);
 ///     let log = Log::from_samples("a joint", time.clone(), vec![q.collect()], vec![vec![0.0; 5000]])?;
 ///     let bands = Bands::for_log(&log);
-///     Ok(acceleration_noise(&prepare(&log, &bands)?, &bands)[0])
+///     Ok(acceleration_noise(&prepare(&log, &bands)?, &bands).expect("two bands")[0])
 /// };
 /// assert!(share(12)? > 0.1 && share(20)? < 0.001);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[must_use]
-pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Vec<f64> {
+pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>> {
     let beyond = bands.wide_hz.powi(3) - bands.smooth_hz.powi(3);
+    if beyond <= 0.0 {
+        return None;
+    }
     let (wide, smooth) = (&prepared.motion.wide, &prepared.motion.smooth);
     let joints = smooth.ddq.iter().zip(smooth.dq.iter().zip(&wide.dq));
     let shares = joints.map(|(ddq, (dq, faster))| {
@@ -43,13 +47,13 @@ pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Vec<f64> {
         let median = rest.get(rest.len() / 2).copied().unwrap_or_default();
         let velocity = (median / MEDIAN_OF_NORMAL).powi(2);
         let noise = velocity * TAU.powi(2) * 3.0 / 5.0 * bands.shared_hz.powi(5) / beyond;
-        if power > 0.0 && beyond > 0.0 {
+        if power > 0.0 {
             (noise / power).min(1.0)
         } else {
             0.0
         }
     });
-    shares.collect()
+    Some(shares.collect())
 }
 
 #[cfg(test)]
@@ -81,7 +85,7 @@ mod tests {
             let log = log.expect("a sound log");
             let bands = Bands::for_log(&log);
             let prepared = prepare(&log, &bands).expect("a long log");
-            let told = acceleration_noise(&prepared, &bands)[0];
+            let told = acceleration_noise(&prepared, &bands).expect("two bands")[0];
             let [mut ddq, mut tau] = [Vec::new(), Vec::new()];
             prepared
                 .shared

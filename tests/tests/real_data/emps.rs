@@ -68,10 +68,10 @@ fn moves_under_its_controller_as_it_was_measured() {
     let pulses = settings.compare(&plant, &found.values, &pulses);
     let pulses = pulses.unwrap_or_else(|error| panic!("{error}"));
     for (comparison, position, force) in [(&found.fit, 0.0138, 5.85), (&pulses, 0.0080, 8.94)] {
-        let told = comparison.position[0].relative_percent;
+        let told = comparison.position[0].relative_percent.expect("it moves");
         assert!(told <= position, "position: {told} %");
         let torque = comparison.torque.as_ref().expect("a controller made it");
-        let told = torque[0].relative_percent;
+        let told = torque[0].relative_percent.expect("a force");
         assert!(told <= force, "force: {told} %");
     }
     // As least squares has them; what the friction lacks goes elsewhere.

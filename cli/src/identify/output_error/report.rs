@@ -11,7 +11,7 @@ use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
 use super::super::data_faults::{FaultReport, fault_reports};
-use super::super::report::{CombinationReport, Parameter, combination};
+use super::super::report::{CombinationReport, Parameter, combination, counted, shares};
 use super::directions::{DirectionReport, RatioReport, direction, hanging, ratio};
 use super::{Judged, listed};
 
@@ -37,10 +37,10 @@ pub(super) struct JsonReport<'a> {
     form: &'static str,
     parameters: Vec<Parameter<'a>>,
     /// Of torques from equations with these parameters, as other methods have it; null where least squares has no filters for them.
-    rmse: Option<&'a [f64]>,
-    rmse_validate: Option<&'a [f64]>,
-    relative_percent: Option<&'a [f64]>,
-    relative_percent_validate: Option<&'a [f64]>,
+    rmse: Option<Vec<Option<f64>>>,
+    rmse_validate: Option<Vec<Option<f64>>>,
+    relative_percent: Option<Vec<Option<f64>>>,
+    relative_percent_validate: Option<Vec<Option<f64>>>,
     condition: Option<f64>,
     rank: usize,
     unexcited: Vec<&'a str>,
@@ -75,7 +75,7 @@ pub(super) struct JsonReport<'a> {
 struct Distances {
     rmse: Vec<f64>,
     mae: Vec<f64>,
-    relative_percent: Vec<f64>,
+    relative_percent: Vec<Option<f64>>,
     nrmse_fit_percent: Vec<Option<f64>>,
 }
 
@@ -149,11 +149,11 @@ impl OutputReport<'_> {
             method: "output-error",
             form: "simulation",
             parameters: self.parameters(),
-            rmse: torque.map(|errors| errors.rmse.as_slice()),
-            rmse_validate: torque_validate.map(|errors| errors.rmse.as_slice()),
-            relative_percent: torque.map(|errors| errors.relative_percent.as_slice()),
+            rmse: torque.map(|errors| counted(errors, &errors.rmse)),
+            rmse_validate: torque_validate.map(|errors| counted(errors, &errors.rmse)),
+            relative_percent: torque.map(|errors| shares(&errors.relative_percent)),
             relative_percent_validate: torque_validate
-                .map(|errors| errors.relative_percent.as_slice()),
+                .map(|errors| shares(&errors.relative_percent)),
             condition: self.condition(),
             rank: found.identifiability.rank,
             unexcited: self.unidentified().map(String::as_str).collect(),
@@ -373,10 +373,12 @@ impl OutputReport<'_> {
                 for (joint, distance) in joints.iter().zip(distances) {
                     let fit = distance.nrmse_fit_percent;
                     let fit = fit.map_or("-".to_owned(), |fit| format!("{fit:.2} %"));
+                    let share = distance.relative_percent;
+                    let share = share.map_or("-".to_owned(), |share| format!("{share:.4} %"));
                     writeln!(
                         text,
-                        "{:width$}  {:>10.3e}  {:>10.3e}  {:>8.4} %  {fit:>10}",
-                        joint.name, distance.rmse, distance.mae, distance.relative_percent
+                        "{:width$}  {:>10.3e}  {:>10.3e}  {share:>10}  {fit:>10}",
+                        joint.name, distance.rmse, distance.mae
                     )?;
                 }
             }

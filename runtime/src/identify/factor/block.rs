@@ -17,6 +17,9 @@ const PARTS: usize = 16;
 /// Sums of torque that differ by no more than this share are the same, read and written again.
 const SAME: f64 = 1e-12;
 
+/// Parts that a block is known by, at most.
+const PRINTS: usize = 64;
+
 /// A part of a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FactorBlock {
@@ -26,6 +29,9 @@ pub struct FactorBlock {
     pub away: FactorRows,
     /// Rows around turns.
     pub at_turns: FactorRows,
+    /// Of each part that this block is made of the sum of all joints' squared torque, by which it is known again, ascending; of many parts
+    /// the least ones, so that what two blocks have in common is among those of both.
+    pub prints: Vec<f64>,
 }
 
 /// Rows, reduced joint by joint.
@@ -89,13 +95,6 @@ impl FactorRows {
             *rows = rows_of(&reduced(rows));
         }
     }
-
-    /// Whether they are of the same samples: no two logs have the same sums of squared torque.
-    fn is_same(&self, other: &Self) -> bool {
-        let mut sums = self.torque_squares.iter().zip(&other.torque_squares);
-        self.counts == other.counts
-            && sums.all(|(one, other)| (one - other).abs() <= SAME * one.max(*other))
-    }
 }
 
 impl FactorBlock {
@@ -152,7 +151,11 @@ impl FactorBlock {
     pub fn of_rows(stack: &Stack) -> Self {
         let at_turns = turns::are_at(stack);
         let is_at = |joint: usize, row: usize| at_turns[joint][row];
+        let torque = stack.joints.iter().flat_map(|rows| &rows.tau);
+        // Without any torque nothing tells it from others.
+        let print = Some(torque.map(|tau| tau * tau).sum()).filter(|sum| *sum > 0.0);
         Self {
+            prints: print.into_iter().collect(),
             samples: stack.samples(),
             away: FactorRows::of(stack, &|joint, row| !is_at(joint, row)),
             at_turns: if stack.turns.iter().all(Vec::is_empty) {
@@ -184,6 +187,7 @@ impl FactorBlock {
     pub(super) fn without_turns(&self) -> Self {
         Self {
             samples: self.samples,
+            prints: self.prints.clone(),
             away: self.away.clone(),
             at_turns: FactorRows::none(self.away.counts.len()),
         }
@@ -194,17 +198,25 @@ impl FactorBlock {
         self.samples += other.samples;
         self.away.add(other.away);
         self.at_turns.add(other.at_turns);
+        self.prints.extend(other.prints);
+        self.prints.sort_unstable_by(f64::total_cmp);
+        self.prints.truncate(PRINTS);
     }
+}
 
-    /// Whether another is of the same samples. Of blocks without any torque that is not known.
-    pub(super) fn is_same(&self, other: &Self) -> bool {
-        self.samples == other.samples
-            && [&self.away, &self.at_turns]
-                .iter()
-                .any(|rows| rows.torque_squares.iter().any(|sum| *sum > 0.0))
-            && self.away.is_same(&other.away)
-            && self.at_turns.is_same(&other.at_turns)
-    }
+/// How many of the first numbers, which ascend, are among the others, too.
+pub(super) fn common(first: &[f64], others: &[f64]) -> usize {
+    let mut others = others.iter().peekable();
+    let is_there = |one: &&f64| {
+        while others
+            .next_if(|other| **other < *one - SAME * *one)
+            .is_some()
+        {}
+        others
+            .peek()
+            .is_some_and(|other| **other <= *one + SAME * *one)
+    };
+    first.iter().filter(is_there).count()
 }
 
 fn rows_of(matrix: &Mat<f64>) -> Vec<Vec<f64>> {

@@ -141,7 +141,7 @@ fn other_equations_are_refused_and_rounding_is_none() {
 }
 
 #[test]
-fn blocks_of_the_same_samples_are_known_again() {
+fn parts_of_the_same_log_are_known_again() {
     let factor = |seeds: &[u64]| {
         let mut factor = empty();
         for seed in seeds {
@@ -150,13 +150,20 @@ fn blocks_of_the_same_samples_are_known_again() {
         factor
     };
     let one = factor(&[1, 2]);
-    assert_eq!(one.common_blocks(&factor(&[3, 4])), 0);
+    assert_eq!(one.common_parts(&factor(&[3, 4])), 0);
     let mut again = factor(&[3, 2]);
-    assert_eq!(one.common_blocks(&again), 1);
-    for sum in &mut again.blocks[1].away.torque_squares {
-        *sum *= 1.0 + 2.0 * f64::EPSILON;
+    assert_eq!(one.common_parts(&again), 1);
+    for print in &mut again.blocks[1].prints {
+        *print *= 1.0 + 2.0 * f64::EPSILON;
     }
-    assert_eq!(one.common_blocks(&again), 1);
+    assert_eq!(one.common_parts(&again), 1);
+    // Among others, which were merged to keep blocks few.
+    let all: Vec<u64> = (0..200).collect();
+    assert_eq!(factor(&all).common_parts(&one), 2);
+    // Of many some stand for all.
+    let many = factor(&(0..5000).collect::<Vec<u64>>());
+    assert!(many.blocks.iter().all(|block| block.prints.len() <= 64));
+    assert!(many.common_parts(&factor(&(4000..6000).collect::<Vec<u64>>())) > 100);
 }
 
 #[test]
@@ -179,6 +186,46 @@ fn deviations_from_blocks_are_the_spread_of_the_estimates() {
         let ratio = (told[c] / errors[c]).sqrt();
         assert!((ratio - 1.0).abs() < 0.15, "{c}: {ratio}");
     }
+}
+
+/// An unknown that the second joint tells along one of twelve blocks only, beside noise that is correlated.
+#[test]
+fn what_one_block_tells_is_no_surer_than_its_noise() {
+    const DRAWS: u32 = 200;
+    let (mut held, mut told) = (0, 0);
+    for seed in 0..DRAWS {
+        let mut factor = empty();
+        for (number, mut part) in parts(&stack(u64::from(seed), 0, 2400), 12)
+            .into_iter()
+            .enumerate()
+        {
+            let rows = &mut part.joints[1];
+            if number != 7 {
+                let (_, silent) = rows.columns.remove(1);
+                for (target, x) in rows.target.iter_mut().zip(silent) {
+                    *target -= TRUTH[1] * x;
+                }
+                rows.tau.clone_from(&rows.target);
+            }
+            factor.push_rows(&part);
+        }
+        let mut solution = factor.whole().weighted(&[1.0, 1.0]);
+        assert_eq!(factor.deviations(&mut solution), [1]);
+        let is_held = |c: usize| (solution.estimate[c] - TRUTH[c]).abs() < 1.96 * solution.std[c];
+        held += u32::from(is_held(1));
+        told += u32::from(is_held(0)) + u32::from(is_held(2));
+    }
+    let share = |count: u32, of: u32| f64::from(count) / f64::from(of);
+    assert!(
+        (0.85..=0.99).contains(&share(held, DRAWS)),
+        "{}",
+        share(held, DRAWS)
+    );
+    assert!(
+        (0.9..=0.99).contains(&share(told, 2 * DRAWS)),
+        "{}",
+        share(told, 2 * DRAWS)
+    );
 }
 
 /// Two squares of errors say little of a deviation, which Student's t knows.

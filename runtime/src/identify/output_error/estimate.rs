@@ -24,8 +24,8 @@ pub struct Distance {
     pub rmse: f64,
     /// Mean absolute error.
     pub mae: f64,
-    /// `100 |y - y_s| / |y|`
-    pub relative_percent: f64,
+    /// `100 |y - y_s| / |y|`; none of a channel that is zero throughout.
+    pub relative_percent: Option<f64>,
     /// `100 (1 - |y - y_s| / |y - mean y|)`; none of a channel that stands.
     pub nrmse_fit_percent: Option<f64>,
 }
@@ -258,7 +258,7 @@ impl Distance {
         Self {
             rmse: (squares / count).sqrt(),
             mae: sum(&|(y, s)| (y - s).abs()) / count,
-            relative_percent: if level > 0.0 { share(level) } else { 0.0 },
+            relative_percent: (level > 0.0).then(|| share(level)),
             nrmse_fit_percent: (spread > 1e-12 * level).then(|| 100.0 - share(spread)),
         }
     }
@@ -273,7 +273,9 @@ mod tests {
         let found = Distance::new(&[(1.0, 1.5), (2.0, 2.0), (6.0, 4.5)]);
         assert!((found.mae - 2.0 / 3.0).abs() < 1e-12);
         assert!((found.rmse - (2.5_f64 / 3.0).sqrt()).abs() < 1e-12);
-        assert!((found.relative_percent - 100.0 * (2.5_f64 / 41.0).sqrt()).abs() < 1e-12);
+        let share = found.relative_percent.expect("a channel that is not zero");
+        assert!((share - 100.0 * (2.5_f64 / 41.0).sqrt()).abs() < 1e-12);
+        assert_eq!(Distance::new(&[(0.0, 1.0)]).relative_percent, None);
         // About the mean of what was measured, 3.
         let fit = 100.0 * (1.0 - (2.5_f64 / 14.0).sqrt());
         assert!(

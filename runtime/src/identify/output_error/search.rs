@@ -241,7 +241,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
             if step.predicted <= STILL * cost {
                 break;
             }
-            let trial = place.moved(&step, &equations);
+            let trial = place.moved(&step, &equations, bounds);
             simulations += 1;
             let has_slopes = attempt == 0;
             let found = problem.run(&trial, has_slopes);
@@ -294,11 +294,14 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
 }
 
 impl Place {
-    fn moved(&self, step: &Step, equations: &Equations) -> Self {
-        let values = self.values.iter().zip(step.parameters.iter());
+    fn moved(&self, step: &Step, equations: &Equations, bounds: &[[f64; 2]]) -> Self {
+        let values = self.values.iter().zip(step.parameters.iter()).zip(bounds);
         let starts = self.starts.iter().zip(&step.starts).zip(&equations.windows);
         Self {
-            values: values.map(|(value, step)| value + step).collect(),
+            // A step to a bound may miss it by rounding.
+            values: values
+                .map(|((value, step), [low, high])| (value + step).clamp(*low, *high))
+                .collect(),
             starts: starts
                 .map(|((start, step), window)| {
                     let mut start = start.clone();

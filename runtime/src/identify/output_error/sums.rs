@@ -3,7 +3,7 @@
 use faer::Mat;
 use nalgebra::DMatrix;
 
-use super::Identifiability;
+use super::{Direction, Identifiability};
 use crate::identify::combination::{Shared, shared};
 use crate::identify::least_squares::Excited;
 
@@ -20,10 +20,12 @@ pub(super) fn sums(
     if others.is_empty() {
         return Vec::new();
     }
-    let is_scaled = |name: &String| {
-        let mut moves = scales.iter().flat_map(|direction| &direction.moves);
+    let moves = |directions: &[&Direction], name: &String| {
+        let mut moves = directions.iter().flat_map(|direction| &direction.moves);
         moves.any(|(moved, _)| moved == name)
     };
+    // What another direction moves, too, is in sums of that one.
+    let is_scaled = |name: &String| moves(&scales, name) && !moves(&others, name);
     let asked: Vec<usize> = (0..names.len())
         .filter(|&k| !is_scaled(&names[k]))
         .collect();
@@ -34,7 +36,11 @@ pub(super) fn sums(
             0.0
         }
     });
-    let excited = Excited::of_rank(&factor, asked.len(), asked.len() - others.len());
+    let excited = Excited::of_rank(
+        &factor,
+        asked.len(),
+        asked.len().saturating_sub(others.len()),
+    );
     let unexcited = (0..asked.len()).filter(|k| excited.columns.binary_search(k).is_err());
     let unexcited: Vec<usize> = unexcited.collect();
     let found = shared(&factor, &excited, &unexcited).into_iter();

@@ -17,8 +17,7 @@ use super::gain_rows::Rows;
 use super::{Both, Carried, Shares};
 use crate::columns::Arm;
 use crate::identify::{
-    Estimate, Fitted, Form, Identify, IdentifyError, Solution, Stack, check_logs, shapes,
-    slowest_bands,
+    Estimate, Identify, IdentifyError, Solution, Stack, check_logs, shapes, slowest_bands,
 };
 use crate::log::Log;
 use crate::signal::Bands;
@@ -136,6 +135,7 @@ impl Identify {
         link: Option<&str>,
         known: &KnownPayload,
     ) -> Result<Driven, IdentifyError> {
+        self.check_method()?;
         check_logs(arm, unloaded)?;
         check_logs(arm, loaded)?;
         if !(known.mass > 0.0 && known.mass.is_finite()) {
@@ -187,7 +187,7 @@ impl Search<'_> {
                 .flatten()
                 .all(|gain| (gain.value - 1.0).abs() <= (SETTLED_STD * gain.std).max(SETTLED));
             if settled {
-                return Ok(self.driven(alone, bands, shapes, &round, factors));
+                return Ok(self.driven(alone, &round, factors));
             }
             follow(&mut factors, &round.gains);
         }
@@ -195,14 +195,7 @@ impl Search<'_> {
     }
 
     /// What the last round found; `alone` is the arm's estimate of its bands and shapes.
-    fn driven(
-        self,
-        alone: Estimate,
-        bands: Bands,
-        shapes: Vec<f64>,
-        round: &Round,
-        mut factors: Vec<f64>,
-    ) -> Driven {
+    fn driven(self, alone: Estimate, round: &Round, mut factors: Vec<f64>) -> Driven {
         let own = self.arm.actuator_gain();
         let pairs = round.gains.iter().zip(own.iter().zip(&factors));
         let gains = pairs.map(|(gain, (own, factor))| {
@@ -213,34 +206,17 @@ impl Search<'_> {
         });
         let gains = gains.collect();
         follow(&mut factors, &round.gains);
-        let fitted = Fitted::new(&round.linear, &round.solution.estimate);
-        let Identify { method, .. } = *self.identify;
-        let form = Form::Acceleration;
-        let mut estimate = Estimate::new(
-            self.arm,
-            method,
-            form,
-            bands,
-            &round.solution,
-            shapes,
-            fitted,
-        );
-        estimate.shape_std.clone_from(&alone.shape_std);
-        estimate.delays.clone_from(&alone.delays);
-        estimate.parameters.truncate(self.unknowns());
-        estimate.rank = self.unknowns() - estimate.unexcited.len();
-        let mut loaded = alone;
-        let values = self.loaded(&round.solution.estimate[..self.unknowns()]);
-        for (parameter, value) in loaded.parameters.iter_mut().zip(values) {
-            parameter.value = value;
-        }
         Driven {
             gains,
-            carried: Carried {
-                link: self.shares.link,
-                estimate,
-                loaded,
-            },
+            carried: Carried::of(
+                self.identify,
+                self.arm,
+                &self.shares,
+                &round.linear,
+                &round.solution,
+                alone,
+                &|values| self.loaded(values),
+            ),
             factors,
         }
     }

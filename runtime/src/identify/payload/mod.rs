@@ -13,15 +13,19 @@ mod shares;
 
 pub use drive_gains::{DriveGain, Driven, KnownPayload};
 
+use super::least_squares::Solution;
 use super::stack::Stack;
 use super::{
-    Estimate, Fitted, Form, Identified, Identify, IdentifyError, RIGID_TORQUE_PASSES, check_logs,
-    prepare_all, slowest_bands, update_load,
+    Estimate, Fitted, Form, Identified, Identify, IdentifyError, Method, RIGID_TORQUE_PASSES,
+    check_logs, prepare_all, slowest_bands, update_load,
 };
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::{Bands, Prepared};
 use shares::Shares;
+
+/// Names of a payload's first moments.
+const FIRST_MOMENTS: [&str; 3] = ["mx", "my", "mz"];
 
 /// An arm and what it carries.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,11 +34,50 @@ pub struct Carried {
     pub link: String,
     /// The arm's parameters and behind them the payload's, `LINK.payload.m` and so on, about the origin of the link's frame.
     pub estimate: Estimate,
-    /// The arm with its payload, for errors on logs with it.
+    /// The arm with its payload, for errors on logs with it; deviations are those of the arm without it.
     pub loaded: Estimate,
+    /// Standard deviations of its center of mass, m, along the axes of the link's frame, where logs tell it and its mass.
+    pub center_std: [Option<f64>; 3],
 }
 
 impl Carried {
+    /// What a solution says of the arm and its payload, the first unknowns of a stack; `alone` is the estimate without it, whose filters, shapes
+    /// and delays stay, `with` makes the arm's unknowns with the payload of both.
+    fn of(
+        identify: &Identify,
+        arm: &dyn Arm,
+        shares: &Shares,
+        stack: &Stack,
+        solution: &Solution,
+        alone: Estimate,
+        with: &dyn Fn(&[f64]) -> Vec<f64>,
+    ) -> Self {
+        let count = shares.coefficients.len() + shares.unknowns.len();
+        let center_std = shares.center_std(identify, stack, solution);
+        let fitted = Fitted::new(stack, &solution.estimate);
+        let (form, bands) = (Form::Acceleration, alone.bands);
+        let shapes = alone.shapes.iter().map(|(_, value)| *value).collect();
+        let found = Estimate::new(arm, identify.method, form, bands, solution, shapes, fitted);
+        let mut estimate = Estimate {
+            shape_std: alone.shape_std.clone(),
+            delays: alone.delays.clone(),
+            ..found
+        };
+        estimate.parameters.truncate(count);
+        estimate.rank = count - estimate.unexcited.len();
+        let mut loaded = alone;
+        let values = with(&solution.estimate[..count]);
+        for (parameter, value) in loaded.parameters.iter_mut().zip(values) {
+            parameter.value = value;
+        }
+        Self {
+            link: shares.link.clone(),
+            estimate,
+            loaded,
+            center_std,
+        }
+    }
+
     /// The payload's parameters, as the estimate has them. Those that no torque depends on are not among them.
     ///
     /// # Examples
@@ -44,13 +87,13 @@ impl Carried {
         &self.estimate.parameters[self.loaded.parameters.len()..]
     }
 
-    /// Its mass, kg, with the standard deviation, and its center of mass in the link's frame, m, each as far as the logs tell; no center where
-    /// the mass is not two deviations above zero.
+    /// Its mass, kg, with the standard deviation, and its center of mass in the link's frame, m, with its deviations, each as far as the logs
+    /// tell; no center where the mass is not two deviations above zero.
     ///
     /// # Examples
     /// That of [`Identify::fit_payload`].
     #[must_use]
-    pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<f64>; 3]) {
+    pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<[f64; 2]>; 3]) {
         let told = |own: &str| {
             let name = format!("{}.payload.{own}", self.link);
             let found = self.payload().iter().find(|p| p.name == name)?;
@@ -59,7 +102,10 @@ impl Carried {
         };
         let mass = told("m");
         let body = mass.filter(|[mass, std]| *mass > 2.0 * std);
-        let center = ["mx", "my", "mz"].map(|own| Some(told(own)?[0] / body?[0]));
+        let center = [0, 1, 2].map(|axis| {
+            let [moment, _] = told(FIRST_MOMENTS[axis])?;
+            Some([moment / body?[0], self.center_std[axis]?])
+        });
         (mass, center)
     }
 }
@@ -69,7 +115,7 @@ impl Identify {
     /// Open shapes are those of the logs without it.
     ///
     /// # Errors
-    /// Those of [`Self::fit`]; [`IdentifyError::NoLink`], [`IdentifyError::FixedLink`], [`IdentifyError::NoBodies`].
+    /// Those of [`Self::fit`]; [`IdentifyError::PayloadMethod`], [`IdentifyError::NoLink`], [`IdentifyError::FixedLink`], [`IdentifyError::NoBodies`].
     ///
     /// # Examples
     /// A body of 0.5 kg m^2 and 1 kg m about the joint:
@@ -95,6 +141,7 @@ impl Identify {
         loaded: &[Log],
         link: Option<&str>,
     ) -> Result<Carried, IdentifyError> {
+        self.check_method()?;
         check_logs(arm, unloaded)?;
         check_logs(arm, loaded)?;
         let shares = Shares::of(arm, link)?;
@@ -128,27 +175,20 @@ impl Identify {
         }
         let (stack, mut solution) = last.ok_or(IdentifyError::NoLog)?;
         solution.std = self.deviations(&stack, &solution);
-        let fitted = Fitted::new(&stack, &solution.estimate);
-        let mut estimate = Estimate::new(
-            arm,
-            self.method,
-            Form::Acceleration,
-            bands,
-            &solution,
-            shapes,
-            fitted,
-        );
-        estimate.shape_std.clone_from(&alone.shape_std);
-        estimate.delays.clone_from(&alone.delays);
-        let mut loaded = alone;
-        for (parameter, value) in loaded.parameters.iter_mut().zip(shares.loaded(&values)) {
-            parameter.value = value;
+        let with = |values: &[f64]| shares.loaded(values);
+        Ok(Carried::of(
+            self, arm, &shares, &stack, &solution, alone, &with,
+        ))
+    }
+
+    /// Methods that solve for the arm and its payload at once.
+    fn check_method(&self) -> Result<(), IdentifyError> {
+        match self.method {
+            Method::Ls | Method::Wls | Method::Robust => Ok(()),
+            method => Err(IdentifyError::PayloadMethod {
+                method: method.name(),
+            }),
         }
-        Ok(Carried {
-            link: shares.link,
-            estimate,
-            loaded,
-        })
     }
 
     /// Bands that logs of both kinds can bear: those that are given, or that logs without the payload ask for.

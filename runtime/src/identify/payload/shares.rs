@@ -1,8 +1,9 @@
 //! What a payload adds to an arm's base parameters.
 
-use super::KnownPayload;
+use super::{FIRST_MOMENTS, KnownPayload};
 use crate::columns::{Arm, Entry, Unknown};
-use crate::identify::{IdentifyError, Stack};
+use crate::identify::least_squares::Solution;
+use crate::identify::{Identify, IdentifyError, Stack};
 
 /// What a payload's parameters add to an arm's unknowns.
 pub(super) struct Shares {
@@ -106,10 +107,57 @@ impl Shares {
         base
     }
 
+    /// Standard deviations of the center of mass `c = h / m` of a solution, m; none where the mass or a moment is not looked for, or is not
+    /// told. With `h = c m + d` and what was found for `c` the column of the mass is that of a body there, and `d`, which is zero, is off by
+    /// what `h` and `m` together are off.
+    pub fn center_std(
+        &self,
+        identify: &Identify,
+        stack: &Stack,
+        solution: &Solution,
+    ) -> [Option<f64>; 3] {
+        let place = |own: &str| {
+            let mut names = self.unknowns.iter().map(|unknown| &unknown.name);
+            let payload = names.position(|name| name.rsplit('.').next() == Some(own))?;
+            let place = self.coefficients.len() + payload;
+            solution.is_told(place).then_some(place)
+        };
+        let Some(mass) = place("m").filter(|mass| solution.estimate[*mass] > 0.0) else {
+            return [None; 3];
+        };
+        let moments = FIRST_MOMENTS.map(place);
+        let (mut stack, mut solution) = (stack.clone(), solution.clone());
+        let value = solution.estimate[mass];
+        for place in moments.into_iter().flatten() {
+            let center = solution.estimate[place] / value;
+            add_column(&mut stack, mass, center, place);
+            solution.estimate[place] = 0.0;
+        }
+        let std = identify.deviations(&stack, &solution);
+        moments.map(|place| Some(std[place?] / value))
+    }
+
     /// Columns of the payload, which is there from row `start` on.
     pub fn columns(&self, stack: &Stack, start: usize) -> Vec<Entry> {
         let factor = |unknown: usize, column: usize| self.coefficients[unknown][column];
         columns(stack, start, self.unknowns.len(), factor)
+    }
+}
+
+/// Adds a column, times a factor, to one of another unknown.
+fn add_column(stack: &mut Stack, to: usize, factor: f64, from: usize) {
+    for rows in &mut stack.joints {
+        let find = |unknown: usize| rows.columns.iter().find(|(column, _)| *column == unknown);
+        let Some((_, own)) = find(from) else { continue };
+        let mut sum: Vec<f64> = own.iter().map(|value| factor * value).collect();
+        if let Some((_, own)) = find(to) {
+            sum.iter_mut()
+                .zip(own)
+                .for_each(|(sum, value)| *sum += value);
+        }
+        rows.columns.retain(|(column, _)| *column != to);
+        rows.columns.push((to, sum));
+        rows.columns.sort_by_key(|(column, _)| *column);
     }
 }
 

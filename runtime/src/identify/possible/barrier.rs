@@ -158,7 +158,9 @@ pub(super) struct Barrier<'a> {
 pub(super) struct Found {
     pub variables: Vec<f64>,
     pub steps: usize,
-    /// By how much the sum of squares may exceed the least one, as a share of it.
+    /// Half the sum of squares.
+    pub cost: f64,
+    /// By about how much the sum of squares may exceed the least one, as a share of it, where all barriers have faded.
     pub gap: f64,
 }
 
@@ -224,8 +226,8 @@ impl Barrier<'_> {
                 return None;
             }
             if weight <= LAST_WEIGHT || last == Step::Stuck {
-                // The barrier's rate of exchange times its degree bounds what `-ln det` costs; the pull to the nominal
-                // matrices costs what it has gained.
+                // The barrier's rate of exchange times its degree bounds what `-ln det` costs, as the problem is convex. The pull costs what
+                // it is less by than at the least sum of squares, which is of the size that it has where little of it is left.
                 let standard = self.standard(&variables);
                 let cones = self.cones.iter();
                 let excess: f64 = cones
@@ -234,6 +236,7 @@ impl Barrier<'_> {
                 return Some(Found {
                     variables,
                     steps,
+                    cost,
                     gap: excess / cost.max(f64::MIN_POSITIVE),
                 });
             }

@@ -1,0 +1,201 @@
+//! Factors as files.
+
+use std::io::Read;
+use std::path::Path;
+
+use robot_model::identify::{Factor, FactorBlock, FactorRows};
+use robot_model::signal::Bands;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::interpreted::InterpretedArm;
+use crate::{Error, json};
+
+/// What is written and read; a contract between machines.
+#[derive(Serialize, Deserialize)]
+struct File {
+    /// Of this form.
+    factor: u32,
+    unknowns: Vec<String>,
+    joints: Vec<String>,
+    /// What the columns are made of, see [`Factor::equations`].
+    equations: Vec<[f64; 2]>,
+    bands_hz: [f64; 3],
+    blocks: Vec<Block>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Block {
+    samples: usize,
+    /// What its parts are known by, see [`FactorBlock::prints`].
+    prints: Vec<f64>,
+    away: Part,
+    /// Rows at turns of joints with dry friction, where there are some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    at_turns: Option<Part>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Part {
+    /// Rows of each joint that say something.
+    counts: Vec<usize>,
+    torque_squares: Vec<f64>,
+    /// `[joint][row][column]`: columns are the unknowns, then the torque.
+    rows: Vec<Vec<Vec<f64>>>,
+}
+
+impl Part {
+    fn of(rows: &FactorRows) -> Self {
+        Self {
+            counts: rows.counts.clone(),
+            torque_squares: rows.torque_squares.clone(),
+            rows: rows.rows.clone(),
+        }
+    }
+
+    fn into_rows(self) -> FactorRows {
+        FactorRows {
+            counts: self.counts,
+            rows: self.rows,
+            torque_squares: self.torque_squares,
+        }
+    }
+
+    /// What is wrong with rows of so many joints and columns.
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let lists = [
+            self.rows.len(),
+            self.torque_squares.len(),
+            self.counts.len(),
+        ];
+        let mut rows = self.rows.iter().flatten();
+        if lists != [joints; 3] || !rows.all(|row| row.len() == width) {
+            return Some(format!(
+                "has not one list of rows per joint with {width} numbers each"
+            ));
+        }
+        let is_negative = self.torque_squares.iter().any(|sum| *sum < 0.0);
+        is_negative.then(|| "has a sum of squares below zero".to_owned())
+    }
+}
+
+impl Block {
+    fn fault(&self, joints: usize, width: usize) -> Option<String> {
+        let parts = std::iter::once(&self.away).chain(&self.at_turns);
+        let faults = parts.clone().map(|rows| rows.fault(joints, width));
+        if let Some(fault) = faults.flatten().next() {
+            return Some(fault);
+        }
+        let count = |joint: usize| -> usize { parts.clone().map(|rows| rows.counts[joint]).sum() };
+        if self.prints.windows(2).any(|pair| pair[0] > pair[1]) {
+            return Some("has prints that do not ascend".to_owned());
+        }
+        let is_more = self.samples == 0 || (0..joints).any(|joint| count(joint) > self.samples);
+        is_more.then(|| "has no samples, or less than rows".to_owned())
+    }
+}
+
+/// What a factor is not that is refused.
+const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
+
+/// The first did not say what its columns are made of, nor which rows are at turns, the second not of which parts a block is.
+const FORM: u32 = 3;
+
+/// The text of a factor's file.
+pub(crate) fn text(factor: &Factor) -> String {
+    let blocks = factor.blocks.iter().map(|block| {
+        let has_turns = block.at_turns.rows.iter().any(|rows| !rows.is_empty());
+        Block {
+            samples: block.samples,
+            prints: block.prints.clone(),
+            away: Part::of(&block.away),
+            at_turns: has_turns.then(|| Part::of(&block.at_turns)),
+        }
+    });
+    let bands = factor.bands;
+    let file = File {
+        factor: FORM,
+        unknowns: factor.unknowns.clone(),
+        joints: factor.joints.clone(),
+        equations: factor.equations.clone(),
+        bands_hz: [bands.shared_hz, bands.smooth_hz, bands.wide_hz],
+        blocks: blocks.collect(),
+    };
+    let mut text = serde_json::to_string(&file).expect("a factor is lists of numbers and names");
+    text.push('\n');
+    text
+}
+
+/// Whether a file looks like a log: by its first bytes, or by the names in its first line.
+fn log_of(path: &Path) -> bool {
+    /// No header is longer, bytes.
+    const HEADER: u64 = 1 << 16;
+    const MAGIC: [&[u8]; 3] = [b"PAR1", b"\x89MCAP", &[0x1f, 0x8b]];
+    let mut bytes = Vec::new();
+    let Ok(_) =
+        std::fs::File::open(path).and_then(|file| file.take(HEADER).read_to_end(&mut bytes))
+    else {
+        return false;
+    };
+    let first = bytes.split(|byte| *byte == b'\n').next().unwrap_or(&[]);
+    let is_line = |line: &[u8]| line.contains(&b',') && !line.starts_with(b"{");
+    MAGIC.iter().any(|magic| bytes.starts_with(magic)) || is_line(first)
+}
+
+/// Reads a factor of an arm.
+pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
+    let refuse = |reason: &str| Error::json(path, &reason);
+    let value: Value = json::read(path).map_err(|error| {
+        // What is no JSON at all is most likely what the factor was to be made of.
+        if log_of(path) {
+            refuse("it is a log, and no factor of logs; `identify --factor` makes one of it")
+        } else {
+            error
+        }
+    })?;
+    if let Some(form) = value["factor"]
+        .as_u64()
+        .filter(|form| *form != u64::from(FORM))
+    {
+        return Err(refuse(&format!(
+            "it is a factor of form {form}, this program reads form {FORM}; write it anew with `identify --factor`"
+        )));
+    }
+    let file: File = json::typed(path, value, AS_WRITTEN)?;
+    let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
+    for (k, block) in file.blocks.iter().enumerate() {
+        if let Some(fault) = block.fault(joints, width) {
+            return Err(refuse(&format!(
+                "block {} {fault}; write it anew with `identify --factor`",
+                k + 1
+            )));
+        }
+    }
+    let [shared_hz, smooth_hz, wide_hz] = file.bands_hz;
+    let bands = Bands {
+        smooth_hz,
+        wide_hz,
+        shared_hz,
+    };
+    let mut factor = Factor::new(arm, bands)?;
+    factor.joints = file.joints;
+    factor.unknowns = file.unknowns;
+    factor.equations = file.equations;
+    factor.blocks = file
+        .blocks
+        .into_iter()
+        .map(|block| FactorBlock {
+            samples: block.samples,
+            prints: block.prints,
+            away: block.away.into_rows(),
+            at_turns: block
+                .at_turns
+                .map_or_else(|| FactorRows::none(joints), Part::into_rows),
+        })
+        .collect();
+    // Of this arm, and of none that is alike.
+    Factor::new(arm, bands)?
+        .merge(factor.clone())
+        .map_err(|error| refuse(&error.to_string()))?;
+    Ok(factor)
+}
