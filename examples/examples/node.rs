@@ -7,6 +7,7 @@
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
 use std::error::Error;
+use std::process::ExitCode;
 
 use robot_model::control::{ControlError, ExternalTorque, MomentumObserver};
 use robot_model::effects::ViscousFriction;
@@ -177,7 +178,17 @@ fn pushed_arm() -> Result<(), Box<dyn Error>> {
 ///
 /// # Errors
 /// Bags that cannot be read or written, or are of another arm.
-pub fn main() -> Result<(), Box<dyn Error>> {
+pub fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let ["--play", from, to] = arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] else {
         return pushed_arm();

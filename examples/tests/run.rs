@@ -23,7 +23,7 @@ fn derive() {
 
 #[test]
 fn node() {
-    node::main().unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(node::main(), std::process::ExitCode::SUCCESS);
 }
 
 #[test]

@@ -103,7 +103,7 @@ pub(crate) struct IdentifyArguments {
     /// Identify what can be where the logs do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
-    /// Draw blocks of the logs so often, for intervals that need no formula; of `ls`, `wls`, `robust`.
+    /// Draw blocks of the logs so often, 100 times or more, for intervals that need no formula; of `ls`, `wls`, `robust`.
     #[arg(long, value_name = "DRAWS", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(100..=100_000))]
     bootstrap: Option<u32>,
     /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.

@@ -109,7 +109,7 @@ fn intervals_of_a_payload_in_space_hold_it() {
         folder.succeed(&[&["simulate", &spec, "--parameters", &values][..], &motion].concat());
     }
     let mut state = 7;
-    let mut held = 0;
+    let (mut held, mut centers) = (0, 0);
     for _ in 0..DRAWS {
         for log in ["arm.csv", "loaded.csv"] {
             let text = noisy(&folder.read(log), &mut state);
@@ -127,9 +127,16 @@ fn intervals_of_a_payload_in_space_hold_it() {
         let errors =
             BODY.map(|(name, truth)| error(&fit["payload"], &format!("c.payload.{name}"), truth));
         held += errors.iter().filter(|z| z.abs() < 1.96).count();
+        for (axis, (_, moment)) in BODY[1..4].iter().enumerate() {
+            let number = |key: &str| fit["payload"][key][axis].as_f64().expect("told");
+            let error = number("center") - moment / BODY[0].1;
+            centers += usize::from(error.abs() < 1.96 * number("center_std"));
+        }
     }
-    let share = held as f64 / (DRAWS * BODY.len()) as f64;
-    assert!((0.8..=0.99).contains(&share), "{share}");
+    let share = |held: usize, of: usize| held as f64 / (DRAWS * of) as f64;
+    for share in [share(held, BODY.len()), share(centers, 3)] {
+        assert!((0.8..=0.99).contains(&share), "{share}");
+    }
 }
 
 /// Steps of 1.5 mrad, as a small encoder has them.

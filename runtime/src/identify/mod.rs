@@ -99,7 +99,8 @@ pub struct Identify {
     pub bands: Option<Bands>,
     /// Of [`Method::Ridge`]: by which share of a body's own size its nominal values are off, one standard deviation.
     pub prior: f64,
-    /// Of [`Method::Instrumental`]: a motion without noise for each log, the wanted one or a simulated one, that starts with it.
+    /// Of [`Method::Instrumental`]: a motion without noise for each log, the wanted one or a simulated one, that starts with it. The
+    /// log's own positions are refused: their noise is that of its columns.
     pub instruments: Vec<Trajectory>,
     /// Values of the shapes that the spec leaves open, in its order; `None`: they are looked for.
     pub shapes: Option<Vec<f64>>,

@@ -78,6 +78,9 @@ pub struct Delay {
 
 /// Whether torque that is late by so many seconds, or early, is more than how a drive samples it; `period` is that of the log, s.
 ///
+/// A torque that is set at a sample holds until the next one, so it may seem early by up to a whole period: late is more than a quarter of one,
+/// early more than one and a quarter.
+///
 /// # Examples
 /// ```
 /// use robot_model::identify::is_delay;
