@@ -98,7 +98,7 @@ pub struct Estimate {
     pub is_without_turns: bool,
     /// Rows per joint that are left out because dry friction holds it nearly all the time.
     pub held: Vec<usize>,
-    /// Rows per joint that are left out because its torque stands at a [limit](Log::clipped).
+    /// Rows per joint that are left out because its torque stands at a [limit](crate::log::Log::clipped).
     pub clipped: Vec<usize>,
     /// Independent samples per joint that say as much as those of its errors, whose neighbors are alike; none where samples are not
     /// at hand.
