@@ -106,16 +106,8 @@ fn center(found: &Driven, known: &KnownPayload) -> [[Option<f64>; 3]; 2] {
     if let Some(center) = known.center {
         return [center.map(Some), [None; 3]];
     }
-    let carried = &found.carried;
-    let moments = ["mx", "my", "mz"].map(|own| {
-        let name = format!("{}.payload.{own}", carried.link);
-        let moment = carried.payload().iter().find(|p| p.name == name)?;
-        carried.estimate.is_separated(&name).then_some(moment)
-    });
-    [
-        moments.map(|moment| Some(moment?.value / known.mass)),
-        moments.map(|moment| Some(moment?.std / known.mass)),
-    ]
+    let moments = found.carried.first_moments();
+    [0, 1].map(|which| moments.map(|moment| Some(moment?[which] / known.mass)))
 }
 
 /// Gains that are hard to believe.

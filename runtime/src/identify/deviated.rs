@@ -16,6 +16,16 @@ pub(super) struct Solved {
     pub stack: Stack,
 }
 
+impl Solution {
+    /// Standard deviation of each joint's residual, times the root of how many of its correlated samples are worth one: rows over it say as
+    /// much as they do of white noise.
+    pub(super) fn worth(&self, stack: &Stack) -> Vec<f64> {
+        let times = stack.correlation_times(&stack.residuals(&self.estimate));
+        let pairs = times.iter().zip(&self.sigma);
+        pairs.map(|(time, sigma)| sigma * time.sqrt()).collect()
+    }
+}
+
 impl Identify {
     /// A solution with its deviations and those of shapes, which the former have a share of.
     pub(super) fn deviated(

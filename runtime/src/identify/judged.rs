@@ -15,8 +15,8 @@ const ERROR_BORDER_S: f64 = 1.0;
 impl Estimate {
     /// Torque that the model predicts at every time stamp of a log, `[joint][sample]`, N m or N.
     ///
-    /// The motion is filtered by [`Self::motion_bands`], or less where the log comes too slowly for them ([`Bands::at_rate`](crate::signal::Bands::at_rate)); nothing is
-    /// fitted on the log.
+    /// The motion is filtered by [`Self::motion_bands`], or less where the log comes too slowly for them
+    /// ([`Bands::at_rate`](crate::signal::Bands::at_rate)); nothing is fitted on the log.
     ///
     /// # Errors
     /// [`IdentifyError`] where the log is of another arm or cannot be filtered.

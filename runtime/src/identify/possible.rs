@@ -131,11 +131,8 @@ pub(super) fn make(
 ) -> Result<Possible, IdentifyError> {
     let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
     let unconstrained_percent = stack.relative_percent(&solution.estimate);
-    // As many samples as correlated ones are worth, so that the weight of CAD is that beside deviations.
-    let times = stack.correlation_times(&stack.residuals(&solution.estimate));
-    let scale = times.iter().zip(&solution.sigma);
-    let scale: Vec<f64> = scale.map(|(time, sigma)| sigma * time.sqrt()).collect();
-    let factor = Factors::new(stack).stacked(&scale);
+    // So that the weight of CAD is that beside deviations.
+    let factor = Factors::new(stack).stacked(&solution.worth(stack));
     let told = Told {
         values: &solution.estimate,
         deviations: &solution.std,

@@ -28,11 +28,8 @@ pub(super) fn make(
     if nominal.iter().all(Option::is_none) {
         return Err(IdentifyError::NoNominal);
     }
-    let times = stack.correlation_times(&stack.residuals(&solution.estimate));
-    let scale = times.iter().zip(&solution.sigma);
-    let scale: Vec<f64> = scale.map(|(time, sigma)| sigma * time.sqrt()).collect();
     let factors = Factors::new(stack);
-    let told = factors.stacked(&scale);
+    let told = factors.stacked(&solution.worth(stack));
     let n = nominal.len();
     let mut all = Mat::zeros(told.nrows() + n, n + 1);
     all.submatrix_mut(0, 0, told.nrows(), n + 1)

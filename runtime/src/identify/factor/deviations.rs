@@ -36,7 +36,7 @@ impl Factor {
         let is_in = |c: &usize| solution.unexcited.binary_search(c).is_err();
         let excited: Vec<usize> = (0..self.unknowns.len()).filter(is_in).collect();
         let Some(Moved { squares, alone }) = self.moved(solution, &excited) else {
-            return Vec::new();
+            return excited;
         };
         let freedom = count as f64 - 1.0;
         let correction = freedom / count as f64;

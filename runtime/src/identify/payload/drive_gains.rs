@@ -215,7 +215,7 @@ impl Search<'_> {
                 &round.linear,
                 &round.solution,
                 alone,
-                &|values| self.loaded(values),
+                self.loaded(&round.solution.estimate[..self.unknowns()]),
             ),
             factors,
         }

@@ -42,7 +42,7 @@ pub struct Carried {
 
 impl Carried {
     /// What a solution says of the arm and its payload, the first unknowns of a stack; `alone` is the estimate without it, whose filters, shapes
-    /// and delays stay, `with` makes the arm's unknowns with the payload of both.
+    /// and delays stay, `with_payload` are the arm's unknowns with the payload in them.
     fn of(
         identify: &Identify,
         arm: &dyn Arm,
@@ -50,7 +50,7 @@ impl Carried {
         stack: &Stack,
         solution: &Solution,
         alone: Estimate,
-        with: &dyn Fn(&[f64]) -> Vec<f64>,
+        with_payload: Vec<f64>,
     ) -> Self {
         let count = shares.coefficients.len() + shares.unknowns.len();
         let center_std = shares.center_std(identify, stack, solution);
@@ -66,8 +66,7 @@ impl Carried {
         estimate.parameters.truncate(count);
         estimate.rank = count - estimate.unexcited.len();
         let mut loaded = alone;
-        let values = with(&solution.estimate[..count]);
-        for (parameter, value) in loaded.parameters.iter_mut().zip(values) {
+        for (parameter, value) in loaded.parameters.iter_mut().zip(with_payload) {
             parameter.value = value;
         }
         Self {
@@ -87,6 +86,15 @@ impl Carried {
         &self.estimate.parameters[self.loaded.parameters.len()..]
     }
 
+    /// Its first moments about the origin of the link's frame, kg m, with their standard deviations, as far as the logs tell.
+    ///
+    /// # Examples
+    /// That of [`Identify::fit_payload`].
+    #[must_use]
+    pub fn first_moments(&self) -> [Option<[f64; 2]>; 3] {
+        FIRST_MOMENTS.map(|own| self.told(own))
+    }
+
     /// Its mass, kg, with the standard deviation, and its center of mass in the link's frame, m, with its deviations, each as far as the logs
     /// tell; no center where the mass is not two deviations above zero.
     ///
@@ -94,19 +102,22 @@ impl Carried {
     /// That of [`Identify::fit_payload`].
     #[must_use]
     pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<[f64; 2]>; 3]) {
-        let told = |own: &str| {
-            let name = format!("{}.payload.{own}", self.link);
-            let found = self.payload().iter().find(|p| p.name == name)?;
-            let is_told = self.estimate.is_separated(&name);
-            is_told.then_some([found.value, found.std])
-        };
-        let mass = told("m");
+        let mass = self.told("m");
         let body = mass.filter(|[mass, std]| *mass > 2.0 * std);
+        let moments = self.first_moments();
         let center = [0, 1, 2].map(|axis| {
-            let [moment, _] = told(FIRST_MOMENTS[axis])?;
+            let [moment, _] = moments[axis]?;
             Some([moment / body?[0], self.center_std[axis]?])
         });
         (mass, center)
+    }
+
+    /// One of the payload's parameters with its deviation, where it has a value of its own.
+    fn told(&self, own: &str) -> Option<[f64; 2]> {
+        let name = format!("{}.payload.{own}", self.link);
+        let found = self.payload().iter().find(|p| p.name == name)?;
+        let is_told = self.estimate.is_separated(&name);
+        is_told.then_some([found.value, found.std])
     }
 }
 
@@ -130,6 +141,8 @@ impl Identify {
     /// for (name, truth) in [("link.payload.izz", 0.5), ("link.payload.mx", 1.0)] {
     ///     assert!(found.iter().any(|(own, value)| *own == name && (value - truth).abs() < 0.02));
     /// }
+    /// let [moment, std] = carried.first_moments()[0].expect("it is told");
+    /// assert!((moment - 1.0).abs() < 0.02 && std < 0.02); // kg m
     /// // Torques of one joint do not tell the mass itself.
     /// assert_eq!(carried.mass_and_center().0, None);
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
@@ -175,9 +188,15 @@ impl Identify {
         }
         let (stack, mut solution) = last.ok_or(IdentifyError::NoLog)?;
         solution.std = self.deviations(&stack, &solution);
-        let with = |values: &[f64]| shares.loaded(values);
+        let with_payload = shares.loaded(&values);
         Ok(Carried::of(
-            self, arm, &shares, &stack, &solution, alone, &with,
+            self,
+            arm,
+            &shares,
+            &stack,
+            &solution,
+            alone,
+            with_payload,
         ))
     }
 
