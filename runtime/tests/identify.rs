@@ -175,3 +175,16 @@ fn refusals_say_what_is_wrong() {
     );
     assert_eq!(arm.joints().len(), 2);
 }
+
+/// Bodies near CAD, priors and instruments are of one arm, not of one with and without a payload.
+#[test]
+fn a_payload_is_refused_to_methods_that_do_not_know_it() {
+    let logs = [Plant::default().log()];
+    let identify = Identify {
+        method: Method::Physical,
+        ..Identify::default()
+    };
+    let refused = identify.fit_payload(&Pendulums::new(), &logs, &logs, None);
+    let method = "physical";
+    assert_eq!(refused.err(), Some(IdentifyError::PayloadMethod { method }));
+}

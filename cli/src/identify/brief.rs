@@ -17,14 +17,13 @@ pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     said(independent, estimate.rank)
 }
 
-/// What is said of parameters that one block of many tells.
+/// What is said of parameters whose deviations rest on one block of many.
 pub(super) fn lone_doubt(estimate: &Estimate) -> Option<String> {
     let names: Vec<&str> = estimate.of_one_block.iter().map(String::as_str).collect();
-    let verb = if names.len() == 1 { "shows" } else { "show" };
     (!names.is_empty()).then(|| {
         format!(
-            "{} {verb} in one block of the logs alone, and how estimates move from block to block says nothing of them: their deviations are \
-             those of white noise, times what these are too small by for the others; more logs that move them would tell",
+            "deviations of {} rest on one block of the logs: how estimates move from block to block says nothing of what it alone tells, which \
+             has the deviation of white noise, times what this is too small by for the others; more logs that move them would tell",
             output::names(&names)
         )
     })

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::{CART, Folder, cart_log, json, numbers};
+use crate::common::{CART, Folder, cart_log, json, numbers, white};
 
 /// A cart whose spec has friction that is another one's where its log is, and one that this never reaches.
 fn twice() -> Folder {
@@ -73,6 +73,85 @@ fn what_they_tell_is_taken_where_that_is_wanted() {
     assert!(table.contains(&line), "{table}");
     let mass = &parameters[0];
     assert!((mass["value"].as_f64().expect("told by itself") - 3.0).abs() < 0.02);
+}
+
+/// A part of a sum has no value of its own among essential ones either.
+#[test]
+fn sums_that_are_told_are_essential_and_their_parts_are_not() {
+    let folder = twice();
+    let asked = ["--partial", "--essential", "--json", "out.json"];
+    let table = folder.succeed(&[&["identify", "cart.robot", "log.csv"][..], &asked].concat());
+    let out = json(&folder.read("out.json"));
+    let essential = &out["essential"];
+    let names = essential["parameters"].as_array().expect("a list").iter();
+    let names: Vec<&str> = names.filter_map(|one| one["name"].as_str()).collect();
+    assert_eq!(names, ["cart.m", "rail.coulomb_friction.fc"], "{table}");
+    assert_eq!(essential["combinations"].as_array().map(Vec::len), Some(1));
+    assert_eq!(
+        essential["combinations"][0]["terms"],
+        out["combinations"][0]["terms"]
+    );
+    assert!(
+        table.contains("essential: 2 of 5 parameters and 1 sum"),
+        "{table}"
+    );
+}
+
+/// Others may tell what a log does not, so a factor is made of it, and it is said.
+#[test]
+fn a_factor_of_logs_that_do_not_tell_all_apart_is_made_and_noted() {
+    let folder = twice();
+    let reduce = ["identify", "cart.robot", "log.csv", "--factor", "f.json"];
+    let run = folder.run(&reduce);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told = "rank 3 of 5";
+    assert!(
+        run.stderr.contains("note: ") && run.stderr.contains(told),
+        "{}",
+        run.stderr
+    );
+    let merge = folder.refuse(&["merge", "cart.robot", "f.json"]);
+    assert!(merge.contains(told), "{merge}");
+    let run = folder.run(&[&reduce[..], &["--partial"]].concat());
+    assert!(!run.stderr.contains(told), "{}", run.stderr);
+}
+
+/// Friction behind 0.35 m, where the cart is once in twenty seconds.
+#[test]
+fn what_one_block_of_a_factor_tells_is_named() {
+    let folder = Folder::new();
+    let spec = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; stop on rail;",
+    ) + "effect stop(j) { linear c; torque(j) = c * (1 + sign(q(j) - 0.35)); }\n";
+    folder.write("cart.robot", &spec);
+    let mut log = String::from("time,q1,tau1\n");
+    let mut state = 3;
+    for k in 0..4000 {
+        let time = 0.005 * f64::from(k);
+        let (swing, far) = (1.9 * time, (time - 10.6) / 0.3);
+        let bump = 0.4 * (-far * far).exp();
+        let q = 0.1 * swing.sin() + bump;
+        let dq = 0.19 * swing.cos() - 2.0 * far / 0.3 * bump;
+        let ddq = -0.361 * swing.sin() + (4.0 * far * far - 2.0) / 0.09 * bump;
+        let stop = if q > 0.35 { 2.0 } else { 0.0 };
+        let tau = 3.0 * ddq + 5.0 * dq + stop + 0.2 * white(&mut state);
+        writeln!(log, "{time:.3},{q:.8},{tau:.6}").expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    let reduce = ["identify", "cart.robot", "log.csv", "--factor", "f.json"];
+    let run = folder.run(&[&reduce[..], &["--json", "fit.json"]].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told = "deviations of `rail.stop.c` rest on one block of the logs";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    let fit = json(&folder.read("fit.json"));
+    let stop = fit["parameters"].as_array().expect("a list").iter();
+    let stop = stop
+        .clone()
+        .find(|one| one["name"] == "rail.stop.c")
+        .expect("it is told");
+    let [value, std] = ["value", "std"].map(|key| stop[key].as_f64().expect("a number"));
+    assert!((value - 1.0).abs() < 3.0 * std && std < 0.2, "{stop}");
 }
 
 #[test]

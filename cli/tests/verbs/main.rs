@@ -49,6 +49,7 @@ mod readings;
 mod reproducible;
 mod shells;
 mod simulate;
+mod slower;
 mod starts;
 mod trace;
 mod turns;

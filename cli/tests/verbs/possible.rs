@@ -281,6 +281,7 @@ fn cad_that_is_far_off_is_told() {
     });
     let light: Vec<String> = light.collect();
     folder.write("arm.robot", &light.join("\n"));
-    let (_, out) = identify(&folder, "physical");
-    assert!(pulled(&out) > 0 && noted(), "{out}");
+    let (_, far) = identify(&folder, "physical");
+    assert!(pulled(&far) > 0 && noted(), "{far}");
+    assert!(gap(&far) > 10.0 * gap(&out), "{far}");
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use crate::common::{CART, Folder, json, numbers, white};
+use crate::common::{CART, Folder, cart_log, json, numbers, white};
 use crate::payload::{folder, spec};
 
 /// The truth of the arm of `payload`.
@@ -23,6 +23,14 @@ pub(crate) const TRUTH: [(&str, f64); 10] = [
 ];
 
 const RUNS: usize = 32;
+
+/// The cart with dry friction.
+fn dry_cart() -> String {
+    CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; coulomb_friction on rail;",
+    )
+}
 
 /// A log of the cart, which dry friction of 2 N holds with 1.5 N before it moves.
 fn waiting(seconds: f64) -> String {
@@ -54,13 +62,7 @@ fn waiting(seconds: f64) -> String {
 #[test]
 fn a_log_that_waits_is_judged_as_it_would_be_fitted() {
     let folder = Folder::new();
-    folder.write(
-        "cart.robot",
-        &CART.replace(
-            "viscous_friction on rail;",
-            "viscous_friction on rail; coulomb_friction on rail;",
-        ),
-    );
+    folder.write("cart.robot", &dry_cart());
     folder.write("moves.csv", &waiting(0.0));
     folder.write("waits.csv", &waiting(8.0));
     let identify = |fitted: &str, other: &str| {
@@ -91,6 +93,33 @@ fn a_log_that_waits_is_judged_as_it_would_be_fitted() {
         table.contains("without the rests of joints that dry friction holds"),
         "{table}"
     );
+}
+
+/// Instruments along a motion that turns at other times than the log, and at as many.
+#[test]
+fn instruments_leave_out_the_turns_of_both_motions() {
+    let folder = Folder::new();
+    folder.write("cart.robot", &dry_cart());
+    folder.write("log.csv", &cart_log(20, 2.0, 0.0));
+    let wanted = cart_log(20, 0.0, 0.25);
+    let columns = wanted.lines().map(|line| {
+        let mut fields = line.split(',');
+        let [time, q] = [(); 2].map(|()| fields.next().expect("a field"));
+        format!("{time},{q}\n")
+    });
+    folder.write("wanted.csv", &columns.collect::<String>());
+    let fit = |more: &[&str]| {
+        let identify = ["identify", "cart.robot", "log.csv", "--json", "fit.json"];
+        let said = folder.succeed(&[&identify[..], more].concat());
+        (
+            numbers(&json(&folder.read("fit.json"))["samples_at_turns"])[0],
+            said,
+        )
+    };
+    let (own, _) = fit(&[]);
+    let (both, said) = fit(&["--method", "iv", "--instruments", "wanted.csv"]);
+    assert!(both > 1.3 * own, "{both} {own}");
+    assert!(said.contains("left out"), "{said}");
 }
 
 /// A log with encoders of 14 bits and noise of its own.

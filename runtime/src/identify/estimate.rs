@@ -105,8 +105,8 @@ pub struct Estimate {
     pub effective_samples: Option<Vec<f64>>,
     /// Blocks of the logs from which deviations are, of a [`Factor`](super::Factor).
     pub blocks: Option<usize>,
-    /// Parameters that a single one of these blocks tells: their deviations are those of white noise, times what that is too small by for the
-    /// others.
+    /// Parameters whose deviations rest on a single one of these blocks: what it alone tells has the deviation of white noise, times what
+    /// that is too small by for the others.
     pub of_one_block: Vec<String>,
     /// Intervals from blocks that were drawn, where [`Identify::bootstrap`](super::Identify::bootstrap) asks for them.
     pub bootstrap: Option<Bootstrap>,

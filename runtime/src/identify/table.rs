@@ -236,7 +236,8 @@ impl Estimate {
         let of = self.parameters.len();
         let sums = match sums {
             0 => String::new(),
-            one => format!(" and {one} sums of them"),
+            1 => " and 1 sum of them".to_owned(),
+            more => format!(" and {more} sums of them"),
         };
         writeln!(
             f,

@@ -100,4 +100,17 @@ mod tests {
             );
         }
     }
+
+    #[test]
+    fn without_a_band_beyond_the_smooth_one_noise_is_not_known() {
+        let time: Vec<f64> = (0..2000).map(|k| 0.004 * f64::from(k)).collect();
+        let q = time.iter().map(|t| (1.3 * t).sin()).collect();
+        let log = Log::from_samples("a joint", time, vec![q], vec![vec![0.0; 2000]]);
+        let bands = Bands {
+            wide_hz: Bands::DEFAULT.smooth_hz,
+            ..Bands::DEFAULT
+        };
+        let prepared = prepare(&log.expect("samples"), &bands).expect("bands below the rate");
+        assert_eq!(acceleration_noise(&prepared, &bands), None);
+    }
 }

@@ -13,9 +13,10 @@ const NORMAL: f64 = 1.96;
 /// A direction of which the other blocks tell less than this share is told by one block alone.
 const LEAST_BESIDE: f64 = 0.1;
 
-/// Shares of a parameter's variance that are in such directions: of one that other blocks tell, and of one that they do not.
+/// Shares of a parameter's variance that are in such directions: of one whose deviation is from all blocks, at most, and of one whose deviation
+/// rests on a single one, at least.
 const LITTLE: f64 = 0.01;
-const MOST: f64 = 0.5;
+const MUCH: f64 = 0.1;
 
 impl Factor {
     /// Standard deviations from how the estimate moves without each block, `(A - A_b)^-1 s_b` with the block's share `A_b` of the normal
@@ -25,7 +26,7 @@ impl Factor {
     ///
     /// What one block tells alone (eigenvectors of `A^-1 A_b` near 1) does not move with any other, `s_b` says nothing of it since `sum s_b` is
     /// zero. It has the deviation of white noise, times what that is too small by for parameters that many blocks tell. Those of whose
-    /// variance most is of that kind are the answer.
+    /// variance a tenth and more is of that kind are the answer, all where nothing can be said of moves.
     ///
     /// Source: MacKinnon, Nielsen, Webb 2023, Fast and reliable jackknife and bootstrap methods for cluster-robust inference (CV3).
     pub(super) fn deviations(&self, solution: &mut Solution) -> Vec<usize> {
@@ -57,7 +58,7 @@ impl Factor {
             solution.std[c] = variance.max(least).sqrt();
         }
         let lone = excited.iter().zip(&alone);
-        lone.filter(|(_, alone)| **alone > MOST)
+        lone.filter(|(_, alone)| **alone > MUCH)
             .map(|(&c, _)| c)
             .collect()
     }

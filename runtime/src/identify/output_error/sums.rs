@@ -97,4 +97,26 @@ mod tests {
         let identifiability = Identifiability::new(&r, &values, &names);
         assert!(sums(&identifiability, &r, &names).is_empty());
     }
+
+    /// Outputs know `a + b - 2 c` alone: a common factor is silent, and so is what `a` takes from `b`.
+    #[test]
+    fn what_another_direction_moves_besides_a_common_factor_is_in_its_sum() {
+        let names = ["a", "b", "c"].map(str::to_owned);
+        let rows = [[1.0, 1.0, -2.0], [0.0; 3], [0.0; 3]];
+        let r = DMatrix::from_fn(3, 3, |row, column| rows[row][column]);
+        let mut identifiability = Identifiability::new(&r, &[1.0; 3], &names);
+        let silent = |moves: &[f64]| Direction {
+            singular: 0.0,
+            moves: names.iter().cloned().zip(moves.iter().copied()).collect(),
+        };
+        identifiability.directions = vec![silent(&[1.0, 1.0, 1.0]), silent(&[1.0, -1.0])];
+        let [sum] = &sums(&identifiability, &r, &names)[..] else {
+            panic!("one sum");
+        };
+        let mut terms = vec![sum.lead];
+        terms.extend(sum.others.iter().map(|(other, _)| other));
+        terms.sort_unstable();
+        assert_eq!(terms, [0, 1]);
+        assert!((sum.others[0].1 - 1.0).abs() < 1e-9);
+    }
 }
