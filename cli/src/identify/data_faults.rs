@@ -36,6 +36,9 @@ struct Numbers {
     /// At which a torque stands, N m or N.
     #[serde(skip_serializing_if = "Option::is_none")]
     value: Option<f64>,
+    /// By how much a position that stands still differs from its mean, rad or m.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rms: Option<f64>,
     /// Of the samples.
     #[serde(skip_serializing_if = "Option::is_none")]
     share: Option<f64>,
@@ -116,6 +119,10 @@ impl Numbers {
             },
             Fault::Constant { value, .. } => Self {
                 value: Some(value),
+                ..none
+            },
+            Fault::AtRest { rms, .. } => Self {
+                rms: Some(rms),
                 ..none
             },
             Fault::Jitter { step, rms, largest } => Self {

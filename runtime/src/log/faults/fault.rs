@@ -159,6 +159,13 @@ pub enum Fault {
         /// Name of the channel.
         channel: String,
     },
+    /// A joint whose position moves by no more than its noise; its mean stands for it.
+    AtRest {
+        /// Name of the channel.
+        channel: String,
+        /// Root mean square of what it differs from its mean by, rad or m.
+        rms: f64,
+    },
     /// A torque that is the same at all times.
     Constant {
         /// Name of the channel.
@@ -261,6 +268,7 @@ impl Fault {
             Self::Late { late, .. } => late.kind(),
             Self::VelocityScale { .. } => "velocity-scale",
             Self::Still { .. } => "still",
+            Self::AtRest { .. } => "at-rest",
             Self::Constant { .. } => "constant",
         }
     }
@@ -280,6 +288,7 @@ impl Fault {
             | Self::Late { channel, .. }
             | Self::VelocityScale { channel, .. }
             | Self::Still { channel }
+            | Self::AtRest { channel, .. }
             | Self::Constant { channel, .. } => channel,
             Self::Coincident { .. } | Self::Jitter { .. } | Self::Gaps { .. } => "time",
         }

@@ -11,6 +11,7 @@ mod dropouts;
 mod fault;
 mod held;
 mod pushes;
+mod resting;
 mod slips;
 mod spikes;
 mod velocity;
@@ -66,6 +67,7 @@ impl Log {
             self.tau[joint] = tau;
         }
         faults.extend(self.standing());
+        faults.extend(self.at_rest());
         let clipped = clipped::find(&self);
         faults.extend(clipped.faults);
         let step = 1.0 / self.rate_hz();
@@ -212,6 +214,21 @@ impl Log {
             bridge(values, range);
         }
         Some(at)
+    }
+
+    /// Means in place of positions that are noise about them.
+    fn at_rest(&mut self) -> Vec<Fault> {
+        let rate_hz = self.rate_hz();
+        let joints = self.q.iter_mut().enumerate();
+        let found = joints.filter_map(|(joint, q)| {
+            let noise = resting::noise(q, rate_hz)?;
+            q.fill(noise.mean);
+            Some(Fault::AtRest {
+                channel: format!("q{}", joint + 1),
+                rms: noise.rms,
+            })
+        });
+        found.collect()
     }
 
     /// Channels that say the same at all times.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{FEW, Steps, moved, quantile};
+use super::{FEW, STEEP, Steps, moved, quantile};
 
 /// Samples that the median is taken of, to either side.
 const REACH: usize = 5;
@@ -12,6 +12,16 @@ const WIDEST: usize = 3;
 
 /// How far a spike is from the median, in units of what nine of ten samples are below; no less than a steep step.
 const FAR: f64 = 12.0;
+
+/// Where one sample of twenty is a spike, one step of ten is none of the arm's own. No more than so many times what three of four are below,
+/// which is three times what noise makes it, is usual.
+const OF_THREE_QUARTERS: f64 = 4.0;
+
+/// What nine of ten are below, unless spikes are among these.
+fn usual(sizes: &[f64]) -> f64 {
+    let most = OF_THREE_QUARTERS * quantile(sizes.to_vec(), 0.75);
+    quantile(sizes.to_vec(), FEW).min(most)
+}
 
 /// Ranges of samples.
 pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
@@ -23,12 +33,12 @@ pub(super) fn find(values: &[f64]) -> Vec<Range<usize>> {
     if steps.quantum == 0.0 {
         return Vec::new();
     }
-    let steep = steps.steep();
+    let steep = STEEP * usual(&moved(&steps.sizes)).max(steps.quantum);
     // Where a smooth position is its own median nearly everywhere, most distances that are not zero are of spikes: beyond what steps
     // allow they do not say how far is usual.
-    let mut usual = moved(&sizes);
-    usual.retain(|size| *size <= steep);
-    let far = steep.max(FAR * quantile(usual, FEW));
+    let mut near = moved(&sizes);
+    near.retain(|size| *size <= steep);
+    let far = steep.max(FAR * usual(&near));
     let mut found: Vec<Range<usize>> = Vec::new();
     for (k, size) in sizes.iter().enumerate() {
         if *size <= far {

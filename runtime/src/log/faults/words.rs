@@ -90,6 +90,18 @@ impl fmt::Display for Fault {
                     100.0 * gain
                 )
             }
+            Self::VelocityScale { .. }
+            | Self::Still { .. }
+            | Self::AtRest { .. }
+            | Self::Constant { .. } => self.of_whole_channel(f),
+        }
+    }
+}
+
+impl Fault {
+    /// What a channel is at all times.
+    fn of_whole_channel(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
             Self::VelocityScale { channel, factor } => write!(
                 f,
                 "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
@@ -99,10 +111,15 @@ impl fmt::Display for Fault {
                 f,
                 "{channel} is the same at all times: the joint does not move"
             ),
+            Self::AtRest { channel, rms } => write!(
+                f,
+                "{channel} moves by no more than its noise of {rms:.1e} RMS: the joint stands still, and its mean stands for it"
+            ),
             Self::Constant { channel, value } => write!(
                 f,
                 "{channel} is {value} at all times: nothing was logged, or the drive was off"
             ),
+            _ => Ok(()),
         }
     }
 }
