@@ -12,6 +12,9 @@ use crate::signal::resample::whole_steps;
 const ORDERS: f64 = 10.0;
 const SAMPLES_AN_ORDER: f64 = 8.0;
 
+/// Weights whose sums are followed at once.
+const ABREAST: usize = 8;
+
 /// Samples that are drawn before those that count, at least.
 const BEFORE: usize = 500;
 
@@ -101,13 +104,37 @@ impl Autoregression {
 
     /// Variance of `sum_k w_k x_k`.
     pub fn variance_of_sum(&self, weights: &[f64]) -> f64 {
-        let mut carried = weights.to_vec();
+        self.variances_of_sums(&[weights])[0]
+    }
+
+    /// Variance of `sum_k w_k x_k` for each of several weights of one length.
+    pub fn variances_of_sums(&self, weights: &[&[f64]]) -> Vec<f64> {
+        let groups = weights.chunks(ABREAST);
+        groups.flat_map(|group| self.variances(group)).collect()
+    }
+
+    /// The same of a few: one sample waits for those behind it, so several weights go abreast.
+    fn variances(&self, weights: &[&[f64]]) -> Vec<f64> {
+        let samples = weights.iter().map(|weights| weights.len()).max();
+        let mut carried = vec![[0.0; ABREAST]; samples.unwrap_or(0)];
+        let mut squares = [0.0; ABREAST];
         for k in (0..carried.len()).rev() {
-            let later = carried[k + 1..].iter();
-            let fed: f64 = later.zip(&self.filter[1..]).map(|(u, a)| u * a).sum();
-            carried[k] -= fed;
+            let mut own = [0.0; ABREAST];
+            for (own, weights) in own.iter_mut().zip(weights) {
+                *own = weights[k];
+            }
+            for (later, a) in carried[k + 1..].iter().zip(&self.filter[1..]) {
+                for (own, later) in own.iter_mut().zip(later) {
+                    *own -= a * later;
+                }
+            }
+            for (square, own) in squares.iter_mut().zip(&own) {
+                *square += own * own;
+            }
+            carried[k] = own;
         }
-        self.error * carried.iter().map(|u| u * u).sum::<f64>()
+        let squares = squares[..weights.len()].iter();
+        squares.map(|square| self.error * square).collect()
     }
 
     /// Noise of it: so many samples, long after whatever it began with.

@@ -2,7 +2,9 @@
 
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
-use super::{Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes, turns};
+use super::{
+    Beyond, Bootstrap, Identify, IdentifyError, Method, bootstrap, hac, robust, shapes, turns,
+};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -35,12 +37,15 @@ impl Identify {
         (mut solution, shapes, stack): (Solution, Vec<f64>, Stack),
     ) -> Solved {
         let linear = solution.estimate.len();
-        if shapes.is_empty() {
-            solution.std = self.deviations(&stack, &solution);
+        let is_rough = self.beyond < Beyond::Deviations;
+        if shapes.is_empty() || is_rough {
+            if !is_rough {
+                solution.std = self.deviations(&stack, &solution);
+            }
             return Solved {
                 solution,
+                shape_std: vec![None; shapes.len()],
                 shapes,
-                shape_std: Vec::new(),
                 of_shapes: Vec::new(),
                 stack,
             };

@@ -106,3 +106,23 @@ impl Weights {
         }
     }
 }
+
+/// What an identification asks beyond the parameters.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::Beyond;
+/// assert!(Beyond::default() > Beyond::Deviations && Beyond::Deviations > Beyond::Residuals);
+/// ```
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Beyond {
+    /// What is left of the torque. Deviations are rough ones, of correlation times, and shapes have none.
+    Residuals,
+    /// Standard deviations of the residuals' whole series, too, which take several times as long.
+    Deviations,
+    /// And channels that are late or early, see [`Estimate::delays`](super::Estimate::delays): that takes longer than the fit where little is
+    /// explained.
+    #[default]
+    Delays,
+}

@@ -68,7 +68,7 @@ pub use least_squares::{Factors, RANK_TOLERANCE, Solution, correlation_time};
 use least_squares::{check_counts, check_excited};
 use logs::update_load;
 pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};
-pub use method::{Method, Weights};
+pub use method::{Beyond, Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
@@ -111,8 +111,8 @@ pub struct Identify {
     /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in the deviations
     /// otherwise, but for arms with [`Arm::dry_shapes`] that other rows tell: these are fitted without them in any case.
     pub leave_out_turns: bool,
-    /// Whether to look for channels that are late or early, see [`Estimate::delays`]: it takes longer than the fit where little is explained.
-    pub delays: bool,
+    /// What is asked beyond the parameters.
+    pub beyond: Beyond,
 }
 
 impl Default for Identify {
@@ -127,7 +127,7 @@ impl Default for Identify {
             bootstrap: 0,
             essential: false,
             leave_out_turns: false,
-            delays: true,
+            beyond: Beyond::default(),
         }
     }
 }

@@ -61,19 +61,38 @@ impl<'a> Noise<'a> {
         }
     }
 
-    /// Of a parameter, as far as noise of a law makes it.
-    fn variance(&self, parameter: usize, law: &Autoregression) -> f64 {
-        law.variance_of_sum(&self.weights[parameter])
+    /// Of parameters, as far as noise of a law makes it.
+    fn variances(&self, law: &Autoregression) -> Vec<f64> {
+        let some = self.weights.iter().filter(|weights| !weights.is_empty());
+        let some: Vec<&[f64]> = some.map(Vec::as_slice).collect();
+        let mut variances = law.variances_of_sums(&some).into_iter();
+        let of = |weights: &Vec<f64>| {
+            let is_some = !weights.is_empty();
+            is_some.then(|| variances.next()).flatten().unwrap_or(0.0)
+        };
+        self.weights.iter().map(of).collect()
     }
 }
 
 /// Variances of what noise makes of an estimate, parameter by parameter.
 pub(super) fn variances(noise: &[Noise], parameters: usize) -> Vec<f64> {
-    let variance = |k| {
-        let joints = noise.iter();
-        joints.map(|noise| noise.variance(k, &noise.law)).sum()
-    };
-    (0..parameters).map(variance).collect()
+    let laws = noise.iter().map(|noise| (noise, &noise.law));
+    sums(laws, parameters)
+}
+
+/// Sums over joints, whose noise each is of a law.
+fn sums<'a>(
+    laws: impl Iterator<Item = (&'a Noise<'a>, &'a Autoregression)>,
+    parameters: usize,
+) -> Vec<f64> {
+    let mut sums = vec![0.0; parameters];
+    for (noise, law) in laws {
+        let variances = noise.variances(law);
+        sums.iter_mut()
+            .zip(variances)
+            .for_each(|(sum, x)| *sum += x);
+    }
+    sums
 }
 
 /// By how much more variances are than what noise says of them, parameter by parameter; 1 where logs are long. `so` are those of that
@@ -114,11 +133,10 @@ pub(super) fn shortfalls(noise: &[Noise], so: &[f64], freedom: f64) -> Vec<f64> 
                 Autoregression::through(&rest)
             })
             .collect();
-        for (k, lack) in lack.iter_mut().enumerate() {
-            let joints = noise.iter().zip(&told);
-            let told: f64 = joints.map(|(noise, law)| noise.variance(k, law)).sum();
+        let told = sums(noise.iter().zip(&told), count);
+        for ((lack, told), so) in lack.iter_mut().zip(told).zip(so) {
             lack.push(if told > 0.0 {
-                so[k] / (freedom * told)
+                so / (freedom * told)
             } else {
                 1.0
             });

@@ -110,11 +110,19 @@ impl LowPass {
                 .rev()
                 .map(|value| 2.0 * last - value),
         );
-        for section in &self.sections {
-            section.run(out[0], out.iter_mut());
+        let (pairs, rest) = self.sections.as_chunks::<2>();
+        for pair in pairs {
+            run(pair, out[0], out.iter_mut());
         }
-        for section in &self.sections {
-            section.run(out[out.len() - 1], out.iter_mut().rev());
+        for section in rest {
+            run(&[*section], out[0], out.iter_mut());
+        }
+        let last = out.len() - 1;
+        for pair in pairs {
+            run(pair, out[last], out.iter_mut().rev());
+        }
+        for section in rest {
+            run(&[*section], out[last], out.iter_mut().rev());
         }
         out.copy_within(padding..padding + signal.len(), 0);
         out.truncate(signal.len());
@@ -138,15 +146,29 @@ impl Section {
         }
     }
 
-    /// One pass in the order of the samples, from rest on `first`.
-    fn run<'a>(&self, first: f64, samples: impl Iterator<Item = &'a mut f64>) {
-        let Self { gain, a1, a2, rest } = *self;
-        let mut state = rest.map(|rest| rest * first);
-        for sample in samples {
-            let input = gain * *sample;
-            let output = input + state[0];
-            state = [2.0 * input - a1 * output + state[1], input - a2 * output];
-            *sample = output;
+    /// The next sample of the output, by the transposed direct form.
+    fn step(&self, state: &mut [f64; 2], sample: f64) -> f64 {
+        let input = self.gain * sample;
+        let output = input + state[0];
+        *state = [
+            2.0 * input - self.a1 * output + state[1],
+            input - self.a2 * output,
+        ];
+        output
+    }
+}
+
+/// Sections one behind the other, in one pass in the order of the samples from rest on `first`. A sample waits for what the one before has left
+/// in a section: two sections wait at once.
+fn run<'a, const COUNT: usize>(
+    sections: &[Section; COUNT],
+    first: f64,
+    samples: impl Iterator<Item = &'a mut f64>,
+) {
+    let mut states = sections.map(|section| section.rest.map(|rest| rest * first));
+    for sample in samples {
+        for (section, state) in sections.iter().zip(&mut states) {
+            *sample = section.step(state, *sample);
         }
     }
 }

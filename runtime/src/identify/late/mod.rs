@@ -15,7 +15,7 @@ use nearest::nearest;
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm, says_nothing};
-use super::{Identify, clipped, prepare_all, turns};
+use super::{Beyond, Identify, clipped, prepare_all, turns};
 use crate::columns::{Arm, Entry, Unknown};
 use crate::log::{LateChannel, Log};
 use crate::signal::{Bands, Prepared, derivative};
@@ -51,13 +51,13 @@ const MOST: f64 = 0.03;
 /// ```
 /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
 /// # use pendulum::{measure, pendulum};
-/// # use robot_model::identify::Identify;
+/// # use robot_model::identify::{Beyond, Identify};
 /// let mut log = measure(0.0);
 /// log.tau[0].rotate_right(10);
 /// let late = 10.0 / log.rate_hz();
 /// let found = Identify::default().fit(&pendulum(), &[log.clone()])?.delays;
 /// assert!(found.len() == 1 && (found[0].seconds - late).abs() < 0.1 * late);
-/// let plain = Identify { delays: false, ..Identify::default() };
+/// let plain = Identify { beyond: Beyond::Deviations, ..Identify::default() };
 /// assert!(plain.fit(&pendulum(), &[log])?.delays.is_empty());
 /// # Ok::<(), robot_model::identify::IdentifyError>(())
 /// ```
@@ -133,7 +133,7 @@ impl Identify {
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
     ) -> Vec<Delay> {
-        if !self.delays {
+        if self.beyond < Beyond::Delays {
             return Vec::new();
         }
         let is_poor = stack
@@ -176,7 +176,7 @@ impl Identify {
         bands: &Bands,
         shapes: &[f64],
     ) -> Vec<Delay> {
-        if !self.delays {
+        if self.beyond < Beyond::Delays {
             return Vec::new();
         }
         let Ok(mut prepared) = prepare_all(logs, bands) else {
