@@ -4,47 +4,11 @@ use robot_model::columns::{Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Identified, is_shape_told};
 use robot_model::log::Log;
 use robot_model_spec::Model;
-use robot_model_spec::model::JointKind;
 
 use crate::output::names;
 
-/// Positions beyond this many times their limit are of another unit.
-const BEYOND: f64 = 3.0;
-
-/// A joint without limits that turns further than this, rad, in a log.
-const FAR: f64 = 30.0;
-
 /// What is left of each joint's torque, from where on the model says nothing of it, percent.
 const LITTLE: f64 = 85.0;
-
-/// Joints that go where none goes in radians or meters.
-pub(super) fn far_positions(model: &Model, log: &Log) -> Vec<String> {
-    let joints = model.joints.iter().enumerate();
-    let far = joints.filter_map(|(k, joint)| {
-        let is_prismatic = joint.kind == JointKind::Prismatic;
-        let most = log.q[k].iter().map(|q| q.abs()).fold(0.0, f64::max);
-        let limit = joint.limits.position;
-        let free = if is_prismatic { f64::INFINITY } else { FAR };
-        let limit = limit.map_or(free, |(low, high)| BEYOND * low.abs().max(high.abs()));
-        (most > limit).then(|| {
-            if is_prismatic {
-                return format!(
-                    "q{} of joint `{}` reaches {most:.1} m, {:.0} times its limit: is it in mm? Logs are in m",
-                    k + 1,
-                    joint.name,
-                    BEYOND * most / limit
-                );
-            }
-            format!(
-                "q{} of joint `{}` reaches {most:.1} rad, which is {:.1} turns: is it in degrees? Logs are in rad",
-                k + 1,
-                joint.name,
-                most / std::f64::consts::TAU
-            )
-        })
-    });
-    far.collect()
-}
 
 /// A model that explains next to nothing. What instruments leave of the torque has the noise of the columns in it, so least squares is
 /// asked beside them.
@@ -134,8 +98,8 @@ fn worse_judged(fitted: &[f64], judged: &[f64], joints: &[String]) -> Option<Str
         .collect();
     (!worse.is_empty()).then(|| {
         format!(
-            "on the log to validate on next to nothing is explained of what is on the logs that are fitted; left of the torque there (here) is: \
-             {}; the other log shows what the model lacks and these hardly do, as a coupling or a load (`trace` with both finds it), or it is of \
+            "the model explains the logs that are fitted, and next to nothing of the log to validate on, whose torque is left by (that of the others \
+             by): {}; either it shows what the model lacks and the others hardly do, as a coupling or a load (`trace` with both finds it), or it is of \
              another arm or order of columns",
             worse.join(", ")
         )

@@ -6,6 +6,7 @@ mod data_faults;
 pub(crate) mod doubts;
 mod drive_gains;
 pub(crate) mod factor_file;
+mod far;
 pub(crate) mod fit;
 mod likeness;
 mod nominal;
@@ -221,6 +222,7 @@ impl IdentifyArguments {
             .transpose()?;
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
         doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
+        progress.step("asking whether columns are as the spec says");
         doubts.extend(readings::others(form, &identify, &logs, &estimate));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
@@ -357,7 +359,7 @@ impl IdentifyArguments {
             return read_log(path, form.model(), &self.log_settings, progress);
         }
         let mended = read_mended(path, form.model(), &self.log_settings, progress)?;
-        for doubt in doubts::far_positions(form.model(), &mended.log) {
+        for doubt in far::positions(form.model(), &mended.log) {
             progress.note(&format!("note: {}: {doubt}", path.display()));
         }
         let source = path.display().to_string();

@@ -1,8 +1,9 @@
-//! Whether a log is to be read in another way than the spec says, asked of its torques: angles in another unit, columns in another order.
+//! Whether a log is to be read in another way than the spec says, asked of its torques: angles in another unit, columns of another sign or in
+//! another order.
 //!
 //! In: logs whose torques a model does not explain. Out: a sentence about the reading with which it explains them far better, if any.
 
-use robot_model::identify::{Estimate, Identify, Method};
+use robot_model::identify::{Beyond, Estimate, Identify, Method};
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
@@ -30,8 +31,8 @@ const WELL_IN_TURNS: f64 = 5.0;
 const LESS: f64 = 0.9;
 
 /// What of the first log is asked, s and Hz: more says no more of units and orders.
-const LONGEST: f64 = 100.0;
-const FASTEST: f64 = 200.0;
+const LONGEST: f64 = 60.0;
+const FASTEST: f64 = 100.0;
 
 /// A unit of angles.
 #[derive(Clone, Copy)]
@@ -67,8 +68,17 @@ enum Columns {
 enum Reading {
     /// Positions of joints are in a unit.
     In(Unit, Vec<usize>),
+    /// A column of a joint has the other sign.
+    Mirrored(Channel, usize),
     /// Joint `k` of the spec has the columns of joint `order[k]`.
     Ordered(Columns, Vec<usize>),
+}
+
+/// A column of a joint that may have the other sign.
+#[derive(Clone, Copy)]
+enum Channel {
+    Position,
+    Torque,
 }
 
 impl Reading {
@@ -81,6 +91,15 @@ impl Reading {
                         *q *= unit.size;
                     }
                 }
+            }
+            Self::Mirrored(channel, joint) => {
+                let columns = match channel {
+                    Channel::Position => &mut read.q,
+                    Channel::Torque => &mut read.tau,
+                };
+                columns[*joint]
+                    .iter_mut()
+                    .for_each(|value| *value = -*value);
             }
             Self::Ordered(columns, order) => {
                 if !matches!(columns, Columns::Positions) {
@@ -112,6 +131,19 @@ impl Reading {
                     format!("{positions} in {plural}"),
                     format!(
                         "{are_they} in {plural}? Logs are in rad, or as the spec says: `log {{ q = \"q{first}\": {name}, ..; }}`"
+                    ),
+                ]
+            }
+            Self::Mirrored(channel, joint) => {
+                let (what, column, unit) = match channel {
+                    Channel::Position => ("position", "q", "rad"),
+                    Channel::Torque => ("torque", "tau", "Nm"),
+                };
+                [
+                    format!("the {what} of `{}` the other way round", joints[*joint]),
+                    format!(
+                        "is its sign that of the spec's joint? The spec may turn it: `log {{ {column} = \"{column}{}\": -1 {unit}, ..; }}`",
+                        joint + 1
                     ),
                 ]
             }
@@ -155,15 +187,24 @@ pub(super) fn others(
     if worst <= WELL_IN_TURNS {
         return None;
     }
+    let log = excerpt(logs.first()?);
     let asked = Asked {
         form,
-        identify: plain(identify),
-        log: excerpt(logs.first()?),
+        identify: plain(identify, found, &log),
+        log,
     };
     let as_logged = asked.left(&asked.log)?;
     let mut candidates = Vec::new();
     for reading in units(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
+    }
+    if worst > WELL {
+        let joints = 0..form.dof();
+        let signs = joints.flat_map(|joint| {
+            let channels = [Channel::Position, Channel::Torque];
+            channels.map(|channel| Reading::Mirrored(channel, joint))
+        });
+        candidates.extend(signs.filter_map(|reading| asked.read(reading)));
     }
     let ill = found.relative_percent.iter().map(|left| *left > WELL);
     let ill: Vec<bool> = ill.collect();
@@ -252,12 +293,15 @@ fn excerpt(log: &Log) -> Log {
     log
 }
 
-/// Without what units and orders do not need.
-fn plain(identify: &Identify) -> Identify {
+/// Without what units and orders do not need: bands and shapes are those that were found.
+fn plain(identify: &Identify, found: &Estimate, log: &Log) -> Identify {
+    let shapes = found.shapes.iter().map(|(_, value)| *value);
     Identify {
+        bands: Some(found.bands.at_rate(log.rate_hz())),
+        shapes: Some(shapes.collect()),
         bootstrap: 0,
         essential: false,
-        delays: false,
+        beyond: Beyond::Residuals,
         instruments: Vec::new(),
         method: Method::Wls,
         ..identify.clone()

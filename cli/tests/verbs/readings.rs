@@ -149,29 +149,76 @@ fn columns_in_another_order_are_told_by_the_torques() {
     assert!(!right.contains("the model leaves"), "{right}");
 }
 
-#[test]
-fn one_joint_in_degrees_is_told_by_the_torques() {
-    let folder = Folder::new();
-    let (header, rows) = moved(&folder);
-    let names: Vec<&str> = header.split(',').collect();
-    let lift = names.iter().position(|name| *name == "q2").expect("q2");
-    let mut log = format!(
-        "{}\n",
-        renamed(&header, &[("dq1", "a"), ("dq2", "b"), ("dq3", "c")])
-    );
+/// A log without velocities, and with a column that is another multiple of what it was.
+fn scaled(header: &str, rows: &str, column: &str, factor: f64) -> String {
+    let own = header.split(',').position(|name| name == column);
+    let names = [("dq1", "a"), ("dq2", "b"), ("dq3", "c")];
+    let mut log = format!("{}\n", renamed(header, &names));
     for row in rows.lines() {
         let fields = row.split(',').enumerate().map(|(k, field)| {
             let value: f64 = field.parse().expect("a number");
-            if k == lift { value.to_degrees() } else { value }
+            let value = if Some(k) == own {
+                factor * value
+            } else {
+                value
+            };
+            value.to_string()
         });
-        let fields: Vec<String> = fields.map(|value| value.to_string()).collect();
+        let fields: Vec<String> = fields.collect();
         writeln!(log, "{}", fields.join(",")).expect("a string takes all");
     }
-    folder.write("degrees.csv", &log);
-    let said = folder.run(&["identify", "arm.robot", "degrees.csv"]).stderr;
-    let told = "with the position of `lift` in degrees the model leaves";
-    assert!(said.contains(told), "{said}");
-    assert!(said.contains("`log { q = \"q2\": deg, ..; }`"), "{said}");
+    log
+}
+
+#[test]
+fn one_joint_in_degrees_or_of_the_other_sign_is_told_by_the_torques() {
+    let folder = Folder::new();
+    let (header, rows) = moved(&folder);
+    let degree = 1.0_f64.to_degrees();
+    for (column, factor, told, way_out) in [
+        (
+            "q2",
+            degree,
+            "position of `lift` in degrees",
+            "q = \"q2\": deg",
+        ),
+        (
+            "q2",
+            -1.0,
+            "position of `lift` the other way round",
+            "q = \"q2\": -1 rad",
+        ),
+        (
+            "tau3",
+            -1.0,
+            "torque of `bend` the other way round",
+            "tau = \"tau3\": -1 Nm",
+        ),
+    ] {
+        folder.write("other.csv", &scaled(&header, &rows, column, factor));
+        let said = folder.run(&["identify", "arm.robot", "other.csv"]).stderr;
+        let told = format!("with the {told} the model leaves");
+        assert!(said.contains(&told) && said.contains(way_out), "{said}");
+    }
+}
+
+/// The way out that is told leads out.
+#[test]
+fn a_column_that_the_spec_turns_is_that_of_the_joint() {
+    let folder = Folder::new();
+    let (header, rows) = moved(&folder);
+    folder.write("other.csv", &scaled(&header, &rows, "q2", -1.0));
+    let turned = "log { q = \"q1\": rad, \"q2\": -1 rad, \"q3\": rad; }";
+    let spec = three_joints("");
+    let (spec, end) = spec.rsplit_once('}').expect("an end");
+    folder.write("turned.robot", &format!("{spec}{turned}}}{end}"));
+    let said = folder
+        .run(&["identify", "turned.robot", "other.csv"])
+        .stderr;
+    assert!(
+        !said.contains("the model leaves") && !said.contains("error"),
+        "{said}"
+    );
 }
 
 #[test]
