@@ -1,6 +1,6 @@
 //! Accelerations that are noise of encoders.
 
-use robot_model::identify::{Estimate, Form};
+use robot_model::identify::{Estimate, Form, Method};
 use robot_model::log::Log;
 use robot_model::signal::{acceleration_noise, prepare};
 use robot_model_spec::Model;
@@ -16,7 +16,8 @@ pub(super) fn doubt(
     logs: &[Log],
     resting: &[&str],
 ) -> Option<String> {
-    if estimate.form != Form::Acceleration {
+    // Instruments have none of that noise, and the filtered form no acceleration.
+    if estimate.form != Form::Acceleration || estimate.method == Method::Instrumental {
         return None;
     }
     let mut least = vec![f64::INFINITY; model.joints.len()];

@@ -18,6 +18,10 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
     let standing: Vec<String> = standing.map(|(_, joint)| format!("`{joint}`")).collect();
     let standing = match standing.len() {
         0 => String::new(),
+        1 => format!(
+            "; {} stands or turns nearly all the time, where dry friction holds it with what no law says",
+            standing[0]
+        ),
         _ => format!(
             "; {} stand or turn nearly all the time, where dry friction holds them with what no law says",
             standing.join(", ")

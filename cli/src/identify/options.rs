@@ -10,11 +10,13 @@ use crate::{Error, output};
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
 pub(super) enum MethodArgument {
     /// Ordinary least squares.
+    #[value(alias = "ols")]
     Ls,
     /// Least squares weighted joint by joint.
     #[default]
     Wls,
     /// The same, in which samples far from the rest count less.
+    #[value(aliases = ["huber", "irls"])]
     Robust,
     /// Least squares weighted by each joint's residual, and of all estimates the nearest that an arm can have: masses spread over space, friction that takes energy.
     Physical,

@@ -358,7 +358,7 @@ fn no_value(missing: &[String]) -> String {
     let entries: Vec<String> = entries.collect();
     let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
     format!(
-        "no value for {}; give it in a file of parameters (`--parameters`, `--start`): {{{}}}",
+        "no value for {}; give it in a file of parameters (`--parameters`; of `identify` it is `--start`): {{{}}}",
         names(&missing),
         entries.join(", ")
     )

@@ -33,11 +33,11 @@ fn eval_takes_standard_and_base_parameters() {
 
     assert_eq!(
         folder.refuse(&["eval", "cart.robot", "--states", "states.json"]),
-        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file of parameters (`--parameters`, `--start`): {\"cart.m\": .., \"rail.viscous_friction.fv\": ..}\n"
+        "error: cart.robot: no value for `cart.m`, `rail.viscous_friction.fv`; give it in a file of parameters (`--parameters`; of `identify` it is `--start`): {\"cart.m\": .., \"rail.viscous_friction.fv\": ..}\n"
     );
     assert_eq!(
         folder.refuse(&eval(r#"{"cart.m": 3}"#)),
-        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file of parameters (`--parameters`, `--start`): {\"rail.viscous_friction.fv\": ..}\n"
+        "error: parameters.json: no value for `rail.viscous_friction.fv`; give it in a file of parameters (`--parameters`; of `identify` it is `--start`): {\"rail.viscous_friction.fv\": ..}\n"
     );
     assert_eq!(
         folder.refuse(&eval(

@@ -245,7 +245,7 @@ fn what_logs_do_not_tell_is_no_claim_of_the_possible_arm() {
     for name in ["upper.mx", "upper.my", "lower.m", "lower.mx"] {
         assert_eq!(from(name), "nominal");
     }
-    assert!(table.contains("for that without the constraint: upper "));
+    assert!(table.contains("possible arm (without the constraint): upper "));
 
     // What reads parameters takes the possible arm: its torque is that of the log.
     let again = torques("arm.robot", "out.json");

@@ -43,7 +43,10 @@ pub enum IdentifyError {
         unknowns: usize,
     },
     /// The log excites none of the unknowns.
-    #[error("the log excites none of the {unknowns} unknowns: does the arm move in it?")]
+    #[error(
+        "the log excites none of the {unknowns} unknowns: no joint moves in it whose torque changes; log a motion, or, of an arm that swings \
+         free, identify by output error, which motion alone tells something"
+    )]
     NothingExcited {
         /// Unknowns.
         unknowns: usize,

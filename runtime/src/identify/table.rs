@@ -53,7 +53,7 @@ impl fmt::Display for Estimate {
         }
         if let Some(effective) = &self.effective_samples {
             let counts: Vec<String> = effective.iter().map(|n| format!("{n:.0}")).collect();
-            writeln!(f, "independent ones among them: {}", a_joint(&counts))?;
+            writeln!(f, "independent samples: {}", a_joint(&counts))?;
         }
         if let Some(bootstrap) = &self.bootstrap {
             writeln!(
@@ -180,7 +180,7 @@ impl Estimate {
             .collect();
         writeln!(
             f,
-            "relative error of the possible arm, for that without the constraint: {}",
+            "relative error of the possible arm (without the constraint): {}",
             told.join(", ")
         )
     }
@@ -259,14 +259,18 @@ impl Estimate {
         let told: Vec<String> = joints
             .map(|((name, alone), all)| both_told(name, *alone, *all))
             .collect();
-        writeln!(f, "relative error with these alone: {}", told.join(", "))
+        writeln!(
+            f,
+            "relative error with these alone (with all): {}",
+            told.join(", ")
+        )
     }
 }
 
 /// Two relative errors of a joint; one without rows has none.
 fn both_told(joint: &str, one: f64, other: f64) -> String {
     if one > 0.0 || other > 0.0 {
-        format!("{joint} {one:.2} for {other:.2} %")
+        format!("{joint} {one:.2} ({other:.2}) %")
     } else {
         format!("{joint} -")
     }
