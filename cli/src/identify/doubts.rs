@@ -98,9 +98,9 @@ fn worse_judged(fitted: &[f64], judged: &[f64], joints: &[String]) -> Option<Str
         .collect();
     (!worse.is_empty()).then(|| {
         format!(
-            "the model explains the logs that are fitted, and next to nothing of the log to validate on, whose torque is left by (that of the others \
-             by): {}; either it shows what the model lacks and the others hardly do, as a coupling or a load (`trace` with both finds it), or it is of \
-             another arm or order of columns",
+            "the model explains the logs that are fitted, and next to nothing of the log to validate on; of the torque there is left (of what is \
+             fitted): {}; either that log shows what the model lacks and the others hardly do, as a coupling or a load (`trace` with both finds \
+             it), or it is of another arm or order of columns",
             worse.join(", ")
         )
     })

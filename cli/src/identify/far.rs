@@ -10,64 +10,150 @@ const BEYOND: f64 = 3.0;
 /// A joint without limits that turns further than this, rad, in a log.
 const FAR: f64 = 30.0;
 
+/// What is asked of joints of a kind.
+struct Asked {
+    moves: &'static str,
+    /// Unit of logs.
+    unit: &'static str,
+    /// What it may be instead, and that in a spec.
+    other: [&'static str; 2],
+    /// The step of an encoder in a spec.
+    step: &'static str,
+}
+
+const TURNING: Asked = Asked {
+    moves: "turns",
+    unit: "rad",
+    other: ["degrees", "deg"],
+    step: "360 deg/4096",
+};
+const SLIDING: Asked = Asked {
+    moves: "slides",
+    unit: "m",
+    other: ["mm", "mm"],
+    step: "0.001 mm",
+};
+
+/// A joint that goes too far.
+struct Far {
+    joint: usize,
+    is_prismatic: bool,
+    said: String,
+}
+
 /// Joints that go too far, those that turn and those that slide, each told at once.
 pub(super) fn positions(model: &Model, log: &Log) -> Vec<String> {
-    let (mut turning, mut sliding) = (Vec::new(), Vec::new());
-    for (k, joint) in model.joints.iter().enumerate() {
-        let is_prismatic = joint.kind == JointKind::Prismatic;
-        let most = log.q[k].iter().map(|q| q.abs()).fold(0.0, f64::max);
-        let limit = joint.limits.position;
-        let free = if is_prismatic { f64::INFINITY } else { FAR };
-        let limit = limit.map_or(free, |(low, high)| BEYOND * low.abs().max(high.abs()));
-        if most <= limit {
-            continue;
-        }
-        if is_prismatic {
-            let times = BEYOND * most / limit;
-            sliding.push((
-                k,
-                format!("`{}` {most:.1} m ({times:.0} times its limit)", joint.name),
-            ));
-        } else {
-            let turns = most / std::f64::consts::TAU;
-            turning.push((
-                k,
-                format!("`{}` {most:.1} rad ({turns:.1} turns)", joint.name),
-            ));
-        }
-    }
-    let said = |far: &[(usize, String)], goes: &str, unit: &str, logs: &str| {
-        let joints: Vec<&str> = far.iter().map(|(_, said)| said.as_str()).collect();
-        let first = far.first()?.0;
-        let are_they = if far.len() == 1 { "is it" } else { "are they" };
-        let unit = if far.iter().all(|(k, _)| is_counted(&log.q[*k])) {
-            "counts of an encoder"
-        } else {
-            unit
-        };
-        Some(format!(
-            "positions go where no joint {goes}: {}: {are_they} in {unit}? Logs are in {logs}, or as the spec says: \
-             `log {{ q = \"q{}\": {}, ..; }}`",
-            joints.join(", "),
-            first + 1,
-            match unit {
-                "degrees" => "deg",
-                "mm" => "mm",
-                _ if logs == "m" => "0.01 mm",
-                _ => "360 deg/4096",
-            }
-        ))
-    };
-    let turning = said(&turning, "turns", "degrees", "rad");
+    let far: Vec<Far> = (0..model.joints.len())
+        .filter_map(|joint| far(model, log, joint))
+        .collect();
+    let (sliding, turning): (Vec<Far>, Vec<Far>) =
+        far.into_iter().partition(|far| far.is_prismatic);
+    let turning = question(&TURNING, log, &turning);
     turning
         .into_iter()
-        .chain(said(&sliding, "slides", "mm", "m"))
+        .chain(question(&SLIDING, log, &sliding))
         .collect()
+}
+
+fn far(model: &Model, log: &Log, joint: usize) -> Option<Far> {
+    let declared = &model.joints[joint];
+    let name = &declared.name;
+    let is_prismatic = declared.kind == JointKind::Prismatic;
+    let most = log.q[joint].iter().map(|q| q.abs()).fold(0.0, f64::max);
+    let free = if is_prismatic { f64::INFINITY } else { FAR };
+    let limit = declared.limits.position;
+    let limit = limit.map_or(free, |(low, high)| BEYOND * low.abs().max(high.abs()));
+    let said = if is_prismatic {
+        format!(
+            "`{name}` {most:.1} m ({:.0} times its limit)",
+            BEYOND * most / limit
+        )
+    } else {
+        format!(
+            "`{name}` {most:.1} rad ({:.1} turns)",
+            most / std::f64::consts::TAU
+        )
+    };
+    (most > limit).then_some(Far {
+        joint,
+        is_prismatic,
+        said,
+    })
+}
+
+fn question(asked: &Asked, log: &Log, far: &[Far]) -> Option<String> {
+    let first = far.first()?.joint + 1;
+    let joints: Vec<&str> = far.iter().map(|far| far.said.as_str()).collect();
+    let are_they = if far.len() == 1 { "is it" } else { "are they" };
+    let [other, in_spec] = asked.other;
+    let are_counts = far.iter().all(|far| is_counted(&log.q[far.joint]));
+    let (other, in_spec) = if are_counts {
+        (
+            format!("counts of an encoder, or whole {other}"),
+            asked.step,
+        )
+    } else {
+        (other.to_owned(), in_spec)
+    };
+    Some(format!(
+        "positions go where no joint {}: {}: {are_they} in {other}? Logs are in {}, or as the spec says: `log {{ q = \"q{first}\": {in_spec}, ..; }}`",
+        asked.moves,
+        joints.join(", "),
+        asked.unit
+    ))
 }
 
 /// Whether all values are whole numbers.
 fn is_counted(values: &[f64]) -> bool {
-    values
-        .iter()
-        .all(|value| (value - value.round()).abs() < 1e-9)
+    let mut values = values.iter();
+    values.all(|value| (value - value.round()).abs() < 1e-9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPEC: &str = "robot Two {
+        gravity = [0, 0, -9.81];
+        convention = standard_dh;
+        joint turn: revolute { a = 0.5; alpha = 0; d = 0; }
+        joint lift: prismatic { a = 0; alpha = 0; theta = 0; position = -0.5 m .. 0.5 m; }
+    }";
+
+    fn said(turn: f64, lift: f64, whole: bool) -> Vec<String> {
+        let model = robot_model_spec::load("two.robot", SPEC).expect("a spec");
+        let time: Vec<f64> = (0..200).map(|k| 0.01 * f64::from(k)).collect();
+        let wave = |size: f64| -> Vec<f64> {
+            let values = time.iter().map(|t| size * (3.0 * t).sin());
+            values.map(|x| if whole { x.round() } else { x }).collect()
+        };
+        let q = vec![wave(turn), wave(lift)];
+        let log = Log::from_samples("a log", time.clone(), q, vec![vec![0.0; 200]; 2]);
+        positions(&model, &log.expect("sound"))
+    }
+
+    #[test]
+    fn far_positions_are_asked_for_their_unit() {
+        assert_eq!(said(3.0, 0.4, false), Vec::<String>::new());
+        let both = said(90.0, 400.0, false);
+        assert!(
+            both[0].contains("`turn` 90.0 rad (14.3 turns): is it in degrees?"),
+            "{both:?}"
+        );
+        assert!(both[0].contains("q = \"q1\": deg"), "{both:?}");
+        assert!(
+            both[1].contains("`lift` 400.0 m (800 times its limit): is it in mm?"),
+            "{both:?}"
+        );
+        assert!(both[1].contains("q = \"q2\": mm"), "{both:?}");
+    }
+
+    #[test]
+    fn whole_numbers_are_asked_whether_they_are_counts() {
+        let counts = said(1200.0, 400.0, true);
+        for said in &counts {
+            assert!(said.contains("is it in counts of an encoder"), "{said}");
+        }
+        assert!(counts[0].contains("360 deg/4096") && counts.len() == 2);
+    }
 }

@@ -234,6 +234,39 @@ mod tests {
         assert!(steady < 0.5 * of_products, "{steady} {of_products}");
     }
 
+    /// More of them than go abreast.
+    #[test]
+    fn sums_together_are_those_of_each_alone() {
+        let mut random = ChaCha8Rng::seed_from_u64(3);
+        let mut series = |count: usize| -> Vec<f64> {
+            (0..count)
+                .map(|_| StandardNormal.sample(&mut random))
+                .collect()
+        };
+        let law = Autoregression::through(
+            &series(500)
+                .windows(3)
+                .map(|x| x.iter().sum())
+                .collect::<Vec<f64>>(),
+        );
+        assert!(law.filter.len() > 2);
+        let weights: Vec<Vec<f64>> = (0..ABREAST + 3).map(|_| series(200)).collect();
+        let all: Vec<&[f64]> = weights.iter().map(Vec::as_slice).collect();
+        let together = law.variances_of_sums(&all);
+        assert_eq!(together.len(), all.len());
+        for (weights, together) in weights.iter().zip(together) {
+            // `phi(B^-1) u = w`, one sample after the other from the last.
+            let mut u = weights.clone();
+            for k in (0..u.len()).rev() {
+                for (lag, phi) in law.filter.iter().enumerate().skip(1) {
+                    u[k] -= phi * u.get(k + lag).copied().unwrap_or(0.0);
+                }
+            }
+            let alone = law.error * u.iter().map(|u| u * u).sum::<f64>();
+            assert!((together / alone - 1.0).abs() < 1e-12);
+        }
+    }
+
     /// Noise of a position in a velocity and an acceleration: sums of it cancel but for the ends.
     #[test]
     fn differences_cancel() {

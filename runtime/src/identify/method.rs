@@ -111,8 +111,13 @@ impl Weights {
 ///
 /// # Examples
 /// ```
-/// use robot_model::identify::Beyond;
-/// assert!(Beyond::default() > Beyond::Deviations && Beyond::Deviations > Beyond::Residuals);
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); } use pendulum::*;
+/// use robot_model::identify::{Beyond, Identify};
+/// let (all, log) = (Identify::default(), measure(0.2));
+/// let rough = Identify { beyond: Beyond::Residuals, ..all.clone() };
+/// let [all, rough] = [all, rough].map(|identify| identify.fit(&pendulum(), &[log.clone()]).expect("it moves"));
+/// assert_eq!(all.values(), rough.values());
+/// assert_ne!(all.parameters[0].std, rough.parameters[0].std);
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]

@@ -63,14 +63,15 @@ impl<'a> Noise<'a> {
 
     /// Of parameters, as far as noise of a law makes it.
     fn variances(&self, law: &Autoregression) -> Vec<f64> {
-        let some = self.weights.iter().filter(|weights| !weights.is_empty());
-        let some: Vec<&[f64]> = some.map(Vec::as_slice).collect();
-        let mut variances = law.variances_of_sums(&some).into_iter();
-        let of = |weights: &Vec<f64>| {
-            let is_some = !weights.is_empty();
-            is_some.then(|| variances.next()).flatten().unwrap_or(0.0)
-        };
-        self.weights.iter().map(of).collect()
+        let mut variances = vec![0.0; self.weights.len()];
+        let some = self.weights.iter().enumerate();
+        let some = some.filter(|(_, weights)| !weights.is_empty());
+        let (places, some): (Vec<usize>, Vec<&[f64]>) =
+            some.map(|(k, weights)| (k, weights.as_slice())).unzip();
+        for (k, variance) in places.into_iter().zip(law.variances_of_sums(&some)) {
+            variances[k] = variance;
+        }
+        variances
     }
 }
 

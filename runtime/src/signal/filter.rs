@@ -110,22 +110,23 @@ impl LowPass {
                 .rev()
                 .map(|value| 2.0 * last - value),
         );
-        let (pairs, rest) = self.sections.as_chunks::<2>();
-        for pair in pairs {
-            run(pair, out[0], out.iter_mut());
-        }
-        for section in rest {
-            run(&[*section], out[0], out.iter_mut());
-        }
-        let last = out.len() - 1;
-        for pair in pairs {
-            run(pair, out[last], out.iter_mut().rev());
-        }
-        for section in rest {
-            run(&[*section], out[last], out.iter_mut().rev());
-        }
+        self.pass(out);
+        out.reverse();
+        self.pass(out);
+        out.reverse();
         out.copy_within(padding..padding + signal.len(), 0);
         out.truncate(signal.len());
+    }
+
+    /// One pass over samples, from rest on the first.
+    fn pass(&self, samples: &mut [f64]) {
+        let (pairs, rest) = self.sections.as_chunks::<2>();
+        for pair in pairs {
+            run(pair, samples);
+        }
+        for section in rest {
+            run(&[*section], samples);
+        }
     }
 }
 
@@ -158,13 +159,9 @@ impl Section {
     }
 }
 
-/// Sections one behind the other, in one pass in the order of the samples from rest on `first`. A sample waits for what the one before has left
-/// in a section: two sections wait at once.
-fn run<'a, const COUNT: usize>(
-    sections: &[Section; COUNT],
-    first: f64,
-    samples: impl Iterator<Item = &'a mut f64>,
-) {
+/// Sections one behind the other, in one pass. A sample waits for what the one before has left in a section: two sections wait at once.
+fn run<const COUNT: usize>(sections: &[Section; COUNT], samples: &mut [f64]) {
+    let first = samples[0];
     let mut states = sections.map(|section| section.rest.map(|rest| rest * first));
     for sample in samples {
         for (section, state) in sections.iter().zip(&mut states) {

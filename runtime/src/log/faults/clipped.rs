@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{FEW, Fault, Steps, has_few_levels, moved, quantile};
+use super::{FEW, Fault, LEVELS, Steps, has_few_levels, moved, quantile};
 use crate::log::Log;
 
 /// Fewest samples in a row, and share of the log, that stand at a limit.
@@ -54,7 +54,7 @@ pub(super) fn find(log: &Log) -> Found {
         let range = high - low;
         // A torque that has one sign has a limit on that side alone.
         let ends = [high.max(0.0), low.min(0.0)].into_iter();
-        let ends = ends.filter(|end| *end != 0.0 && range > 0.0 && !has_few_levels(tau));
+        let ends = ends.filter(|end| *end != 0.0 && range > 0.0 && !has_few_levels(tau, LEVELS));
         let limits = ends.filter_map(|end| {
             let exact = standing(tau, end, ALIKE * range);
             exact.or_else(|| plateau(tau, &log.q[joint], end, range))

@@ -121,7 +121,7 @@ impl Log {
 
     /// A torque without what was found in it.
     fn mend_torque(&mut self, joint: usize, tau: &mut [f64]) -> Vec<Fault> {
-        if has_few_levels(tau) {
+        if has_few_levels(tau, LEVELS) {
             return Vec::new();
         }
         let channel = || format!("tau{}", joint + 1);
@@ -276,19 +276,20 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
     *values.select_nth_unstable_by(place, f64::total_cmp).1
 }
 
-/// Most values of a channel that is a command of a few levels, as a square wave or a random binary one.
+/// Most values of a torque that is a command of a few levels, as a square wave or a random binary one: what stands and jumps there is no fault.
 const LEVELS: usize = 16;
 
-/// Whether a channel has a few values alone: what stands and jumps there is a command.
-fn has_few_levels(values: &[f64]) -> bool {
+/// Whether a channel has no more than so many values.
+fn has_few_levels(values: &[f64], most: usize) -> bool {
     let mut levels: Vec<u64> = Vec::new();
     values.iter().all(|value| {
-        let bits = value.to_bits();
+        // Zero has two signs and is one value.
+        let bits = (value + 0.0).to_bits();
         let is_new = !levels.contains(&bits);
         if is_new {
             levels.push(bits);
         }
-        levels.len() <= LEVELS
+        levels.len() <= most
     })
 }
 

@@ -3,6 +3,7 @@
 //! Noise that is white has, in means over some samples, a variance that is so many times less. Motion has not. What the noise is, third differences
 //! say, to which motion adds next to nothing.
 
+use super::has_few_levels;
 use crate::signal::resample::whole_steps;
 
 /// Means are over so long, s: filters of identification see what is slower than that.
@@ -15,7 +16,7 @@ const FEWEST: usize = 20;
 const BEYOND: f64 = 2.0;
 
 /// A position of no more values than these is two steps of its encoder at most, and says no more of how it moved.
-const VALUES: usize = 3;
+const LEVELS: usize = 3;
 
 /// What a position is where the joint stands.
 pub(super) struct Noise {
@@ -41,7 +42,7 @@ pub(super) fn noise(q: &[f64], rate_hz: f64) -> Option<Noise> {
     let white = thirds.sum::<f64>() / (q.len() - 3) as f64 / length as f64;
     let is_noise = Noise::of(&means).rms.powi(2) < BEYOND * white;
     let stands = q.iter().all(|value| (value - q[0]).abs() == 0.0);
-    (!stands && (is_noise || has_few_values(q))).then_some(whole)
+    (!stands && (is_noise || has_few_levels(q, LEVELS))).then_some(whole)
 }
 
 impl Noise {
@@ -54,16 +55,6 @@ impl Noise {
             rms: (squares.sum::<f64>() / count).sqrt(),
         }
     }
-}
-
-fn has_few_values(q: &[f64]) -> bool {
-    let mut found: Vec<f64> = Vec::new();
-    q.iter().all(|value| {
-        if found.iter().all(|other| (other - value).abs() > 0.0) {
-            found.push(*value);
-        }
-        found.len() <= VALUES
-    })
 }
 
 #[cfg(test)]

@@ -90,23 +90,7 @@ impl fmt::Display for Fault {
                     100.0 * gain
                 )
             }
-            Self::VelocityScale { .. }
-            | Self::Still { .. }
-            | Self::AtRest { .. }
-            | Self::Constant { .. } => self.of_whole_channel(f),
-        }
-    }
-}
-
-impl Fault {
-    /// What a channel is at all times.
-    fn of_whole_channel(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::VelocityScale { channel, factor } => write!(
-                f,
-                "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
-                velocity::unit(*factor)
-            ),
+            Self::VelocityScale { channel, factor } => said_of_scale(f, channel, *factor),
             Self::Still { channel } => write!(
                 f,
                 "{channel} is the same at all times: the joint does not move"
@@ -119,9 +103,16 @@ impl Fault {
                 f,
                 "{channel} is {value} at all times: nothing was logged, or the drive was off"
             ),
-            _ => Ok(()),
         }
     }
+}
+
+fn said_of_scale(f: &mut fmt::Formatter<'_>, channel: &str, factor: f64) -> fmt::Result {
+    write!(
+        f,
+        "{channel} is {factor:.4} times the slope of the position{}; it is not used, but see whether position and torque are in SI units",
+        velocity::unit(factor)
+    )
 }
 
 impl LateChannel {
