@@ -366,3 +366,16 @@ fn shapes_have_deviations() {
         assert!((value - truth).abs() < 3.0 * std, "{said}");
     }
 }
+
+#[test]
+fn methods_have_the_names_that_others_call_them() {
+    let folder = folder();
+    let found = |method: &str| {
+        let identify = ["identify", "arm.robot", "log.csv", "--json", "found.json"];
+        folder.succeed(&[&identify[..], &["--method", method]].concat());
+        folder.read("found.json")
+    };
+    assert_eq!(found("ols"), found("ls"));
+    let robust = found("robust");
+    assert!(found("huber") == robust && found("irls") == robust && found("ls") != robust);
+}

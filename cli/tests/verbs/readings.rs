@@ -249,4 +249,21 @@ fn accelerations_of_a_coarse_encoder_are_told() {
         "{coarse}"
     );
     assert!(!said("fine.csv").contains(told));
+    // Instruments have no noise of an encoder.
+    let fine = log(1.0);
+    let motion = fine
+        .lines()
+        .map(|row| row.rsplit_once(',').expect("a torque").0);
+    folder.write(
+        "motion.csv",
+        &(motion.collect::<Vec<_>>().join("\n") + "\n"),
+    );
+    let identify = ["identify", "plain.robot", "coarse.csv"];
+    let iv = ["--method", "iv", "--instruments", "motion.csv"];
+    let run = folder.run(&[&identify[..], &iv].concat());
+    assert!(
+        run.code == Some(0) && !run.stderr.contains(told),
+        "{}",
+        run.stderr
+    );
 }
