@@ -224,9 +224,9 @@ pub(super) fn beyond_noise(model: &Model, logs: &[Log], rmse: &[f64]) -> Option<
         .collect();
     (!told.is_empty()).then(|| {
         format!(
-            "simulated positions are off by more than the noise of the logs ({}): torques have noise of their own, the model or its controller \
-             is another than the arm's, or the search has ended in a valley that is not the deepest; deviations do not know of that, so \
-             compare the costs of other starts and windows",
+            "simulated positions are off by more than the noise of the logs ({}): torques have noise of their own, which deviations know of, or \
+             the model or its controller is another than the arm's, or the search has ended in a valley that is not the deepest, which they do \
+             not: compare the costs of other starts and windows",
             told.join(", ")
         )
     })

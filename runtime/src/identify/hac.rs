@@ -13,8 +13,8 @@
 //! Sources: Newey, West 1987, A simple positive semi-definite heteroskedasticity and autocorrelation consistent covariance matrix; den
 //! Haan, Levin 1997, A practitioner's guide to robust covariance matrix estimation, on autoregressions.
 
-use faer::Mat;
 use faer::linalg::solvers::Solve;
+use faer::{ColRef, Mat};
 
 use super::autoregression::long_run_sum;
 use super::least_squares::Solution;
@@ -103,13 +103,44 @@ impl Rows {
     /// What residuals that are the same noise all along say of an estimate that has taken its share of the noise in `columns`.
     pub fn steady(&self, columns: &Self, residuals: &[Vec<f64>], bread: &Mat<f64>) -> Steady {
         let inverse = inverse_of_transpose(bread);
-        let joints = self.joints.iter().zip(&columns.joints).zip(residuals);
-        let noise: Vec<Noise> = joints
-            .map(|((rows, columns), residuals)| Noise::new(&(rows * &inverse), columns, residuals))
-            .collect();
-        let variances = variances(&noise, self.excited.len());
+        // Rows that are left out have no residual, and no noise.
+        let there = |residuals: &Vec<f64>| -> Vec<usize> {
+            let rows = 0..residuals.len();
+            rows.filter(|&k| residuals[k] != 0.0).collect()
+        };
+        let there: Vec<Vec<usize>> = residuals.iter().map(there).collect();
+        let some = |series: ColRef<f64>, there: &[usize]| -> Vec<f64> {
+            there.iter().map(|&k| series[k]).collect()
+        };
+        let joints = self.joints.iter().zip(residuals).zip(&there);
+        let noise = joints.map(|((rows, residuals), there)| {
+            let weights = rows * &inverse;
+            let weights = weights.col_iter().map(|column| some(column, there));
+            let residuals: Vec<f64> = there.iter().map(|&k| residuals[k]).collect();
+            Noise::new(weights.collect(), &residuals)
+        });
+        let noise: Vec<Noise> = noise.collect();
+        let count = self.excited.len();
+        let rest = |drawn: &[Vec<f64>]| -> Vec<Vec<f64>> {
+            let mut step = Mat::zeros(count, 1);
+            for (noise, drawn) in noise.iter().zip(drawn) {
+                noise.add_step(drawn, step.col_as_slice_mut(0));
+            }
+            let joints = columns.joints.iter().zip(&there).zip(drawn);
+            let rest = joints.map(|((columns, there), drawn)| {
+                let taken = columns * &step;
+                let taken = some(taken.col(0), there);
+                drawn
+                    .iter()
+                    .zip(taken)
+                    .map(|(x, taken)| x - taken)
+                    .collect()
+            });
+            rest.collect()
+        };
+        let variances = variances(&noise, count);
         Steady {
-            shortfalls: shortfalls(&noise, &variances, columns.freedom()),
+            shortfalls: shortfalls(&noise, &variances, columns.freedom(), rest),
             variances,
         }
     }

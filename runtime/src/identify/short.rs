@@ -6,7 +6,6 @@
 //! told by the mean of `so / told`, as the square of an error over its told deviation is. Noise that is drawn from what was found is the parametric
 //! bootstrap of Efron, Tibshirani 1993, chapter 6.
 
-use faer::Mat;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -24,40 +23,41 @@ const MOST: f64 = 10.0;
 const ENOUGH: f64 = 100.0;
 
 /// The noise of a joint.
-pub(super) struct Noise<'a> {
-    /// Rows that say something: those that are left out have no residual.
-    there: Vec<usize>,
-    /// What a unit of noise moves the estimate by: what is there, parameter by parameter, none where nothing is.
+pub(super) struct Noise {
+    /// What a unit of noise moves the estimate by, parameter by parameter, none where nothing does.
     weights: Vec<Vec<f64>>,
-    /// What the estimate takes of it, all rows.
-    columns: &'a Mat<f64>,
     law: Autoregression,
-    /// Independent samples.
+    samples: usize,
+    /// Independent ones of them.
     independent: f64,
 }
 
-impl<'a> Noise<'a> {
-    /// Of residuals.
-    pub fn new(weights: &Mat<f64>, columns: &'a Mat<f64>, residuals: &[f64]) -> Self {
-        let there = (0..residuals.len()).filter(|&k| residuals[k] != 0.0);
-        let there: Vec<usize> = there.collect();
-        let rest: Vec<f64> = there.iter().map(|&k| residuals[k]).collect();
-        let law = Autoregression::through(&rest);
-        let weights = weights.col_iter().map(|column| {
-            let is_nothing = column.iter().all(|weight| *weight == 0.0);
-            let rows = there.iter().filter(|_| !is_nothing);
-            rows.map(|&k| column[k]).collect()
-        });
-        let weights = weights.collect();
-        let power: f64 = rest.iter().map(|r| r * r).sum();
-        let sum = law.variance_of_sum(&vec![1.0; there.len()]);
+impl Noise {
+    /// Of residuals, with what a unit of noise in place of each moves the estimate by.
+    pub fn new(mut weights: Vec<Vec<f64>>, residuals: &[f64]) -> Self {
+        for weights in &mut weights {
+            if weights.iter().all(|weight| *weight == 0.0) {
+                weights.clear();
+            }
+        }
+        let law = Autoregression::through(residuals);
+        let samples = residuals.len();
+        let power: f64 = residuals.iter().map(|r| r * r).sum();
+        let sum = law.variance_of_sum(&vec![1.0; samples]);
         Self {
             weights,
-            columns,
             // Noise that cancels has no more of them than it has samples.
-            independent: there.len() as f64 * (power / sum.max(f64::MIN_POSITIVE)).min(1.0),
-            there,
+            independent: samples as f64 * (power / sum.max(f64::MIN_POSITIVE)).min(1.0),
+            samples,
             law,
+        }
+    }
+
+    /// What noise moves the estimate by, added to what that of other joints does.
+    pub fn add_step(&self, noise: &[f64], step: &mut [f64]) {
+        for (step, weights) in step.iter_mut().zip(&self.weights) {
+            let products = weights.iter().zip(noise);
+            *step += products.map(|(weight, x)| weight * x).sum::<f64>();
         }
     }
 
@@ -83,7 +83,7 @@ pub(super) fn variances(noise: &[Noise], parameters: usize) -> Vec<f64> {
 
 /// Sums over joints, whose noise each is of a law.
 fn sums<'a>(
-    laws: impl Iterator<Item = (&'a Noise<'a>, &'a Autoregression)>,
+    laws: impl Iterator<Item = (&'a Noise, &'a Autoregression)>,
     parameters: usize,
 ) -> Vec<f64> {
     let mut sums = vec![0.0; parameters];
@@ -97,10 +97,16 @@ fn sums<'a>(
 }
 
 /// By how much more variances are than what noise says of them, parameter by parameter; 1 where logs are long. `so` are those of that
-/// noise, and `freedom` by how much larger they are told for the unknowns that were fitted.
-pub(super) fn shortfalls(noise: &[Noise], so: &[f64], freedom: f64) -> Vec<f64> {
+/// noise, and `freedom` by how much larger they are told for the unknowns that were fitted. `rest` is what an estimate leaves of noise of the
+/// joints.
+pub(super) fn shortfalls(
+    noise: &[Noise],
+    so: &[f64],
+    freedom: f64,
+    rest: impl Fn(&[Vec<f64>]) -> Vec<Vec<f64>>,
+) -> Vec<f64> {
     let count = so.len();
-    let joints = noise.iter().filter(|noise| !noise.there.is_empty());
+    let joints = noise.iter().filter(|noise| noise.samples > 0);
     let joints: Vec<f64> = joints.map(|noise| noise.independent).collect();
     let few = joints.iter().copied().fold(f64::INFINITY, f64::min);
     if few * joints.len() as f64 > ENOUGH * count as f64 {
@@ -108,7 +114,7 @@ pub(super) fn shortfalls(noise: &[Noise], so: &[f64], freedom: f64) -> Vec<f64> 
     }
     let work = |noise: &Noise| {
         let weights: usize = noise.weights.iter().map(Vec::len).sum();
-        weights as f64 * Autoregression::orders(noise.there.len())
+        weights as f64 * Autoregression::orders(noise.samples)
     };
     let work: f64 = noise.iter().map(work).sum();
     let draws = whole_steps((WORK / work.max(1.0)).min(DRAWS[1] as f64)).max(DRAWS[0]);
@@ -117,22 +123,11 @@ pub(super) fn shortfalls(noise: &[Noise], so: &[f64], freedom: f64) -> Vec<f64> 
     for _ in 0..draws {
         let drawn: Vec<Vec<f64>> = noise
             .iter()
-            .map(|noise| noise.law.drawn(noise.there.len(), &mut random))
+            .map(|noise| noise.law.drawn(noise.samples, &mut random))
             .collect();
-        let step = Mat::from_fn(count, 1, |k, _| {
-            let joints = noise.iter().zip(&drawn);
-            let products = joints.flat_map(|(noise, drawn)| noise.weights[k].iter().zip(drawn));
-            products.map(|(weight, x)| weight * x).sum::<f64>()
-        });
-        let told: Vec<Autoregression> = noise
+        let told: Vec<Autoregression> = rest(&drawn)
             .iter()
-            .zip(&drawn)
-            .map(|(noise, drawn)| {
-                let taken = noise.columns * &step;
-                let rest = noise.there.iter().zip(drawn);
-                let rest: Vec<f64> = rest.map(|(&row, x)| x - taken[(row, 0)]).collect();
-                Autoregression::through(&rest)
-            })
+            .map(|rest| Autoregression::through(rest))
             .collect();
         let told = sums(noise.iter().zip(&told), count);
         for ((lack, told), so) in lack.iter_mut().zip(told).zip(so) {

@@ -32,6 +32,12 @@ impl Start {
         (!self.moving.is_empty()).then(|| self.spread(&self.solve(-&self.r12)))
     }
 
+    /// Directions that it takes of errors, from their slopes by it: orthogonal and of length 1; none where nothing of it moves.
+    pub fn directions(&self, by_start: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        let columns = by_start.select_columns(&self.moving);
+        (!self.moving.is_empty()).then(|| columns.qr().q())
+    }
+
     /// Rows of what moves, in the places of the whole start.
     fn spread(&self, moving: &DMatrix<f64>) -> DMatrix<f64> {
         let mut all = DMatrix::zeros(self.count, moving.ncols());

@@ -2,18 +2,17 @@
 
 use nalgebra::DMatrix;
 
-use super::equations::{Equations, Reduced};
+use super::deviations::Deviations;
+use super::equations::Equations;
 use super::identifiable::{KNOWN, frail};
 use super::parts::Part;
-use super::problem::Problem;
 use super::ratios::{self, Ratio};
 use super::run::Run;
 use super::search::Ending;
 use super::turns::Moves;
-use super::window::{Rows, Window};
+use super::window::Window;
 use super::{Direction, Hold, Identifiability, Iterate, sums};
 use crate::identify::Combination;
-use crate::identify::autoregression::{Autoregression, long_run_sum};
 use crate::simulate::Adjustable;
 
 /// How far a simulated channel is from its log.
@@ -105,11 +104,10 @@ pub(super) fn result<P: Adjustable + Clone + Sync>(
     let mut std = vec![None; names.len()];
     let inverse = identifiability.inverse(&r);
     let moves = Moves::new(problem, (place, runs), (&rows, &reduced), (&free, &inverse));
+    let noise = Deviations::new(problem.scale.len(), (&rows, &reduced), (&free, &inverse));
     // Of functions of the parameters with given slopes.
     let deviations = |slopes: &DMatrix<f64>| -> Vec<f64> {
-        let noise = deviations(problem, &rows, &reduced, &free, &(&inverse * slopes));
-        let turns = moves.squares(slopes);
-        let pairs = noise.into_iter().zip(turns);
+        let pairs = noise.of(slopes).into_iter().zip(moves.squares(slopes));
         pairs
             .map(|(noise, turns)| noise.hypot(turns.sqrt()))
             .collect()
@@ -167,56 +165,6 @@ pub(super) fn result<P: Adjustable + Clone + Sync>(
         starts: place.starts.iter().map(|x| x.as_slice().to_vec()).collect(),
         values: part.place.values,
     }
-}
-
-/// Deviations of what the errors add up to for some parameters, with `(R'R)^-1` of theirs, or for functions of them, with the slopes of
-/// these behind it: as of least squares, the larger of those of products and of noise that is the same all along.
-fn deviations<P: Adjustable>(
-    problem: &Problem<'_, P>,
-    rows: &[Rows],
-    reduced: &Reduced,
-    free: &[usize],
-    inverse: &DMatrix<f64>,
-) -> Vec<f64> {
-    let joints = problem.scale.len();
-    let noise: Vec<Autoregression> = (0..joints)
-        .map(|joint| {
-            let errors = rows.iter().flat_map(|rows| {
-                let samples = rows.errors.len() / joints;
-                rows.errors
-                    .rows(joint * samples, samples)
-                    .iter()
-                    .copied()
-                    .collect::<Vec<f64>>()
-            });
-            Autoregression::through(&errors.collect::<Vec<f64>>())
-        })
-        .collect();
-    let mut products = vec![0.0; inverse.ncols()];
-    let mut steady = products.clone();
-    let (mut count, mut fitted) = (0, free.len());
-    for (rows, start) in rows.iter().zip(&reduced.starts) {
-        let weights = rows.own(start).select_columns(free) * inverse;
-        let samples = rows.errors.len() / joints;
-        count += rows.errors.len();
-        fitted += start.moving();
-        for (k, weights) in weights.column_iter().enumerate() {
-            let mut series = vec![0.0; samples];
-            for (joint, noise) in noise.iter().enumerate() {
-                let weights = weights.rows(joint * samples, samples);
-                let errors = rows.errors.rows(joint * samples, samples);
-                let parts = series.iter_mut().zip(weights.iter().zip(errors.iter()));
-                parts.for_each(|(sum, (weight, error))| *sum += weight * error);
-                steady[k] += noise.variance_of_sum(&weights.iter().copied().collect::<Vec<f64>>());
-            }
-            products[k] += long_run_sum(&series);
-        }
-    }
-    let freedom = count as f64 / (count as f64 - fitted as f64).max(1.0);
-    let pairs = products.into_iter().zip(steady);
-    pairs
-        .map(|(products, steady)| (freedom * products.max(steady)).max(0.0).sqrt())
-        .collect()
 }
 
 pub(super) fn comparison<'w>(windows: &[Window<'w>], runs: &[Run], has_law: bool) -> Comparison {

@@ -8,6 +8,7 @@
 //! Sources: Ljung 1999, System Identification, section 7.2; Janot, Vandanjon, Gautier 2014, A generic instrumental variable approach for
 //! industrial robot identification, on closed loops.
 
+mod deviations;
 mod equations;
 mod error;
 mod estimate;

@@ -1,6 +1,7 @@
 //! A block on a table, that is pushed.
 
 mod controller;
+mod torques;
 mod upright;
 
 use nalgebra::{DMatrix, DVector};
