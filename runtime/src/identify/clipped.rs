@@ -4,7 +4,7 @@
 //! samples say nothing of a model's torque, so rows of that joint which the shared filter spreads them over are left out; rows of other
 //! joints stay. Joints of [`Arm::saturated_joints`] keep them all: their columns say what the limit took.
 
-use super::stack::{Stack, clear_rows, rows_at};
+use super::stack::{JointRows, Stack};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -26,4 +26,21 @@ pub(super) fn leave_out(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
 pub(super) fn clear_again(stack: &mut Stack) {
     clear_rows(&mut stack.joints, &stack.clipped);
     clear_rows(&mut stack.joints, &stack.held);
+}
+
+/// Makes rows of joints zero.
+pub(super) fn clear_rows(joints: &mut [JointRows], rows: &[Vec<usize>]) {
+    for (joint, rows) in joints.iter_mut().zip(rows) {
+        for &row in rows {
+            joint.clear(row..row + 1);
+        }
+    }
+}
+
+/// Rows of a log, which begin with `start`, at samples of its motion for which that is so.
+pub(super) fn rows_at(start: usize, log: &Prepared, is_so: &[bool]) -> Vec<usize> {
+    let kept = log.shared.kept(is_so.len()).enumerate();
+    kept.filter(|&(_, k)| is_so[k])
+        .map(|(row, _)| start + row)
+        .collect()
 }

@@ -9,10 +9,13 @@ use faer::Mat;
 use faer::linalg::solvers::SolveLstsq;
 
 use super::least_squares::{Excited, Solution};
-use super::{Estimate, IdentifyError, Method};
+use super::{Estimate, IdentifyError, Method, drowned};
 
 /// Shares of a column in another, both of one length, below this are rounding, filters or noise.
 const SHARE: f64 = 1e-4;
+
+/// The same where some of the rows' directions are noise, of which others have a little.
+const NOISY_SHARE: f64 = 1e-2;
 
 /// An unknown that cannot be told from others, and its place in what can be found: `unknowns[lead] + sum factor * unknowns[other]`.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,22 +94,33 @@ pub(super) fn shared(factor: &Mat<f64>, excited: &Excited, unexcited: &[usize]) 
         columns,
         norms,
         kept,
+        clean,
     } = excited;
-    let spanned: Vec<usize> = unexcited
-        .iter()
-        .copied()
-        .filter(|&c| norms[c] > 0.0)
-        .collect();
+    let of_columns = |columns: &[usize]| {
+        let all = Mat::from_fn(factor.nrows(), columns.len(), |row, k| {
+            factor[(row, columns[k])] / norms[columns[k]]
+        });
+        match clean {
+            Some(clean) => clean.transpose() * all,
+            None => all,
+        }
+    };
+    let (kept, least) = match clean {
+        Some(clean) => (&(clean.transpose() * kept), NOISY_SHARE),
+        None => (kept, SHARE),
+    };
+    let spanned = unexcited.iter().copied();
+    let spanned = spanned.filter(|&c| norms[c] > 0.0);
+    // A column that is noise itself is in no sum.
+    let spanned = spanned.filter(|&c| of_columns(&[c]).squared_norm_l2() > 1.0 - drowned::MOST);
+    let spanned: Vec<usize> = spanned.collect();
     if spanned.is_empty() || columns.is_empty() {
         return Vec::new();
     }
-    let right = Mat::from_fn(factor.nrows(), spanned.len(), |row, k| {
-        factor[(row, spanned[k])] / norms[spanned[k]]
-    });
-    let shares = kept.qr().solve_lstsq(&right);
+    let shares = kept.qr().solve_lstsq(of_columns(&spanned));
     let of = |(row, &lead): (usize, &usize)| {
         let others = spanned.iter().enumerate();
-        let others = others.filter(|&(k, _)| shares[(row, k)].abs() > SHARE);
+        let others = others.filter(|&(k, _)| shares[(row, k)].abs() > least);
         let others = others.map(|(k, &c)| (c, shares[(row, k)] * norms[c] / norms[lead]));
         let others: Vec<(usize, f64)> = others.collect();
         (!others.is_empty()).then_some(Shared { lead, others })
@@ -221,6 +235,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: (0..truth.len()).map(unknown).collect(),
             joints: vec![JointRows {
                 tau: target.clone(),

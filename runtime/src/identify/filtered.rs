@@ -95,6 +95,9 @@ impl Identify {
         };
         let mut prepared = filtered.prepare_all(logs)?;
         let solved = self.solve(&filtered, &mut prepared, self.given_shapes(&filtered)?)?;
+        let of_logs = (logs, prepared.as_slice(), &bands);
+        let prepare = |logs: &[Log]| filtered.prepare_all(logs);
+        let solved = self.without_drowned(&filtered, of_logs, prepare, solved)?;
         let form = Form::Filtered {
             corner: filtered.corner,
         };

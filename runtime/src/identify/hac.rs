@@ -243,3 +243,35 @@ fn equations(
     let residuals = weighed(residuals, &solution.scale, weights);
     (rows, information, residuals)
 }
+
+/// Samples that count as one independent sample: `1 + 2 * (sum of autocorrelations up to the first that is not positive)`.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::correlation_time;
+/// // Five samples of one sign, five of the other: autocorrelations are 0.6, 0.2, -0.2, ..
+/// let residual: Vec<f64> = (0..1000).map(|k| if k / 5 % 2 == 0 { 1.0 } else { -1.0 }).collect();
+/// assert!((correlation_time(&residual) - (1.0 + 2.0 * (0.6 + 0.2))).abs() < 0.01);
+/// ```
+#[must_use]
+pub fn correlation_time(residual: &[f64]) -> f64 {
+    let n = residual.len();
+    let mean = residual.iter().sum::<f64>() / n.max(1) as f64;
+    let power: f64 = residual.iter().map(|r| (r - mean).powi(2)).sum();
+    if power == 0.0 {
+        return 1.0;
+    }
+    let mut time = 1.0;
+    for lag in 1..n / 4 {
+        let product: f64 = residual
+            .iter()
+            .zip(&residual[lag..])
+            .map(|(a, b)| (a - mean) * (b - mean))
+            .sum();
+        if product <= 0.0 {
+            break;
+        }
+        time += 2.0 * product / power;
+    }
+    time
+}

@@ -1,8 +1,9 @@
 //! An estimate on a log: the torque that it predicts, and how far that is from the measured one.
 
+use super::clipped::rows_at;
 use super::errors::Errors;
 use super::logs::prepare_at_own_rate;
-use super::stack::{norm, percent, rows_at, torque_of};
+use super::stack::{norm, percent, torque_of};
 use super::{Estimate, IdentifyError, load_motion, turns};
 use crate::columns::Arm;
 use crate::log::Log;

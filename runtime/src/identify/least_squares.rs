@@ -10,7 +10,7 @@ use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::combination::{Shared, shared};
 use super::stack::{JointRows, Stack};
-use super::{IdentifyError, Weights};
+use super::{IdentifyError, Weights, drowned};
 
 pub(super) use excited::Excited;
 pub use excited::RANK_TOLERANCE;
@@ -59,6 +59,8 @@ pub struct Factors {
     /// Rows of each joint that say something.
     counts: Vec<usize>,
     joints: Vec<Mat<f64>>,
+    /// Of each joint, what noise of positions makes of the columns; nothing where that was not asked.
+    noise: Vec<Mat<f64>>,
 }
 
 /// A least-squares solution.
@@ -155,6 +157,7 @@ impl Factors {
             unknowns,
             counts,
             joints,
+            noise: stack.noise.clone(),
         }
     }
 
@@ -164,6 +167,7 @@ impl Factors {
             unknowns,
             counts,
             joints,
+            noise: Vec::new(),
         }
     }
 
@@ -225,6 +229,7 @@ impl Factors {
             columns: excited,
             norms,
             kept,
+            ..
         } = found;
         let rank = excited.len();
         let sigma = self.sigma(&estimate, rank);
@@ -245,7 +250,8 @@ impl Factors {
         let n = self.unknowns;
         // Joints share columns: one factor of all is as high as it is wide, and pivoting costs what it should.
         let r = self.stacked(scale).qr().thin_R().to_owned();
-        let excited = Excited::new(&r, n);
+        let noise = over_scales(&self.noise, scale, n);
+        let excited = drowned::told(Excited::new(&r, n), &noise);
         let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
         let solution = excited.kept.qr().solve_lstsq(&right);
         let mut estimate = vec![0.0; n];
@@ -261,18 +267,7 @@ impl Factors {
 
     /// The factor of all joints' rows, each divided by its scale.
     pub(super) fn stacked(&self, scale: &[f64]) -> Mat<f64> {
-        let rows = self.joints.iter().map(Mat::nrows).sum();
-        let mut all = Mat::zeros(rows, self.unknowns + 1);
-        let mut start = 0;
-        for (block, scale) in self.joints.iter().zip(scale) {
-            for c in 0..=self.unknowns {
-                for row in 0..block.nrows() {
-                    all[(start + row, c)] = block[(row, c)] / scale;
-                }
-            }
-            start += block.nrows();
-        }
-        all
+        over_scales(&self.joints, scale, self.unknowns + 1)
     }
 
     /// Standard deviation of each joint's residual; the unknowns count as shared evenly among the rows that say something.
@@ -330,6 +325,22 @@ impl Factors {
     }
 }
 
+/// Blocks of joints above each other, each divided by its scale.
+fn over_scales(joints: &[Mat<f64>], scale: &[f64], columns: usize) -> Mat<f64> {
+    let rows = joints.iter().map(Mat::nrows).sum();
+    let mut all = Mat::zeros(rows, columns);
+    let mut start = 0;
+    for (block, scale) in joints.iter().zip(scale) {
+        for c in 0..columns.min(block.ncols()) {
+            for row in 0..block.nrows() {
+                all[(start + row, c)] = block[(row, c)] / scale;
+            }
+        }
+        start += block.nrows();
+    }
+    all
+}
+
 /// Whether there are more rows than unknowns; `counts` are those of each joint that say something.
 pub(super) fn check_counts(counts: &[usize], unknowns: usize) -> Result<(), IdentifyError> {
     let rows: usize = counts.iter().sum();
@@ -360,38 +371,6 @@ pub(super) fn check_excited(solution: &Solution) -> Result<(), IdentifyError> {
 fn not_tiny(sigma: &[f64]) -> Vec<f64> {
     let floor = LEAST_SIGMA * sigma.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     sigma.iter().map(|s| s.max(floor)).collect()
-}
-
-/// Samples that count as one independent sample: `1 + 2 * (sum of autocorrelations up to the first that is not positive)`.
-///
-/// # Examples
-/// ```
-/// use robot_model::identify::correlation_time;
-/// // Five samples of one sign, five of the other: autocorrelations are 0.6, 0.2, -0.2, ..
-/// let residual: Vec<f64> = (0..1000).map(|k| if k / 5 % 2 == 0 { 1.0 } else { -1.0 }).collect();
-/// assert!((correlation_time(&residual) - (1.0 + 2.0 * (0.6 + 0.2))).abs() < 0.01);
-/// ```
-#[must_use]
-pub fn correlation_time(residual: &[f64]) -> f64 {
-    let n = residual.len();
-    let mean = residual.iter().sum::<f64>() / n.max(1) as f64;
-    let power: f64 = residual.iter().map(|r| (r - mean).powi(2)).sum();
-    if power == 0.0 {
-        return 1.0;
-    }
-    let mut time = 1.0;
-    for lag in 1..n / 4 {
-        let product: f64 = residual
-            .iter()
-            .zip(&residual[lag..])
-            .map(|(a, b)| (a - mean) * (b - mean))
-            .sum();
-        if product <= 0.0 {
-            break;
-        }
-        time += 2.0 * product / power;
-    }
-    time
 }
 
 #[cfg(test)]

@@ -50,6 +50,7 @@ pub(super) fn make(
         columns,
         norms,
         kept,
+        ..
     } = excited;
     let right = Mat::from_fn(all.nrows(), 1, |row, _| all[(row, n)]);
     solution.condition = condition(&kept);
@@ -98,6 +99,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

@@ -120,6 +120,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,

@@ -180,6 +180,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: (0..UNKNOWNS)
                 .map(|c| Unknown {
                     name: format!("p{c}"),

@@ -5,7 +5,9 @@
 
 use std::ops::Range;
 
-use super::least_squares::correlation_time;
+use faer::Mat;
+
+use super::hac::correlation_time;
 use crate::columns::{Arm, Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
@@ -61,6 +63,8 @@ pub struct Stack {
     pub clipped: Vec<Vec<usize>>,
     /// Rows of each joint that are left out because dry friction holds it nearly all the time; no joints where none were looked for.
     pub held: Vec<Vec<usize>>,
+    /// Of each joint a factor of what noise of positions makes of the columns; no joints where none was looked for.
+    pub noise: Vec<Mat<f64>>,
 }
 
 /// One log's share of the rows.
@@ -92,23 +96,6 @@ impl JointRows {
             values[rows.clone()].fill(0.0);
         }
     }
-}
-
-/// Makes rows of joints zero.
-pub(super) fn clear_rows(joints: &mut [JointRows], rows: &[Vec<usize>]) {
-    for (joint, rows) in joints.iter_mut().zip(rows) {
-        for &row in rows {
-            joint.clear(row..row + 1);
-        }
-    }
-}
-
-/// Rows of a log, which begin with `start`, at samples of its motion for which that is so.
-pub(super) fn rows_at(start: usize, log: &Prepared, is_so: &[bool]) -> Vec<usize> {
-    let kept = log.shared.kept(is_so.len()).enumerate();
-    kept.filter(|&(_, k)| is_so[k])
-        .map(|(row, _)| start + row)
-        .collect()
 }
 
 /// Joints of which a log says nothing: a brake or dry friction holds one that stands still, with a torque that nobody knows, and a

@@ -171,6 +171,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),

@@ -11,8 +11,9 @@
 
 use std::ops::Range;
 
+use super::clipped::{clear_rows, rows_at};
 use super::least_squares::{Factors, Solution};
-use super::stack::{Stack, clear_rows, rows_at};
+use super::stack::Stack;
 use super::{Estimate, Identify, IdentifyError, is_shape_told};
 use crate::columns::Arm;
 use crate::motion;

@@ -4,6 +4,9 @@ use std::f64::consts::TAU;
 
 use super::{Bands, Prepared};
 
+/// Of the motion's filters, and of the shared one.
+const ORDER: i32 = 4;
+
 /// The median size of a normal number of deviation 1.
 pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
@@ -12,8 +15,8 @@ pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 /// wide band is no wider than the smooth one, so that nothing tells the noise.
 ///
 /// White noise of density `S` in a position has the density `(2 pi f)^2 S` in its velocity and `(2 pi f)^4 S` in its acceleration. What the
-/// velocity has above the smooth band and below the wide one, `(2 pi)^2 S (wide^3 - smooth^3) / 3`, says `S`, and that `(2 pi)^4 S shared^5 / 5`
-/// below the shared one. Medians, as a motion may reach beyond the smooth band for moments.
+/// velocity has above the smooth band and below the wide one, about `(2 pi)^2 S (wide^3 - smooth^3) / 3` but for the slopes of the filters,
+/// says `S`, and that about `(2 pi)^4 S shared^5 / 5` below the shared one. Medians, as a motion may reach beyond the smooth band for moments.
 ///
 /// # Examples
 /// A swing by 0.3 rad, with encoders of 12 and of 20 bits a turn:
@@ -32,21 +35,16 @@ pub(crate) const MEDIAN_OF_NORMAL: f64 = 0.6745;
 /// ```
 #[must_use]
 pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>> {
-    let beyond = bands.wide_hz.powi(3) - bands.smooth_hz.powi(3);
-    if beyond <= 0.0 {
-        return None;
-    }
-    let (wide, smooth) = (&prepared.motion.wide, &prepared.motion.smooth);
-    let joints = smooth.ddq.iter().zip(smooth.dq.iter().zip(&wide.dq));
-    let shares = joints.map(|(ddq, (dq, faster))| {
+    let densities = position_noise(prepared, bands)?;
+    let within = power(bands.wide_hz, 4, |hz| {
+        passed(hz, bands.smooth_hz) * passed(hz, bands.shared_hz)
+    });
+    let joints = prepared.motion.smooth.ddq.iter().zip(densities);
+    let shares = joints.map(|(ddq, density)| {
         let mut filtered = Vec::new();
         prepared.shared.apply(ddq, &mut filtered);
         let power = filtered.iter().map(|x| x * x).sum::<f64>() / filtered.len().max(1) as f64;
-        let mut rest: Vec<f64> = dq.iter().zip(faster).map(|(x, y)| (x - y).abs()).collect();
-        rest.sort_unstable_by(f64::total_cmp);
-        let median = rest.get(rest.len() / 2).copied().unwrap_or_default();
-        let velocity = (median / MEDIAN_OF_NORMAL).powi(2);
-        let noise = velocity * TAU.powi(2) * 3.0 / 5.0 * bands.shared_hz.powi(5) / beyond;
+        let noise = density * within;
         if power > 0.0 {
             (noise / power).min(1.0)
         } else {
@@ -54,6 +52,41 @@ pub fn acceleration_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>
         }
     });
     Some(shares.collect())
+}
+
+/// Density of the noise of each joint's position, `S` of [`acceleration_noise`], rad^2/Hz or m^2/Hz; none where nothing tells it.
+pub(crate) fn position_noise(prepared: &Prepared, bands: &Bands) -> Option<Vec<f64>> {
+    if bands.wide_hz <= bands.smooth_hz {
+        return None;
+    }
+    let between = power(bands.wide_hz, 2, |hz| {
+        passed(hz, bands.wide_hz) - passed(hz, bands.smooth_hz)
+    });
+    let (wide, smooth) = (&prepared.motion.wide, &prepared.motion.smooth);
+    let joints = smooth.dq.iter().zip(&wide.dq);
+    let densities = joints.map(|(dq, faster)| {
+        let mut rest: Vec<f64> = dq.iter().zip(faster).map(|(x, y)| (x - y).abs()).collect();
+        rest.sort_unstable_by(f64::total_cmp);
+        let median = rest.get(rest.len() / 2).copied().unwrap_or_default();
+        let velocity = (median / MEDIAN_OF_NORMAL).powi(2);
+        velocity / between
+    });
+    Some(densities.collect())
+}
+
+/// What the motion's filters, there and back, leave of a wave.
+fn passed(hz: f64, cutoff_hz: f64) -> f64 {
+    1.0 / (1.0 + (hz / cutoff_hz).powi(2 * ORDER))
+}
+
+/// Power of a derivative of white noise of density 1 behind a filter of this gain, whose waves are of about `hz`: the integral of
+/// `gain^2 (2 pi f)^order`.
+fn power(hz: f64, order: i32, gain: impl Fn(f64) -> f64) -> f64 {
+    // Behind four times that frequency a millionth is left.
+    let step = hz / 200.0;
+    let waves = (0..800).map(|k| (f64::from(k) + 0.5) * step);
+    let density = |hz: f64| gain(hz).powi(2) * (TAU * hz).powi(order);
+    step * waves.map(density).sum::<f64>()
 }
 
 #[cfg(test)]

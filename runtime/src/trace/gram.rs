@@ -255,6 +255,7 @@ mod tests {
             turns: Vec::new(),
             clipped: Vec::new(),
             held: Vec::new(),
+            noise: Vec::new(),
             unknowns: vec![unknown("a"), unknown("b"), unknown("c")],
             joints: vec![rows(0, 0.3), rows(1, 1.1)],
             segments: vec![Segment {

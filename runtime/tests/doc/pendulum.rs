@@ -178,7 +178,7 @@ impl Columns for DryFriction {
 }
 
 impl Candidate for DryFriction {
-    fn kind(&self) -> &str {
+    fn kind(&self) -> &'static str {
         "coulomb-friction"
     }
     fn joints(&self) -> &[usize] {

@@ -35,6 +35,7 @@ fn stack(seed: u64, slow: f64) -> Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
+        noise: Vec::new(),
         unknowns: vec![unknown("x"), unknown("y")],
         joints: vec![JointRows {
             tau: target.clone(),

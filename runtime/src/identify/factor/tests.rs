@@ -52,6 +52,7 @@ fn stack(seed: u64, first: usize, count: usize) -> Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
+        noise: Vec::new(),
         unknowns: ["a", "b", "c"].map(unknown).to_vec(),
         joints: joints.to_vec(),
         segments: vec![Segment {

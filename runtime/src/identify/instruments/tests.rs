@@ -27,6 +27,7 @@ fn stacks(seed: u64, share: f64) -> [Stack; 2] {
         turns: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
+        noise: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,

@@ -14,6 +14,8 @@ pub(in crate::identify) struct Excited {
     pub norms: Vec<f64>,
     /// Those columns over their lengths.
     pub kept: Mat<f64>,
+    /// Directions of rows that count, orthogonal and of length 1, where others are noise.
+    pub clean: Option<Mat<f64>>,
 }
 
 impl Excited {
@@ -40,6 +42,24 @@ impl Excited {
             columns,
             norms,
             kept,
+            clean: None,
+        }
+    }
+
+    /// Those of these that are told apart best where fewer directions of their rows count, as many as these are.
+    pub fn along(self, clean: Mat<f64>) -> Self {
+        let pivoted = (clean.transpose() * &self.kept).col_piv_qr();
+        let mut places = pivoted.P().arrays().0[..clean.ncols()].to_vec();
+        places.sort_unstable();
+        let columns = places.iter().map(|&place| self.columns[place]).collect();
+        let kept = Mat::from_fn(self.kept.nrows(), places.len(), |row, k| {
+            self.kept[(row, places[k])]
+        });
+        Self {
+            columns,
+            norms: self.norms,
+            kept,
+            clean: Some(clean),
         }
     }
 
@@ -69,6 +89,7 @@ impl Excited {
             columns,
             norms,
             kept,
+            clean: None,
         }
     }
 }

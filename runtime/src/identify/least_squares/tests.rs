@@ -4,8 +4,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use super::correlation_time;
 use crate::columns::Unknown;
+use crate::identify::correlation_time;
 use crate::identify::{Fitted, Identify, IdentifyError, JointRows, Method, Stack, Weights};
 
 /// One unknown that each joint measures as it is: the estimate is the mean of the joints' means by their weights.
@@ -19,6 +19,7 @@ fn stack(joints: &[&[f64]]) -> Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
+        noise: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,

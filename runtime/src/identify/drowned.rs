@@ -1,0 +1,139 @@
+//! Sums of parameters of which logs have noise of positions alone.
+//!
+//! A motion that does not tell two parameters apart, as one with `q3 = -q2` those of a link that keeps its attitude, leaves columns that are
+//! the same but for the noise of the encoders. Their difference is small, and all of it is noise: least squares takes it for a motion, and
+//! has a value for it with a tight deviation. How much of each sum of columns is noise is seen with more of it: with `N` what the columns
+//! change by where positions have as much noise again, the directions of `x` in which `|N x|^2 / |W x|^2` is most of 1 are told by nothing else.
+//! They are taken out of the rank, as those in which `W x` is zero are.
+//!
+//! The density of that noise is what velocities have between the motion's bands, see [`acceleration_noise`](crate::signal::acceleration_noise).
+
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Mat, Par};
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
+use rand_distr::{Distribution, StandardNormal};
+
+use super::least_squares::{Excited, Solution};
+use super::stack::Stack;
+use super::{Beyond, Identify, IdentifyError, logs::update_load};
+use crate::columns::Arm;
+use crate::log::Log;
+use crate::signal::{Bands, Prepared, position_noise};
+
+/// Share of a direction's power from where on it is noise: of directions that are nothing else 0.45 to 0.95 is seen, as noise is drawn and its
+/// density is an estimate; real motions of slow arms have up to 0.3.
+pub(super) const MOST: f64 = 0.4;
+
+impl Identify {
+    /// A solution without what is told by noise of positions alone. `prepare` is how logs were prepared for it.
+    pub(super) fn without_drowned(
+        &self,
+        arm: &dyn Arm,
+        (logs, prepared, bands): (&[Log], &[Prepared], &Bands),
+        prepare: impl Fn(&[Log]) -> Result<Vec<Prepared>, IdentifyError>,
+        (solution, shapes, mut stack): (Solution, Vec<f64>, Stack),
+    ) -> Result<(Solution, Vec<f64>, Stack), IdentifyError> {
+        if self.beyond < Beyond::Deviations {
+            return Ok((solution, shapes, stack));
+        }
+        let pairs = logs.iter().zip(prepared).enumerate();
+        let noisy: Option<Vec<Log>> = pairs
+            .map(|(seed, (log, prepared))| noisier(log, prepared, bands, seed as u64))
+            .collect();
+        let Some(noisy) = noisy else {
+            return Ok((solution, shapes, stack));
+        };
+        let mut noisy = prepare(&noisy)?;
+        for (noisy, prepared) in noisy.iter_mut().zip(prepared) {
+            noisy
+                .motion
+                .turn_speeds
+                .clone_from(&prepared.motion.turn_speeds);
+        }
+        if arm.uses_rigid_torque() {
+            update_load(arm, &mut noisy, &shapes, &solution.estimate);
+        }
+        // At turns other rows might be left out.
+        let all = Self {
+            leave_out_turns: false,
+            ..self.clone()
+        };
+        let other = all.rows(arm, &noisy, &shapes);
+        drop(noisy);
+        stack.noise = if self.leave_out_turns {
+            changes(&all.rows(arm, prepared, &shapes), &other)
+        } else {
+            changes(&stack, &other)
+        };
+        let again = self.solve_stack(&stack)?;
+        Ok((again, shapes, stack))
+    }
+}
+
+/// A log with as much noise again on its positions as they have; none where that is not known.
+fn noisier(log: &Log, prepared: &Prepared, bands: &Bands, seed: u64) -> Option<Log> {
+    let densities = position_noise(prepared, bands)?;
+    let mut log = log.clone();
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let half_rate = 0.5 * log.rate_hz();
+    for (q, density) in log.q.iter_mut().zip(densities) {
+        let deviation = (density * half_rate).sqrt();
+        for q in q {
+            let fresh: f64 = StandardNormal.sample(&mut random);
+            *q += deviation * fresh;
+        }
+    }
+    Some(log)
+}
+
+/// Triangular factors of what the columns of each joint change by.
+fn changes(stack: &Stack, other: &Stack) -> Vec<Mat<f64>> {
+    let unknowns = stack.unknowns.len();
+    let joints = stack.joints.iter().zip(&other.joints);
+    let joints = joints.map(|(one, other)| {
+        let rows = 0..one.target.len();
+        let both: Vec<usize> = rows
+            .filter(|&row| one.is_there(row) && other.is_there(row))
+            .collect();
+        let mut changes = Mat::zeros(both.len(), unknowns);
+        for (columns, sign) in [(&one.columns, -1.0), (&other.columns, 1.0)] {
+            for (column, values) in columns {
+                for (row, &k) in both.iter().enumerate() {
+                    changes[(row, *column)] += sign * values[k];
+                }
+            }
+        }
+        if both.is_empty() {
+            return changes;
+        }
+        changes.qr().thin_R().to_owned()
+    });
+    joints.collect()
+}
+
+/// Of the columns that `found` keeps those that are told by more than noise; `noise` is the factor of what all columns change by.
+pub(super) fn told(found: Excited, noise: &Mat<f64>) -> Excited {
+    let count = found.columns.len();
+    if count == 0 || noise.nrows() == 0 {
+        return found;
+    }
+    let factors = found.kept.qr();
+    // `N R^-1`, whose singular values are roots of shares, transposed.
+    let mut shares = Mat::from_fn(count, noise.nrows(), |k, row| {
+        let column = found.columns[k];
+        noise[(row, column)] / found.norms[column]
+    });
+    solve_lower_triangular_in_place(factors.thin_R().transpose(), shares.as_mut(), Par::Seq);
+    let Ok(svd) = shares.svd() else {
+        return found;
+    };
+    let sizes = svd.S().column_vector().iter();
+    let sunk = sizes.filter(|size| size.powi(2) > MOST).count();
+    if sunk == 0 {
+        return found;
+    }
+    let directions = svd.U().subcols(sunk, count - sunk);
+    let clean = factors.compute_thin_Q() * directions;
+    found.along(clean)
+}
