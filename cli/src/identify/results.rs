@@ -11,6 +11,14 @@ use crate::output::{self, Files, OutFile};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 
+/// What was found, with what the program says of it besides numbers.
+#[derive(Serialize)]
+struct Noted<'a, R> {
+    #[serde(flatten)]
+    report: &'a R,
+    notes: &'a [String],
+}
+
 /// Files of a result that were asked for.
 pub(super) struct Results {
     json: Option<OutFile>,
@@ -44,7 +52,9 @@ impl Results {
             .page
             .map(|folder| Ok::<_, Error>((folder, found.page()?)));
         let page = page.transpose()?;
-        let json = self.json.map(|file| (file, output::json(report)));
+        let notes = &found.notes;
+        let noted = Noted { report, notes };
+        let json = self.json.map(|file| (file, output::json(&noted)));
         drop(progress);
         for (file, text) in self.others.into_iter().chain(json) {
             file.commit(text.as_bytes())?;

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::Folder;
+use crate::common::{Folder, json};
 
 const SPEC: &str = "robot P {
     gravity = [0, -9.81, 0];
@@ -34,6 +34,7 @@ fn swinging(unit: f64, times: f64) -> String {
 
 #[test]
 fn degrees_within_all_limits_are_told_by_the_torques() {
+    const ASKED: &str = "are they in degrees? Logs are in rad";
     let folder = Folder::new();
     let declared = SPEC.replace("LOG", "log { q = \"q1\": deg; }");
     folder.write("plain.robot", &SPEC.replace("LOG", ""));
@@ -41,8 +42,15 @@ fn degrees_within_all_limits_are_told_by_the_torques() {
     folder.write("degrees.csv", &log(1.0_f64.to_radians()));
     folder.write("radians.csv", &log(1.0));
     let told = |spec: &str, log: &str| {
-        let said = folder.run(&["identify", spec, log]).stderr;
-        said.contains("are they in degrees? Logs are in rad")
+        let said = folder.run(&["identify", spec, log, "--json", "fit.json"]);
+        // A program that goes on from the result sees it, too.
+        let notes = json(&folder.read("fit.json"))["notes"].clone();
+        let notes = notes.as_array().expect("a list").iter();
+        let is_noted = notes
+            .filter_map(|note| note.as_str())
+            .any(|note| note.contains(ASKED));
+        assert_eq!(is_noted, said.stderr.contains(ASKED));
+        is_noted
     };
     assert!(told("plain.robot", "degrees.csv"));
     assert!(!told("declared.robot", "degrees.csv"));
