@@ -195,20 +195,6 @@ impl Identify {
         }
     }
 
-    /// The motions of the instruments at the samples of the logs.
-    fn wanted(&self, logs: &[Log]) -> Result<Vec<Log>, IdentifyError> {
-        if self.instruments.len() != logs.len() {
-            return Err(IdentifyError::Instruments {
-                instruments: self.instruments.len(),
-                logs: logs.len(),
-            });
-        }
-        let pairs = logs.iter().zip(&self.instruments);
-        pairs
-            .map(|(log, wanted)| instruments::wanted(log, wanted))
-            .collect()
-    }
-
     /// What was found, by the method that is wanted; `instruments` are the rows of motions without noise.
     fn estimate(
         &self,
@@ -355,6 +341,15 @@ impl Identify {
     ///
     /// # Errors
     /// Those of [`Self::fit`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// let log = pendulum::measure(0.0);
+    /// let bands = robot_model::identify::Identify::default().bands_of(&pendulum::pendulum(), &log)?;
+    /// assert!(bands.smooth_hz > 0.9 && bands.smooth_hz <= bands.wide_hz); // its fastest wave is of 0.9 Hz
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn bands_of(&self, arm: &dyn Arm, log: &Log) -> Result<Bands, IdentifyError> {
         let logs = std::slice::from_ref(log);
         check_logs(arm, logs)?;
@@ -365,6 +360,15 @@ impl Identify {
     ///
     /// # Errors
     /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// # use robot_model::identify::{Identify, IdentifyError};
+    /// // Two rows are too few for two unknowns and their deviations.
+    /// let refused = Identify::default().solve_stack(&spring::spring());
+    /// assert!(matches!(refused, Err(IdentifyError::TooFewSamples { .. })));
+    /// ```
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
         check_counts(&stack.counts(), stack.unknowns.len())?;
         let factors = match self.method {
