@@ -128,9 +128,7 @@ impl Commanded {
     /// When the voltage was switched, s: in the middle between two pieces.
     ///
     /// # Examples
-    /// See the [module](super): its wave switches at 0.5, 1.5, 2.5 and 3.5 s, to half a sample.
-    ///
-    /// # Examples
+    /// The wave of the [module](super) switches at 0.5, 1.5, 2.5 and 3.5 s, found to half a sample:
     /// ```
     /// # use robot_model::calibrate::Commanded;
     /// # let time: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();

@@ -20,6 +20,7 @@ use crate::state::State;
 /// // Seven parameters, of which the last is known.
 /// let mut gains = Adaptation::<2, 7>::new(10.0, 5.0, 0.1);
 /// gains.rates[6] = 0.0;
+/// assert_eq!((gains.rates[5], gains.rates[6], gains.bandwidth[1]), (0.1, 0.0, 10.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adaptation<const D: usize, const B: usize> {

@@ -9,19 +9,20 @@ use super::tangent::{Adjustable, ParameterSlopes};
 ///
 /// # Examples
 /// ```
-/// use nalgebra::{DMatrix, dmatrix};
+/// use nalgebra::DMatrix;
 /// use robot_model::simulate::Functions;
 ///
 /// /// The `m` and `c` of a block, of its own mass, of a load's, and of `c`.
 /// struct Loaded;
 /// impl Functions for Loaded {
 ///     fn own(&self, values: &[f64]) -> Vec<f64> { vec![values[0] + values[1], values[2]] }
-///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 1.0] }
+///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { DMatrix::from_row_slice(2, 3, &[1.0, 1.0, 0.0, 0.0, 0.0, 1.0]) }
 /// }
 ///
 /// let values = [1.5, 0.5, 0.7];
 /// assert_eq!(Loaded.own(&values), [2.0, 0.7]);
-/// assert_eq!(Loaded.slopes(&values) * nalgebra::dvector![0.1, 0.2, 0.0], nalgebra::dvector![0.1 + 0.2, 0.0]);
+/// // 0.2 kg more of load are 0.2 kg more of `m`.
+/// assert_eq!(Loaded.slopes(&values).column(1).as_slice(), [1.0, 0.0]);
 /// ```
 pub trait Functions {
     /// The plant's own parameters.
@@ -47,14 +48,14 @@ impl<P: Adjustable, F: Functions> Through<P, F> {
     /// # Examples
     /// ```
     /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
-    /// use nalgebra::{DMatrix, dmatrix};
+    /// use nalgebra::DMatrix;
     /// use robot_model::simulate::{Adjustable, Functions, Integrator, Through, Tolerances};
     ///
     /// /// The `m` and `c` of a block, where `c` is known: 0.7.
     /// struct Mass;
     /// impl Functions for Mass {
     ///     fn own(&self, values: &[f64]) -> Vec<f64> { vec![values[0], 0.7] }
-    ///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { dmatrix![1.0; 0.0] }
+    ///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { DMatrix::from_row_slice(2, 1, &[1.0, 0.0]) }
     /// }
     ///
     /// let plant = Through::new(block::Block([1.0, 0.0]), Mass, vec![2.0]);
