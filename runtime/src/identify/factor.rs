@@ -223,8 +223,8 @@ impl Factor {
     /// # Examples
     /// ```
     /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
-    /// let factor = factor::factor();
-    /// assert_eq!(factor.samples(), factor.blocks.iter().map(|block| block.samples).sum::<usize>());
+    /// let filter = robot_model::signal::SharedFilter::new(&factor::bands(), 500.0).expect("a low band");
+    /// assert_eq!(factor::factor().samples(), filter.kept(10_000).count()); // of 20 s
     /// ```
     #[must_use]
     pub fn samples(&self) -> usize {

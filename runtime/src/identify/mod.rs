@@ -364,10 +364,12 @@ impl Identify {
     /// # Examples
     /// ```
     /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
-    /// # use robot_model::identify::{Identify, IdentifyError};
-    /// // Two rows are too few for two unknowns and their deviations.
-    /// let refused = Identify::default().solve_stack(&spring::spring());
-    /// assert!(matches!(refused, Err(IdentifyError::TooFewSamples { .. })));
+    /// # use robot_model::identify::Identify;
+    /// let mut stack = spring::spring(); // k = 10 and fc = 0.5, of which one is asked
+    /// stack.truncate(1);
+    /// // Two residuals of 0.5 N m, one unknown: sigma^2 = 0.5^2 + 0.5^2.
+    /// let found = Identify::default().solve_stack(&stack).expect("more rows than unknowns");
+    /// assert!((found.estimate[0] - 10.0).abs() < 1e-9 && (found.sigma[0].powi(2) - 0.5).abs() < 1e-9);
     /// ```
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
         check_counts(&stack.counts(), stack.unknowns.len())?;

@@ -132,7 +132,7 @@ pub(super) fn says_nothing(log: &Prepared) -> Vec<usize> {
 impl Stack {
     /// Evaluates the arm over the logs, filters and decimates.
     ///
-    /// `shapes` has one value per [`Columns::shapes`] of the arm.
+    /// `shapes` has one value per [`Columns::shapes`](crate::columns::Columns::shapes) of the arm.
     ///
     /// # Examples
     /// ```

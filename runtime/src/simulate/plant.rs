@@ -149,7 +149,7 @@ pub trait Plant {
     /// ```
     /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
     /// use robot_model::simulate::Plant;
-    /// assert!(!cart::Cart.is_timed()); // the same today and tomorrow
+    /// assert!(!cart::Cart.is_timed()); // neither torque nor rates read the time
     /// ```
     fn is_timed(&self) -> bool {
         false
