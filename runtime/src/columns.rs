@@ -33,6 +33,10 @@
 //! assert_eq!(torque, [[3.0, 4.0]]);
 //! ```
 
+mod candidate;
+
+pub use candidate::{Candidate, Change};
+
 use crate::identify::PossibleArms;
 use crate::motion::Motion;
 
@@ -75,6 +79,19 @@ pub struct Entry {
 }
 
 /// Something that contributes columns to `tau = columns * unknowns + known`.
+///
+/// # Examples
+/// The arm of the example of [`Arm`]:
+/// ```
+/// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+/// use robot_model::columns::Columns;
+/// // With izz, mx, fs and kt; vs, and how far the encoder is off, are open. What each multiplies, at 40 degrees:
+/// let (axis, motion) = (axis::axis(), axis::upright());
+/// assert_eq!((axis.unknowns().len(), axis.shapes()[0].name.as_str()), (4, "axis.stribeck.vs"));
+/// let columns: Vec<f64> = axis.entries(&motion, &[0.1, 0.0]).iter().map(|entry| entry.values[0]).collect();
+/// assert_eq!(columns, [3.0, 1.0, (-1.0_f64).exp(), 4.0]); // ddq, sin(q), exp(-(dq / vs)^2), 40 dq
+/// assert!(!axis.uses_rigid_torque());
+/// ```
 pub trait Columns: Sync {
     /// The unknowns, one per column.
     fn unknowns(&self) -> &[Unknown];
@@ -86,6 +103,14 @@ pub trait Columns: Sync {
     fn uses_rigid_torque(&self) -> bool;
 
     /// Channels of the log, beside positions and torques, that [`Self::entries`] reads; often none.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Columns;
+    /// // Its friction falls as it warms up.
+    /// assert_eq!(axis::axis().inputs(), ["temperature"]);
+    /// ```
     fn inputs(&self) -> &[String] {
         &[]
     }
@@ -96,6 +121,18 @@ pub trait Columns: Sync {
 }
 
 /// A whole arm: its base regressor and declared effects as columns, and the parts that are not unknown.
+///
+/// # Examples
+/// ```
+#[doc = include_str!("../tests/doc/axis.rs")]
+///
+/// let (axis, motion) = (axis(), upright());
+/// assert_eq!((axis.dof(), axis.joints()[0].as_str(), axis.actuator_gain()[0]), (1, "axis", 50.0));
+/// assert_eq!(axis.known_torque(&motion, &[0.1, 0.0]), [[0.2 * 0.1]]);
+/// // izz ddq + mx sin(q)
+/// let torque = axis.rigid_torque(&motion, &[0.1, 0.0], &[0.5, 9.0, 1.0, 0.0]);
+/// assert_eq!(torque, [[0.5 * 3.0 + 9.0]]);
+/// ```
 pub trait Arm: Columns {
     /// Degrees of freedom.
     fn dof(&self) -> usize;
@@ -116,6 +153,14 @@ pub trait Arm: Columns {
 
     /// What the transmissions carried, `[joint][sample]`: the logged torque less that of the declared effects at `estimate`.
     /// Empty where no link stands elsewhere because of it, as for most arms.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// // The link stands where its joint does: nothing bends.
+    /// assert!(axis::axis().transmitted_torque(&axis::upright(), &[0.1, 0.0], &[0.5, 9.0, 1.0, 0.0]).is_empty());
+    /// ```
     fn transmitted_torque(
         &self,
         _motion: &Motion,
@@ -127,39 +172,93 @@ pub trait Arm: Columns {
 
     /// Joints with friction that jumps where they turn, from 0: what holds them there is not what a law says, which deviations
     /// know of, or which is left out. None with effects that say what happens there, such as bristles.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().dry_joints(), [0]); // Stribeck friction jumps where the axis turns
+    /// ```
     fn dry_joints(&self) -> &[usize] {
         &[]
     }
 
     /// Open shapes of the friction of [`Self::dry_joints`], places in [`Columns::shapes`]: rows where joints turn say another thing than
     /// their law, so such shapes are looked for without these rows where others tell them.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::{Arm, Columns};
+    /// let axis = axis::axis();
+    /// assert_eq!(axis.shapes()[axis.dry_shapes()[0]].name, "axis.stribeck.vs");
+    /// ```
     fn dry_shapes(&self) -> &[usize] {
         &[]
     }
 
     /// Joints whose columns say what a drive at its limit does not deliver, from 0: samples of [clipped](crate::log::Log::clipped) torque
     /// are left out of the fit of all others.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert!(axis::axis().saturated_joints().is_empty()); // no column says what a limit takes
+    /// ```
     fn saturated_joints(&self) -> &[usize] {
         &[]
     }
 
     /// Functions of the motion that the torques are sums of, by their names: `cos(q1 - q2) dq1^2`. What is left of a joint's torque may
     /// be one of them: a term that is missing there, or has another coefficient. None where equations are too long to be told so.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().terms(), ["ddq1", "sin(q1)"]);
+    /// ```
     fn terms(&self) -> Vec<String> {
         Vec::new()
     }
 
     /// [`Self::terms`] along a motion, `[term][sample]`.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().term_values(&axis::upright()), [[3.0], [1.0]]); // ddq and sin(q)
+    /// ```
     fn term_values(&self, _motion: &Motion) -> Vec<Vec<f64>> {
         Vec::new()
     }
 
     /// What is known of each unknown before any log, from CAD: one entry an unknown, or none at all.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// // CAD knows the moment of inertia, and no friction.
+    /// let nominal = axis::axis().nominal();
+    /// assert_eq!((nominal[0].map(|izz| izz.value), nominal[2]), (Some(0.5), None));
+    /// ```
     fn nominal(&self) -> Vec<Option<Nominal>> {
         Vec::new()
     }
 
     /// The arms that can be, in standard parameters; `None` where nothing says what bodies the unknowns are made of.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// use robot_model::columns::Arm;
+    /// // izz, mx and fv of a pendulum are those of one body, and friction that is not negative.
+    /// let arms = pendulum::pendulum().possible_arms().expect("a link and friction");
+    /// assert_eq!((arms.links.len(), arms.nonnegative.len()), (1, 1));
+    /// ```
     fn possible_arms(&self) -> Option<PossibleArms> {
         None
     }
@@ -169,6 +268,23 @@ pub trait Arm: Columns {
 ///
 /// Both sets of columns belong to [`Columns::unknowns`] of the arm. They read [`Motion`] without `ddq`, which may have no
 /// channels.
+///
+/// # Examples
+/// ```
+/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+/// use robot_model::columns::MomentumArm;
+/// use robot_model::motion::{Kinematics, Motion};
+///
+/// // A pendulum: tau = d/dt (izz dq) + mx sin(q) + fv dq
+/// let moving = Kinematics { q: vec![vec![0.5]], dq: vec![vec![2.0]], ddq: Vec::new() };
+/// let motion = Motion { time: vec![0.0], smooth: moving.clone(), wide: moving, ..Motion::default() };
+/// let arm = pendulum::pendulum();
+/// assert_eq!(arm.momentum(&motion, &[])[0].values, [2.0]);
+/// let drift: Vec<f64> = arm.drift(&motion, &[]).iter().map(|entry| entry.values[0]).collect();
+/// assert_eq!(drift, [-0.5_f64.sin(), -2.0]);
+/// // The spec fixes nothing.
+/// assert_eq!((arm.known_momentum(&motion, &[]), arm.known_drift(&motion, &[])), (vec![vec![0.0]], vec![vec![0.0]]));
+/// ```
 pub trait MomentumArm: Arm {
     /// Columns of the generalized momentum, `Y_p`; entries that are zero by structure are left out.
     fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
@@ -182,51 +298,4 @@ pub trait MomentumArm: Arm {
 
     /// Drift of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
     fn known_drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
-}
-
-/// An effect that the spec does not declare, tried on given joints.
-pub trait Candidate: Columns {
-    /// Kebab-case name of what it is, in reports.
-    fn kind(&self) -> &str;
-
-    /// Name in the language of what a spec declares: that of the kind, unless it is one of several laws of this kind.
-    fn effect(&self) -> String {
-        self.kind().replace('-', "_")
-    }
-
-    /// The joints it is tried on, from 0; none where it is of the arm as a whole.
-    fn joints(&self) -> &[usize];
-
-    /// Whether its columns are made of the torque as logged, whose residual is traced: the noise of that explains itself.
-    fn follows_torque(&self) -> bool {
-        false
-    }
-
-    /// Whether it is a law of time or of the part of a period, as a contact is: a wander of the zero is one of time as well.
-    fn is_of_time(&self) -> bool {
-        false
-    }
-
-    /// What it is where it is no torque that is added; its [`Columns::unknowns`] are then its shapes, one a [`Change::probe`], and it
-    /// has no [`Columns::entries`].
-    fn change(&self) -> Option<&dyn Change> {
-        None
-    }
-}
-
-/// An effect that changes the arm: where links stand against their joints, where gravity comes from.
-pub trait Change: Sync {
-    /// The arm with it, whose last shapes are its own.
-    fn arm(&self) -> &dyn Arm;
-
-    /// Own shapes at which nothing is changed, or next to nothing.
-    fn neutral(&self) -> &[f64];
-
-    /// Own shapes each of which, the others neutral, changes a little.
-    fn probe(&self) -> &[f64];
-
-    /// Whether own shapes are a change at all, for logs with samples `period` seconds apart.
-    fn counts(&self, _shapes: &[f64], _period: f64) -> bool {
-        true
-    }
 }

@@ -172,12 +172,28 @@ pub struct Link<Effects = ()> {
 
 impl Link {
     /// A link from its mass (kg), center of mass (m) and inertia about it (kg m^2), see [`Inertial::about_com`].
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Link;
+    /// // 1.2 kg in the middle of a rod of 0.4 m, whose frame is at its end: 0.016 kg m^2 about the middle.
+    /// let rod = Link::new(1.2, [-0.2, 0.0, 0.0], [0.0, 0.0, 0.0, 0.016, 0.0, 0.016]);
+    /// assert!((rod.inertial.inertia[5] - (0.016 + 1.2 * 0.2_f64.powi(2))).abs() < 1e-12); // izz about the frame's origin
+    /// ```
     #[must_use]
     pub fn new(mass: f64, com: [f64; 3], inertia: [f64; 6]) -> Self {
         Self::from(Inertial::about_com(mass, com, inertia))
     }
 
     /// The same link with effects on its joint.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Link;
+    /// struct Friction { fv: f64 }
+    /// let link = Link::new(1.2, [-0.2, 0.0, 0.0], [0.0; 6]).with(Friction { fv: 0.6 });
+    /// assert_eq!((link.effects.fv, link.inertial.mass), (0.6, 1.2));
+    /// ```
     #[must_use]
     pub fn with<Effects>(self, effects: Effects) -> Link<Effects> {
         Link {

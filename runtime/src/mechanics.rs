@@ -1,5 +1,9 @@
 //! What the same equations give beside torque and its regressor: energies, momentum, forward dynamics, slopes, kinematics.
 
+mod places;
+
+pub use places::{Kinematics, Points};
+
 use crate::model::{RobotModel, SMatrix, SVector, Vector};
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -46,9 +50,30 @@ pub trait Mechanics<
 >: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS>
 {
     /// Kinetic energy `1/2 dq^T M dq`, J.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, Vector};
+    /// // Stretched, the elbow's link turns at 2 rad/s: 0.04 kg m^2, and 2.5 kg at 0.2 m.
+    /// let energy = arms::two_link().kinetic_energy(&Vector::from([0.0, 0.0]), &Vector::from([0.0, 2.0]));
+    /// assert!((energy - 0.5 * (0.04 + 2.5 * 0.2_f64.powi(2)) * 2.0_f64.powi(2)).abs() < 1e-12);
+    /// ```
     fn kinetic_energy<S: Scalar>(&self, q: &SVector<S, DOF>, dq: &SVector<S, DOF>) -> S;
 
     /// Potential energy, J, up to a constant; `gravity` is its gradient.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, Vector};
+    /// // From stretched along x to upright: 4 kg rise by 0.25 m, 2.5 kg by 0.7 m.
+    /// let energy = |shoulder: f64| arms::two_link().potential_energy(&Vector::from([shoulder, 0.0]));
+    /// let risen = energy(std::f64::consts::FRAC_PI_2) - energy(0.0);
+    /// assert!((risen - 9.81 * (4.0 * 0.25 + 2.5 * 0.7)).abs() < 1e-12);
+    /// ```
     fn potential_energy<S: Scalar>(&self, q: &SVector<S, DOF>) -> S;
 
     /// Accelerations that the torque `tau` (N m or N) gives at time zero: the solution of `inverse_dynamics = tau`.
@@ -85,6 +110,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::forward_dynamics`] for effects that depend on more than the motion; `state.ddq` is not read.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::{Mechanics, Vector};
+    /// // Upright in oil of 40 degrees: 0.5 ddq + 0.2 dq = 1.6 at dq = 3.
+    /// let ddq = arms::warm().forward_dynamics_at(&arms::moving(), &Vector::from([1.6])).expect("a mass at the tip");
+    /// assert!((ddq[0] - 2.0).abs() < 1e-12);
+    /// ```
     fn forward_dynamics_at<S: Scalar>(
         &self,
         state: &State<DOF, STATES, INPUTS, S>,
@@ -123,6 +158,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::inverse_dynamics_by_position`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::Mechanics;
+    /// // Of 9.81 cos(q), upright.
+    /// let slope = arms::warm().inverse_dynamics_by_position_at(&arms::moving());
+    /// assert!((slope[0] + 9.81).abs() < 1e-12);
+    /// ```
     fn inverse_dynamics_by_position_at<S: Scalar>(
         &self,
         state: &State<DOF, STATES, INPUTS, S>,
@@ -158,6 +203,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::inverse_dynamics_by_velocity`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::Mechanics;
+    /// // Oil of 40 degrees has half of the 0.4 N m s/rad at 20.
+    /// let slope = arms::warm().inverse_dynamics_by_velocity_at(&arms::moving());
+    /// assert!((slope[0] - 0.2).abs() < 1e-12);
+    /// ```
     fn inverse_dynamics_by_velocity_at<S: Scalar>(
         &self,
         state: &State<DOF, STATES, INPUTS, S>,
@@ -195,6 +250,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::momentum_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::{Mechanics, RobotModel};
+    /// let (arm, state) = (arms::warm(), arms::moving()); // m l^2 dq
+    /// let momentum = arms::Warm::momentum_regressor_at(&state, &arm.shapes()) * arm.standard();
+    /// assert!((momentum[0] - 0.5 * 3.0).abs() < 1e-12);
+    /// ```
     fn momentum_regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
@@ -229,6 +294,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::drift_regressor`] for effects that depend on more than the motion; `state.ddq` is not read.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::{Mechanics, RobotModel};
+    /// let (arm, state) = (arms::warm(), arms::moving());
+    /// let drift = arms::Warm::drift_regressor_at(&state, &arm.shapes()) * arm.standard();
+    /// assert!((drift[0] + 0.2 * 3.0).abs() < 1e-12);
+    /// ```
     fn drift_regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
@@ -236,6 +311,17 @@ pub trait Mechanics<
 
     /// `Y_p` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let (q, dq) = (Vector::from([0.0, 0.0]), Vector::from([0.0, 2.0]));
+    /// // Stretched, the elbow's link turns: 0.14 kg m^2 about the elbow.
+    /// let momentum = arms::TwoLink::base_momentum_regressor(&q, &dq) * arms::two_link().beta();
+    /// assert!((momentum[1] - 0.14 * 2.0).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn base_momentum_regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -252,6 +338,16 @@ pub trait Mechanics<
     }
 
     /// [`Self::base_momentum_regressor`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::{Mechanics, RobotModel};
+    /// let (arm, state) = (arms::warm(), arms::moving());
+    /// let momentum = arms::Warm::base_momentum_regressor_at(&state, &arm.shapes()) * arm.beta();
+    /// assert!((momentum[0] - 0.5 * 3.0).abs() < 1e-12);
+    /// ```
     fn base_momentum_regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
@@ -259,6 +355,17 @@ pub trait Mechanics<
 
     /// `Y_h` of the base parameters, DOF x BASE, besides what the spec fixes. Zero columns as in
     /// [`Self::momentum_regressor`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{Mechanics, RobotModel, Vector};
+    /// let (q, dq) = (Vector::from([0.0, 0.0]), Vector::from([0.0, 2.0]));
+    /// // Gravity of 2.5 kg at 0.2 m, and friction: fv 0.6 N m s/rad, fc 0.8 N m.
+    /// let drift = arms::TwoLink::base_drift_regressor(&q, &dq) * arms::two_link().beta();
+    /// assert!((drift[1] + 9.81 * 2.5 * 0.2 + 0.6 * 2.0 + 0.8).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn base_drift_regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -275,56 +382,18 @@ pub trait Mechanics<
     }
 
     /// [`Self::base_drift_regressor`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::{Mechanics, RobotModel};
+    /// let (arm, state) = (arms::warm(), arms::moving());
+    /// let drift = arms::Warm::base_drift_regressor_at(&state, &arm.shapes()) * arm.beta();
+    /// assert!((drift[0] + 0.2 * 3.0).abs() < 1e-12);
+    /// ```
     fn base_drift_regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
     ) -> SMatrix<S, DOF, BASE>;
-}
-
-/// Where the links of a chain are. Robots that say their energies have [`Points`] instead. Lengths are in the equations; of the
-/// value only shape parameters count, such as the offset of an encoder.
-pub trait Kinematics<const DOF: usize> {
-    /// Poses of the link frames in the base frame as homogeneous matrices, m; the last one is the tip's.
-    ///
-    /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{Kinematics, Vector};
-    /// use std::f64::consts::FRAC_PI_2;
-    /// // Links of 0.5 m and 0.4 m: the upper one along x, the other one up.
-    /// let [elbow, tip] = arms::two_link().forward_kinematics(&Vector::from([0.0, FRAC_PI_2]));
-    /// assert!((elbow[(0, 3)] - 0.5).abs() < 1e-12);
-    /// assert!((tip[(0, 3)] - 0.5).abs() < 1e-12 && (tip[(1, 3)] - 0.4).abs() < 1e-12);
-    /// ```
-    fn forward_kinematics<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 4, 4>; DOF];
-
-    /// Geometric Jacobian, 6 x DOF: `jacobian * dq` is the velocity of the origin of the last link's frame, m/s, then the
-    /// link's angular velocity, rad/s, both in the axes of the base frame. A force and a moment at the tip, stacked alike,
-    /// load the joints with `jacobian^T * wrench`.
-    ///
-    /// # Examples
-    /// A force at the tip, and what the joints hold it with:
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{Kinematics, Vector};
-    /// // Stretched along x, 5 N upward at 0.9 m from the shoulder, 0.4 m from the elbow.
-    /// let jacobian = arms::two_link().jacobian(&Vector::from([0.0, 0.0]));
-    /// let torque = jacobian.transpose() * Vector::from([0.0, 5.0, 0.0, 0.0, 0.0, 0.0]);
-    /// assert!((torque - Vector::from([5.0 * 0.9, 5.0 * 0.4])).norm() < 1e-12);
-    /// ```
-    fn jacobian<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, 6, DOF>;
-}
-
-/// Where the points are that a robot which says its energies names.
-pub trait Points<const DOF: usize, const POINTS: usize> {
-    /// Their names.
-    const POINTS: [&'static str; POINTS];
-
-    /// Positions in the base frame, m.
-    fn points<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SVector<S, 3>; POINTS];
-
-    /// `[k] * dq` is the velocity of point `k`, m/s; a force there loads the joints with `[k]^T * force`.
-    fn point_jacobians<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 3, DOF>; POINTS];
 }

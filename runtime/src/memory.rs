@@ -48,20 +48,49 @@ pub trait Memory<
     /// Names of the internal states, in the order of [`State::memory`].
     const STATES: [&'static str; STATES];
 
-    /// Rates `dz/dt` of the internal states; with states and shape parameters given, since they depend on no other
+    /// Rates `dz/dt` of the internal states, 1/s for states without a unit; with states and shape parameters given, since they depend on no other
     /// parameter. Load-dependent ones read `state.rigid_torque`.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/table.rs")); }
+    /// use robot_model::{Memory, Vector};
+    /// // (dq - abs(dq) z) / d, with bristles that are twice as long.
+    /// let rates = arms::Table::state_rates_at(&arms::sliding(), &Vector::from([0.02]));
+    /// assert!((rates[0] - (0.02 - 0.02 * 0.5) / 0.02).abs() < 1e-12);
+    /// ```
     fn state_rates_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
     ) -> SVector<S, STATES>;
 
     /// Rates `dz/dt` of this arm's internal states, under its own load.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/table.rs")); }
+    /// use robot_model::Memory;
+    /// let rates = arms::table().state_rates(&arms::sliding());
+    /// assert!((rates[0] - (0.02 - 0.02 * 0.5) / 0.01).abs() < 1e-12);
+    /// ```
     fn state_rates<S: Scalar>(&self, state: &State<DOF, STATES, INPUTS, S>) -> SVector<S, STATES> {
         Self::state_rates_at(&self.loaded(state), &self.shapes())
     }
 
     /// Internal states `seconds` after `state`, if the rest of it stays as it is: one step of [`step`], stable however stiff
     /// the states are. Of second order where `state` is the motion in the middle of the interval.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/table.rs")); }
+    /// use robot_model::Memory;
+    /// // 1 - z falls by exp(-distance / d): here 20 mrad over 10 mrad.
+    /// let z = arms::table().memory_after(&arms::sliding(), 1.0);
+    /// assert!((1.0 - z[0] - 0.5 * (-2.0_f64).exp()).abs() < 1e-12);
+    /// ```
     fn memory_after<S: Scalar>(
         &self,
         state: &State<DOF, STATES, INPUTS, S>,

@@ -3,7 +3,12 @@
 //! A value is a parameter set; equations that need none are associated functions. Motions and results are in any
 //! [`Scalar`], parameters in `f64`.
 
+mod arrays;
+mod parameters;
+
+pub use arrays::{as_array, from_rows, in_scalar};
 pub use nalgebra::{SMatrix, SVector};
+pub use parameters::FromParameters;
 
 use crate::scalar::Scalar;
 use crate::state::State;
@@ -42,11 +47,27 @@ pub type Matrix<const R: usize, const C: usize> = SMatrix<f64, R, C>;
 /// // 2 kg at the tip, where the link's frame is; 0.1 N m s/rad.
 /// let arm = Pendulum { pivot: Link::new(2.0, [0.0; 3], [0.0; 6]).with(ViscousFriction { fv: 0.1 }) };
 /// let (q, dq, ddq) = (Vector::from([0.0]), Vector::from([3.0]), Vector::from([1.0]));
-/// // m l^2 ddq + fv dq + m g l cos(q)
+/// // m l^2 ddq + fv dq + m g l cos(q); one joint has no Coriolis torque.
 /// let tau = arm.inverse_dynamics(&q, &dq, &ddq);
 /// assert!((tau[0] - (0.5 + 0.3 + 9.81)).abs() < 1e-12);
+/// assert!((arm.bias(&q, &dq)[0] - 9.81).abs() < 1e-12 && arm.coriolis_matrix(&q, &dq)[0].abs() < 1e-12);
 /// assert!((tau - arm.regressor_of(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
 /// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
+/// ```
+/// The same pendulum with oil that halves its friction every 20 K, at 40 degrees Celsius:
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+/// use robot_model::RobotModel;
+/// let (arm, state) = (arms::warm(), arms::moving());
+/// let tau = arm.inverse_dynamics_at(&state);
+/// assert!((tau[0] - (0.5 * 2.0 + 0.2 * 3.0)).abs() < 1e-12);
+/// let (standard, shapes) = (arm.standard(), arm.shapes());
+/// assert!((tau - arms::Warm::regressor_at(&state, &shapes) * standard).norm() < 1e-12);
+/// // If it halved every 10 K:
+/// let row = arms::Warm::base_regressor_at(&state, &(shapes * 2.0));
+/// let tau = row * arms::Warm::base_parameters(&standard);
+/// assert!((tau[0] - (0.5 * 2.0 + 0.1 * 3.0)).abs() < 1e-12);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no `RobotModel` of these sizes",
@@ -87,6 +108,16 @@ pub trait RobotModel<
     fn standard(&self) -> Vector<STANDARD>;
 
     /// The arm's base parameters, in the order of [`Self::BASE_PARAMETERS`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::RobotModel;
+    /// // Of the elbow's link 2.5 kg at 0.2 m from the joint: its mass is regrouped into the first moment.
+    /// assert_eq!(arms::TwoLink::BASE_PARAMETERS[3], "elbow.mxr");
+    /// assert!((arms::two_link().beta()[3] - 2.5 * 0.2).abs() < 1e-12);
+    /// ```
     fn beta(&self) -> Vector<BASE> {
         Self::base_parameters(&self.standard())
     }
@@ -136,6 +167,17 @@ pub trait RobotModel<
     fn bias<S: Scalar>(&self, q: &SVector<S, DOF>, dq: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero and with no measured torque.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// // Stretched, only the elbow moves: izz about the elbow is 0.14 kg m^2, fv 0.6 N m s/rad, fc 0.8 N m.
+    /// let (q, dq, ddq) = (Vector::from([0.0, 0.0]), Vector::from([0.0, 3.0]), Vector::from([0.0, 2.0]));
+    /// let tau = arms::two_link().inverse_dynamics(&q, &dq, &ddq);
+    /// assert!((tau[1] - (0.14 * 2.0 + 0.6 * 3.0 + 0.8 + 9.81 * 2.5 * 0.2)).abs() < 1e-12);
+    /// ```
     fn inverse_dynamics<S: Scalar>(
         &self,
         q: &SVector<S, DOF>,
@@ -161,6 +203,17 @@ pub trait RobotModel<
     /// Regressor `Y` of this arm, DOF x STANDARD: `inverse_dynamics = Y * standard`, at time zero.
     ///
     /// Columns of load-dependent effects are those of the arm's own load `M ddq + C dq + G`, and shape parameters are its own.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// let (arm, rest) = (arms::two_link(), Vector::zeros());
+    /// // The torque of a change of one parameter: 0.1 kg more at the elbow link's frame, the tip.
+    /// let columns = arm.regressor_of(&rest, &rest, &rest);
+    /// assert!((columns.column(10) * 0.1 - Vector::from([9.81 * 0.1 * 0.9, 9.81 * 0.1 * 0.4])).norm() < 1e-12);
+    /// ```
     #[must_use]
     fn regressor_of<S: Scalar>(
         &self,
@@ -178,6 +231,16 @@ pub trait RobotModel<
     }
 
     /// [`Self::regressor_of`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::RobotModel;
+    /// // Columns of izz and fv: the oil of 40 degrees has half of the friction at 20.
+    /// let row = arms::warm().regressor_of_at(&arms::moving());
+    /// assert!((row[9] - 2.0).abs() < 1e-12 && (row[10] - 0.5 * 3.0).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn regressor_of_at<S: Scalar>(
         &self,
@@ -188,6 +251,17 @@ pub trait RobotModel<
 
     /// Base regressor `Y_b` of this arm, DOF x BASE: `inverse_dynamics = Y_b * beta`, besides the torque of what the spec
     /// fixes; as [`Self::regressor_of`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// let (arm, rest) = (arms::two_link(), Vector::zeros());
+    /// // Stretched and at rest: 2.5 kg at 0.2 m from the elbow.
+    /// let tau = arm.base_regressor_of(&rest, &rest, &rest) * arm.beta();
+    /// assert!((tau[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn base_regressor_of<S: Scalar>(
         &self,
@@ -205,6 +279,16 @@ pub trait RobotModel<
     }
 
     /// [`Self::base_regressor_of`] for effects that depend on more than the motion.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
+    /// use robot_model::RobotModel;
+    /// let arm = arms::warm();
+    /// let tau = arm.base_regressor_of_at(&arms::moving()) * arm.beta();
+    /// assert!((tau[0] - (0.5 * 2.0 + 0.2 * 3.0)).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn base_regressor_of_at<S: Scalar>(
         &self,
@@ -215,6 +299,16 @@ pub trait RobotModel<
 
     /// The same instant with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`: what [`Self::regressor_at`]
     /// reads.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, State, Vector};
+    /// // Stretched and at rest the elbow's gear carries 2.5 kg at 0.2 m.
+    /// let loaded = arms::two_link().loaded(&State::at_rest(Vector::from([0.0, 0.0])));
+    /// assert!((loaded.rigid_torque[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
+    /// ```
     #[must_use]
     fn loaded<S: Scalar>(
         &self,
@@ -229,6 +323,17 @@ pub trait RobotModel<
 
     /// Regressor `Y`, DOF x STANDARD, at time zero, without load, with nominal shapes: `tau = Y * standard` of an arm whose
     /// effects read no load and whose shape parameters are the nominal ones. Of every arm: [`Self::regressor_of`].
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// let (q, dq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
+    /// let columns = arms::TwoLink::regressor(&q, &dq, &Vector::zeros());
+    /// assert_eq!(arms::TwoLink::STANDARD_PARAMETERS[22], "elbow.viscous_friction.fv");
+    /// assert_eq!(columns.column(22), Vector::from([0.0, 0.5]));
+    /// ```
     #[must_use]
     fn regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -252,6 +357,17 @@ pub trait RobotModel<
 
     /// Base regressor `Y_b`, DOF x BASE: `tau = Y_b * beta`, besides the torque of what the spec fixes; as
     /// [`Self::regressor`] at time zero, without load, with nominal shapes.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::{RobotModel, Vector};
+    /// let (q, dq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, -0.5]));
+    /// let columns = arms::TwoLink::base_regressor(&q, &dq, &Vector::zeros());
+    /// assert_eq!(arms::TwoLink::BASE_PARAMETERS[9], "elbow.coulomb_friction.fc");
+    /// assert_eq!(columns.column(9), Vector::from([0.0, -1.0]));
+    /// ```
     #[must_use]
     fn base_regressor<S: Scalar>(
         q: &SVector<S, DOF>,
@@ -272,123 +388,4 @@ pub trait RobotModel<
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
     ) -> SMatrix<S, DOF, BASE>;
-}
-
-/// An arm that is made from a vector of parameters: from an estimate, or from CAD values.
-///
-/// Arms of links and arms of base parameters are; an arm whose value holds unknowns of which its standard parameters are
-/// products is not.
-///
-/// # Examples
-#[cfg_attr(feature = "derive", doc = "```")]
-#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-/// use robot_model::{FromParameters, Link, RobotModel, Vector};
-///
-/// #[derive(RobotModel)]
-/// #[robot(convention = standard_dh, gravity = [0, -9.81, 0])]
-/// struct Pendulum {
-///     #[joint(revolute, a = 0.5, alpha = 0, d = 0)]
-///     pivot: Link,
-/// }
-///
-/// assert_eq!(Pendulum::BASE_PARAMETERS, ["pivot.mxr", "pivot.my", "pivot.izzr"]);
-/// let beta = Vector::from([1.0, 0.0, 0.5]);
-/// let arm = Pendulum::from_base(&beta);
-/// assert!((arm.beta() - beta).norm() < 1e-12);
-/// assert_eq!(arm.pivot.inertial.mass, 0.0); // regrouped into mx and izz
-/// ```
-#[diagnostic::on_unimplemented(
-    message = "`{Self}` cannot be made from a vector of parameters",
-    note = "its standard parameters are products of its unknowns: give the fields their values, or let the spec's unknowns be those products"
-)]
-pub trait FromParameters<
-    const DOF: usize,
-    const STANDARD: usize,
-    const BASE: usize,
-    const SHAPES: usize = 0,
-    const STATES: usize = 0,
-    const INPUTS: usize = 0,
->: RobotModel<DOF, STANDARD, BASE, SHAPES, STATES, INPUTS> + Sized
-{
-    /// An arm with these standard and shape parameters. What the spec fixes stays as it is.
-    ///
-    /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{FromParameters, RobotModel, Vector};
-    /// let arm = arms::two_link();
-    /// assert_eq!(arms::TwoLink::from_parameters(&arm.standard(), &Vector::zeros()), arm);
-    /// ```
-    fn from_parameters(standard: &Vector<STANDARD>, shapes: &Vector<SHAPES>) -> Self;
-
-    /// An arm with these standard parameters and nominal shapes.
-    #[must_use]
-    fn from_standard(standard: &Vector<STANDARD>) -> Self {
-        Self::from_parameters(standard, &Self::NOMINAL_SHAPES.into())
-    }
-
-    /// An arm with these base parameters and nominal shapes. Standard parameters that are regrouped into others are 0.
-    #[must_use]
-    fn from_base(beta: &Vector<BASE>) -> Self {
-        Self::from_standard(&Self::standard_of(beta))
-    }
-
-    /// Standard parameters with the base parameters `beta`, and so with the same torque: of a chain the base parameters at
-    /// the places of the kept standard ones, what the spec fixes at its own, 0 elsewhere.
-    fn standard_of(beta: &Vector<BASE>) -> Vector<STANDARD>;
-}
-
-/// A vector's numbers as an array.
-///
-/// # Examples
-/// ```
-/// use robot_model::{Vector, model::as_array};
-/// assert_eq!(as_array(&Vector::from([1.0, 2.0])), &[1.0, 2.0]);
-/// ```
-#[must_use]
-pub fn as_array<S: Scalar, const N: usize>(vector: &SVector<S, N>) -> &[S; N] {
-    &vector.data.0[0]
-}
-
-/// An arm's numbers in the scalar of its motion.
-///
-/// # Examples
-/// ```
-/// use robot_model::{Vector, model::in_scalar};
-/// assert_eq!(in_scalar::<f32, 2>(&Vector::from([1.0, 0.5])), [1.0_f32, 0.5]);
-/// ```
-#[must_use]
-pub fn in_scalar<S: Scalar, const N: usize>(vector: &Vector<N>) -> [S; N] {
-    as_array(vector).map(S::of)
-}
-
-/// A matrix from `[row][column]`.
-///
-/// # Examples
-/// ```
-/// use robot_model::model::from_rows;
-/// assert_eq!(from_rows(&[[1.0, 2.0], [3.0, 4.0]])[(1, 0)], 3.0);
-/// ```
-#[must_use]
-pub fn from_rows<S: Scalar, const R: usize, const C: usize>(
-    rows: &[[S; C]; R],
-) -> SMatrix<S, R, C> {
-    SMatrix::from_fn(|row, column| rows[row][column])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn rows_stay_rows() {
-        let matrix = from_rows(&[[1.0_f64, 2.0, 3.0], [4.0, 5.0, 6.0]]);
-        assert_eq!(
-            (matrix[(0, 2)].to_bits(), matrix[(1, 0)].to_bits()),
-            (3f64.to_bits(), 4f64.to_bits())
-        );
-        let bits = as_array(&Vector::<2>::new(7.0, 8.0)).map(f64::to_bits);
-        assert_eq!(bits, [7.0f64, 8.0].map(f64::to_bits));
-    }
 }

@@ -114,6 +114,14 @@ impl Motion {
     }
 
     /// The speed below which the direction of a joint is not known, rad/s or m/s.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::motion::Motion;
+    /// // Steps of the second joint's encoder hide its direction below 0.02 rad/s.
+    /// let motion = Motion { turn_speeds: vec![0.0, 0.02], ..Motion::default() };
+    /// assert_eq!((motion.turn_speed(1), Motion::default().turn_speed(1)), (0.02, 0.0));
+    /// ```
     #[must_use]
     pub fn turn_speed(&self, joint: usize) -> f64 {
         self.turn_speeds.get(joint).copied().unwrap_or(0.0)

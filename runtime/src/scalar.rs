@@ -61,12 +61,30 @@ pub trait Scalar:
     const ROUNDING: f64;
 
     /// This number, in every lane; rounded to the scalar's precision.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::{Dual, Lanes4};
+    /// assert_eq!(Lanes4::of(9.81).to_array(), [9.81; 4]);
+    /// // A constant has no slope.
+    /// assert_eq!(Dual::<f64>::of(9.81).slope, 0.0);
+    /// ```
     fn of(value: f64) -> Self;
 
     /// `self * factor + term`: one operation and one rounding where the target has an instruction for it, two where it has not.
     ///
     /// On x86 it has one with `-C target-cpu=native` (or `-C target-feature=+fma`), on 64-bit ARM always; without the feature
     /// `std` it is used in lanes only.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// // l sin(q) + h of four pendulums
+    /// use robot_model::scalar::Lanes4;
+    /// let sines = Lanes4::from([0.0, 0.5, 1.0, -1.0]);
+    /// assert_eq!(sines.mul_add(Lanes4::of(2.0), Lanes4::of(0.25)).to_array(), [0.25, 1.25, 2.25, -1.75]);
+    /// ```
     #[must_use]
     #[inline]
     fn mul_add(self, factor: Self, term: Self) -> Self {
@@ -87,6 +105,15 @@ pub trait Scalar:
     fn sines_cosines<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2];
 
     /// Sine of an angle in rad.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// // Its slope is the cosine.
+    /// let sin = Scalar::sin(Dual::variable(0.0_f64));
+    /// assert_eq!((sin.value, sin.slope), (0.0, 1.0));
+    /// ```
     #[must_use]
     fn sin(self) -> Self {
         let [[sin], _] = Self::sines_cosines([self]);
@@ -94,6 +121,14 @@ pub trait Scalar:
     }
 
     /// Cosine of an angle in rad.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let cos = Scalar::cos(Dual::variable(std::f64::consts::FRAC_PI_2));
+    /// assert!(cos.value.abs() < 1e-15 && (cos.slope + 1.0).abs() < 1e-15);
+    /// ```
     #[must_use]
     fn cos(self) -> Self {
         let [_, [cos]] = Self::sines_cosines([self]);
@@ -101,30 +136,86 @@ pub trait Scalar:
     }
 
     /// `e^x`
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let exp = Dual::variable(std::f64::consts::LN_2).exp();
+    /// assert!((exp.value - 2.0).abs() < 1e-15 && (exp.slope - 2.0).abs() < 1e-15);
+    /// ```
     #[must_use]
     fn exp(self) -> Self;
 
     /// `e^x - 1`, exact near 0.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// // x + x^2 / 2
+    /// assert_eq!(Scalar::exp_m1(1e-10_f64), 1e-10 + 0.5e-20);
+    /// ```
     #[must_use]
     fn exp_m1(self) -> Self;
 
     /// Natural logarithm.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let ln = Dual::variable(4.0_f64).ln();
+    /// assert!((ln.value - 2.0 * std::f64::consts::LN_2).abs() < 1e-15 && ln.slope == 0.25);
+    /// ```
     #[must_use]
     fn ln(self) -> Self;
 
     /// Square root.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let root = Dual::variable(4.0_f64).sqrt();
+    /// assert_eq!((root.value, root.slope), (2.0, 0.25));
+    /// ```
     #[must_use]
     fn sqrt(self) -> Self;
 
     /// Hyperbolic tangent.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// // A smooth sign: of slope 1 at rest, and 1 far from it.
+    /// let tanh = Dual::variable(0.0_f64).tanh();
+    /// assert_eq!((tanh.value, tanh.slope, Scalar::tanh(40.0_f64)), (0.0, 1.0, 1.0));
+    /// ```
     #[must_use]
     fn tanh(self) -> Self;
 
     /// `x^exponent`
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let power = Dual::variable(2.0_f64).pow(Dual::of(3.0));
+    /// assert!((power.value - 8.0).abs() < 1e-14 && (power.slope - 3.0 * 4.0).abs() < 1e-14);
+    /// ```
     #[must_use]
     fn pow(self, exponent: Self) -> Self;
 
     /// Absolute value.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Dual;
+    /// let size = Dual::variable(-3.0_f64).abs();
+    /// assert_eq!((size.value, size.slope), (3.0, -1.0));
+    /// ```
     #[must_use]
     fn abs(self) -> Self;
 
@@ -163,10 +254,30 @@ pub trait Scalar:
 
     /// Zero where the value is a number, and no number, with a slope of zero, where it is infinite or none: a flaw in one lane
     /// spreads through what it is added to there, and a flaw of a slope alone does not.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::Lanes4;
+    /// // An encoder that failed spoils the sum of its own lane.
+    /// let lanes = Lanes4::from([1.0, f64::NAN, 3.0, f64::INFINITY]);
+    /// let sum = (Lanes4::of(5.0) + lanes.flaw()).to_array();
+    /// assert_eq!(sum.map(f64::is_finite), [true, false, true, false]);
+    /// assert_eq!((sum[0], sum[2]), (5.0, 5.0));
+    /// ```
     #[must_use]
     fn flaw(self) -> Self;
 
     /// The smallest value over the lanes; of a dual number that of its value. NaN where one is NaN.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::Scalar;
+    /// use robot_model::scalar::{Dual, Lanes4};
+    /// assert_eq!(Lanes4::from([1.0, -4.0, 2.5, 0.0]).least(), -4.0);
+    /// assert!(Lanes4::from([1.0, f64::NAN, 2.5, 0.0]).least().is_nan());
+    /// assert_eq!(Dual { value: 3.0, slope: -7.0 }.least(), 3.0);
+    /// ```
     #[must_use]
     fn least(self) -> f64;
 

@@ -41,6 +41,13 @@ pub struct State<const DOF: usize, const STATES: usize = 0, const INPUTS: usize 
 
 impl<const DOF: usize, S: Scalar> State<DOF, 0, 0, S> {
     /// A motion, with no load, no measured torque and time zero.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector};
+    /// let state = State::new(Vector::from([0.1]), Vector::from([2.0]), Vector::from([-3.0]));
+    /// assert_eq!((state.dq[0], state.ddq[0], state.time, state.rigid_torque[0]), (2.0, -3.0, 0.0, 0.0));
+    /// ```
     #[must_use]
     pub fn new(q: SVector<S, DOF>, dq: SVector<S, DOF>, ddq: SVector<S, DOF>) -> Self {
         Self {
@@ -88,6 +95,14 @@ impl<const DOF: usize, const STATES: usize, const INPUTS: usize, S: Scalar>
     }
 
     /// The same instant with these channels.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::{State, Vector};
+    /// let state = State::at_rest(Vector::from([0.3])).with_memory(Vector::from([1e-4]));
+    /// let warm = state.with_inputs(Vector::from([42.0]));
+    /// assert_eq!((warm.inputs[0], warm.memory[0], warm.q[0]), (42.0, 1e-4, 0.3));
+    /// ```
     #[must_use]
     pub fn with_inputs<const N: usize>(self, inputs: SVector<S, N>) -> State<DOF, STATES, N, S> {
         self.with(self.memory, inputs)

@@ -84,7 +84,17 @@ impl Commanded {
     /// makes the voltage constant in pieces.
     ///
     /// # Examples
-    /// See the [module](super).
+    /// ```
+    /// use robot_model::calibrate::Commanded;
+    /// // A square wave of 3 V, of which a log has `u = v - 1.5 w`.
+    /// let time: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();
+    /// let w: Vec<f64> = time.iter().map(|t| (5.0 * t).sin()).collect();
+    /// let wave = |t: f64| if (t - 0.5).rem_euclid(2.0) < 1.0 { 3.0 } else { -3.0 };
+    /// let u: Vec<f64> = time.iter().zip(&w).map(|(&t, w)| wave(t) - 1.5 * w).collect();
+    /// let found = Commanded::find(&time, &u, &w)?;
+    /// assert!((found.back_emf.value - 1.5).abs() < 1e-9 && (found.pieces[1].level - 3.0).abs() < 1e-9);
+    /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
+    /// ```
     pub fn find(time: &[f64], u: &[f64], velocity: &[f64]) -> Result<Self, CalibrateError> {
         check(&[time, u, velocity], LEAST)?;
         check_time(time)?;
@@ -118,9 +128,7 @@ impl Commanded {
     /// When the voltage was switched, s: in the middle between two pieces.
     ///
     /// # Examples
-    /// See the [module](super): its wave switches at 0.5, 1.5, 2.5 and 3.5 s, to half a sample.
-    ///
-    /// # Examples
+    /// The wave of the [module](super) switches at 0.5, 1.5, 2.5 and 3.5 s, found to half a sample:
     /// ```
     /// # use robot_model::calibrate::Commanded;
     /// # let time: Vec<f64> = (0..200).map(|k| 0.02 * f64::from(k)).collect();

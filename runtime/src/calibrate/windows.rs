@@ -68,7 +68,14 @@ impl Windows {
     /// Where the channel is shorter than the motion.
     ///
     /// # Examples
-    /// See [`Windows::new`].
+    /// ```
+    /// use robot_model::calibrate::Windows;
+    /// // Over four steps about 2 s and 3 s: the integral of t^2 from 0 to 4 by trapezes is 22, from 1 to 5 it is 42.
+    /// let time: Vec<f64> = (0..6).map(f64::from).collect();
+    /// let squares: Vec<f64> = time.iter().map(|t| t * t).collect();
+    /// assert_eq!(Windows::new(&time, &time)?.means(&squares), [22.0 / 4.0, 42.0 / 4.0]);
+    /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
+    /// ```
     #[must_use]
     pub fn means(&self, channel: &[f64]) -> Vec<f64> {
         let time = &self.logged;

@@ -20,6 +20,7 @@ use crate::state::State;
 /// // Seven parameters, of which the last is known.
 /// let mut gains = Adaptation::<2, 7>::new(10.0, 5.0, 0.1);
 /// gains.rates[6] = 0.0;
+/// assert_eq!((gains.rates[5], gains.rates[6], gains.bandwidth[1]), (0.1, 0.0, 10.0));
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Adaptation<const D: usize, const B: usize> {
@@ -207,7 +208,19 @@ impl<A, const D: usize, const B: usize> Adaptive<A, D, B> {
     /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{Adaptation, Adaptive, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// let control = Adaptive::new(arms::two_link(), Adaptation::new(10.0, 5.0, 0.5), 1e-3)?;
+    /// let mut control = control.with_safety(Safety::new().torque([20.0, 25.0]))?;
+    /// // Stretched, the arm weighs 27 N m on the shoulder: cut at 20.
+    /// let still = State::at_rest(Vector::from([0.0, 0.0]));
+    /// assert_eq!(control.torque(&still, &still).torque[0], 20.0);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
             guard: self.guard.within(safety)?,
@@ -235,7 +248,20 @@ impl<A, const D: usize, const B: usize> Adaptive<A, D, B> {
     /// One cycle.
     ///
     /// # Examples
-    /// That of [`Adaptive`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{Adaptation, Adaptive};
+    /// use robot_model::{RobotModel, State, Vector};
+    ///
+    /// let arm = arms::two_link();
+    /// let mut control = Adaptive::new(arm, Adaptation::new(10.0, 5.0, 0.5), 1e-3)?;
+    /// // Where it should be, with its own parameters, an arm is held and learns nothing.
+    /// let still = State::at_rest(Vector::from([0.3, -0.8]));
+    /// assert!((control.torque(&still, &still).torque - arm.gravity(&still.q)).norm() < 1e-12);
+    /// assert_eq!(*control.estimate(), arm.beta());
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn torque<const S: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

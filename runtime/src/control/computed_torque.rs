@@ -103,7 +103,20 @@ impl<A, const D: usize> ComputedTorque<A, D> {
     /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{ComputedTorque, Gains, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// let limits = Safety::new().torque([60.0, 25.0]);
+    /// let mut control = ComputedTorque::new(arms::two_link(), Gains::critically_damped(25.0))?.with_safety(limits)?;
+    /// // An error of 1 rad at the shoulder asks for 625 rad/s^2.
+    /// let (measured, desired) = (Vector::from([0.0, 0.0]), Vector::from([1.0, 0.0]));
+    /// let command = control.torque(&State::at_rest(measured), &State::at_rest(desired));
+    /// assert_eq!(command.torque, Vector::from([60.0, 25.0]));
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
             guard: self.guard.within(safety)?,
@@ -131,7 +144,19 @@ impl<A, const D: usize> ComputedTorque<A, D> {
     /// [the module](super) says.
     ///
     /// # Examples
-    /// That of [`ComputedTorque`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{ComputedTorque, Gains};
+    /// use robot_model::{RobotModel, State, Vector};
+    ///
+    /// let mut control = ComputedTorque::new(arms::two_link(), Gains::critically_damped(25.0))?;
+    /// // Along the motion that is desired it is the torque of the model.
+    /// let state = State::new(Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]), Vector::from([2.0, -3.0]));
+    /// let wanted = arms::two_link().inverse_dynamics(&state.q, &state.dq, &state.ddq);
+    /// assert!((control.torque(&state, &state).torque - wanted).norm() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn torque<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

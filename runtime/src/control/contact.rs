@@ -56,7 +56,19 @@ impl<const R: usize, const D: usize> Contact<R, D> {
     /// Directions that are not felt or felt in part.
     ///
     /// # Examples
-    /// That of [`Contact`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::Vector;
+    /// use robot_model::control::ContactForce;
+    ///
+    /// // Stretched along x, two joints in a plane feel what acts upward and about z, and none of the other four directions.
+    /// let contact = ContactForce::new(arms::two_link(), 0.02)?;
+    /// let found = contact.at_tip(&Vector::from([0.0, 0.0]), &Vector::from([9.0, 4.0]));
+    /// assert_eq!(found.unseen().count(), 4);
+    /// assert!(found.unseen().all(|direction| direction[1].abs() < 1e-9));
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn unseen(&self) -> impl Iterator<Item = Vector<R>> + '_ {
         // Entries that are looked up: an iterator over columns has a panic in it.
         (0..R)
@@ -161,7 +173,18 @@ impl<A, const D: usize> ContactForce<A, D> {
     /// its acceleration. What acts on the arm is the opposite.
     ///
     /// # Examples
-    /// That of [`ContactForce`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::ContactForce;
+    /// use robot_model::{State, Vector};
+    ///
+    /// // At rest, with gravity's torque and no more, the tip is free; 9.81 * 2.75 N m at the shoulder, 9.81 * 0.5 N m at the elbow.
+    /// let contact = ContactForce::new(arms::two_link(), 0.02)?;
+    /// let found = contact.of_arm(&State::at_rest(Vector::from([0.0, 0.0])), &Vector::from([26.9775, 4.905]));
+    /// assert!(found.force.norm() < 1e-9);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn of_arm<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &self,
         measured: &State<D, M, I>,
@@ -177,7 +200,18 @@ impl<A, const D: usize> ContactForce<A, D> {
     /// what acts on the arm.
     ///
     /// # Examples
-    /// That of [`Contact`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::Vector;
+    /// use robot_model::control::ContactForce;
+    ///
+    /// // Stretched, 10 N upward at levers of 0.9 m and 0.4 m: no moment is needed to explain them.
+    /// let contact = ContactForce::new(arms::two_link(), 0.02)?;
+    /// let found = contact.at_tip(&Vector::from([0.0, 0.0]), &Vector::from([9.0, 4.0]));
+    /// assert!((found.force[1] - 10.0).abs() < 1e-9 && found.force[5].abs() < 1e-9);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn at_tip(&self, q: &Vector<D>, torque: &Vector<D>) -> Contact<6, D>
     where
         A: Kinematics<D>,
@@ -234,7 +268,22 @@ impl<A, const D: usize> ContactForce<A, D> {
     /// point.
     ///
     /// # Examples
-    /// As that of [`Self::of_robot`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// use robot_model::control::ContactForce;
+    /// use robot_model::{RobotModel, Vector};
+    ///
+    /// #[derive(Clone, Copy, RobotModel)]
+    /// #[robot(file = "tests/doc/swing.robot")] // two rods of 0.5 m, y up
+    /// struct Swing { m: f64 }
+    ///
+    /// // The upper rod hangs, the lower one lies along x: 3 N downward at the tip have a lever of 0.5 m about both joints.
+    /// let contact = ContactForce::new(Swing { m: 2.0 }, 0.01)?;
+    /// let q = Vector::from([0.0, std::f64::consts::FRAC_PI_2]);
+    /// let found = contact.at_point(&q, &Vector::from([-1.5, -1.5]), 0).expect("the first of its points");
+    /// assert!((found.force - Vector::from([0.0, -3.0, 0.0])).norm() < 1e-9);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn at_point<const P: usize>(
         &self,
         q: &Vector<D>,

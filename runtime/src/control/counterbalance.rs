@@ -43,7 +43,12 @@ pub struct Weight {
 /// The gravity parameter with weights, `pi' = pi + g sum(m L)`, N m: equations 16 and 17.
 ///
 /// # Examples
-/// That of [the module](self).
+/// ```
+/// use robot_model::control::counterbalance::{Weight, moment};
+/// // A joint that gravity loads with 3 N m, and 2 kg at 0.1 m on the other side of its axis.
+/// let balanced = moment(3.0, 9.81, &[Weight { mass: 2.0, lever: -0.1 }]);
+/// assert!((balanced - (3.0 - 1.962)).abs() < 1e-12);
+/// ```
 #[must_use]
 pub fn moment(parameter: f64, gravity: f64, weights: &[Weight]) -> f64 {
     let moments = weights.iter().map(|weight| weight.mass * weight.lever);

@@ -84,7 +84,19 @@ impl<A, const D: usize> FeedForward<A, D> {
     /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{FeedForward, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// let control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+    /// let mut control = control.with_safety(Safety::new().torque([20.0, 25.0]))?;
+    /// // Stretched, the arm weighs 27 N m on the shoulder: cut at 20.
+    /// let still = State::at_rest(Vector::from([0.0, 0.0]));
+    /// assert_eq!(control.torque(&still, &still).torque[0], 20.0);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
             guard: self.guard.within(safety)?,
@@ -95,7 +107,18 @@ impl<A, const D: usize> FeedForward<A, D> {
     /// The model's part, N m or N: the torque that the desired motion takes.
     ///
     /// # Examples
-    /// That of [`FeedForward`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::FeedForward;
+    /// use robot_model::{State, Vector};
+    ///
+    /// let control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+    /// // Stretched and at rest: 2.5 kg at 0.2 m from the elbow.
+    /// let along = control.along(&State::at_rest(Vector::from([0.0, 0.0])));
+    /// assert!((along[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     #[must_use]
     pub fn along<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &self,
@@ -110,7 +133,19 @@ impl<A, const D: usize> FeedForward<A, D> {
     /// One cycle. Memory, channels and time are those of `measured`.
     ///
     /// # Examples
-    /// That of [`FeedForward`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::FeedForward;
+    /// use robot_model::{State, Vector};
+    ///
+    /// let mut control = FeedForward::new(arms::two_link(), [200.0, 80.0], [20.0, 6.0])?;
+    /// // The elbow is 0.1 rad behind: 80 N m/rad beside the 4.905 N m of gravity that the desired pose takes.
+    /// let measured = State::at_rest(Vector::from([0.0, -0.1]));
+    /// let torque = control.torque(&measured, &State::at_rest(Vector::from([0.0, 0.0]))).torque;
+    /// assert!((torque[1] - (4.905 + 8.0)).abs() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn torque<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

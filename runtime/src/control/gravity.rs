@@ -33,7 +33,17 @@ impl<A, const D: usize> GravityCompensation<A, D> {
     /// Of an arm with its parameters.
     ///
     /// # Examples
-    /// That of [`GravityCompensation`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::GravityCompensation;
+    /// use robot_model::{State, Vector};
+    ///
+    /// let mut control = GravityCompensation::new(arms::two_link());
+    /// // Stretched: 2.5 kg at 0.2 m from the elbow.
+    /// let torque = control.torque(&State::at_rest(Vector::from([0.0, 0.0]))).torque;
+    /// assert!((torque[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
+    /// ```
     pub fn new<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         arm: A,
     ) -> Self
@@ -52,7 +62,19 @@ impl<A, const D: usize> GravityCompensation<A, D> {
     /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{GravityCompensation, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// let limits = Safety::new().torque([20.0, 25.0]);
+    /// let mut control = GravityCompensation::new(arms::two_link()).with_safety(limits)?;
+    /// // Stretched, the arm weighs 27 N m on the shoulder: cut at 20.
+    /// let torque = control.torque(&State::at_rest(Vector::from([0.0, 0.0]))).torque;
+    /// assert_eq!(torque[0], 20.0);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
             guard: self.guard.within(safety)?,
@@ -63,7 +85,17 @@ impl<A, const D: usize> GravityCompensation<A, D> {
     /// One cycle.
     ///
     /// # Examples
-    /// That of [`GravityCompensation`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{GravityCompensation, Status};
+    /// use robot_model::{State, Vector};
+    ///
+    /// // Upright there is nothing to hold.
+    /// let mut control = GravityCompensation::new(arms::two_link());
+    /// let command = control.torque(&State::at_rest(Vector::from([std::f64::consts::FRAC_PI_2, 0.0])));
+    /// assert!(command.status == Status::Normal && command.torque.norm() < 1e-12);
+    /// ```
     pub fn torque<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

@@ -102,7 +102,19 @@ impl<A, const D: usize> HandGuiding<A, D> {
     /// Those of [`Safety`], where a limit makes no sense.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{HandGuiding, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// let limits = Safety::new().torque([20.0, 25.0]);
+    /// let mut control = HandGuiding::new(arms::two_link(), [0.5, 0.2])?.with_safety(limits)?;
+    /// // Stretched, the arm weighs 27 N m on the shoulder: cut at 20.
+    /// let torque = control.torque(&State::at_rest(Vector::from([0.0, 0.0]))).torque;
+    /// assert_eq!(torque[0], 20.0);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn with_safety(self, safety: Safety<D>) -> Result<Self, ControlError> {
         Ok(Self {
             guard: self.guard.within(safety)?,
@@ -113,7 +125,15 @@ impl<A, const D: usize> HandGuiding<A, D> {
     /// The arm.
     ///
     /// # Examples
-    /// That of [`Safety`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::HandGuiding;
+    ///
+    /// let control = HandGuiding::new(arms::two_link(), [0.5, 0.2])?;
+    /// assert_eq!(control.arm().elbow.inertial.mass, 2.5);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub const fn arm(&self) -> &A {
         &self.arm
     }
@@ -121,7 +141,19 @@ impl<A, const D: usize> HandGuiding<A, D> {
     /// One cycle.
     ///
     /// # Examples
-    /// That of [`HandGuiding`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::HandGuiding;
+    /// use robot_model::{State, Vector};
+    ///
+    /// let mut control = HandGuiding::new(arms::two_link(), [0.5, 0.2])?;
+    /// // Stretched, the elbow is led at 2 rad/s: gravity and friction less the damping.
+    /// let led = State::new(Vector::from([0.0, 0.0]), Vector::from([0.0, 2.0]), Vector::zeros());
+    /// let torque = control.torque(&led).torque;
+    /// assert!((torque[1] - (4.905 + 0.6 * 2.0 + 0.8 - 0.2 * 2.0)).abs() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn torque<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

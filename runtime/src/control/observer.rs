@@ -127,7 +127,23 @@ impl<A, const D: usize> MomentumObserver<A, D> {
     /// The first call begins; after a cycle without readings the estimate stays, and the next sound one begins again from it.
     ///
     /// # Examples
-    /// That of [`MomentumObserver`].
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::MomentumObserver;
+    /// use robot_model::{RobotModel, State, Vector};
+    ///
+    /// // At rest, with the torque that gravity takes: nothing acts from outside.
+    /// let mut observer = MomentumObserver::new(arms::two_link(), 50.0, 1e-3)?;
+    /// let state = State::at_rest(Vector::from([0.4, 0.1]));
+    /// let tau = arms::two_link().gravity(&state.q);
+    /// let _ = observer.update(&state, &tau);
+    /// assert!(observer.update(&state, &tau).torque.norm() < 1e-12);
+    /// // 2 N m more at the elbow: after a cycle the share 1 - exp(-K h) of what holds them back.
+    /// let found = observer.update(&state, &(tau + Vector::from([0.0, 2.0])));
+    /// assert!((found.torque[1] + 2.0 * (1.0 - (-0.05_f64).exp())).abs() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
+    /// ```
     pub fn update<const S: usize, const B: usize, const H: usize, const M: usize, const I: usize>(
         &mut self,
         measured: &State<D, M, I>,

@@ -109,10 +109,18 @@ impl<const D: usize> Safety<D> {
     /// Largest speeds, rad/s or m/s: beyond them the arm is held.
     ///
     /// # Examples
-    /// ```
-    /// # use robot_model::control::Safety;
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{GravityCompensation, Safety, Status};
+    /// use robot_model::{State, Vector};
+    ///
     /// let limits = Safety::new().velocity([2.175, 2.61]);
-    /// # let _ = limits;
+    /// let mut control = GravityCompensation::new(arms::two_link()).with_safety(limits)?;
+    /// let turning = |speed: f64| State::new(Vector::zeros(), Vector::from([speed, 0.0]), Vector::zeros());
+    /// assert_eq!(control.torque(&turning(2.0)).status, Status::Normal);
+    /// assert!(matches!(control.torque(&turning(-2.2)).status, Status::Held(_)));
+    /// # Ok::<(), robot_model::control::ControlError>(())
     /// ```
     #[must_use]
     pub fn velocity(self, largest: [f64; D]) -> Self {
@@ -151,10 +159,18 @@ impl<const D: usize> Safety<D> {
     /// How fast the safe torque brakes, 1/s; 0 for not at all. Stable as long as it is below the rate of the cycles.
     ///
     /// # Examples
-    /// ```
-    /// # use robot_model::control::Safety;
-    /// let coasting = Safety::<2>::new().brake(0.0);
-    /// # let _ = coasting;
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+    /// use robot_model::control::{GravityCompensation, Safety};
+    /// use robot_model::{State, Vector};
+    ///
+    /// // Too fast for its limit, an arm that is not braked coasts: the torque of gravity alone.
+    /// let limits = Safety::new().velocity([2.0, 2.0]).brake(0.0);
+    /// let mut control = GravityCompensation::new(arms::two_link()).with_safety(limits)?;
+    /// let fast = State::new(Vector::zeros(), Vector::from([0.0, 3.0]), Vector::zeros());
+    /// assert!((control.torque(&fast).torque[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
+    /// # Ok::<(), robot_model::control::ControlError>(())
     /// ```
     #[must_use]
     pub fn brake(self, rate: f64) -> Self {

@@ -7,11 +7,36 @@ pub type Tell<'a> = &'a mut dyn FnMut(usize, f64, &[(usize, f64)]);
 
 /// A limit on the outputs of a function: `slack >= 0` each, with its slopes by the outputs. A torque's slack is a share of its limit,
 /// that of a room is in m.
+///
+/// # Examples
+/// The room above a table, as implemented at [`Function`]:
+/// ```
+/// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+/// use robot_model::excite::Clearance;
+/// // The table is at -0.2 m, and the tip at -0.3 m.
+/// let mut told = Vec::new();
+/// room::AboveTable.slacks(&[-0.3], &mut |which, slack, slopes: &[(usize, f64)]| told.push((which, slack, slopes[0])));
+/// let (which, slack, slope) = told[0];
+/// assert!((slack + 0.1).abs() < 1e-12 && slope == (0, 1.0) && room::AboveTable.function().outputs() == 1);
+/// assert_eq!(room::AboveTable.name(which), "height above the table");
+/// assert_eq!(room::AboveTable.amount(slack), "100 mm");
+/// ```
 pub trait Clearance: std::fmt::Debug + Sync {
     /// What the limit is on, with slopes that can be followed.
     fn function(&self) -> &dyn Function;
 
     /// What is verified in the end: the same without anything smoothed.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Clearance;
+    /// use robot_model::motion::Kinematics;
+    /// // Nothing is smoothed in a height.
+    /// let motion = Kinematics { q: vec![vec![0.7]], dq: vec![vec![0.0]], ddq: vec![vec![0.0]] };
+    /// let (clearance, values) = (room::AboveTable, vec![vec![0.5 * 0.7_f64.sin()]]);
+    /// assert_eq!((clearance.exact().values(&motion), clearance.function().values(&motion)), (values.clone(), values));
+    /// ```
     fn exact(&self) -> &dyn Function {
         self.function()
     }

@@ -29,6 +29,15 @@ pub struct Fourier {
 
 impl Fourier {
     /// Position, velocity and acceleration of a joint, from 0, at a time in s.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::excite::Fourier;
+    /// // One harmonic of 2 s: dq = 0.5 cos(pi t).
+    /// let motion = Fourier { period: 2.0, coefficients: vec![vec![0.3, 0.5, 0.0]] };
+    /// let [q, dq, ddq] = motion.at(0, 1.0);
+    /// assert!((q - 0.3).abs() < 1e-12 && (dq + 0.5).abs() < 1e-12 && ddq.abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn at(&self, joint: usize, time: f64) -> [f64; 3] {
         let coefficients = &self.coefficients[joint];
@@ -62,6 +71,14 @@ impl Fourier {
     }
 
     /// Number of harmonics.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::excite::Fourier;
+    /// // q0, a_1, a_2, b_1, b_2
+    /// let motion = Fourier { period: 2.0, coefficients: vec![vec![0.0, 0.5, 0.1, 0.0, 0.0]] };
+    /// assert_eq!(motion.harmonics(), 2);
+    /// ```
     #[must_use]
     pub fn harmonics(&self) -> usize {
         self.coefficients.first().map_or(0, |joint| joint.len() / 2)

@@ -3,6 +3,18 @@
 use crate::motion::Kinematics;
 
 /// Numbers that follow from a motion at each instant: entries of a regressor, torques, places of points.
+///
+/// # Examples
+/// A height, with a [`Clearance`](super::Clearance) that is made of it:
+/// ```
+#[doc = include_str!("../../tests/doc/room.rs")]
+///
+/// let motion = Kinematics { q: vec![vec![0.0, 1.0]], dq: vec![vec![0.0; 2]], ddq: vec![vec![0.0; 2]] };
+/// assert_eq!((Height.outputs(), Height.values(&motion)[0][0]), (1, 0.0));
+/// // The slope of 3 h at the first instant, of h at the second.
+/// let slopes = Height.pullback(&motion, &[vec![3.0, 1.0]]);
+/// assert!((slopes.q[0][0] - 1.5).abs() < 1e-12 && (slopes.q[0][1] - 0.5 * 1.0_f64.cos()).abs() < 1e-12);
+/// ```
 pub trait Function: Sync {
     /// How many numbers an instant has.
     fn outputs(&self) -> usize;

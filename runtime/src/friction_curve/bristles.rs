@@ -80,6 +80,15 @@ struct Line {
 
 impl Bristles {
     /// Whether the encoder tells the deflection: five of its steps or more until the bristles slide.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// let bristles = motor::bristles()?; // of 100 N m/rad, with 0.5 N m of sliding friction
+    /// // 5 mrad are many steps of this encoder.
+    /// assert!(bristles.is_resolved() && bristles.encoder_step < 1e-4);
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     #[must_use]
     pub fn is_resolved(&self) -> bool {
         self.deflection.value >= LEAST_STEPS * self.encoder_step
@@ -87,12 +96,30 @@ impl Bristles {
 
     /// Whether the deflection at sliding is one that surfaces in contact have, up to 0.1 rad or m. What gives by more is a spring, a gear's
     /// play, or torques in another unit than positions.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// let bristles = motor::bristles()?; // of 100 N m/rad, with 0.5 N m of sliding friction
+    /// assert!(bristles.is_of_contact() && (bristles.deflection.value - 0.005).abs() < 2e-4);
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     #[must_use]
     pub fn is_of_contact(&self) -> bool {
         self.deflection.value <= MOST_DEFLECTION
     }
 
     /// The largest stiffness that the encoder would tell, N m/rad or N/m; infinite where it has no steps.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// let bristles = motor::bristles()?; // of 100 N m/rad, with 0.5 N m of sliding friction
+    /// // 0.5 N m over five steps of the encoder
+    /// let least = 5.0 * bristles.encoder_step;
+    /// assert!((bristles.most_stiffness() * least - 0.5).abs() < 1e-3);
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     #[must_use]
     pub fn most_stiffness(&self) -> f64 {
         let sliding = self.deflection.value * self.stiffness.value;
@@ -107,6 +134,18 @@ impl Measured<'_> {
     /// # Errors
     /// [`FrictionError`]: no rest at the start, a torque that does not rise far enough, positions that do not follow it, other joints
     /// that stand elsewhere.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// use robot_model::friction_curve::Law;
+    /// let motor = motor::motor();
+    /// let measured = motor::measured(&motor);
+    /// let curve = measured.curve(&[motor::runs()])?;
+    /// let bristles = measured.bristles(&curve, &Law::fit(&curve)?, &motor::loading())?;
+    /// assert!((bristles.stiffness.value - 100.0).abs() < 3.0); // N m/rad
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     pub fn bristles(&self, curve: &Curve, law: &Law, log: &Log) -> Result<Bristles, FrictionError> {
         let source_name = || log.source.clone();
         let bands = Bands::for_log(log);
@@ -306,64 +345,4 @@ impl Line {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_gives_by_a_tenth_of_a_radian_is_no_contact() {
-        let exact = |value: f64| Value { value, std: 0.0 };
-        let of = |deflection: f64| Bristles {
-            stiffness: exact(0.5843 / deflection),
-            damping: None,
-            reached: 2.0,
-            deflection: exact(deflection),
-            encoder_step: 1e-3,
-            seconds: 0.0..1.0,
-        };
-        assert!(of(0.003).is_of_contact() && !of(0.27).is_of_contact());
-        assert!(!of(0.003).is_resolved() && of(0.27).is_resolved());
-    }
-
-    /// Bristles of 200 N m/rad and 1.5 N m s/rad under a torque that rises to 80 % of 2 N m.
-    #[test]
-    fn bristles_are_found_in_their_own_equation() {
-        let (stiffness, damping, breakaway, step) = (200.0, 1.5, 2.0, 1e-3);
-        for quick in [false, true] {
-            let fine = 20_u32;
-            let (mut z, mut way) = (0.0, 0.0);
-            let (mut torque, mut ways) = (Vec::new(), Vec::new());
-            for k in 0..2000 {
-                let t = step * f64::from(k);
-                let shake = if quick { 0.1 * (90.0 * t).sin() } else { 0.0 };
-                let f = |t: f64| 0.8 * t + shake;
-                torque.push(f(t));
-                ways.push(way);
-                for part in 0..fine {
-                    let f = f(t + step * (f64::from(part) + 0.5) / f64::from(fine));
-                    // f = s0 z + s1 (1 - f / F_s) dq/dt
-                    let rate = (f - stiffness * z) / damping;
-                    let h = step / f64::from(fine);
-                    z += h * rate;
-                    way += h * rate / (1.0 - f / breakaway);
-                }
-            }
-            let loading = Loading {
-                torque,
-                way: ways,
-                step,
-            };
-            let exact = Value {
-                value: breakaway,
-                std: 0.0,
-            };
-            let (found, told) = loading.bristles(exact).expect("bristles");
-            assert!((found.value / stiffness - 1.0).abs() < 0.03, "{found:?}");
-            match told {
-                Some(told) if quick => {
-                    assert!((told.value / damping - 1.0).abs() < 0.1, "{told:?}");
-                }
-                told => assert!(!quick, "{told:?}"),
-            }
-        }
-    }
-}
+mod tests;

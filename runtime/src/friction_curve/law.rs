@@ -5,6 +5,8 @@
 //! fall at all is asked of chance: under the law without one `v_s` means nothing, so the F-statistic has no F-distribution, and is
 //! compared with that of drawn noise, each draw with the best `v_s` of its own (Davies 1987).
 
+mod fall;
+
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -13,6 +15,8 @@ use rand_distr::{Distribution, StandardNormal};
 use super::stretch::SAME;
 use super::{Curve, FrictionError, Point, Value};
 use crate::identify::{golden, neighbors};
+
+pub use fall::Fall;
 
 /// Speeds that a law takes, and those that one with a fall takes.
 const LEAST_SPEEDS: usize = 4;
@@ -30,24 +34,6 @@ const LEAST_STD: f64 = 0.3;
 
 /// What is left of a column of unit length beside the others, at least.
 const APART: f64 = 1e-6;
-
-/// The fall of friction from standstill to where it slides on its lubricant.
-///
-/// # Examples
-/// ```
-/// use robot_model::friction_curve::{Fall, Value};
-/// let fall = Fall { torque: Value { value: 1.4, std: 0.1 }, speed: Value { value: 0.8, std: 0.05 } };
-/// // At the Stribeck speed 37 % of it is left.
-/// let left = fall.torque.value * (-(0.8 / fall.speed.value).powi(2)).exp();
-/// assert!((left - 0.515).abs() < 1e-3);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Fall {
-    /// `F_s - F_c`, N m or N.
-    pub torque: Value,
-    /// `v_s`, rad/s or m/s.
-    pub speed: Value,
-}
 
 /// The static law of a joint's friction. Example: [`super::Measured`].
 #[derive(Debug, Clone, PartialEq)]
@@ -128,7 +114,14 @@ impl Law {
     /// `f(v)`, N m or N; at rest `t0`.
     ///
     /// # Examples
-    /// See [`super::Measured`] for how a law is found.
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// let motor = motor::motor();
+    /// let law = robot_model::friction_curve::Law::fit(&motor::measured(&motor).curve(&[motor::runs()])?)?;
+    /// // 0.5 N m and 0.1 N m s/rad
+    /// assert!((law.torque(4.0) - 0.9).abs() < 1e-3 && law.torque(0.0) == 0.0);
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     #[must_use]
     pub fn torque(&self, v: f64) -> f64 {
         let way = if v == 0.0 { 0.0 } else { v.signum() };
@@ -140,6 +133,21 @@ impl Law {
 
     /// Whether velocities from differences of neighboring samples would tell the fall: a step of the encoder is below the Stribeck speed. True
     /// where there is no fall.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+    /// use robot_model::friction_curve::{Fall, Law, Value};
+    /// let motor = motor::motor();
+    /// let curve = motor::measured(&motor).curve(&[motor::runs()])?;
+    /// let mut law = Law::fit(&curve)?;
+    /// assert!(law.is_told_by_differences(&curve)); // there is no fall
+    /// // One at speeds that are less than a step of the encoder from sample to sample.
+    /// let told = |value| Value { value, std: 0.0 };
+    /// law.fall = Some(Fall { torque: told(0.2), speed: told(0.5 * curve.speed_step) });
+    /// assert!(!law.is_told_by_differences(&curve));
+    /// # Ok::<(), robot_model::friction_curve::FrictionError>(())
+    /// ```
     #[must_use]
     pub fn is_told_by_differences(&self, curve: &Curve) -> bool {
         self.fall

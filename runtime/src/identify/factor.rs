@@ -40,10 +40,8 @@ const MOST_BLOCKS: usize = 32;
 /// let bands = Identify::default().bands_of(&arm, &log)?;
 /// let mut factor = Factor::new(&arm, bands)?;
 /// factor.push(&arm, &log)?;
-/// assert_eq!(factor.counts(), [factor.samples()]);
 /// let estimate = factor.estimate(&arm, Method::Wls, false)?;
 /// assert!((estimate.values()[0] - 2.0).abs() < 0.02);
-/// assert!(factor.rmse(&estimate.values())[0] < 0.05); // N m, of the log's noise
 /// # Ok::<(), robot_model::identify::IdentifyError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +67,15 @@ impl Factor {
     ///
     /// # Errors
     /// [`IdentifyError::NotReduced`] where columns depend on more than the motion: open shapes, the load.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, pendulum::pendulum};
+    /// let empty = robot_model::identify::Factor::new(&pendulum(), bands())?;
+    /// assert_eq!((empty.unknowns[0].as_str(), empty.samples()), ("link.izz", 0));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn new(arm: &dyn Arm, bands: Bands) -> Result<Self, IdentifyError> {
         let why = if let Some(shape) = arm.shapes().first() {
             Some(format!("the shape `{}` has no value", shape.name))
@@ -96,13 +103,31 @@ impl Factor {
     /// Those of [`FactorBlock::of_log`].
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{factor, log, pendulum::pendulum};
+    /// let mut twice = factor();
+    /// twice.push(&pendulum(), &log())?;
+    /// assert_eq!(twice.samples(), 2 * factor().samples());
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
         self.extend(FactorBlock::of_log(arm, log, &self.bands)?);
         Ok(())
     }
 
     /// Adds blocks of [`FactorBlock::of_log`] with the same arm and filters.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, factor, log, pendulum::pendulum};
+    /// use robot_model::identify::{Factor, FactorBlock};
+    /// let mut extended = Factor::new(&pendulum(), bands())?;
+    /// extended.extend(FactorBlock::of_log(&pendulum(), &log(), &bands())?);
+    /// assert_eq!(extended, factor());
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn extend(&mut self, blocks: impl IntoIterator<Item = FactorBlock>) {
         for block in blocks {
             self.blocks.push(block);
@@ -111,6 +136,18 @@ impl Factor {
     }
 
     /// Adds rows as a block of their own.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, log, pendulum::pendulum};
+    /// use robot_model::{identify::{Factor, Stack}, signal::prepare};
+    /// let rows = Stack::new(&pendulum(), &[prepare(&log(), &bands()).expect("a long log")], &[]);
+    /// let mut factor = Factor::new(&pendulum(), bands())?;
+    /// factor.push_rows(&rows);
+    /// assert_eq!((factor.blocks.len(), factor.samples()), (1, rows.samples()));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn push_rows(&mut self, stack: &Stack) {
         self.extend([FactorBlock::of_rows(stack)]);
     }
@@ -165,7 +202,11 @@ impl Factor {
     /// Parts of logs that another factor has, too: what they say would count twice. Of many parts some stand for all of them.
     ///
     /// # Examples
-    /// That of [`Self::merge`].
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// let factor = factor::factor();
+    /// assert_eq!(factor.common_parts(&factor), factor.blocks.len()); // all of it
+    /// ```
     #[must_use]
     pub fn common_parts(&self, other: &Self) -> usize {
         let prints = |factor: &Self| -> Vec<f64> {
@@ -178,12 +219,26 @@ impl Factor {
     }
 
     /// Samples per joint.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// let filter = robot_model::signal::SharedFilter::new(&factor::bands(), 500.0).expect("a low band");
+    /// assert_eq!(factor::factor().samples(), filter.kept(10_000).count()); // of 20 s
+    /// ```
     #[must_use]
     pub fn samples(&self) -> usize {
         self.blocks.iter().map(|block| block.samples).sum()
     }
 
     /// Rows of each joint that say something.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// let factor = factor::factor();
+    /// assert_eq!(factor.counts(), [factor.samples()]); // one joint, all of whose rows say something
+    /// ```
     #[must_use]
     pub fn counts(&self) -> Vec<usize> {
         let joint = |joint: usize| self.blocks.iter().map(|block| block.count(joint)).sum();
@@ -241,7 +296,15 @@ impl Factor {
     /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// use robot_model::identify::Method;
+    /// let (arm, factor) = (factor::pendulum::pendulum(), factor::factor());
+    /// assert!((factor.estimate(&arm, Method::Wls, false)?.values()[1] - 9.0).abs() < 0.1);
+    /// let refused = factor.estimate(&arm, Method::Robust, false).unwrap_err();
+    /// assert!(refused.to_string().contains("`robust` weighs single samples"));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn estimate(
         &self,
         arm: &dyn Arm,
@@ -300,7 +363,12 @@ impl Factor {
     /// Root of the mean squared residual per joint, of filtered torque.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// // The noise of the log is of 0.03 N m, before the filter.
+    /// assert!(factor::factor().rmse(&[2.0, 9.0, 1.0])[0] < 0.03);
+    /// assert!(factor::factor().rmse(&[2.0, 0.0, 1.0])[0] > 1.0);
+    /// ```
     #[must_use]
     pub fn rmse(&self, estimate: &[f64]) -> Vec<f64> {
         let counts = self.counts().into_iter().enumerate();

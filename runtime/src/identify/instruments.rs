@@ -19,7 +19,7 @@ use super::estimate::Identified;
 use super::hac::{Rows, weighed};
 use super::least_squares::{Excited, Factors, Solution, condition};
 use super::stack::Stack;
-use super::{IdentifyError, Weights, robust, turns};
+use super::{Identify, IdentifyError, Weights, robust, turns};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Prepared;
@@ -121,8 +121,24 @@ impl Hausman {
     }
 }
 
+impl Identify {
+    /// The motions of the instruments at the samples of the logs.
+    pub(super) fn wanted(&self, logs: &[Log]) -> Result<Vec<Log>, IdentifyError> {
+        if self.instruments.len() != logs.len() {
+            return Err(IdentifyError::Instruments {
+                instruments: self.instruments.len(),
+                logs: logs.len(),
+            });
+        }
+        let pairs = logs.iter().zip(&self.instruments);
+        pairs
+            .map(|(log, reference)| wanted(log, reference))
+            .collect()
+    }
+}
+
 /// The log's motion as a reference has it, at the same samples. What reads the measured torque has no other.
-pub(super) fn wanted(log: &Log, reference: &Trajectory) -> Result<Log, IdentifyError> {
+fn wanted(log: &Log, reference: &Trajectory) -> Result<Log, IdentifyError> {
     let source_name = log.source.clone();
     if reference.dof() != log.dof() {
         return Err(IdentifyError::Joints {

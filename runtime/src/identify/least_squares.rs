@@ -4,16 +4,18 @@
 //! size of the unknowns, however long the logs are.
 
 mod excited;
+mod solution;
 
 use faer::Mat;
 use faer::linalg::solvers::{Solve, SolveLstsq};
 
-use super::combination::{Shared, shared};
+use super::combination::shared;
 use super::stack::{JointRows, Stack};
 use super::{IdentifyError, Weights, drowned};
 
 pub(super) use excited::Excited;
 pub use excited::RANK_TOLERANCE;
+pub use solution::Solution;
 
 /// Smallest deviation of a joint's residual relative to the largest.
 const LEAST_SIGMA: f64 = 1e-6;
@@ -63,36 +65,6 @@ pub struct Factors {
     noise: Vec<Mat<f64>>,
 }
 
-/// A least-squares solution.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
-    /// One value per unknown; 0 where the column is not excited.
-    pub estimate: Vec<f64>,
-    /// Standard deviations, same order; 0 where the column is not excited.
-    pub std: Vec<f64>,
-    /// Unknowns that the logs do not excite, ascending.
-    pub unexcited: Vec<usize>,
-    /// Excited unknowns that stand for a combination with others.
-    pub shared: Vec<Shared>,
-    /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.
-    pub condition: f64,
-    /// Standard deviation of the residual per joint; never below a tiny share of the largest.
-    pub sigma: Vec<f64>,
-    /// What each joint's rows were divided by.
-    pub scale: Vec<f64>,
-}
-
-impl Solution {
-    /// Whether an unknown has a value of its own: the logs tell it, and not in a sum alone.
-    #[must_use]
-    pub fn is_told(&self, unknown: usize) -> bool {
-        let is_in = |shared: &Shared| {
-            shared.lead == unknown || shared.others.iter().any(|(other, _)| *other == unknown)
-        };
-        !self.unexcited.contains(&unknown) && !self.shared.iter().any(is_in)
-    }
-}
-
 /// Least squares on the rows of all joints.
 struct Solved {
     /// The triangular factor of all rows with the target.
@@ -103,6 +75,14 @@ struct Solved {
 
 impl Factors {
     /// Reduces every block.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// use robot_model::identify::Factors;
+    /// let solution = Factors::new(&spring::spring()).ordinary(&[1.0]);
+    /// assert!((solution.estimate[0] - 10.0).abs() < 1e-9); // N m/rad
+    /// ```
     #[must_use]
     pub fn new(stack: &Stack) -> Self {
         Self::of_rows(stack, &|_, _| 1.0)
@@ -184,7 +164,12 @@ impl Factors {
     /// Ordinary least squares: every joint has the same weight.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// use robot_model::identify::Factors;
+    /// let solution = Factors::new(&spring::spring()).ordinary(&[1.0]);
+    /// assert!((solution.estimate[1] - 0.5).abs() < 1e-9 && solution.scale == [1.0]);
+    /// ```
     #[must_use]
     pub fn ordinary(&self, correlation: &[f64]) -> Solution {
         self.solve(&vec![1.0; self.joints.len()], correlation)
@@ -192,6 +177,21 @@ impl Factors {
 
     /// Weighted least squares: every joint's rows are divided by the standard deviation of its residual, which is found by
     /// iteration from ordinary least squares.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// use robot_model::identify::{Factors, JointRows, Stack};
+    /// let rows = |noise: [f64; 4]| {
+    ///     let tau = noise.map(|noise| 2.5 + noise).to_vec();
+    ///     JointRows { target: tau.clone(), tau, columns: vec![(0, vec![0.25; 4])] }
+    /// };
+    /// // k = 10; the second joint is loud, by 0.5 N m in the mean.
+    /// let joints = vec![rows([0.01, -0.01, 0.01, -0.01]), rows([1.0, -1.0, 1.0, 1.0])];
+    /// let factors = Factors::new(&Stack { unknowns: vec![spring::unknown("k")], joints, ..Stack::default() });
+    /// assert!((factors.ordinary(&[1.0; 2]).estimate[0] - 11.0).abs() < 1e-9);
+    /// assert!((factors.weighted(&[1.0; 2]).estimate[0] - 10.0).abs() < 0.01);
+    /// ```
     #[must_use]
     pub fn weighted(&self, correlation: &[f64]) -> Solution {
         self.solve(&self.noise(REWEIGHTINGS), correlation)

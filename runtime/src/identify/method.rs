@@ -27,6 +27,12 @@ pub enum Method {
 
 impl Method {
     /// Name on the command line and in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::Method;
+    /// assert_eq!((Method::Wls.name(), Method::Total.name()), ("wls", "tls"));
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -85,6 +91,12 @@ pub enum Weights {
 
 impl Weights {
     /// Name on the command line.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::Weights;
+    /// assert_eq!(Weights::TorqueNorm.name(), "torque-norm");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

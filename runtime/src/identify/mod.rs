@@ -200,20 +200,6 @@ impl Identify {
         }
     }
 
-    /// The motions of the instruments at the samples of the logs.
-    fn wanted(&self, logs: &[Log]) -> Result<Vec<Log>, IdentifyError> {
-        if self.instruments.len() != logs.len() {
-            return Err(IdentifyError::Instruments {
-                instruments: self.instruments.len(),
-                logs: logs.len(),
-            });
-        }
-        let pairs = logs.iter().zip(&self.instruments);
-        pairs
-            .map(|(log, wanted)| instruments::wanted(log, wanted))
-            .collect()
-    }
-
     /// What was found, by the method that is wanted; `instruments` are the rows of motions without noise.
     fn estimate(
         &self,
@@ -360,6 +346,15 @@ impl Identify {
     ///
     /// # Errors
     /// Those of [`Self::fit`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// let log = pendulum::measure(0.0);
+    /// let bands = robot_model::identify::Identify::default().bands_of(&pendulum::pendulum(), &log)?;
+    /// assert!(bands.smooth_hz > 0.9 && bands.smooth_hz <= bands.wide_hz); // its fastest wave is of 0.9 Hz
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn bands_of(&self, arm: &dyn Arm, log: &Log) -> Result<Bands, IdentifyError> {
         let logs = std::slice::from_ref(log);
         check_logs(arm, logs)?;
@@ -370,6 +365,17 @@ impl Identify {
     ///
     /// # Errors
     /// [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// # use robot_model::identify::Identify;
+    /// let mut stack = spring::spring(); // k = 10 and fc = 0.5, of which one is asked
+    /// stack.truncate(1);
+    /// // Two residuals of 0.5 N m, one unknown: sigma^2 = 0.5^2 + 0.5^2.
+    /// let found = Identify::default().solve_stack(&stack).expect("more rows than unknowns");
+    /// assert!((found.estimate[0] - 10.0).abs() < 1e-9 && (found.sigma[0].powi(2) - 0.5).abs() < 1e-9);
+    /// ```
     pub fn solve_stack(&self, stack: &Stack) -> Result<Solution, IdentifyError> {
         check_counts(&stack.counts(), stack.unknowns.len())?;
         let factors = match self.method {

@@ -3,14 +3,17 @@
 //! In: an [`Arm`] and prepared logs. Out: a [`Stack`]. Invariant gained: torque and every column of a log went through the
 //! same filter, and all blocks have the same samples.
 
+mod columns;
+
 use std::ops::Range;
 
 use faer::Mat;
 
 use super::hac::correlation_time;
-use crate::columns::{Arm, Columns, Entry, Unknown};
-use crate::motion::Motion;
+use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
+
+pub use columns::{filtered_columns, torque_of};
 
 /// Entries of a column below this, per unit of its parameter in SI, are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -116,7 +119,21 @@ pub(super) fn says_nothing(log: &Prepared) -> Vec<usize> {
 impl Stack {
     /// Evaluates the arm over the logs, filters and decimates.
     ///
-    /// `shapes` has one value per [`Columns::shapes`] of the arm.
+    /// `shapes` has one value per [`Columns::shapes`](crate::columns::Columns::shapes) of the arm.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::{identify::Stack, signal::{Bands, prepare}};
+    /// let log = measure(0.0);
+    /// let prepared = prepare(&log, &Bands::for_log(&log))?;
+    /// let stack = Stack::new(&pendulum(), &[prepared], &[]);
+    /// // izz, mx and fv of the log say its torque but for the noise, of 0.03 N m before the filter.
+    /// let left = &stack.residuals(&[2.0, 9.0, 1.0])[0];
+    /// assert!(left.iter().map(|x| x * x).sum::<f64>() / (left.len() as f64) < 0.03_f64.powi(2));
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn new(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64]) -> Self {
         let mut stack = Self {
@@ -175,12 +192,28 @@ impl Stack {
     }
 
     /// Rows per joint.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// assert_eq!(spring::spring().samples(), 2); // on the way there and back
+    /// ```
     #[must_use]
     pub fn samples(&self) -> usize {
         self.joints.first().map_or(0, |rows| rows.target.len())
     }
 
     /// Rows of each joint that say something: those that were left out do not.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// let mut stack = spring::spring();
+    /// // A row that was left out: torque and columns are zero.
+    /// stack.joints[0].target[1] = 0.0;
+    /// stack.joints[0].columns.iter_mut().for_each(|(_, values)| values[1] = 0.0);
+    /// assert_eq!((stack.samples(), stack.counts()), (2, vec![1]));
+    /// ```
     #[must_use]
     pub fn counts(&self) -> Vec<usize> {
         self.joints.iter().map(JointRows::count).collect()
@@ -221,6 +254,12 @@ impl Stack {
     }
 
     /// Degrees of freedom.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// assert_eq!(spring::spring().dof(), 1);
+    /// ```
     #[must_use]
     pub fn dof(&self) -> usize {
         self.joints.len()
@@ -229,7 +268,13 @@ impl Stack {
     /// Appends columns of an effect that the arm does not have; returns the index of the first.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// let mut stack = spring::spring(); // k = 10 and fc = 0.5 make 3 N m and 2 N m
+    /// let bump = robot_model::columns::Entry { joint: 0, column: 0, values: vec![1.0, 0.0] };
+    /// assert_eq!(stack.append(&[spring::unknown("bump")], &[bump]), 2);
+    /// assert_eq!(stack.residuals(&[10.0, 0.5, 0.2]), [[-0.2, 0.0]]);
+    /// ```
     pub fn append(&mut self, unknowns: &[Unknown], columns: &[Entry]) -> usize {
         let first = self.unknowns.len();
         self.unknowns.extend_from_slice(unknowns);
@@ -245,6 +290,14 @@ impl Stack {
     }
 
     /// Makes columns zero, so that their unknowns are out of every fit.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// let mut stack = spring::spring(); // k = 10 and fc = 0.5 make 3 N m and 2 N m
+    /// stack.silence(&[1]);
+    /// assert_eq!(stack.residuals(&[10.0, 0.5]), [[0.5, -0.5]]); // fc says nothing now
+    /// ```
     pub fn silence(&mut self, unknowns: &[usize]) {
         for rows in &mut self.joints {
             rows.columns
@@ -255,7 +308,12 @@ impl Stack {
     /// Forgets the columns behind the first `unknowns`.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// let mut stack = spring::spring(); // k = 10 and fc = 0.5 make 3 N m and 2 N m
+    /// stack.truncate(1);
+    /// assert_eq!((stack.unknowns.len(), stack.residuals(&[10.0])), (1, vec![vec![0.5, -0.5]]));
+    /// ```
     pub fn truncate(&mut self, unknowns: usize) {
         self.unknowns.truncate(unknowns);
         for rows in &mut self.joints {
@@ -266,7 +324,10 @@ impl Stack {
     /// `target - columns * estimate`, `[joint][sample]`.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// assert_eq!(spring::spring().residuals(&[8.0, 0.5]), [[0.5, 0.5]]); // 3 - (8 * 0.25 + 0.5)
+    /// ```
     #[must_use]
     pub fn residuals(&self, estimate: &[f64]) -> Vec<Vec<f64>> {
         self.joints
@@ -282,6 +343,14 @@ impl Stack {
     }
 
     /// `100 || residual || / || tau ||` per joint.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod spring { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/spring.rs")); }
+    /// let percent = spring::spring().relative_percent(&[8.0, 0.5]);
+    /// // Residuals of 0.5 and 0.5, torques of 3 and 2.
+    /// assert!((percent[0] - 100.0 * (0.5_f64 / 13.0).sqrt()).abs() < 1e-12);
+    /// ```
     #[must_use]
     pub fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {
         let residuals = self.residuals(estimate);
@@ -311,77 +380,4 @@ fn subtract(target: &mut [f64], factor: f64, values: &[f64]) {
             *t -= factor * v;
         }
     }
-}
-
-/// Columns over several logs, each log through its own shared filter, the logs' samples one after the other.
-///
-/// # Examples
-/// ```
-/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
-/// # use pendulum::{measure, pendulum};
-/// # use robot_model::{identify::filtered_columns, signal::{Bands, prepare}};
-/// let log = measure(0.0);
-/// let prepared = prepare(&log, &Bands::for_log(&log))?;
-/// let columns = filtered_columns(&pendulum(), &[prepared], &[]);
-/// assert_eq!(columns.len(), 3); // of izz, mx and fv
-/// assert!(columns[0].values.len() < log.time.len()); // decimated
-/// # Ok::<(), robot_model::signal::SignalError>(())
-/// ```
-#[must_use]
-pub fn filtered_columns<C: Columns + ?Sized>(
-    columns: &C,
-    logs: &[Prepared],
-    shapes: &[f64],
-) -> Vec<Entry> {
-    let mut all: Vec<Entry> = Vec::new();
-    for (number, log) in logs.iter().enumerate() {
-        let mut entries = columns.entries(&log.motion, shapes);
-        filter(&mut entries, log);
-        if number == 0 {
-            all = entries;
-        } else {
-            // The pattern of zeros is that of the equations, so every log has the same entries in the same order.
-            for (sum, entry) in all.iter_mut().zip(entries) {
-                sum.values.extend(entry.values);
-            }
-        }
-    }
-    all
-}
-
-/// Filters and decimates entries in place, on all cores.
-fn filter(entries: &mut [Entry], log: &Prepared) {
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
-    let share = entries.len().div_ceil(workers).max(1);
-    std::thread::scope(|scope| {
-        for part in entries.chunks_mut(share) {
-            scope.spawn(move || {
-                let mut filtered = Vec::new();
-                for entry in part {
-                    log.shared.apply(&entry.values, &mut filtered);
-                    entry.values = filtered.clone();
-                }
-            });
-        }
-    });
-}
-
-/// `columns * estimate` at every sample of a motion, unfiltered, `[joint][sample]`.
-#[must_use]
-pub fn torque_of<C: Columns + ?Sized>(
-    columns: &C,
-    motion: &Motion,
-    shapes: &[f64],
-    estimate: &[f64],
-    dof: usize,
-) -> Vec<Vec<f64>> {
-    let mut torque = vec![vec![0.0; motion.time.len()]; dof];
-    for entry in columns.entries(motion, shapes) {
-        subtract(
-            &mut torque[entry.joint],
-            -estimate[entry.column],
-            &entry.values,
-        );
-    }
-    torque
 }

@@ -73,6 +73,11 @@ impl Columns {
     }
 
     /// Number of joints.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::log::Columns::standard(6).dof(), 6);
+    /// ```
     #[must_use]
     pub fn dof(&self) -> usize {
         self.q.len()

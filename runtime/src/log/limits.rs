@@ -1,6 +1,16 @@
-//! How much of a log is taken. A file may hold, unpack to, or claim more than any arm says; what does not fit is refused before memory ends.
+//! What a log may hold. A file may hold, unpack to, or claim more than any arm says; what does not fit is refused before memory ends, and
+//! what no arm does is refused by its numbers.
 
-use super::LogError;
+use super::{Log, LogError};
+
+/// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
+const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
+
+/// Largest position (rad, m) or torque (N m, N) of an arm: others come from other units, or from a broken record.
+const MOST: f64 = 1e6;
+
+/// Fewest samples that a log may have.
+const FEWEST_SAMPLES: usize = 16;
 
 /// Columns of a log. An arm of forty joints with ten channels each has four hundred.
 pub(super) const MOST_COLUMNS: usize = 10_000;
@@ -32,5 +42,51 @@ pub(super) fn too_large(source: &str, rows: u64, columns: usize) -> LogError {
         source_name: source.to_owned(),
         rows,
         columns,
+    }
+}
+
+impl Log {
+    /// Refuses logs of a few samples.
+    pub(super) fn check_length(&self) -> Result<(), LogError> {
+        let found = self.time.len();
+        if found >= FEWEST_SAMPLES {
+            return Ok(());
+        }
+        Err(LogError::TooFewSamples {
+            source_name: self.source.clone(),
+            found,
+            fewest: FEWEST_SAMPLES,
+        })
+    }
+
+    /// Refuses positions and torques that no arm has.
+    pub(super) fn check_plausible(&self, lines: Option<&[u64]>) -> Result<(), LogError> {
+        for (family, channels) in [("q", &self.q), ("tau", &self.tau)] {
+            for (joint, values) in channels.iter().enumerate() {
+                if let Some(sample) = values.iter().position(|value| value.abs() > MOST) {
+                    return Err(LogError::Implausible {
+                        place: self.place(sample, lines),
+                        column: format!("{family}{}", joint + 1),
+                        value: values[sample],
+                        most: MOST,
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses rates that no arm is sampled with.
+    pub(super) fn check_rate(&self) -> Result<(), LogError> {
+        let rate_hz = self.rate_hz();
+        if RATES_HZ.contains(&rate_hz) {
+            return Ok(());
+        }
+        Err(LogError::Rate {
+            source_name: self.source.clone(),
+            rate_hz,
+            slowest: *RATES_HZ.start(),
+            fastest: *RATES_HZ.end(),
+        })
     }
 }

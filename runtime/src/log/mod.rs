@@ -39,15 +39,6 @@ use header::{Header, Place};
 use limits::{MOST_NUMBERS, too_large};
 use rows::{Lost, Rows, Table};
 
-/// Rates at which arms are sampled, Hz: others come from time that is not in seconds.
-const RATES_HZ: std::ops::RangeInclusive<f64> = 10.0..=100e3;
-
-/// Largest position (rad, m) or torque (N m, N) of an arm: others come from other units, or from a broken record.
-const MOST: f64 = 1e6;
-
-/// Fewest samples that a log may have.
-const FEWEST_SAMPLES: usize = 16;
-
 /// One measured run of an arm, in SI units, on a uniform time grid.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -164,6 +155,17 @@ impl Log {
     ///
     /// # Errors
     /// As [`Log::read`].
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{Columns, Log};
+    /// let rows: String = (0..20).map(|k| format!("{},180,{k}\n", 0.01 * f64::from(k))).collect();
+    /// let mut degrees = Columns::standard(1);
+    /// degrees.q[0].unit = std::f64::consts::PI / 180.0;
+    /// let log = Log::from_reader_as("memory", format!("time,q1,tau1\n{rows}").as_bytes(), &degrees)?;
+    /// assert_eq!(log.q[0][7], std::f64::consts::PI);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     pub fn from_reader_as(
         source: impl Into<String>,
         reader: impl Read,
@@ -291,6 +293,15 @@ impl Log {
     }
 
     /// Number of joints.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..101).map(|k| 0.02 * f64::from(k)).collect();
+    /// let two = || vec![vec![0.0; 101]; 2];
+    /// assert_eq!(Log::from_samples("a plant", time, two(), two())?.dof(), 2);
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn dof(&self) -> usize {
         self.q.len()
@@ -313,6 +324,15 @@ impl Log {
     }
 
     /// Length of the log, s.
+    ///
+    /// # Examples
+    /// ```
+    /// # use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..101).map(|k| 0.02 * f64::from(k)).collect();
+    /// let log = Log::from_samples("a plant", time, vec![vec![0.0; 101]], vec![vec![0.0; 101]])?;
+    /// assert!((log.seconds() - 2.0).abs() < 1e-12); // of 101 samples
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.time[self.time.len() - 1] - self.time[0]
@@ -343,45 +363,8 @@ impl Log {
         uniform::make_uniform(&mut self, lines, lost)?;
         // Rows that are there twice count once.
         self.check_length()?;
-        let rate_hz = self.rate_hz();
-        if !RATES_HZ.contains(&rate_hz) {
-            return Err(LogError::Rate {
-                source_name: self.source,
-                rate_hz,
-                slowest: *RATES_HZ.start(),
-                fastest: *RATES_HZ.end(),
-            });
-        }
+        self.check_rate()?;
         Ok(self)
-    }
-
-    fn check_length(&self) -> Result<(), LogError> {
-        let found = self.time.len();
-        if found >= FEWEST_SAMPLES {
-            return Ok(());
-        }
-        Err(LogError::TooFewSamples {
-            source_name: self.source.clone(),
-            found,
-            fewest: FEWEST_SAMPLES,
-        })
-    }
-
-    /// Refuses positions and torques that no arm has.
-    fn check_plausible(&self, lines: Option<&[u64]>) -> Result<(), LogError> {
-        for (family, channels) in [("q", &self.q), ("tau", &self.tau)] {
-            for (joint, values) in channels.iter().enumerate() {
-                if let Some(sample) = values.iter().position(|value| value.abs() > MOST) {
-                    return Err(LogError::Implausible {
-                        place: self.place(sample, lines),
-                        column: format!("{family}{}", joint + 1),
-                        value: values[sample],
-                        most: MOST,
-                    });
-                }
-            }
-        }
-        Ok(())
     }
 
     /// A sample as messages name it: by its line in the file where it came from one.

@@ -19,6 +19,13 @@ macro_rules! lanes {
             pub const COUNT: usize = $count;
 
             /// The numbers, lane by lane.
+            ///
+            /// # Examples
+            /// ```
+            #[doc = concat!("use robot_model::scalar::", stringify!($name), ";")]
+            #[doc = concat!("let lanes = ", stringify!($name), "::from([2.0; ", $count, "]);")]
+            #[doc = concat!("assert_eq!((lanes * lanes + 0.5).to_array(), [4.5; ", $count, "]);")]
+            /// ```
             #[inline]
             #[must_use]
             pub fn to_array(self) -> [f64; $count] {

@@ -77,12 +77,28 @@ impl FirstOrder {
     }
 
     /// Corner of the filter, rad/s.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::signal::FirstOrder::new(20.0, 500.0)?.corner(), 20.0);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn corner(&self) -> f64 {
         self.corner
     }
 
     /// Writes `L{signal}`, which is `initial` at the first sample, to `out`, whose memory is used again.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::FirstOrder;
+    /// // A step from 0 to 1: what is left to go falls by exp(-w t), here over 0.1 s.
+    /// let mut out = Vec::new();
+    /// FirstOrder::new(10.0, 1000.0)?.apply(0.0, &[1.0; 101], &mut out);
+    /// assert!((out[100] - (1.0 - (-1.0_f64).exp())).abs() < 1e-12);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     pub fn apply(&self, initial: f64, signal: &[f64], out: &mut Vec<f64>) {
         out.clear();
         if signal.is_empty() {

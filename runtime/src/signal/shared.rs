@@ -92,6 +92,18 @@ impl SharedFilter {
     }
 
     /// Writes the kept samples of the filtered column to `out`, whose memory is used again.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::{Bands, SharedFilter};
+    /// let bands = Bands { shared_hz: 10.0, ..Bands::for_rate(500.0) };
+    /// let filter = SharedFilter::new(&bands, 500.0)?;
+    /// let mut out = Vec::new();
+    /// filter.apply(&[3.0; 1000], &mut out);
+    /// // What is constant passes, and a tenth of a second is cut from either end.
+    /// assert!(out.len() == filter.kept(1000).count() && out.iter().all(|x| (x - 3.0).abs() < 1e-9));
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     pub fn apply(&self, column: &[f64], out: &mut Vec<f64>) {
         self.low_pass.apply(column, out);
         let mut count = 0;
@@ -103,6 +115,16 @@ impl SharedFilter {
     }
 
     /// Which samples of a column of `count` are kept; none where both ends or holes take all.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::{Bands, SharedFilter};
+    /// let bands = Bands { shared_hz: 10.0, ..Bands::for_rate(500.0) };
+    /// let filter = SharedFilter::new(&bands, 500.0)?;
+    /// // A tenth of a second is cut from either end; of the rest one sample in twelve is kept.
+    /// assert_eq!(filter.kept(150).collect::<Vec<usize>>(), [50, 62, 74, 86, 98]);
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     pub fn kept(&self, count: usize) -> impl Iterator<Item = usize> + Clone {
         let inner = self.border.min(count)..count.saturating_sub(self.border);
         let is_sound = |k: &usize| !self.holes.iter().any(|hole| hole.contains(k));
@@ -117,12 +139,30 @@ impl SharedFilter {
     }
 
     /// Samples cut from either end.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::{Bands, SharedFilter};
+    /// let bands = Bands { shared_hz: 10.0, ..Bands::for_rate(500.0) };
+    /// let filter = SharedFilter::new(&bands, 500.0)?;
+    /// assert_eq!(filter.border(), 50); // one period of 10 Hz
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn border(&self) -> usize {
         self.border
     }
 
     /// One sample in so many is kept.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::{Bands, SharedFilter};
+    /// let bands = Bands { shared_hz: 10.0, ..Bands::for_rate(500.0) };
+    /// let filter = SharedFilter::new(&bands, 500.0)?;
+    /// assert_eq!(filter.stride(), 12); // of 500 Hz: four samples a period of 10 Hz, and more
+    /// # Ok::<(), robot_model::signal::SignalError>(())
+    /// ```
     #[must_use]
     pub fn stride(&self) -> usize {
         self.stride

@@ -34,6 +34,12 @@ pub struct Measured<'a> {
 ///         }
 ///     }
 /// }
+///
+/// let measured = Measured { time: 0.0, period: 0.001, q: &[0.1], dq: &[0.0], inputs: &[] };
+/// let desired = Desired { q: vec![0.3], ..Desired::default() };
+/// let mut torque = [0.0];
+/// Spring(50.0).torque(&measured, &desired, &mut torque);
+/// assert!((torque[0] - 10.0).abs() < 1e-12);
 /// ```
 pub trait Controller {
     /// Torque of every joint, N m or N.
@@ -41,6 +47,27 @@ pub trait Controller {
 }
 
 /// A controller's own model of the arm, right or wrong.
+///
+/// # Examples
+/// ```
+/// use robot_model::simulate::{ComputedTorque, Controller, Desired, Gains, InverseDynamics, Measured};
+///
+/// /// `tau = m ddq + c dq`
+/// struct Block { m: f64, c: f64 }
+/// impl InverseDynamics for Block {
+///     fn inverse_dynamics(&mut self, _: &Measured<'_>, ddq: &[f64], sliding: &[f64], torque: &mut [f64]) {
+///         torque[0] = self.m * ddq[0] + self.c * sliding[0];
+///     }
+/// }
+///
+/// // 0.1 m behind, with kp = w^2 = 400 1/s^2; friction is that of the 0.5 m/s that are wanted.
+/// let measured = Measured { time: 0.0, period: 0.001, q: &[0.2], dq: &[0.5], inputs: &[] };
+/// let desired = Desired { q: vec![0.3], dq: vec![0.5], ddq: vec![1.0] };
+/// let mut torque = [0.0];
+/// ComputedTorque::new(Gains::new(20.0, 1.0)?, Block { m: 2.0, c: 0.7 }).torque(&measured, &desired, &mut torque);
+/// assert!((torque[0] - (2.0 * (1.0 + 40.0) + 0.7 * 0.5)).abs() < 1e-9);
+/// # Ok::<(), robot_model::simulate::SimulateError>(())
+/// ```
 pub trait InverseDynamics {
     /// Torque of the accelerations `ddq` where the arm is; friction is that of the velocities `sliding`.
     fn inverse_dynamics(
@@ -139,6 +166,27 @@ pub struct ComputedTorque<M> {
 
 impl<M: InverseDynamics> ComputedTorque<M> {
     /// With a model of the arm.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::{ComputedTorque, Controller, Desired, Gains, InverseDynamics, Measured};
+    ///
+    /// /// A model that knows nothing but a mass of 2 kg.
+    /// struct Mass;
+    /// impl InverseDynamics for Mass {
+    ///     fn inverse_dynamics(&mut self, _: &Measured<'_>, ddq: &[f64], _: &[f64], torque: &mut [f64]) {
+    ///         torque[0] = 2.0 * ddq[0];
+    ///     }
+    /// }
+    ///
+    /// let mut controller = ComputedTorque::new(Gains::new(20.0, 1.0)?, Mass);
+    /// let measured = Measured { time: 0.0, period: 0.001, q: &[0.0], dq: &[0.0], inputs: &[] };
+    /// let desired = Desired { q: vec![0.01], dq: vec![0.0], ddq: vec![0.0] };
+    /// let mut torque = [0.0];
+    /// controller.torque(&measured, &desired, &mut torque);
+    /// assert!((torque[0] - 2.0 * 400.0 * 0.01).abs() < 1e-12);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn new(gains: Gains, model: M) -> Self {
         Self {

@@ -8,6 +8,7 @@
 
 mod events;
 mod steps;
+mod tolerances;
 
 use nalgebra::DVector;
 
@@ -16,45 +17,7 @@ use super::motion::{Drive, Moving, Side};
 use super::plant::Plant;
 use super::tangent::{Adjustable, Passage, Tangent, Watch};
 use steps::Start;
-
-/// How exact a motion is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerances {
-    /// Error of a step relative to each position, velocity and state.
-    pub relative: f64,
-    /// The same of what is near zero.
-    pub absolute: f64,
-    /// Shortest step of high order, s: below it impulses take over, which grow where they follow each other.
-    pub floor: f64,
-}
-
-impl Default for Tolerances {
-    fn default() -> Self {
-        Self {
-            relative: 1e-10,
-            absolute: 1e-11,
-            floor: 1e-6,
-        }
-    }
-}
-
-/// What a motion took.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[non_exhaustive]
-pub struct Work {
-    /// Steps of high order for motions that are not stiff.
-    pub explicit: u64,
-    /// Linearly implicit steps of high order.
-    pub implicit: u64,
-    /// Steps of the first order over impulses.
-    pub impulses: u64,
-    /// Steps that were too long.
-    pub rejected: u64,
-    /// Joints that stop, turn round, or break away, and other jumps.
-    pub events: u64,
-    /// Solutions for accelerations.
-    pub evaluations: u64,
-}
+pub use tolerances::{Tolerances, Work};
 
 /// Events with less than a step of impulses between them, after which these take over, and how far such steps grow.
 const CROWD: u32 = 6;
@@ -114,6 +77,15 @@ impl<P: Plant> Integrator<P> {
     ///
     /// # Errors
     /// [`SimulateError::Size`] for other numbers of joints, [`SimulateError::Setting`] for tolerances that are none.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::{Integrator, Tolerances};
+    /// let block = Integrator::new(block::Block([2.0, 0.7]), &[0.2], &[0.5], Tolerances::default())?;
+    /// assert_eq!((block.q()[0], block.dq()[0], block.time()), (0.2, 0.5, 0.0));
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn new(
         plant: P,
         q: &[f64],
@@ -160,6 +132,12 @@ impl<P: Plant> Integrator<P> {
     }
 
     /// The same motion, begun at another time than 0.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// assert_eq!(block::sliding().begun_at(7.0).time(), 7.0);
+    /// ```
     #[must_use]
     pub fn begun_at(mut self, time: f64) -> Self {
         self.time = time;
@@ -167,18 +145,45 @@ impl<P: Plant> Integrator<P> {
     }
 
     /// Time, s.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding();
+    /// block.advance(0.3)?;
+    /// assert_eq!(block.time(), 0.3);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn time(&self) -> f64 {
         self.time
     }
 
     /// Positions, rad or m.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding(); // from 0.2 m with 0.5 m/s, and 0.7 N s/m hold 2 kg back
+    /// block.advance(1.0)?;
+    /// assert!((block.q()[0] - (0.2 + 0.5 * (1.0 - (-0.35_f64).exp()) / 0.35)).abs() < 1e-9);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn q(&self) -> &[f64] {
         &self.x.as_slice()[..self.moving.plant.dof()]
     }
 
     /// Velocities.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding(); // 2 kg with 0.5 m/s that 0.7 N s/m hold back
+    /// block.advance(1.0)?;
+    /// assert!((block.dq()[0] - 0.5 * (-0.35_f64).exp()).abs() < 1e-9);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn dq(&self) -> &[f64] {
         let dof = self.moving.plant.dof();
@@ -186,12 +191,34 @@ impl<P: Plant> Integrator<P> {
     }
 
     /// Internal states of effects.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
+    /// use robot_model::simulate::{Integrator, Tolerances};
+    /// // A filter of 0.5 s sees a load that begins with 1 m/s.
+    /// let mut cart = Integrator::new(cart::Cart, &[0.0, 0.0], &[1.0, 1.0], Tolerances::default())?;
+    /// cart.advance(0.001)?;
+    /// assert!((cart.memory()[0] - 0.002).abs() < 1e-5);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn memory(&self) -> &[f64] {
         &self.x.as_slice()[2 * self.moving.plant.dof()..]
     }
 
     /// Which switches are held on their jumps: joints that stick, as a rule.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
+    /// use robot_model::simulate::{Integrator, Tolerances};
+    /// // A spring pulls a load with 2 N, which friction of 3 N holds.
+    /// let mut cart = Integrator::new(cart::Cart, &[0.02, 0.0], &[0.0, 0.0], Tolerances::default())?;
+    /// let _ = cart.accelerations()?;
+    /// assert_eq!(cart.held(), [true]);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn held(&self) -> Vec<bool> {
         let sides = self.moving.sides.iter();
@@ -199,11 +226,31 @@ impl<P: Plant> Integrator<P> {
     }
 
     /// The plant.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding();
+    /// // 0.7 N s/m at 0.5 m/s hold it back; then it weighs 7 kg.
+    /// assert_eq!(block.accelerations()?, [-0.175]);
+    /// block.plant_mut().0[0] = 7.0;
+    /// assert!((block.accelerations()?[0] + 0.05).abs() < 1e-15);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn plant_mut(&mut self) -> &mut P {
         &mut self.moving.plant
     }
 
     /// What the motion took so far.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding();
+    /// block.advance(1.0)?;
+    /// assert!(block.work().explicit > 0 && block.work().events == 0); // on oil nothing jumps
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn work(&self) -> Work {
         Work {
@@ -239,7 +286,11 @@ impl<P: Plant> Integrator<P> {
     /// As [`Self::advance`].
     ///
     /// # Examples
-    /// That of [`Self::drive`].
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// assert_eq!(block::sliding().accelerations()?, [-0.175]); // 0.7 N s/m at 0.5 m/s, of 2 kg
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn accelerations(&mut self) -> Result<Vec<f64>, SimulateError> {
         self.moving.settle(self.time, &mut self.x)?;
         self.moving.rate(self.time, &self.x)?;
@@ -252,7 +303,13 @@ impl<P: Plant> Integrator<P> {
     /// [`SimulateError`] says where the motion has no continuation.
     ///
     /// # Examples
-    /// That of [the type](Self).
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// let mut block = block::sliding();
+    /// block.advance(2.0)?;
+    /// assert!((block.dq()[0] - 0.5 * (-0.35 * 2.0_f64).exp()).abs() < 1e-9);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn advance(&mut self, end: f64) -> Result<(), SimulateError> {
         self.go(end, &mut ())
     }
@@ -263,7 +320,16 @@ impl<P: Plant> Integrator<P> {
     /// As [`Self::advance`].
     ///
     /// # Examples
-    /// That of [`Tangent::new`].
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::Tangent;
+    /// // dq = v exp(-c t / m), so d dq / dc = -t dq / m; unknown are m and c, on which the start does not depend.
+    /// let mut tangent = Tangent::new(&block::Block([2.0, 0.7]), nalgebra::DMatrix::zeros(2, 2));
+    /// let mut block = block::sliding();
+    /// block.advance_with(1.0, &mut tangent)?;
+    /// assert!((tangent.state[(1, 1)] + 0.5 * block.dq()[0]).abs() < 1e-8);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn advance_with(&mut self, end: f64, tangent: &mut Tangent) -> Result<(), SimulateError>
     where
         P: Adjustable,

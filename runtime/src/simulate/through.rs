@@ -6,6 +6,24 @@ use super::plant::{Instant, Jumps, Plant, Slopes};
 use super::tangent::{Adjustable, ParameterSlopes};
 
 /// Parameters of a plant as functions of others.
+///
+/// # Examples
+/// ```
+/// use nalgebra::DMatrix;
+/// use robot_model::simulate::Functions;
+///
+/// /// The `m` and `c` of a block, of its own mass, of a load's, and of `c`.
+/// struct Loaded;
+/// impl Functions for Loaded {
+///     fn own(&self, values: &[f64]) -> Vec<f64> { vec![values[0] + values[1], values[2]] }
+///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { DMatrix::from_row_slice(2, 3, &[1.0, 1.0, 0.0, 0.0, 0.0, 1.0]) }
+/// }
+///
+/// let values = [1.5, 0.5, 0.7];
+/// assert_eq!(Loaded.own(&values), [2.0, 0.7]);
+/// // 0.2 kg more of load are 0.2 kg more of `m`.
+/// assert_eq!(Loaded.slopes(&values).column(1).as_slice(), [1.0, 0.0]);
+/// ```
 pub trait Functions {
     /// The plant's own parameters.
     fn own(&self, values: &[f64]) -> Vec<f64>;
@@ -26,6 +44,27 @@ pub struct Through<P, F> {
 
 impl<P: Adjustable, F: Functions> Through<P, F> {
     /// The plant with other parameters at these values.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use nalgebra::DMatrix;
+    /// use robot_model::simulate::{Adjustable, Functions, Integrator, Through, Tolerances};
+    ///
+    /// /// The `m` and `c` of a block, where `c` is known: 0.7.
+    /// struct Mass;
+    /// impl Functions for Mass {
+    ///     fn own(&self, values: &[f64]) -> Vec<f64> { vec![values[0], 0.7] }
+    ///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { DMatrix::from_row_slice(2, 1, &[1.0, 0.0]) }
+    /// }
+    ///
+    /// let plant = Through::new(block::Block([1.0, 0.0]), Mass, vec![2.0]);
+    /// assert_eq!(plant.values(), [2.0]);
+    /// // 0.7 N s/m at 0.5 m/s, of 2 kg
+    /// let mut block = Integrator::new(plant, &[0.0], &[0.5], Tolerances::default())?;
+    /// assert_eq!(block.accelerations()?, [-0.175]);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn new(mut plant: P, functions: F, values: Vec<f64>) -> Self {
         plant.adjust(&functions.own(&values));
         Self {

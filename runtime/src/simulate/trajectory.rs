@@ -48,6 +48,18 @@ impl Trajectory {
     /// # Errors
     /// [`SimulateError::Size`] where columns differ in length or there are fewer than four samples, [`SimulateError::Setting`] where
     /// time does not rise.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::Trajectory;
+    /// // 2 m/s, by four samples; velocities and accelerations are those of a spline.
+    /// let time = vec![0.0, 0.1, 0.2, 0.3];
+    /// let wanted = Trajectory::new(time, vec![vec![0.0, 0.2, 0.4, 0.6]], vec![], vec![], vec![])?;
+    /// assert!((wanted.at(0.15).dq[0] - 2.0).abs() < 1e-12);
+    /// let short = Trajectory::new(vec![0.0, 0.1], vec![vec![0.0, 0.2]], vec![], vec![], vec![]).unwrap_err();
+    /// assert_eq!(short.to_string(), "the number of samples of a trajectory has to be 4 or more, not 2");
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     pub fn new(
         time: Vec<f64>,
         q: Vec<Vec<f64>>,
@@ -133,12 +145,32 @@ impl Trajectory {
     }
 
     /// Number of joints.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::Trajectory;
+    /// let time = vec![0.0, 0.1, 0.2, 0.3];
+    /// let two = vec![vec![0.0; 4], vec![1.0; 4]];
+    /// assert_eq!(Trajectory::new(time, two, vec![], vec![], vec![])?.dof(), 2);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn dof(&self) -> usize {
         self.q.len()
     }
 
     /// Channels beside the motion.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Channel;
+    /// use robot_model::simulate::Trajectory;
+    /// let (time, q) = (vec![0.0, 0.1, 0.2, 0.3], vec![vec![0.0; 4]]);
+    /// let oil = Channel { name: "temperature".to_owned(), values: vec![20.0, 30.0, 40.0, 50.0] };
+    /// let wanted = Trajectory::new(time, q, vec![], vec![], vec![oil])?;
+    /// assert_eq!(wanted.extra()[0].name, "temperature");
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn extra(&self) -> &[Channel] {
         &self.extra
@@ -155,7 +187,16 @@ impl Trajectory {
     /// The motion `time` seconds after its start; at rest beyond its end, where it was last.
     ///
     /// # Examples
-    /// That of [`Self::duration`].
+    /// ```
+    /// use robot_model::simulate::Trajectory;
+    /// // t^2, with its velocities and accelerations.
+    /// let time = vec![0.0, 1.0, 2.0, 3.0];
+    /// let of = |f: fn(&f64) -> f64| vec![time.iter().map(f).collect()];
+    /// let wanted = Trajectory::new(time.clone(), of(|t| t * t), of(|t| 2.0 * t), of(|_| 2.0), vec![])?;
+    /// let at = wanted.at(1.5);
+    /// assert!((at.q[0] - 2.25).abs() < 1e-12 && (at.dq[0] - 3.0).abs() < 1e-12 && (at.ddq[0] - 2.0).abs() < 1e-12);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn at(&self, time: f64) -> Desired {
         let (k, s) = self.place(time);
@@ -173,6 +214,17 @@ impl Trajectory {
     }
 
     /// A channel's value `time` seconds after the start, linear between samples; by its place in [`Self::extra`].
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Channel;
+    /// use robot_model::simulate::Trajectory;
+    /// let (time, q) = (vec![0.0, 0.1, 0.2, 0.3], vec![vec![0.0; 4]]);
+    /// let oil = Channel { name: "temperature".to_owned(), values: vec![20.0, 30.0, 40.0, 50.0] };
+    /// let wanted = Trajectory::new(time, q, vec![], vec![], vec![oil])?;
+    /// assert!((wanted.channel(0, 0.15) - 35.0).abs() < 1e-12);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
     #[must_use]
     pub fn channel(&self, channel: usize, time: f64) -> f64 {
         let (k, s) = self.place(time);

@@ -31,6 +31,11 @@ pub enum FloorFrom {
 
 impl FloorFrom {
     /// Name in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::trace::FloorFrom::Periods.name(), "periods");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

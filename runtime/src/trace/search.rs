@@ -59,7 +59,15 @@ impl<'a> Trace<'a> {
     /// that some log does not have by [`Self::run`].
     ///
     /// # Examples
-    /// That of the [module](super).
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let verdict = Trace::new(vec![&candidate]).run(&arm, &[measure(0.7)], &mut |_| ())?;
+    /// assert!((verdict.findings[0].parameters[0].value - 0.7).abs() < 0.02); // N m
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn new(candidates: Vec<&'a dyn Candidate>) -> Self {
         Self {
@@ -69,6 +77,20 @@ impl<'a> Trace<'a> {
     }
 
     /// Goes on from a trace of the same logs that ended with a change of the arm: that had this structure before its first effect.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// // The log that a first trace had before it found anything, and the one that is left to trace.
+    /// let run = |trace: Trace<'_>, fc| trace.run(&arm, &[measure(fc)], &mut |_| ());
+    /// let before = run(Trace::new(vec![&candidate]), 0.7)?.before;
+    /// let later = run(Trace::new(vec![&candidate]).since(before.clone()), 0.0)?;
+    /// assert_eq!(later.before, before);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn since(mut self, before: Vec<Structure>) -> Self {
         self.since = Some(before);
@@ -81,7 +103,18 @@ impl<'a> Trace<'a> {
     /// Those of [`Identify::fit`].
     ///
     /// # Examples
-    /// That of the [module](super).
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let arm = pendulum();
+    /// // With no candidate there is nothing to name what is there.
+    /// let mut stages = 0;
+    /// let verdict = Trace::new(Vec::new()).run(&arm, &[measure(0.7)], &mut |_| stages += 1)?;
+    /// assert_eq!((verdict.outcome.name(), verdict.findings.len()), ("unexplained", 0));
+    /// assert!(stages > 0);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     pub fn run(
         &self,
         arm: &dyn Arm,

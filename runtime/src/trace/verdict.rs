@@ -79,6 +79,11 @@ pub enum Refusal {
 
 impl Refusal {
     /// Name in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::trace::Refusal::HeldOut.name(), "held-out");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -163,6 +168,11 @@ pub enum Outcome {
 
 impl Outcome {
     /// Name in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::trace::Outcome::Explained.name(), "explained");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -221,6 +231,20 @@ impl Verdict {
     }
 
     /// This one, which goes on, with what was found after it.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let trace = |fc| Trace::new(vec![&candidate]).run(&arm, &[measure(fc)], &mut |_| ());
+    /// // First dry friction is found, then nothing more.
+    /// let (first, then) = (trace(0.7)?, trace(0.0)?);
+    /// let both = first.clone().followed_by(then);
+    /// assert_eq!((both.outcome, &both.findings, &both.before), (first.outcome, &first.findings, &first.before));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn followed_by(self, next: Self) -> Self {
         let places = self.findings.len();

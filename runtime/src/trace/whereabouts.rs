@@ -56,6 +56,11 @@ pub enum Quantity {
 
 impl Quantity {
     /// Name in JSON.
+    ///
+    /// # Examples
+    /// ```
+    /// assert_eq!(robot_model::trace::Quantity::Time.name(), "time");
+    /// ```
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -72,8 +77,7 @@ impl Quantity {
     ///
     /// # Examples
     /// ```
-    /// use robot_model::trace::Quantity;
-    /// assert_eq!((Quantity::Velocity(2).joint(), Quantity::Time.joint()), (Some(2), None));
+    /// assert_eq!(robot_model::trace::Quantity::Velocity(2).joint(), Some(2));
     /// ```
     #[must_use]
     pub const fn joint(self) -> Option<usize> {

@@ -37,10 +37,14 @@ impl Adjustable for Block {
     }
 }
 
-/// 3 s at 100 Hz of a block with `m = 2` and `c = 0.7`, pushed by forces that are held between samples.
+/// A block with `m = 2` and `c = 0.7`, at 0.2 m with 0.5 m/s.
+pub fn sliding() -> Integrator<Block> {
+    Integrator::new(Block([2.0, 0.7]), &[0.2], &[0.5], Tolerances::default()).expect("one joint")
+}
+
+/// 3 s at 100 Hz of this block, pushed by forces that are held between samples.
 pub fn measure() -> Log {
-    let mut block = Integrator::new(Block([2.0, 0.7]), &[0.2], &[0.5], Tolerances::default())
-        .expect("one joint");
+    let mut block = sliding();
     let (mut time, mut q, mut tau) = (Vec::new(), Vec::new(), Vec::new());
     for k in 0..300 {
         let t = 0.01 * f64::from(k);

@@ -1,7 +1,7 @@
 // The arm of the documentation's examples of friction curves, which include this file: a motor alone, and a log of it.
 
 use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
-use robot_model::friction_curve::Measured;
+use robot_model::friction_curve::{Bristles, FrictionError, Law, Measured};
 use robot_model::log::Log;
 use robot_model::motion::Motion;
 
@@ -32,6 +32,22 @@ pub fn runs() -> Log {
         tau.push(0.5 + 0.1 * speed);
     }
     Log::from_samples("a motor", time, vec![q], vec![tau]).expect("the samples are uniform")
+}
+
+/// 4 s of a torque that rises from 0 to 0.45 N m: bristles of 100 N m/rad give by `tau / 100`, and the motor by
+/// `-0.5 / 100 ln(1 - tau / 0.5)`, as they creep.
+pub fn loading() -> Log {
+    let time: Vec<f64> = (0..=2000).map(|k| 0.002 * f64::from(k)).collect();
+    let tau: Vec<f64> = time.iter().map(|t| 0.45 * t / 4.0).collect();
+    let q = tau.iter().map(|tau| -0.005 * (-tau / 0.5).ln_1p()).collect();
+    Log::from_samples("a motor", time, vec![q], vec![tau]).expect("the samples are uniform")
+}
+
+/// What both logs say of its bristles.
+pub fn bristles() -> Result<Bristles, FrictionError> {
+    let motor = motor();
+    let curve = measured(&motor).curve(&[runs()])?;
+    measured(&motor).bristles(&curve, &Law::fit(&curve)?, &loading())
 }
 
 impl Columns for Motor {

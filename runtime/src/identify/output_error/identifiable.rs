@@ -63,6 +63,14 @@ pub struct Direction {
 
 impl Direction {
     /// Whether outputs do not change at all.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::output_error::Direction;
+    /// let direction = |singular| Direction { singular, moves: vec![("m".to_owned(), 1.0)] };
+    /// // Hardly seen is not unseen.
+    /// assert!(direction(1e-9).is_silent() && !direction(1e-4).is_silent());
+    /// ```
     #[must_use]
     pub fn is_silent(&self) -> bool {
         self.singular < SILENT
@@ -236,6 +244,20 @@ impl Identifiability {
     }
 
     /// Whether logs say anything of a parameter by itself.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let recording = Recording::new(&measure(), &[1.0], 0.0, Vec::new());
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let names = ["m", "c"].map(str::to_owned);
+    /// let found = settings.fit(&Block([3.0, 0.2]), &names, &[3.0, 0.2], &[recording], &mut |_| ())?;
+    /// // Pushed by known forces, a block shows its mass and its friction.
+    /// assert!(found.identifiability.is_identified(0) && found.identifiability.is_identified(1));
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
     #[must_use]
     pub fn is_identified(&self, parameter: usize) -> bool {
         self.identified.get(parameter).copied().unwrap_or(false)

@@ -65,7 +65,23 @@ impl Driven {
     /// A log whose torques are those of the gains, for [`Estimate::errors`] with the same arm.
     ///
     /// # Examples
-    /// That of [`Identify::fit_drive_gains`].
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure_with, pendulum};
+    /// # use robot_model::identify::{Identify, KnownPayload};
+    /// // A drive that logs half of each N m, and a payload of 1 kg in a distance of 1 m (where `g` is 1).
+    /// let half = |parameters| {
+    ///     let mut log = measure_with(parameters, 0.0);
+    ///     log.tau[0].iter_mut().for_each(|tau| *tau *= 0.5);
+    ///     log
+    /// };
+    /// let (alone, loaded) = (half([2.0, 9.0, 1.0]), half([3.0, 10.0, 1.0]));
+    /// let known = KnownPayload { mass: 1.0, center: Some([1.0, 0.0, 0.0]) };
+    /// let driven = Identify::default().fit_drive_gains(&pendulum(), &[alone.clone()], &[loaded], None, &known)?;
+    /// let torque = measure_with([2.0, 9.0, 1.0], 0.0).tau[0][500];
+    /// assert!((driven.rescaled(&alone).tau[0][500] / torque - 1.0).abs() < 0.03);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn rescaled(&self, log: &Log) -> Log {
         rescaled(log, &self.factors)

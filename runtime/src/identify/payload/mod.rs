@@ -80,7 +80,13 @@ impl Carried {
     /// The payload's parameters, as the estimate has them. Those that no torque depends on are not among them.
     ///
     /// # Examples
-    /// That of [`Identify::fit_payload`].
+    /// ```
+    /// # mod payload { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/payload.rs")); }
+    /// let carried = payload::carried()?; // 0.5 kg m^2 and 1 kg m about the joint
+    /// let izz = carried.payload().iter().find(|p| p.name == "link.payload.izz").expect("torque depends on it");
+    /// assert!((izz.value - 0.5).abs() < 0.02);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn payload(&self) -> &[Identified] {
         &self.estimate.parameters[self.loaded.parameters.len()..]
@@ -89,7 +95,13 @@ impl Carried {
     /// Its first moments about the origin of the link's frame, kg m, with their standard deviations, as far as the logs tell.
     ///
     /// # Examples
-    /// That of [`Identify::fit_payload`].
+    /// ```
+    /// # mod payload { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/payload.rs")); }
+    /// let [x, _, z] = payload::carried()?.first_moments(); // 1 kg m along x
+    /// assert!((x.expect("it is told")[0] - 1.0).abs() < 0.02);
+    /// assert_eq!(z, None); // along the axis
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn first_moments(&self) -> [Option<[f64; 2]>; 3] {
         FIRST_MOMENTS.map(|own| self.told(own))
@@ -99,7 +111,12 @@ impl Carried {
     /// tell; no center where the mass is not two deviations above zero.
     ///
     /// # Examples
-    /// That of [`Identify::fit_payload`].
+    /// ```
+    /// # mod payload { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/payload.rs")); }
+    /// // Torques of one joint do not tell the mass itself, and so no center.
+    /// assert_eq!(payload::carried()?.mass_and_center(), (None, [None; 3]));
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
     #[must_use]
     pub fn mass_and_center(&self) -> (Option<[f64; 2]>, [Option<[f64; 2]>; 3]) {
         let mass = self.told("m");

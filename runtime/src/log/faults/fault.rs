@@ -229,6 +229,19 @@ impl Fault {
     }
 
     /// Whether [`Log::report`](crate::log::Log::report) tells it, too.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..1000).map(|k| 0.001 * f64::from(k)).collect();
+    /// let q = time.iter().map(|t| (6.0 * t).sin()).collect();
+    /// let mut tau: Vec<f64> = time.iter().map(|t| (6.0 * t).cos()).collect();
+    /// tau[300] = 50.0; // a spike
+    /// let mended = Log::from_samples("a plant", time, vec![q], vec![tau])?.mended();
+    /// // Reading a log tells what time was like, and no more.
+    /// assert!(!mended.faults[0].is_in_report() && mended.log.report.is_empty());
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub const fn is_in_report(&self) -> bool {
         matches!(
@@ -274,6 +287,18 @@ impl Fault {
     }
 
     /// Name of the channel that has it; `time` where that is all of them.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::Log;
+    /// let time: Vec<f64> = (0..1000).map(|k| 0.001 * f64::from(k)).collect();
+    /// let q = time.iter().map(|t| (6.0 * t).sin()).collect();
+    /// let mut tau: Vec<f64> = time.iter().map(|t| (6.0 * t).cos()).collect();
+    /// tau[300] = 50.0; // a spike
+    /// let mended = Log::from_samples("a plant", time, vec![q], vec![tau])?.mended();
+    /// assert_eq!(mended.faults[0].channel(), "tau1");
+    /// # Ok::<(), robot_model::log::LogError>(())
+    /// ```
     #[must_use]
     pub fn channel(&self) -> &str {
         match self {

@@ -86,6 +86,18 @@ impl JointStates<'_> {
     ///
     /// # Errors
     /// [`NotABag`] where channels are missing or of other lengths, and where time is no time of ROS 2.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::log::{JointStates, NotABag};
+    /// let (joints, time) = (["elbow".to_owned()], [0.0, 0.01]);
+    /// let (q, tau) = ([vec![0.5, 0.6]], [vec![3.0]]);
+    /// let mut run = JointStates { topic: "/joint_states", joints: &joints, time: &time, q: &q, dq: &[], tau: &tau };
+    /// assert_eq!(run.to_mcap().unwrap_err(), NotABag::Lengths); // one torque, two times
+    /// run.tau = &q;
+    /// assert!(run.to_mcap()?.starts_with(b"\x89MCAP"));
+    /// # Ok::<(), NotABag>(())
+    /// ```
     pub fn to_mcap(&self) -> Result<Vec<u8>, NotABag> {
         let (joints, samples) = (self.joints.len(), self.time.len());
         let is_whole = |family: &[Vec<f64>]| {
