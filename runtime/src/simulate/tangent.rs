@@ -132,6 +132,10 @@ pub(super) struct Passage<'a> {
 /// Steps times the fastest rate of the motion: shorter ones are not worth the stages of an explicit step.
 const SHORT: f64 = 0.02;
 
+/// The same from where on an explicit step is not surely stable: what a step's error hardly shows of a stiff state that has settled, as of
+/// bristles under a joint that slides, would grow in sensitivities.
+const STIFF: f64 = 2.0;
+
 /// What looks on while a plant moves; by itself it does nothing.
 pub(super) trait Watch<P> {
     /// A step without events went from one state to another; sides are those of the step.
@@ -299,7 +303,7 @@ impl<P: Adjustable> Watch<P> for Tangent {
     fn moved(&mut self, moving: &mut Moving<P>, step: &Passage<'_>) -> Result<(), SimulateError> {
         let first = self.linear(moving, step.start, step.x)?;
         let fastest = (&first[1] * &first[1]).norm().sqrt();
-        if step.is_explicit && step.length * fastest > SHORT {
+        if step.is_explicit && (SHORT..STIFF).contains(&(step.length * fastest)) {
             self.staged(moving, step, first)?;
         } else {
             self.collocated(moving, step, first)?;
