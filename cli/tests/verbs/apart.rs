@@ -274,10 +274,6 @@ fn joints_that_hardly_move_are_told() {
         let told = "`j2`, `j3` stand or turn nearly all the time";
         assert!(refused.stderr.contains(told), "{}", refused.stderr);
     }
-    let hardly = [
-        "hardly apart (condition ",
-        "`j2`, `j3` are hardly moving in these logs",
-    ];
     let said = |others: &dyn Fn(f64) -> [f64; 2]| {
         let [run, without_turns] = run(others);
         for run in [&run, &without_turns] {
@@ -292,9 +288,11 @@ fn joints_that_hardly_move_are_told() {
     let moving = said(&moves);
     assert!(!moving.contains("hardly"), "{moving}");
     arm("");
-    let held = said(&held);
-    for told in hardly {
-        assert!(held.contains(told), "{held}");
+    // Without it the noise of their encoders alone parts what they carry.
+    for refused in run(&held) {
+        assert_eq!(refused.code, Some(1), "{}", refused.stdout);
+        let told = "cannot be told from others";
+        assert!(refused.stderr.contains(told), "{}", refused.stderr);
     }
     let moving = said(&moves);
     assert!(!moving.contains("hardly"), "{moving}");
