@@ -104,6 +104,7 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
         turns: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
+        noise: Vec::new(),
         unknowns: arm.unknowns().to_vec(),
         joints,
         segments: vec![Segment {

@@ -14,6 +14,9 @@ const FALLEN: f64 = 3.0;
 /// Deviations that count as nothing.
 const NOTHING: f64 = 2.0;
 
+/// Points that are off the law by so many of their deviations are of another one.
+const MISFIT: f64 = 3.0;
+
 /// The units of a joint's torque, speed and position.
 struct Units {
     torque: &'static str,
@@ -77,6 +80,13 @@ impl Found<'_> {
                  friction"
                     .to_owned(),
             );
+        }
+        if law.misfit > MISFIT {
+            doubts.push(format!(
+                "points are off the law by {:.1} of their deviations: their friction is of another shape, as one that differs by direction or \
+                 follows position or warmth, and values of the law stand for a mean",
+                law.misfit
+            ));
         }
         let is_one_way = law.offset.is_none();
         if is_one_way {

@@ -8,6 +8,7 @@ mod drive_gains;
 pub(crate) mod factor_file;
 mod far;
 pub(crate) mod fit;
+mod large;
 mod likeness;
 mod nominal;
 pub(crate) mod noted;
@@ -189,6 +190,9 @@ impl IdentifyArguments {
         let logs = self.logs.iter().map(&mut read);
         let logs: Vec<Log> = logs.collect::<Result<_, _>>()?;
         let validate = self.validate.as_ref().map(read).transpose()?;
+        if let Some(hint) = large::hint(&logs, dof) {
+            progress.note(&format!("note: {hint}"));
+        }
         let instruments = self.instruments.iter();
         let instruments = instruments.map(|path| trajectory(path, dof));
         let mut identify = Identify {

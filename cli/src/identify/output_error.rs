@@ -1,5 +1,6 @@
 //! `robot-model identify --method output-error`: the arm that moves as the measured one did.
 
+mod beginning;
 mod bounds;
 mod directions;
 mod law;
@@ -13,9 +14,8 @@ use std::path::PathBuf;
 use robot_model::identify::output_error::{
     Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Search,
 };
-use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
+use robot_model::identify::{Errors, Estimate};
 use robot_model::log::{Fault, Log};
-use robot_model::simulate::Adjustable;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 
@@ -24,76 +24,21 @@ use super::page::{Evidence, OnLog};
 use super::results::Results;
 use super::{IdentifyArguments, doubts, twice};
 use crate::Error;
-use crate::audit;
-use crate::interpreted::{InterpretedArm, InterpretedPlant};
-use crate::output::{self, Files, names};
-use crate::parameters::{self, Values};
+use crate::interpreted::InterpretedArm;
+use crate::output::{Files, names};
 use crate::progress::Progress;
+use beginning::Beginning;
 use bounds::bounds;
 pub(super) use options::Options;
 use options::{HoldArgument, SearchArgument};
 use recordings::recordings;
 use report::OutputReport;
 
-/// Where the search starts, and what least squares says where it has a say.
-struct Beginning {
-    plant: InterpretedPlant,
-    names: Vec<String>,
-    shapes: Vec<f64>,
-    linear: Option<Estimate>,
-    /// Parameters of the plant to start from: of several the one that leads deepest is to be found.
-    starts: Vec<Vec<f64>>,
-}
-
 /// What is said of one log after the other.
 struct Judged {
     comparison: Comparison,
     /// Errors of the torque from equations.
     torque: Option<Errors>,
-}
-
-impl Beginning {
-    /// Why nothing was found, with what is wrong with the arm that the search starts from.
-    fn refused(&self, compiled: &Compiled, error: &OutputErrorError) -> Error {
-        let start = &self.starts[0][..compiled.base.kept.len()];
-        let inertia = match error {
-            OutputErrorError::Start { .. } => audit::inertia_of(compiled, start, &self.shapes),
-            _ => None,
-        };
-        let Some(inertia) = inertia else {
-            return refused(error);
-        };
-        Error::Argument(format!(
-            "{error}\nno arm has the parameters that the search starts from: {inertia}; start from the nearest arm that can be: `--method \
-             physical --json start.json`, then `--start start.json`"
-        ))
-    }
-
-    /// What is odd about what was found from it.
-    fn doubts(&self, form: &ByAcceleration, logs: &[Log], found: &OutputEstimate) -> Vec<String> {
-        // What its sign holds is as least squares would have it.
-        let free = |name: &String| {
-            let linear = self.linear.iter().flat_map(|linear| &linear.parameters);
-            let mut linear = linear.filter(|parameter| parameter.name == *name);
-            linear.next().map(|found| (found.value, found.std))
-        };
-        let told = self.names.iter().enumerate().filter_map(|(k, name)| {
-            let own = found.std[k].map(|std| (found.values[k], std));
-            let at_bound = || found.bound.contains(&k).then(|| free(name)).flatten();
-            let (value, std) = own.or_else(at_bound)?;
-            Some((name.as_str(), value, std))
-        });
-        let unknowns = form.unknowns();
-        let told = told.filter_map(|told| {
-            let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
-            Some((told, unknown))
-        });
-        let doubts = [
-            doubts::below_zero(told),
-            doubts::beyond_noise(form.model(), logs, &rmse(found)),
-        ];
-        doubts.into_iter().flatten().collect()
-    }
 }
 
 impl IdentifyArguments {
@@ -106,23 +51,19 @@ impl IdentifyArguments {
             .chain(options.files());
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
         let results = Results::claim(&mut files, self)?;
-        let compiled = if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
-            // Motors and links move apart.
-            compiled.ungrouped()
-        } else {
-            compiled
-        };
+        let compiled = parted(compiled);
         let progress = Progress::new();
         let form = ByAcceleration(InterpretedArm::new(compiled.clone()));
         let mut faults: Vec<(String, Fault)> = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, &form, &mut faults, &progress);
         let logs: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
-        let beginning = self.begin(&compiled, &form, &logs)?;
+        let start = options.start.as_deref();
+        let beginning = Beginning::of(&compiled, &form, &logs, self.bands, start)?;
         let mut settings = self.settings(&compiled, &beginning)?;
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
-        let starts = match self.output_error.start {
+        let starts = match start {
             Some(_) => beginning.starts.clone(),
             None => starts::within(&beginning.starts, &settings.bounds),
         };
@@ -203,64 +144,6 @@ impl IdentifyArguments {
         results.give(&report.json(), &evidence, progress)
     }
 
-    /// Parameters from a file, from least squares, or from the spec.
-    fn begin(
-        &self,
-        compiled: &Compiled,
-        form: &ByAcceleration,
-        logs: &[Log],
-    ) -> Result<Beginning, Error> {
-        let shape_names = compiled.shape_names();
-        let free = compiled.free_shapes();
-        let base = compiled.base.names.iter().cloned();
-        let names = base.chain(free.iter().map(|&k| shape_names[k].clone()));
-        let identify = Identify {
-            bands: self.bands,
-            ..Identify::default()
-        };
-        let linear = form.fit(&identify, logs);
-        let both = |values: Values| (values.beta, values.shapes);
-        let mut others = Vec::new();
-        let (beta, shapes) = match (&self.output_error.start, &linear) {
-            (Some(file), _) => both(parameters::resolve(compiled, Some(file))?),
-            (None, Ok(estimate)) if estimate.unexcited.is_empty() => {
-                let mut shapes = robot_model_codegen::base::shape_values(&compiled.model);
-                for (&k, (_, value)) in free.iter().zip(&estimate.shapes) {
-                    shapes[k] = *value;
-                }
-                others = starts::starts(form, estimate, logs);
-                (estimate.values(), shapes)
-            }
-            (None, linear) => both(parameters::resolve(compiled, None).map_err(|lack| {
-                let why = match linear {
-                    // The arm may well move, as one that is let go does.
-                    Err(IdentifyError::NothingExcited { .. }) => "torques that never change, or joints that do not move, tell it \
-                         nothing; of an arm that is let go give `--start`"
-                        .to_owned(),
-                    Err(error) => error.to_string(),
-                    Ok(estimate) => {
-                        let names: Vec<&str> =
-                            estimate.unexcited.iter().map(String::as_str).collect();
-                        format!("it does not separate {}", output::names(&names))
-                    }
-                };
-                Error::Argument(format!(
-                    "a simulation has to start somewhere, and least squares on these logs gives no place: {why}; nor does the spec: {lack}"
-                ))
-            })?),
-        };
-        let plant = InterpretedPlant::new(compiled.clone(), &beta, &shapes)?;
-        let others = others.into_iter().skip(1);
-        let others = others.map(|(beta, shapes)| [beta, shapes].concat());
-        Ok(Beginning {
-            names: names.collect(),
-            starts: std::iter::once(plant.values()).chain(others).collect(),
-            plant,
-            shapes,
-            linear: linear.ok(),
-        })
-    }
-
     fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {
         let options = &self.output_error;
         if options.controller.is_some() {
@@ -326,6 +209,15 @@ impl IdentifyArguments {
                 options.bounds.as_deref(),
             )?,
         })
+    }
+}
+
+/// With parameters of motors and of links that move apart each on its own.
+fn parted(compiled: Compiled) -> Compiled {
+    if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
+        compiled.ungrouped()
+    } else {
+        compiled
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod beside;
 mod file;
+mod over;
 mod physical;
 
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ use crate::Error;
 use crate::output::{self, counted, names};
 
 pub(crate) use beside::{Beside, beside};
+pub(crate) use over::over;
 pub(crate) use physical::no_body;
 
 /// Values for everything in an arm that is not a number yet.

@@ -174,7 +174,7 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         ),
         (
             &["merge", "cart.robot", "one.json", "narrow.json"],
-            "other filters than the arm",
+            "other filters (5,30,90 Hz, where 10,30,90 Hz are wanted)",
         ),
         (
             &["merge", "geared.robot", "one.json"],

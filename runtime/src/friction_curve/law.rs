@@ -5,6 +5,7 @@
 //! fall at all is asked of chance: under the law without one `v_s` means nothing, so the F-statistic has no F-distribution, and is
 //! compared with that of drawn noise, each draw with the best `v_s` of its own (Davies 1987).
 
+mod columns;
 mod fall;
 
 use nalgebra::{DMatrix, DVector};
@@ -15,6 +16,8 @@ use rand_distr::{Distribution, StandardNormal};
 use super::stretch::SAME;
 use super::{Curve, FrictionError, Point, Value};
 use crate::identify::{golden, neighbors};
+
+use columns::{left_inverse, orthonormal, with_column};
 
 pub use fall::Fall;
 
@@ -32,9 +35,6 @@ const RARE: f64 = 1e-3;
 /// A point counts for no more than one with this share of the median deviation.
 const LEAST_STD: f64 = 0.3;
 
-/// What is left of a column of unit length beside the others, at least.
-const APART: f64 = 1e-6;
-
 /// The static law of a joint's friction. Example: [`super::Measured`].
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -51,6 +51,8 @@ pub struct Law {
     pub probability: Option<f64>,
     /// Largest and root mean square distance of the points, N m or N.
     pub distance: (f64, f64),
+    /// How many of their deviations points are off, root mean square over the degrees of freedom: 1 where the law is theirs.
+    pub misfit: f64,
     /// `F_s`, the torque at which the joint breaks away, as far as the law goes: `F_c` where there is no fall, N m or N.
     pub breakaway: Value,
     /// `F_s / F_c - 1`, 0 where there is no fall.
@@ -217,7 +219,7 @@ impl Weighed {
         let length = column.norm();
         let rest = self.without(column);
         let left = rest.norm();
-        (left > APART * length).then(|| rest / left)
+        (left > columns::APART * length).then(|| rest / left)
     }
 
     /// By which share a fall at a Stribeck speed makes the sum of squares of `rest` less; a rise is none.
@@ -317,7 +319,7 @@ impl Weighed {
         }
         let map = left_inverse(&design).ok_or(FrictionError::SpeedsAlike)?;
         let freedom = n.saturating_sub(design.ncols()).max(1) as f64;
-        let scatter = (rest.norm_squared() / freedom).max(1.0);
+        let misfit = (rest.norm_squared() / freedom).sqrt();
         // Of a sum of the parameters, from the points themselves.
         let std = |parts: &[(usize, f64)]| {
             let moved = |k: usize| {
@@ -325,7 +327,7 @@ impl Weighed {
                 let sum: f64 = parts.map(|&(row, part)| part * map[(row, k)]).sum();
                 sum * self.weights[k]
             };
-            scatter.sqrt() * curve.deviation(moved)
+            misfit.max(1.0) * curve.deviation(moved)
         };
         let value = |k: usize, value: f64| Value {
             value,
@@ -367,32 +369,9 @@ impl Weighed {
             rise,
             probability,
             distance: (distances.max(), distances.norm() / (n as f64).sqrt()),
+            misfit,
         })
     }
-}
-
-fn with_column(columns: DMatrix<f64>, value: impl Fn(usize) -> f64) -> DMatrix<f64> {
-    let count = columns.ncols();
-    let mut more = columns.insert_column(count, 0.0);
-    for (row, x) in more.column_mut(count).iter_mut().enumerate() {
-        *x = value(row);
-    }
-    more
-}
-
-/// Orthonormal columns with the same sums; `None` where one is a sum of those before.
-fn orthonormal(columns: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let qr = columns.clone().qr();
-    let r = qr.r();
-    let is_apart = |k: usize| r[(k, k)].abs() > APART * columns.column(k).norm();
-    (0..columns.ncols()).all(is_apart).then(|| qr.q())
-}
-
-/// `(A'A)^-1 A'`
-fn left_inverse(columns: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let q = orthonormal(columns)?;
-    let r = q.transpose() * columns;
-    r.solve_upper_triangular(&q.transpose())
 }
 
 #[cfg(test)]

@@ -218,7 +218,7 @@ pub enum IdentifyError {
     )]
     OtherFactor {
         /// Joints, unknowns, equations or filters.
-        what: &'static str,
+        what: String,
     },
     /// The signals cannot be filtered.
     #[error(transparent)]

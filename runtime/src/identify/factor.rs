@@ -183,13 +183,14 @@ impl Factor {
     /// That another factor is of the same arm and filters.
     fn check(&self, other: &Self) -> Result<(), IdentifyError> {
         let what = if other.joints != self.joints {
-            Some("joints")
+            Some("joints".to_owned())
         } else if other.unknowns != self.unknowns {
-            Some("unknowns")
+            Some("unknowns".to_owned())
         } else if !equations::are_alike(&other.equations, &self.equations) {
-            Some("equations (kinematics, gravity, gains, effects or values that a spec fixes)")
+            Some(equations::OTHER.to_owned())
         } else if other.bands != self.bands {
-            Some("filters")
+            let (own, others) = (self.bands, other.bands);
+            Some(format!("filters ({others}, where {own} are wanted)"))
         } else {
             None
         };

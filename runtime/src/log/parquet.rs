@@ -1,4 +1,5 @@
-//! Parquet files to columns of finite numbers, a row group at a time.
+//! Parquet files to columns of finite numbers, some thousand rows at a time: of a group's columns one page each is unpacked, however
+//! many rows the group has (many writers make groups of a million).
 //!
 //! Columns of whole and real numbers are read; time stamps are whole numbers in the file's unit. Lists, texts and decimals hold no numbers here.
 
@@ -13,8 +14,11 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
-use super::limits::{self, MOST_NUMBERS};
+use super::limits;
 use super::rows::{Input, Rows, Table, unreadable};
+
+/// Rows that are read at a time at most.
+const BATCH: usize = 16_384;
 
 /// Rows of a Parquet file.
 pub(super) struct ParquetRows {
@@ -23,12 +27,59 @@ pub(super) struct ParquetRows {
     /// Names of the columns; those of nested ones have points in them.
     names: Vec<String>,
     next_group: usize,
-    /// Columns of the group that is being handed on, `[column][row]`; none where they hold no numbers.
-    group: Vec<Option<Vec<f64>>>,
-    next_row: usize,
-    rows_of_group: usize,
+    /// The group that is being read.
+    group: Group,
     /// Rows handed on so far.
     rows: u64,
+}
+
+/// A group whose rows are read as they are asked for.
+#[derive(Default)]
+struct Group {
+    rows: usize,
+    /// Rows read so far.
+    read: usize,
+    /// None where they hold no numbers.
+    columns: Vec<Option<Box<dyn Numbers>>>,
+}
+
+/// Numbers of a column of a group, from the first row to the last.
+trait Numbers {
+    /// So many that come next, NaN where there is none; fewer at the end.
+    fn next(&mut self, count: usize) -> Result<Vec<f64>, ParquetError>;
+}
+
+impl Group {
+    /// So many rows of each column that come next; nothing where it holds no numbers.
+    fn next(&mut self, count: usize) -> Result<Vec<Option<Vec<f64>>>, ParquetError> {
+        let Self {
+            rows,
+            read,
+            columns,
+        } = self;
+        let end = *read + count;
+        let next = |column: &mut Option<Box<dyn Numbers>>| {
+            let Some(column) = column else {
+                return Ok(None);
+            };
+            let numbers = column.next(count)?;
+            if numbers.len() < count {
+                let found = *read + numbers.len();
+                return Err(ParquetError::General(format!(
+                    "a column of {found} rows in a group of {rows}"
+                )));
+            }
+            if end == *rows && !column.next(1)?.is_empty() {
+                return Err(ParquetError::General(format!(
+                    "a column of more than {rows} rows in a group of {rows}"
+                )));
+            }
+            Ok(Some(numbers))
+        };
+        let numbers = columns.iter_mut().map(next).collect();
+        self.read = end;
+        numbers
+    }
 }
 
 impl ParquetRows {
@@ -58,20 +109,19 @@ impl ParquetRows {
                 .collect(),
             reader: Box::new(reader),
             next_group: 0,
-            group: Vec::new(),
-            next_row: 0,
-            rows_of_group: 0,
+            group: Group::default(),
             rows: 0,
         })
     }
 
-    /// Rows of the group up to `end`.
-    fn hand_on(&mut self, table: &mut Table, end: usize) -> Result<(), LogError> {
-        let rows = self.next_row..end;
+    /// So many rows of the group that come next.
+    fn hand_on(&mut self, table: &mut Table, count: usize) -> Result<(), LogError> {
+        let read = guarded(|| self.group.next(count));
+        let group = read.map_err(|error| unreadable(&self.source, self.rows + 1, &error))?;
         // Of each row the first column that has no number in it.
-        let mut bad: Vec<Option<usize>> = vec![None; rows.len()];
-        for (k, column) in self.group.iter().enumerate() {
-            let values = column.as_ref().map(|column| &column[rows.clone()]);
+        let mut bad: Vec<Option<usize>> = vec![None; count];
+        for (k, column) in group.iter().enumerate() {
+            let values = column.as_deref();
             let has_first =
                 values.is_some_and(|values| values.first().is_some_and(|v| v.is_finite()));
             if self.rows == 0 && !table.is_needed[k] {
@@ -87,8 +137,8 @@ impl ParquetRows {
                 bad[row].get_or_insert(k);
             }
         }
-        for (k, column) in self.group.iter().enumerate() {
-            let sound = rows.clone().zip(&bad).filter(|(_, bad)| bad.is_none());
+        for (k, column) in group.iter().enumerate() {
+            let sound = (0..count).zip(&bad).filter(|(_, bad)| bad.is_none());
             let value = |(row, _)| match column {
                 Some(values) if table.is_number[k] => values[row],
                 _ => f64::NAN,
@@ -105,8 +155,7 @@ impl ParquetRows {
                 None => table.lines.push(line),
             }
         }
-        self.rows += rows.len() as u64;
-        self.next_row = end;
+        self.rows += count as u64;
         Ok(())
     }
 
@@ -119,39 +168,24 @@ impl ParquetRows {
         }
     }
 
-    /// What a group says of itself is not what it has: it must not be believed before there is room for it.
-    fn check_room(&self, group: usize) -> Result<(), LogError> {
-        let rows = self.reader.metadata().row_group(group).num_rows();
-        // Fewer than none are refused with the group.
-        let rows = u64::try_from(rows).unwrap_or(0);
-        let columns = self.names.len();
-        let is_room = rows
-            .checked_mul(columns as u64)
-            .is_some_and(|numbers| numbers <= MOST_NUMBERS as u64);
-        if is_room {
-            return Ok(());
-        }
-        Err(limits::too_large(&self.source, rows, columns))
-    }
-
-    /// Reads the next group that has rows; false at the end.
-    fn read_group(&mut self) -> Result<bool, LogError> {
+    /// Opens the next group that has rows; false at the end.
+    fn open_group(&mut self) -> Result<bool, LogError> {
         while self.next_group < self.reader.num_row_groups() {
-            let damaged = |error: ParquetError| unreadable(&self.source, self.rows + 1, &error);
-            let place = self.next_group;
-            self.check_room(place)?;
-            self.next_group += 1;
-            self.next_row = 0;
-            let read = guarded(|| {
-                let group = self.reader.get_row_group(place)?;
+            let open = guarded(|| {
+                let group = self.reader.get_row_group(self.next_group)?;
                 let rows = usize::try_from(group.metadata().num_rows()).map_err(|_| {
                     ParquetError::General("a group of less than no rows".to_owned())
                 })?;
                 let columns = (0..self.names.len()).map(|k| column(&*group, k, rows));
-                Ok((rows, columns.collect::<Result<_, _>>()?))
+                Ok(Group {
+                    rows,
+                    read: 0,
+                    columns: columns.collect::<Result<_, _>>()?,
+                })
             });
-            (self.rows_of_group, self.group) = read.map_err(damaged)?;
-            if self.rows_of_group > 0 {
+            self.group = open.map_err(|error| unreadable(&self.source, self.rows + 1, &error))?;
+            self.next_group += 1;
+            if self.group.rows > 0 {
                 return Ok(true);
             }
         }
@@ -166,12 +200,15 @@ impl Rows for ParquetRows {
 
     fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError> {
         while table.lines.len() < most {
-            if self.next_row == self.rows_of_group && !self.read_group()? {
-                return Ok(false);
+            let left = self.group.rows - self.group.read;
+            if left == 0 {
+                if !self.open_group()? {
+                    return Ok(false);
+                }
+                continue;
             }
             let room = most - table.lines.len();
-            let end = self.rows_of_group.min(self.next_row + room);
-            self.hand_on(table, end)?;
+            self.hand_on(table, left.min(room).min(BATCH))?;
         }
         Ok(true)
     }
@@ -239,12 +276,12 @@ impl PageReader for Bounded {
     }
 }
 
-/// Numbers of a column of a group, NaN where it has none; nothing where it holds something else.
+/// Numbers of a column of a group; nothing where it holds something else.
 fn column(
     group: &dyn RowGroupReader,
     place: usize,
     rows: usize,
-) -> Result<Option<Vec<f64>>, ParquetError> {
+) -> Result<Option<Box<dyn Numbers>>, ParquetError> {
     let metadata = group.metadata().column(place);
     let about = metadata.column_descr_ptr();
     if about.max_rep_level() > 0 {
@@ -273,72 +310,72 @@ fn column(
         pages: group.get_column_page_reader(place)?,
         rows,
     };
-    let values = match get_column_reader(about, Box::new(pages)) {
+    Ok(Some(match get_column_reader(about, Box::new(pages)) {
         ColumnReader::Int32ColumnReader(reader) if is_unsigned => {
-            all(reader, rows, present, |value| {
-                f64::from(value.cast_unsigned())
-            })
+            numbers(reader, present, |value| f64::from(value.cast_unsigned()))
         }
-        ColumnReader::Int32ColumnReader(reader) => all(reader, rows, present, f64::from),
+        ColumnReader::Int32ColumnReader(reader) => numbers(reader, present, f64::from),
         ColumnReader::Int64ColumnReader(reader) if is_unsigned => {
-            all(reader, rows, present, |value| value.cast_unsigned() as f64)
+            numbers(reader, present, |value| value.cast_unsigned() as f64)
         }
-        ColumnReader::Int64ColumnReader(reader) => all(reader, rows, present, |value| value as f64),
-        ColumnReader::FloatColumnReader(reader) => all(reader, rows, present, f64::from),
-        ColumnReader::DoubleColumnReader(reader) => all(reader, rows, present, |value| value),
+        ColumnReader::Int64ColumnReader(reader) => numbers(reader, present, |value| value as f64),
+        ColumnReader::FloatColumnReader(reader) => numbers(reader, present, f64::from),
+        ColumnReader::DoubleColumnReader(reader) => numbers(reader, present, |value| value),
         _ => return Ok(None),
-    }?;
-    Ok(Some(values))
+    }))
 }
 
-/// All rows of a column; levels of definition below `present` are nulls.
-fn all<T: DataType>(
-    mut reader: ColumnReaderImpl<T>,
-    rows: usize,
+/// A column whose values are made numbers; levels of definition below `present` are nulls.
+struct Typed<T: DataType, N> {
+    reader: ColumnReaderImpl<T>,
     present: i16,
-    number: impl Fn(T::T) -> f64,
-) -> Result<Vec<f64>, ParquetError>
+    number: N,
+}
+
+fn numbers<T: DataType, N: Fn(T::T) -> f64 + 'static>(
+    reader: ColumnReaderImpl<T>,
+    present: i16,
+    number: N,
+) -> Box<dyn Numbers>
 where
     T::T: Copy,
 {
-    let (mut levels, mut values) = (Vec::new(), Vec::new());
-    let mut read = 0;
-    loop {
-        let (more, ..) = reader.read_records(rows - read, Some(&mut levels), None, &mut values)?;
-        read += more;
-        if more == 0 || read == rows {
-            break;
+    Box::new(Typed {
+        reader,
+        present,
+        number,
+    })
+}
+
+impl<T: DataType, N: Fn(T::T) -> f64> Numbers for Typed<T, N>
+where
+    T::T: Copy,
+{
+    fn next(&mut self, count: usize) -> Result<Vec<f64>, ParquetError> {
+        let (mut levels, mut values) = (Vec::new(), Vec::new());
+        let mut read = 0;
+        while read < count {
+            let (more, ..) =
+                self.reader
+                    .read_records(count - read, Some(&mut levels), None, &mut values)?;
+            if more == 0 {
+                break;
+            }
+            read += more;
         }
-    }
-    if reader
-        .read_records(1, Some(&mut levels), None, &mut values)?
-        .0
-        > 0
-    {
-        return Err(ParquetError::General(format!(
-            "a column of more than {rows} rows in a group of {rows}"
-        )));
-    }
-    let mut numbers = values.into_iter().map(number);
-    let numbers: Vec<f64> = if present == 0 {
-        numbers.collect()
-    } else {
-        let of_level = |level: &i16| {
-            let is_there = *level == present;
+        let mut numbers = values.into_iter().map(&self.number);
+        if self.present == 0 {
+            return Ok(numbers.collect());
+        }
+        let of_level = |level: i16| {
+            let is_there = level == self.present;
             is_there
                 .then(|| numbers.next())
                 .flatten()
                 .unwrap_or(f64::NAN)
         };
-        levels.iter().map(of_level).collect()
-    };
-    if numbers.len() == rows {
-        return Ok(numbers);
+        Ok(levels.into_iter().map(of_level).collect())
     }
-    Err(ParquetError::General(format!(
-        "a column of {} rows in a group of {rows}",
-        numbers.len()
-    )))
 }
 
 #[cfg(test)]

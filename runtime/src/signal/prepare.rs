@@ -1,5 +1,6 @@
 //! A log to the motion that models read.
 
+use std::fmt;
 use std::ops::Range;
 
 use super::{LowPass, SharedFilter, SignalError, derivative, resample, turn_speed};
@@ -28,6 +29,17 @@ pub struct Bands {
     pub wide_hz: f64,
     /// Of the filter that torque and all columns share; least squares sees this band only.
     pub shared_hz: f64,
+}
+
+/// Shared, smooth and wide, as in `10,30,90 Hz`.
+impl fmt::Display for Bands {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{},{},{} Hz",
+            self.shared_hz, self.smooth_hz, self.wide_hz
+        )
+    }
 }
 
 impl Bands {

@@ -75,6 +75,23 @@ fn the_result_starts_output_error() {
     folder.succeed(&[&identify[..], &start].concat());
     let fit = json(&folder.read("fit.json"));
     close(parameter(&fit, "elbow.coulomb_friction.fc"), 0.5, 0.01);
+
+    // Of a body without nominal values the file says nothing.
+    let body = spec
+        .lines()
+        .find(|line| line.contains("link elbow"))
+        .expect("a body");
+    folder.write("rod.robot", &spec.replace(body, ""));
+    let run = folder.run(&[&identify[..], &start].concat());
+    let told = "f.json: no value for 2 parameters: those of `--method wls` on the same logs for";
+    assert!(
+        run.code == Some(0) && run.stderr.contains(told),
+        "{}",
+        run.stderr
+    );
+    let fit = json(&folder.read("fit.json"));
+    close(parameter(&fit, "elbow.coulomb_friction.fc"), 0.5, 0.01);
+    close(parameter(&fit, "elbow.mx"), -0.0525, 0.01);
 }
 
 #[test]

@@ -28,12 +28,13 @@ fn ladder(count: i32) -> Vec<f64> {
 #[test]
 fn the_law_comes_back_with_its_deviations() {
     let speeds = ladder(20);
-    let (mut squares, mut told) = ([0.0; 5], 0.0);
+    let (mut squares, mut told, mut misfit) = ([0.0; 5], 0.0, 0.0);
     for seed in 0..200 {
         let curve = drawn(seed, &speeds, &seed_003, 40, 0.05);
         let points = curve.points.iter().map(|point| point.torque.std.powi(2));
         told += points.sum::<f64>() / (0.05_f64.powi(2) / 40.0 * 20.0 * 200.0);
         let law = Law::fit(&curve).expect("a law");
+        misfit += law.misfit.powi(2) / 200.0;
         let fall = law.fall.expect("a fall");
         let found = [
             (law.coulomb, 0.5843),
@@ -53,6 +54,8 @@ fn the_law_comes_back_with_its_deviations() {
     }
     // Variances of the points that are told, over what they are.
     assert!((0.85..1.25).contains(&told), "{told}");
+    // So are distances of the points.
+    assert!((0.85..1.25).contains(&misfit), "{misfit}");
     // Errors over what is said of them.
     for square in squares {
         assert!((0.6..1.5).contains(&square), "{squares:?}");
@@ -69,6 +72,15 @@ fn both_directions_have_an_offset() {
         (offset.value + 0.2).abs() < 4.0 * offset.std && offset.std < 0.01,
         "{law:?}"
     );
+}
+
+/// Viscous friction that differs by direction is no law of this kind.
+#[test]
+fn points_of_another_law_are_off_by_more_than_their_deviations() {
+    let speeds: Vec<f64> = ladder(8).into_iter().flat_map(|v| [-v, v]).collect();
+    let law = |v: f64| 0.6 * v.signum() + if v > 0.0 { 0.1 } else { 0.15 } * v;
+    let found = Law::fit(&drawn(1, &speeds, &law, 40, 0.02)).expect("a law");
+    assert!(found.misfit > 3.0, "{found:?}");
 }
 
 /// The best of many Stribeck speeds is better than one, and no more than chance all the same.

@@ -22,6 +22,10 @@ const ALIKE: f64 = 1e-9;
 /// A sum that is a smaller share of the largest size is what rounding leaves of nothing.
 const NOTHING: f64 = 1e-13;
 
+/// What differs where these do.
+pub(super) const OTHER: &str =
+    "equations (kinematics, gravity, gains, effects or values that a spec fixes)";
+
 /// A weighed sum of a column over joints and samples, and the sum of the sizes of its parts.
 pub type Sum = [f64; 2];
 

@@ -119,8 +119,9 @@ fn merged_factors_are_those_of_all_logs() {
     assert_eq!(one, both);
     let mut narrow = empty();
     narrow.bands.shared_hz = 5.0;
-    let refused = one.merge(narrow);
-    assert_eq!(refused, Err(IdentifyError::OtherFactor { what: "filters" }));
+    let refused = one.merge(narrow).expect_err("other filters").to_string();
+    let told = "other filters (5,30,90 Hz, where 10,30,90 Hz are wanted)";
+    assert!(refused.contains(told), "{refused}");
 }
 
 #[test]

@@ -1,0 +1,149 @@
+//! Parameters from which a search by simulation begins.
+
+use std::path::Path;
+
+use robot_model::identify::output_error::{OutputErrorError, OutputEstimate};
+use robot_model::identify::{Estimate, Identify, IdentifyError};
+use robot_model::log::Log;
+use robot_model::signal::Bands;
+use robot_model::simulate::Adjustable;
+use robot_model_codegen::Compiled;
+
+use super::super::doubts;
+use super::super::fit::{ByAcceleration, Fit};
+use super::{refused, rmse, starts};
+use crate::Error;
+use crate::audit;
+use crate::interpreted::InterpretedPlant;
+use crate::output;
+use crate::parameters::{self, Values};
+
+/// Where the search starts, and what least squares says where it has a say.
+pub(super) struct Beginning {
+    pub plant: InterpretedPlant,
+    pub names: Vec<String>,
+    pub shapes: Vec<f64>,
+    pub linear: Option<Estimate>,
+    /// Parameters of the plant to start from: of several the one that leads deepest is to be found.
+    pub starts: Vec<Vec<f64>>,
+}
+
+impl Beginning {
+    /// Parameters from a file, from least squares, or from the spec.
+    pub(super) fn of(
+        compiled: &Compiled,
+        form: &ByAcceleration,
+        logs: &[Log],
+        bands: Option<Bands>,
+        start: Option<&Path>,
+    ) -> Result<Self, Error> {
+        let shape_names = compiled.shape_names();
+        let free = compiled.free_shapes();
+        let base = compiled.base.names.iter().cloned();
+        let names = base.chain(free.iter().map(|&k| shape_names[k].clone()));
+        let identify = Identify {
+            bands,
+            ..Identify::default()
+        };
+        let linear = form.fit(&identify, logs);
+        let both = |values: Values| (values.beta, values.shapes);
+        let mut others = Vec::new();
+        let fitted = linear.as_ref().ok();
+        let fitted = fitted.filter(|estimate| estimate.unexcited.is_empty());
+        let of_fit = |estimate: &Estimate| {
+            let mut shapes = robot_model_codegen::base::shape_values(&compiled.model);
+            for (&k, (_, value)) in free.iter().zip(&estimate.shapes) {
+                shapes[k] = *value;
+            }
+            (estimate.values(), shapes)
+        };
+        let (beta, shapes) = match (start, fitted) {
+            (Some(file), fitted) => match parameters::resolve(compiled, Some(file)) {
+                Ok(values) => both(values),
+                Err(lack) => {
+                    let over = fitted.map(of_fit);
+                    let over = over.map(|fitted| parameters::over(compiled, file, fitted));
+                    over.transpose()?.flatten().ok_or(lack)?
+                }
+            },
+            (None, Some(estimate)) => {
+                others = starts::starts(form, estimate, logs);
+                of_fit(estimate)
+            }
+            (None, None) => both(parameters::resolve(compiled, None).map_err(|lack| {
+                let why = match &linear {
+                    // The arm may well move, as one that is let go does.
+                    Err(IdentifyError::NothingExcited { .. }) => "torques that never change, or joints that do not move, tell it \
+                         nothing; of an arm that is let go give `--start`"
+                        .to_owned(),
+                    Err(error) => error.to_string(),
+                    Ok(estimate) => {
+                        let names: Vec<&str> =
+                            estimate.unexcited.iter().map(String::as_str).collect();
+                        format!("it does not separate {}", output::names(&names))
+                    }
+                };
+                Error::Argument(format!(
+                    "a simulation has to start somewhere, and least squares on these logs gives no place: {why}; nor does the spec: {lack}"
+                ))
+            })?),
+        };
+        let plant = InterpretedPlant::new(compiled.clone(), &beta, &shapes)?;
+        let others = others.into_iter().skip(1);
+        let others = others.map(|(beta, shapes)| [beta, shapes].concat());
+        Ok(Beginning {
+            names: names.collect(),
+            starts: std::iter::once(plant.values()).chain(others).collect(),
+            plant,
+            shapes,
+            linear: linear.ok(),
+        })
+    }
+
+    /// Why nothing was found, with what is wrong with the arm that the search starts from.
+    pub(super) fn refused(&self, compiled: &Compiled, error: &OutputErrorError) -> Error {
+        let start = &self.starts[0][..compiled.base.kept.len()];
+        let inertia = match error {
+            OutputErrorError::Start { .. } => audit::inertia_of(compiled, start, &self.shapes),
+            _ => None,
+        };
+        let Some(inertia) = inertia else {
+            return refused(error);
+        };
+        Error::Argument(format!(
+            "{error}\nno arm has the parameters that the search starts from: {inertia}; start from the nearest arm that can be: `--method \
+             physical --json start.json`, then `--start start.json`"
+        ))
+    }
+
+    /// What is odd about what was found from it.
+    pub(super) fn doubts(
+        &self,
+        form: &ByAcceleration,
+        logs: &[Log],
+        found: &OutputEstimate,
+    ) -> Vec<String> {
+        // What its sign holds is as least squares would have it.
+        let free = |name: &String| {
+            let linear = self.linear.iter().flat_map(|linear| &linear.parameters);
+            let mut linear = linear.filter(|parameter| parameter.name == *name);
+            linear.next().map(|found| (found.value, found.std))
+        };
+        let told = self.names.iter().enumerate().filter_map(|(k, name)| {
+            let own = found.std[k].map(|std| (found.values[k], std));
+            let at_bound = || found.bound.contains(&k).then(|| free(name)).flatten();
+            let (value, std) = own.or_else(at_bound)?;
+            Some((name.as_str(), value, std))
+        });
+        let unknowns = form.unknowns();
+        let told = told.filter_map(|told| {
+            let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
+            Some((told, unknown))
+        });
+        let doubts = [
+            doubts::below_zero(told),
+            doubts::beyond_noise(form.model(), logs, &rmse(found)),
+        ];
+        doubts.into_iter().flatten().collect()
+    }
+}
