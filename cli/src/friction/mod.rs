@@ -15,6 +15,7 @@ use robot_model_codegen::Compiled;
 
 use crate::Error;
 use crate::dissect::check_channels;
+use crate::identify::far;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted, names};
@@ -79,6 +80,10 @@ impl Friction {
         let arm = InterpretedArm::new(compiled.clone());
         for log in logs.iter().chain(&pre_sliding) {
             check_channels(&arm, log)?;
+            let positions = far::positions(&compiled.model, log).into_iter();
+            for doubt in positions.chain(far::torques(&compiled.model, log)) {
+                progress.note(&format!("note: {}: {doubt}", log.source));
+            }
         }
         let measured = self.measured(&compiled, &arm, joint, &progress)?;
         progress.step("looking for constant speeds");

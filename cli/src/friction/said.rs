@@ -72,7 +72,10 @@ impl Found<'_> {
             ));
         }
         if law.coulomb.value < -NOTHING * law.coulomb.std {
-            doubts.push("the Coulomb torque is below zero".to_owned());
+            doubts.push(
+                "the Coulomb torque is below zero: is the sign of the torque that of the spec's joint?"
+                    .to_owned(),
+            );
         }
         if law.viscous.value < -NOTHING * law.viscous.std {
             doubts.push(

@@ -1,6 +1,6 @@
 //! What looks like another unit, sign or order than the spec's.
 
-use robot_model::columns::{Shape, Unknown};
+use robot_model::columns::{Arm, Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Identified, is_shape_told};
 use robot_model::log::Log;
 use robot_model_spec::Model;
@@ -119,6 +119,25 @@ fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
         format!(
             "the logs do not tell `{name}`, {value:.2e} +- {std:.2e}, nor with it the values of `{effect}`: see whether errors on a log that is \
              not fitted are less with that effect, and leave it out where they are not"
+        )
+    })
+}
+
+/// What is said of open curves of dry friction that rows at turns alone tell.
+pub(super) fn at_turns(arm: &dyn Arm, estimate: &Estimate) -> Option<String> {
+    let open = arm.dry_shapes().iter();
+    let open: Vec<&str> = open
+        .filter_map(|&k| Some(estimate.shapes.get(k)?.0.as_str()))
+        .collect();
+    (!open.is_empty() && !estimate.is_without_turns).then(|| {
+        format!(
+            "{} looked for with the rows where joints turn, as no others tell {}: a joint stands there longer than its law says, and values of \
+             the effect may be off by many of their deviations; runs at constant speeds tell a friction curve (`friction`)",
+            match open.as_slice() {
+                [one] => format!("`{one}` is"),
+                _ => format!("{} are", names(&open)),
+            },
+            if open.len() == 1 { "it" } else { "them" }
         )
     })
 }

@@ -1,10 +1,10 @@
-//! Positions that go where none goes in radians or meters.
+//! Positions that go where none goes in radians or meters, and torques that no joint has.
 
 use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
 
-/// Positions beyond this many times their limit are of another unit.
+/// Positions and torques beyond this many times their limit are of another unit.
 const BEYOND: f64 = 3.0;
 
 /// A joint without limits that turns further than this, rad, in a log.
@@ -42,7 +42,7 @@ struct Far {
 }
 
 /// Joints that go too far, those that turn and those that slide, each told at once.
-pub(super) fn positions(model: &Model, log: &Log) -> Vec<String> {
+pub(crate) fn positions(model: &Model, log: &Log) -> Vec<String> {
     let far: Vec<Far> = (0..model.joints.len())
         .filter_map(|joint| far(model, log, joint))
         .collect();
@@ -53,6 +53,33 @@ pub(super) fn positions(model: &Model, log: &Log) -> Vec<String> {
         .into_iter()
         .chain(question(&SLIDING, log, &sliding))
         .collect()
+}
+
+/// Torques beyond what the spec says that joints have.
+pub(crate) fn torques(model: &Model, log: &Log) -> Option<String> {
+    let joints = model.joints.iter().enumerate();
+    let far = joints.filter_map(|(joint, declared)| {
+        let limit = declared.limits.torque?;
+        let most = log.tau[joint]
+            .iter()
+            .map(|tau| tau.abs())
+            .fold(0.0, f64::max);
+        let most = most * declared.actuator_gain.abs();
+        let unit = match declared.kind {
+            JointKind::Revolute => "N m",
+            JointKind::Prismatic => "N",
+        };
+        (most > BEYOND * limit)
+            .then(|| format!("`{}` {most:.1} of {limit:.1} {unit}", declared.name))
+    });
+    let far: Vec<String> = far.collect();
+    (!far.is_empty()).then(|| {
+        format!(
+            "torques are beyond the limits of the spec: {}: are they in another unit, or currents? Logs are in N m and N, or as the spec says \
+             (`log`, `actuator_gain`)",
+            far.join(", ")
+        )
+    })
 }
 
 fn far(model: &Model, log: &Log, joint: usize) -> Option<Far> {
@@ -146,6 +173,23 @@ mod tests {
             "{both:?}"
         );
         assert!(both[1].contains("q = \"q2\": mm"), "{both:?}");
+    }
+
+    #[test]
+    fn torques_beyond_the_limits_are_asked_for_their_unit() {
+        let spec = SPEC.replace("d = 0; }", "d = 0; torque = 20 Nm; }");
+        assert_ne!(spec, SPEC);
+        let model = robot_model_spec::load("two.robot", &spec).expect("a spec");
+        let said = |most: f64| {
+            let time: Vec<f64> = (0..200).map(|k| 0.01 * f64::from(k)).collect();
+            let wave = |t: &f64| most * (3.0 * t).sin();
+            let tau = vec![time.iter().map(wave).collect(), vec![0.0; 200]];
+            let log = Log::from_samples("a log", time, vec![vec![0.1; 200]; 2], tau);
+            torques(&model, &log.expect("sound"))
+        };
+        assert_eq!(said(25.0), None);
+        let told = said(12_000.0).expect("far");
+        assert!(told.contains("`turn` 12000.0 of 20.0 N m:"), "{told}");
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod data_faults;
 pub(crate) mod doubts;
 mod drive_gains;
 pub(crate) mod factor_file;
-mod far;
+pub(crate) mod far;
 pub(crate) mod fit;
 mod large;
 mod likeness;
@@ -363,7 +363,8 @@ impl IdentifyArguments {
             return read_log(path, form.model(), &self.log_settings, progress);
         }
         let mended = read_mended(path, form.model(), &self.log_settings, progress)?;
-        for doubt in far::positions(form.model(), &mended.log) {
+        let positions = far::positions(form.model(), &mended.log).into_iter();
+        for doubt in positions.chain(far::torques(form.model(), &mended.log)) {
             progress.note(&format!("note: {}: {doubt}", path.display()));
         }
         let source = path.display().to_string();

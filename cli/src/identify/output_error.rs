@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use robot_model::identify::output_error::{
     Comparison, Hold, OutputError, OutputErrorError, OutputEstimate, Search,
 };
-use robot_model::identify::{Errors, Estimate};
+use robot_model::identify::{Errors, Estimate, Identify};
 use robot_model::log::{Fault, Log};
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
@@ -22,7 +22,7 @@ use robot_model_codegen::expr::Symbol;
 use super::fit::{ByAcceleration, Fit, errors_of_all};
 use super::page::{Evidence, OnLog};
 use super::results::Results;
-use super::{IdentifyArguments, doubts, twice};
+use super::{IdentifyArguments, doubts, readings, twice};
 use crate::Error;
 use crate::interpreted::InterpretedArm;
 use crate::output::{Files, names};
@@ -60,6 +60,7 @@ impl IdentifyArguments {
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let start = options.start.as_deref();
         let beginning = Beginning::of(&compiled, &form, &logs, self.bands, start)?;
+        self.ask_equations(&form, &logs, &beginning, &mut faults, &progress);
         let mut settings = self.settings(&compiled, &beginning)?;
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
@@ -142,6 +143,28 @@ impl IdentifyArguments {
             printed: &printed,
         };
         results.give(&report.json(), &evidence, progress)
+    }
+
+    /// What least squares says of the columns of logs, before they are simulated.
+    fn ask_equations(
+        &self,
+        form: &ByAcceleration,
+        logs: &[Log],
+        beginning: &Beginning,
+        faults: &mut Vec<(String, Fault)>,
+        progress: &Progress,
+    ) {
+        let Some(linear) = &beginning.linear else {
+            return;
+        };
+        let identify = Identify {
+            bands: self.bands,
+            ..Identify::default()
+        };
+        if let Some(doubt) = readings::others(form, &identify, logs, linear) {
+            progress.note(&format!("note: {doubt}"));
+        }
+        faults.extend(self.late_channels(linear, progress));
     }
 
     fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {

@@ -16,7 +16,7 @@ use crate::report::ReportFolder;
 struct Noted<'a, R> {
     #[serde(flatten)]
     report: &'a R,
-    notes: &'a [String],
+    notes: Vec<&'a str>,
 }
 
 /// Files of a result that were asked for.
@@ -52,7 +52,9 @@ impl Results {
             .page
             .map(|folder| Ok::<_, Error>((folder, found.page()?)));
         let page = page.transpose()?;
-        let notes = &found.notes;
+        let notes = found.notes.iter();
+        let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note));
+        let notes = notes.collect();
         let noted = Noted { report, notes };
         let json = self.json.map(|file| (file, output::json(&noted)));
         drop(progress);

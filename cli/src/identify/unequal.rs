@@ -6,6 +6,9 @@ use robot_model::log::Log;
 /// How many times as much.
 const FAR: f64 = 3.0;
 
+/// And in shares of the torque, without long rests, which are not fitted.
+const FAR_IN_SHARES: f64 = 2.0;
+
 /// Joints whose rows count alike in all logs, though what is left of them is not.
 pub(super) fn doubt(joints: &[String], logs: &[Log], errors: &[Errors]) -> Option<String> {
     let told = joints.iter().enumerate().filter_map(|(joint, name)| {
@@ -14,7 +17,9 @@ pub(super) fn doubt(joints: &[String], logs: &[Log], errors: &[Errors]) -> Optio
         let counted: Vec<usize> = counted.collect();
         let most = counted.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
         let least = counted.iter().min_by(|a, b| of(a).total_cmp(&of(b)))?;
-        (of(most) > FAR * of(least)).then(|| {
+        let share = |log: &usize| errors[*log].relative_percent[joint];
+        let is_far = of(most) > FAR * of(least) && share(most) > FAR_IN_SHARES * share(least);
+        is_far.then(|| {
             format!(
                 "`{name}` {:.3} in {}, {:.3} in {}",
                 of(most),
@@ -45,14 +50,16 @@ mod tests {
             let zeros = vec![vec![0.0; 20]; 2];
             Log::from_samples(name, time, zeros.clone(), zeros).expect("a log")
         };
-        let errors = |rmse: [f64; 2]| {
+        let of = |rmse: [f64; 2], shares: [f64; 2]| {
             let part = Errors::of_all(&[]);
             Errors {
                 rmse: rmse.to_vec(),
+                relative_percent: shares.to_vec(),
                 samples: vec![10; 2],
                 ..part
             }
         };
+        let errors = |rmse: [f64; 2]| of(rmse, rmse);
         let joints = ["up", "lo"].map(str::to_owned);
         let logs = [log("a.csv"), log("b.csv")];
         let said = doubt(&joints, &logs, &[errors([0.1, 0.1]), errors([0.2, 0.5])]);
@@ -66,5 +73,8 @@ mod tests {
             None
         );
         assert_eq!(doubt(&joints, &logs[..1], &[errors([0.1, 0.5])]), None);
+        // What is left of a long rest is fitted nowhere.
+        let rested = of([0.2, 0.5], [0.1, 0.1]);
+        assert_eq!(doubt(&joints, &logs, &[errors([0.1, 0.1]), rested]), None);
     }
 }

@@ -40,6 +40,22 @@ type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 impl Figure {
+    /// How many parts of the drawing are of a series, by its place: lines, dots, bars, areas with its color, beside that of the key.
+    #[must_use]
+    pub fn parts_of(&self, svg: &str, place: usize) -> usize {
+        let (mark, in_key) = match self.series[place].mark {
+            Mark::Line | Mark::Broad | Mark::Boxes => ("<polyline", 0),
+            Mark::Dots => ("<circle", 1),
+            Mark::Bars => ("<rect", 1),
+            Mark::Band => ("<polygon", 0),
+        };
+        let RGBColor(red, green, blue) = COLORS[place % COLORS.len()];
+        let color = format!("\"#{red:02X}{green:02X}{blue:02X}\"");
+        let parts = svg.split('<').map(|part| format!("<{part}"));
+        let own = parts.filter(|part| part.starts_with(mark) && part.contains(&color));
+        own.count().saturating_sub(in_key)
+    }
+
     /// The drawing; points that are not finite are left out.
     #[must_use]
     pub fn svg(&self) -> String {
@@ -246,6 +262,9 @@ mod tests {
         // One in the axes and one in the key.
         assert_eq!(svg.matches("<circle").count(), lines + 2, "{svg}");
         assert!(!svg.contains("NaN"));
+        assert_eq!([0, 1].map(|place| figure.parts_of(&svg, place)), [1, 1]);
+        let empty = figure.with("nothing", Mark::Line, [(f64::NAN, 1.0)]);
+        assert_eq!(empty.parts_of(&empty.svg(), 2), 0);
     }
 
     #[test]

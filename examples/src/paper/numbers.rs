@@ -26,6 +26,18 @@ pub fn agree(one: &str, other: &str) -> bool {
     one.len() == other.len() && pairs.all(|(one, other)| are_alike(*one, *other))
 }
 
+/// Whether both texts have the same words, and numbers that are no farther apart than `most`.
+#[must_use]
+pub fn are_within(one: &str, other: &str, most: f64) -> bool {
+    let (one, other) = (words(one), words(other));
+    let mut pairs = one.iter().zip(&other);
+    one.len() == other.len()
+        && pairs.all(|pair| match pair {
+            (Piece::Number(x, _), Piece::Number(y, _)) => (x - y).abs() <= most,
+            (one, other) => one == other,
+        })
+}
+
 /// Whether both texts have the same words, and numbers at the same places, whatever these and their signs are.
 #[must_use]
 pub fn have_same_words(one: &str, other: &str) -> bool {

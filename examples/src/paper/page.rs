@@ -6,6 +6,9 @@ use super::{Paper, Status, Table, numbers, row};
 /// What heads the items on a page; they are its last part.
 const ITEMS: &str = "## Item by item";
 
+/// Places in a figure may differ by this, in pixels, as from one machine to another.
+const PIXELS: f64 = 2.0;
+
 impl Paper {
     /// As text for `docs/papers`: all tables, then the items.
     #[must_use]
@@ -22,8 +25,8 @@ impl Paper {
 
     /// What a page of the docs says otherwise than the program, or does not say.
     ///
-    /// Every item has to stand on the page with all that the program says of it, and every line of a table on the page has to be one of
-    /// the program's. Numbers may differ in their last digits, as from one machine to another ([`numbers::agree`]).
+    /// Every item has to stand on the page with all that the program says of it, every table under its title, and every line of a table on
+    /// the page has to be one of the program's. Numbers may differ in their last digits, as from one machine to another ([`numbers::agree`]).
     #[must_use]
     pub fn differences(&self, page: &str) -> Vec<String> {
         let (text, items) = page.split_once(ITEMS).unwrap_or((page, ""));
@@ -44,14 +47,45 @@ impl Paper {
                 found.push(format!("no item of the program: {}", entry.trim()));
             }
         }
-        let lines = text.lines().filter(|line| line.starts_with('|'));
-        let unknown = lines.filter(|line| !self.tables.iter().any(|table| has(table, line)));
+        let lines = || text.lines().filter(|line| line.starts_with('|'));
+        for table in &self.tables {
+            let is_titled = text
+                .lines()
+                .any(|line| line.strip_prefix("### ") == Some(&table.title));
+            let body = table.body();
+            let mut own = body.lines();
+            if !is_titled || !own.all(|own| lines().any(|line| table.is_alike(line, own))) {
+                found.push(format!("not on the page: {}", table.title));
+            }
+        }
+        let unknown = lines().filter(|line| !self.tables.iter().any(|table| has(table, line)));
         let outcomes = items.lines().filter(|line| line.starts_with('|'));
         let own = row::table(&self.rows);
         let outcomes = outcomes.filter(|line| !has(&own, line));
         let unknown = unknown.chain(outcomes);
         found.extend(unknown.map(|line| format!("no line of the program: {line}")));
         found
+    }
+
+    /// Figures of a page, `figures/NAME_FIGURE.svg` beside it, that show something else than the program's, or are none of them; `read` has the
+    /// text of a file.
+    #[must_use]
+    pub fn drawn_otherwise(
+        &self,
+        page: &str,
+        name: &str,
+        read: impl Fn(&str) -> Option<String>,
+    ) -> Vec<String> {
+        let start = format!("(figures/{name}_");
+        let shown = page.split(&start).skip(1);
+        let shown = shown.filter_map(|rest| Some(rest.split_once(".svg)")?.0));
+        let is_other = |shown: &&str| {
+            let own = self.figures.iter().find(|figure| figure.name == *shown);
+            let file = read(&format!("figures/{name}_{shown}.svg"));
+            !own.zip(file)
+                .is_some_and(|(own, file)| numbers::are_within(&own.svg(), &file, PIXELS))
+        };
+        shown.filter(is_other).map(str::to_owned).collect()
     }
 
     /// What a list of papers has otherwise than the program: `| .. | .. | reached | not reached | impossible as printed |`.
@@ -118,18 +152,23 @@ impl Paper {
 /// Whether a table has this line.
 fn has(table: &Table, line: &str) -> bool {
     let body = table.body();
-    body.lines().any(|own| {
-        if table.is_rough {
+    body.lines().any(|own| table.is_alike(line, own))
+}
+
+impl Table {
+    /// Whether a line on a page is one of the table's own.
+    fn is_alike(&self, line: &str, own: &str) -> bool {
+        if self.is_rough {
             numbers::have_same_words(line, own)
         } else {
             numbers::agree(line, own)
         }
-    })
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::Row;
+    use super::super::{Figure, Mark, Row};
     use super::*;
 
     fn paper(cost: &str) -> Paper {
@@ -159,11 +198,42 @@ mod tests {
         assert_eq!(paper("2.134").differences(&page), [""; 0]);
         assert_eq!(paper("2.135").differences(&page), [""; 0]);
         let other = paper("2.234").differences(&page);
-        assert_eq!(other.len(), 2, "{other:?}");
-        assert!(other[0].starts_with("9.1") && other[1].contains("| one | 2.134 |"));
+        assert_eq!(other.len(), 3, "{other:?}");
+        assert!(other[0].starts_with("9.1") && other[2].contains("| one | 2.134 |"));
+        let bare = page.replace("| one | 2.134 |\n", "");
+        assert_eq!(
+            paper("2.134").differences(&bare),
+            ["not on the page: Costs"]
+        );
         let mended = paper("2.234").rewritten(&page);
         assert_eq!(paper("2.234").differences(&mended), [""; 0]);
         assert!(mended.starts_with("# A paper\n\nText.\n"));
+    }
+
+    #[test]
+    fn figures_are_those_of_the_program() {
+        let figure = |y: f64| {
+            let points = [(0.0, 1.0), (1.0, y), (2.0, 3.0)];
+            Figure::new("fall", "a fall", "time, s", "angle, rad").with("one", Mark::Line, points)
+        };
+        let paper = Paper {
+            figures: vec![figure(2.0)],
+            ..paper("2")
+        };
+        let page = "![one](figures/seed_009_fall.svg) ![two](figures/seed_009_rise.svg)";
+        let beside = |y: f64| move |_: &str| Some(figure(y).svg());
+        assert_eq!(
+            paper.drawn_otherwise(page, "seed_009", beside(2.0)),
+            ["rise"]
+        );
+        assert_eq!(
+            paper.drawn_otherwise(page, "seed_009", beside(2.5)),
+            ["fall", "rise"]
+        );
+        assert_eq!(
+            paper.drawn_otherwise(page, "seed_009", |_| None),
+            ["fall", "rise"]
+        );
     }
 
     #[test]

@@ -67,7 +67,7 @@ impl Results {
         let lumps = ["I1r", "I2r", "m1*c1r", "m2*c2", "m2*l1*c2"];
         Row::holds(
             "1.1",
-            "equations (3), (4) from energies and from DH frames, at 1000 states with Tables 2 and 6",
+            "equations (3), (4) from energies and from DH frames, by numbers, at 1000 states with Tables 2 and 6",
             "M, C, G",
             format!(
                 "largest difference {:.0e} and {:.0e} of the largest torque; {} base parameters: {}",
@@ -144,7 +144,7 @@ impl Results {
             "the trust region stays within the bounds of Table 5",
             "11 bounds",
             format!(
-                "{within} of {} searches, with {steps} places in all, stay within; {} parameters end on a bound",
+                "{within} of {} searches, with {steps} places in all, stay within; {} parameters end exactly on a bound",
                 searches().count(),
                 held.sum::<usize>()
             ),

@@ -156,7 +156,7 @@ pub fn ratios(told: &Told, [before, after]: &[Vec<f64>; 2]) -> Table {
             format!("{:.4}", of(before)),
             format!("{:.4}", of(after)),
             format!("{:.4}", ratio.value),
-            ratio.std.map_or(String::new(), |std| format!("{std:.4}")),
+            ratio.std.map_or(String::new(), |std| format!("{std:.1e}")),
         ]);
     }
     table

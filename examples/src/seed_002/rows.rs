@@ -156,7 +156,7 @@ fn base(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "2.3.k",
-            "the matrix that regroups (15)",
+            "the matrix that regroups (15), a comparison and no check of the tool",
             "k = R2 R1^-1, W2 = k W1",
             format!(
                 "R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 and W2 = W1 k {:.0e} of W2 is left",
@@ -167,7 +167,7 @@ fn base(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "2.3.lengths",
-            "k of normalized columns, used on measured ones (15)",
+            "k of normalized columns, used on measured ones (15), a comparison and no check of the tool",
             "the same k",
             format!(
                 "{:.2} of W2 is left, and {:.0e} where lengths are put back",
@@ -225,7 +225,7 @@ fn identification(results: &Results) -> Vec<Row> {
             "2.5",
             "Table II: drop of the mean error by both; share of friction",
             format!(
-                "more than 54 %: {total:.1} % of the mean, {each:.1} % mean over joints; friction alone {} %",
+                "more than 54 %; of Table II come {total:.1} % of the mean, {each:.1} % mean over joints, friction alone {} %",
                 list(&friction, 0)
             ),
             format!(
@@ -247,7 +247,7 @@ fn identification(results: &Results) -> Vec<Row> {
         ),
         Row::holds(
             "2.5.sum",
-            "sum of squares over all joints, with weights and without",
+            "sum of squares over all joints, with weights and without: of the errors of Table II, and over all rows here",
             format!("falls from {:.0} to {:.0} N^2 m^2", sums[0], sums[1]),
             format!(
                 "on the run that is fitted {:.0} without weights and {} N^2 m^2 with the three kinds of them",

@@ -14,8 +14,31 @@ const PULL: f64 = 0.6;
 const PERIOD_S: f64 = 30.0;
 const PERIODS: f64 = 2.0;
 
-/// The spring whose end is pulled, N m/rad.
-pub const SPRING: f64 = 2.0;
+/// A spring whose end is pulled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spring {
+    /// N m/rad.
+    pub stiffness: f64,
+    /// The way of its end in a pull, rad: some ten slips.
+    pub way: f64,
+    /// Steps of the integrator by hand from one torque to the next.
+    steps: usize,
+}
+
+/// As stiff as the printed bristles, and softer than those of 1001 N m/rad.
+pub const STIFF: Spring = Spring {
+    stiffness: 2.0,
+    way: 15.0,
+    steps: 16,
+};
+
+/// Much softer than the printed bristles, too: a joint on bristles that bend as far as the spring does creeps along with its end. Slips take
+/// seconds, so steps may be longer.
+pub const SOFT: Spring = Spring {
+    stiffness: 0.05,
+    way: 600.0,
+    steps: 4,
+};
 
 /// What is pulled: the link and a load, kg m^2. The link alone has less than a thousandth, with which its slips are as fast as printed
 /// damping, below zero there, lets them be.
@@ -23,7 +46,7 @@ pub const LOADED: f64 = 0.1;
 
 /// How often the pulling torque is set anew, Hz, and steps of the integrator by hand in between.
 const RATE: f64 = 250.0;
-const STEPS: usize = 16;
+const STEPS: usize = STIFF.steps;
 
 /// Of these samples one in so many is kept.
 const KEPT: usize = 5;
@@ -59,8 +82,6 @@ pub struct Late {
     pub standing: f64,
     /// How often it stood, and then jumped.
     pub jumps: usize,
-    /// The speed that it is below for a third of the time.
-    pub creep: f64,
 }
 
 impl Late {
@@ -105,6 +126,16 @@ pub fn by_hand(
     seconds: f64,
     pull: impl Fn(f64, f64) -> f64,
 ) -> Motion {
+    in_steps(STEPS, friction, inertia, seconds, pull)
+}
+
+fn in_steps(
+    steps: usize,
+    friction: Friction,
+    inertia: f64,
+    seconds: f64,
+    pull: impl Fn(f64, f64) -> f64,
+) -> Motion {
     let link = Link::lying(friction, inertia);
     let mut x = State::default();
     let mut motion = Motion::default();
@@ -121,8 +152,8 @@ pub fn by_hand(
         if t >= seconds {
             return motion;
         }
-        for _ in 0..STEPS {
-            x = link.step(x, torque, 1.0 / (RATE * STEPS as f64));
+        for _ in 0..steps {
+            x = link.step(x, torque, 1.0 / (RATE * steps as f64));
         }
         k += 1;
     }
@@ -175,9 +206,17 @@ pub fn to_and_fro(friction: &Friction) -> (f64, impl Fn(f64, f64) -> f64 + use<>
     })
 }
 
-/// A spring whose end moves at a speed.
-pub fn pulled(speed: f64) -> impl Fn(f64, f64) -> f64 {
-    move |t, q| SPRING * (speed * t - q)
+impl Spring {
+    /// The pull of the spring whose end moves at a speed.
+    pub fn pulled(self, speed: f64) -> impl Fn(f64, f64) -> f64 {
+        move |t, q| self.stiffness * (speed * t - q)
+    }
+
+    /// A loaded joint that is pulled so for some seconds, by hand.
+    #[must_use]
+    pub fn pulls(self, friction: Friction, speed: f64, seconds: f64) -> Motion {
+        in_steps(self.steps, friction, LOADED, seconds, self.pulled(speed))
+    }
 }
 
 impl Motion {
@@ -207,10 +246,7 @@ impl Motion {
                 stood = false;
             }
         }
-        let mut sorted = late.to_vec();
-        sorted.sort_unstable_by(f64::total_cmp);
         Late {
-            creep: sorted[sorted.len() / 3] / speed,
             least: late.iter().copied().fold(f64::INFINITY, f64::min) / speed,
             largest: late.iter().copied().fold(f64::NEG_INFINITY, f64::max) / speed,
             standing: count(&|v| v.abs() < STANDS * speed) / late.len() as f64,

@@ -5,7 +5,7 @@ use robot_model::friction_curve::{Curve, Law};
 use super::audit::{self, Finding};
 use super::encoder::{self, Trial};
 use super::experiments::{self, Found, SENSORS, Sensors};
-use super::phenomena::{self, Late, Motion};
+use super::phenomena::{self, Late, Motion, Spring};
 use super::plant::{Friction, PRINTED};
 use super::rig::{Loop, Run};
 use super::{tool, truth};
@@ -17,9 +17,11 @@ pub const PULLED: [f64; 9] = [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0];
 /// Speeds at which the runtime repeats what is done by hand.
 pub const BESIDE: [f64; 2] = [0.5, 3.0];
 
-/// A pull lasts as long as its end takes for so many rad, and so many seconds at least.
-const PULL_RAD: f64 = 15.0;
+/// A pull lasts as long as its end takes for its way, and so many seconds at least.
 const PULL_S: f64 = 30.0;
+
+/// The runtime repeats this share of a pull's way, and the seconds above at least.
+const REPEATED: f64 = 0.25;
 
 /// Twenty speeds with a protocol: what it is, how many speeds the tool found in it, and their law.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,6 +48,8 @@ pub struct Body {
 pub struct Shown {
     /// Whose they are.
     pub name: &'static str,
+    /// What pulls.
+    pub spring: Spring,
     /// How it moves late, at each of [`PULLED`].
     pub late: Vec<Late>,
     /// A pull to and fro by hand, and the runtime's distance from it, rad.
@@ -78,7 +82,7 @@ pub struct Results {
     pub settled: [f64; 2],
     /// Trials of encoders.
     pub encoders: Vec<Trial>,
-    /// What pulls show: of the printed friction, of stiff bristles, of less damping.
+    /// What pulls show: of the printed friction by a stiff spring and by a soft one, of stiff bristles, of less damping.
     pub shown: Vec<Shown>,
     /// Torques in kgf cm.
     pub in_kgf_cm: Chain,
@@ -237,13 +241,14 @@ fn to_and_fro(friction: Friction) -> Result<(Motion, f64), Error> {
     Ok((motion, distance))
 }
 
-fn slip(friction: Friction) -> Result<(Motion, f64), Error> {
+fn slip(friction: Friction, spring: Spring) -> Result<(Motion, f64), Error> {
     let mut distance: f64 = 0.0;
     let mut motions = Vec::new();
     for speed in BESIDE {
-        let pull = phenomena::pulled(speed);
-        let motion = phenomena::by_hand(friction, phenomena::LOADED, PULL_S, &pull);
-        let beside = phenomena::by_runtime(friction, phenomena::LOADED, PULL_S, &pull)?;
+        let seconds = (REPEATED * spring.way / speed).max(PULL_S);
+        let motion = spring.pulls(friction, speed, seconds);
+        let pull = spring.pulled(speed);
+        let beside = phenomena::by_runtime(friction, phenomena::LOADED, seconds, pull)?;
         distance = distance.max(motion.distance(&beside));
         motions.push(motion);
     }
@@ -251,25 +256,26 @@ fn slip(friction: Friction) -> Result<(Motion, f64), Error> {
 }
 
 fn shown() -> Result<Vec<Shown>, Error> {
-    let friction = [
-        ("printed", PRINTED),
-        ("stiff bristles", audit::stiff()),
-        ("less damping", audit::PASSIVE),
+    let pulls = [
+        ("printed", PRINTED, phenomena::STIFF),
+        ("printed, by a soft spring", PRINTED, phenomena::SOFT),
+        ("stiff bristles", audit::stiff(), phenomena::STIFF),
+        ("less damping", audit::PASSIVE, phenomena::STIFF),
     ];
-    let of = |(name, friction): (&'static str, Friction)| {
+    let of = |(name, friction, spring): (&'static str, Friction, Spring)| {
         let late = PULLED.map(|speed| {
-            let seconds = (PULL_RAD / speed).max(PULL_S);
-            let pull = phenomena::pulled(speed);
-            phenomena::by_hand(friction, phenomena::LOADED, seconds, pull).late(speed)
+            let seconds = (spring.way / speed).max(PULL_S);
+            spring.pulls(friction, speed, seconds).late(speed)
         });
         Ok(Shown {
             name,
+            spring,
             late: late.to_vec(),
             to_and_fro: to_and_fro(friction)?,
-            slip: slip(friction)?,
+            slip: slip(friction, spring)?,
         })
     };
-    friction.into_iter().map(of).collect()
+    pulls.into_iter().map(of).collect()
 }
 
 impl Shown {

@@ -145,8 +145,14 @@ fn encoders(results: &Results) -> Table {
 
 fn pulls(results: &Results) -> Table {
     let mut table = Table::new(
-        "Pulled by a spring of 2 N m/rad: least and largest speed over that of its end, share of the time for which the joint stands",
-        ["speed, rad/s", "printed", "s0 1001", "s1 0.05"],
+        "Pulled by a spring: least and largest speed over that of its end, share of the time for which the joint stands",
+        [
+            "speed, rad/s",
+            "printed, 2 N m/rad",
+            "printed, 0.05 N m/rad",
+            "s0 1001, 2 N m/rad",
+            "s1 0.05, 2 N m/rad",
+        ],
     );
     for (k, speed) in PULLED.iter().enumerate() {
         let cells = results.shown.iter().map(|shown| {
@@ -234,7 +240,7 @@ fn curves(results: &Results) -> Result<Vec<Figure>, Error> {
 }
 
 fn phenomena(results: &Results) -> Vec<Figure> {
-    let [printed, stiff, _] = &results.shown[..] else {
+    let [printed, soft, stiff, _] = &results.shown[..] else {
         return Vec::new();
     };
     let loop_of = |name: &str, what: &str, shown: &results::Shown| {
@@ -255,7 +261,8 @@ fn phenomena(results: &Results) -> Vec<Figure> {
         Figure::new(
             name,
             format!(
-                "Pulled by a spring whose end moves at {} rad/s: {what}",
+                "Pulled by a spring of {} N m/rad whose end moves at {} rad/s: {what}",
+                shown.spring.stiffness,
                 results::BESIDE[0]
             ),
             "time, s",
@@ -278,7 +285,7 @@ fn phenomena(results: &Results) -> Vec<Figure> {
     vec![
         loop_of("figure_09a", "printed bristles", printed),
         pull_of("figure_09b", "bristles of 1001 N m/rad", stiff),
-        pull_of("figure_09c", "printed bristles", printed),
+        pull_of("figure_09c", "printed bristles", soft),
         BITS.iter().fold(encoders, |figure, bits| {
             figure.with(format!("{bits} bits"), Mark::Line, through(*bits))
         }),

@@ -29,6 +29,8 @@ pub struct Audits {
     pub piece_wise: Audited,
     /// Why the rig cannot move the installations through the whole workspace; empty where it can.
     pub moved: Vec<String>,
+    /// The same of the piece-wise column, without friction.
+    pub piece_wise_moved: String,
 }
 
 /// Asks.
@@ -52,14 +54,15 @@ pub fn all() -> Result<Audits, Error> {
         high: [60.0, 100.0, 75.0].map(f64::to_radians),
     };
     let motion = Sines::new(10, &whole, 4);
-    let moved = (0..5).map(|k| {
-        let plant = Plant::new(table_1(k), motion.at(0.0)[0]);
+    let moved = |pi: Pi| {
+        let plant = Plant::new(pi, motion.at(0.0)[0]);
         let run = rig::run(plant, &motion, &STIFF, 40.0, 45);
         run.err()
             .map_or_else(String::new, |error| error.to_string())
-    });
+    };
     Ok(Audits {
-        moved: moved.collect(),
+        moved: (0..5).map(|k| moved(table_1(k))).collect(),
+        piece_wise_moved: moved(piece_wise()),
         printed: each(SPEC, |pi| pi)?,
         in_room: each(&room, |pi| pi)?,
         positive: each(SPEC, positive)?,

@@ -42,8 +42,8 @@ pub struct Results {
     pub shares: Vec<Shares>,
     /// Section 4.2 with the printed lever, and with that of the printed moment.
     pub balances: [Balance; 2],
-    /// That lever, m.
-    pub lever: f64,
+    /// That lever, and the one of the second mass that is recommended, m.
+    pub levers: [f64; 2],
     /// Figures 14 to 16.
     pub controlled: Vec<Controlled>,
     /// Largest `K_P` of each installation with identified and with piece-wise parameters.
@@ -79,7 +79,7 @@ pub fn results() -> Result<Results, Error> {
         })
     });
     let controlled = controlled.collect::<Result<Vec<_>, Error>>()?;
-    let lever = shares::lever_of_print()?;
+    let levers = shares::levers_of_print()?;
     Ok(Results {
         equations: [equations::compare(false), equations::compare(true)],
         filters: [
@@ -89,8 +89,8 @@ pub fn results() -> Result<Results, Error> {
         traces: tracing::all(&installations[0].halves.train, &motion)?,
         audits: audit::all()?,
         shares: (0..5).map(|k| shares::shares(k, &motion)).collect(),
-        balances: [shares::balance(WEIGHTS.lever)?, shares::balance(lever)?],
-        lever,
+        balances: [shares::balance(WEIGHTS.lever)?, shares::balance(levers[0])?],
+        levers,
         controlled,
         largest_gains: (0..5).map(largest).collect::<Result<_, Error>>()?,
         felt: contact::felt(&known(2), &motion)?,

@@ -75,6 +75,54 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
     }
 }
 
+/// What section 4.1 says of the shares, and in how many of the installations that it is said of it holds along this motion.
+#[must_use]
+pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
+    let [inertia, coriolis, gravity] = [0, 1, 2];
+    let of = |one: &Shares, share: usize, j: usize| one.rms[share][j];
+    let friction = |one: &Shares, j: usize| of(one, 3, j).hypot(of(one, 4, j));
+    let [upright, gimbal, sensor, _, turned_gimbal] = all else {
+        return Vec::new();
+    };
+    let upright_gravity = of(upright, gravity, 2);
+    let count = |said, installations: &[&Shares], holds: &dyn Fn(&Shares) -> bool| {
+        let held = installations.iter().filter(|one| holds(one)).count();
+        (said, [held, installations.len()])
+    };
+    let every: Vec<&Shares> = all.iter().collect();
+    let gimbals = [gimbal, turned_gimbal];
+    vec![
+        count("friction is most of joint 1", &every, &|one| {
+            (0..3).all(|share| friction(one, 0) > of(one, share, 0))
+        }),
+        count("and Coriolis comes next", &every, &|one| {
+            of(one, coriolis, 0) > of(one, inertia, 0)
+        }),
+        count("inertia is most of joint 2", &every, &|one| {
+            (1..3).all(|share| of(one, inertia, 1) > of(one, share, 1))
+        }),
+        count("and Coriolis comes next there", &every, &|one| {
+            of(one, coriolis, 1) > of(one, gravity, 1)
+        }),
+        count(
+            "gravity is more on joint 3 than on joint 2",
+            &every,
+            &|one| of(one, gravity, 2) > of(one, gravity, 1),
+        ),
+        count("a force sensor halves it", &[sensor], &|one| {
+            (0.4..0.6).contains(&(of(one, gravity, 2) / upright_gravity))
+        }),
+        count(
+            "a gimbal with its counterweight nearly nulls it",
+            &gimbals,
+            &|one| of(one, gravity, 2) < 0.1 * upright_gravity,
+        ),
+        count("at the expense of inertia", &gimbals, &|one| {
+            of(one, inertia, 2) > 2.0 * of(upright, inertia, 2)
+        }),
+    ]
+}
+
 /// Speed at which viscous friction is as much as dry friction, UR, deg/s.
 #[must_use]
 pub fn crossover() -> Three {
@@ -118,15 +166,21 @@ pub fn balance(lever: f64) -> Result<Balance, ControlError> {
     })
 }
 
-/// The lever by which the manufacturer's weight makes the printed `pi7'`, m.
+/// The levers by which the manufacturer's weight makes the printed `pi7'`, and by which the second mass is the one that is recommended, m.
 ///
 /// # Errors
 /// A moment on the other side of the axis.
-pub fn lever_of_print() -> Result<f64, ControlError> {
-    let tool = Weight {
-        mass: WEIGHTS.tool,
-        lever: LINKS[0],
+pub fn levers_of_print() -> Result<[f64; 2], ControlError> {
+    let loaded = |k: usize, arm: f64| {
+        let tool = Weight {
+            mass: WEIGHTS.tool,
+            lever: arm,
+        };
+        moment(TABLE_1_UR_GRAVITY[k], GRAVITY, &[tool])
     };
-    let loaded = moment(TABLE_1_UR_GRAVITY[0], GRAVITY, &[tool]);
-    lever(loaded - WEIGHTS.moments[0], GRAVITY, WEIGHTS.upper)
+    let [upper, fore] = [loaded(0, LINKS[0]), loaded(1, WEIGHTS.tool_lever)];
+    Ok([
+        lever(upper - WEIGHTS.moments[0], GRAVITY, WEIGHTS.upper)?,
+        lever(fore, GRAVITY, WEIGHTS.recommended[1])?,
+    ])
 }

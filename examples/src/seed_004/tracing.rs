@@ -26,7 +26,7 @@ pub struct Traces {
     pub falling_viscous: [f64; 3],
     /// How many of the parameters of that fit `signs` of the audit finds below zero.
     pub falling_signs: usize,
-    /// RMS% of (15) of that fit on the other half.
+    /// RMS% of (15) on the other half, of a fit without rows at turns as those of the installations.
     pub falling_rms: Three,
     /// The true ones.
     pub true_viscous: [f64; 3],
@@ -35,8 +35,7 @@ pub struct Traces {
 /// Viscous friction, positive.
 const VISCOUS: [f64; 3] = [0.4e-3, 0.3e-3, 0.3e-3];
 
-/// What there is at rest beyond dry friction, as a part of that, and the speed beyond which it is gone, rad/s: large enough for errors as
-/// those of table 2.
+/// What there is at rest beyond dry friction, as a part of that, and the speed beyond which it is gone, rad/s.
 const FALLING: [f64; 2] = [1.5, 0.3];
 
 /// Traces.
@@ -64,7 +63,7 @@ pub struct Falling {
     pub verdict: Verdict,
     /// The whole model's parameters.
     pub fitted: Pi,
-    /// RMS% of (15) that they leave on the other half.
+    /// RMS% of (15) on the other half, of a fit without rows at turns.
     pub rms: Three,
 }
 
@@ -87,7 +86,7 @@ pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<Falling, Error> 
     Ok(Falling {
         verdict: trace(SPEC, &train)?,
         fitted: device::values(&fit),
-        rms: fits::rms(&fit, &model, &validate)?,
+        rms: fits::rms(&fits::fit(&model, &train)?, &model, &validate)?,
     })
 }
 

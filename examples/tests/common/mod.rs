@@ -1,12 +1,13 @@
 //! What the tests of all papers ask of their pages.
 
+use std::path::Path;
+
 use robot_model_examples::Paper;
-use robot_model_examples::paper::Mark;
 
 const LIST: &str = include_str!("../../../docs/papers/README.md");
 
 /// The page and the list of papers say what the program says; `outcomes` are the items that are not reached, and those that are impossible
-/// as printed. Every figure is drawn.
+/// as printed. Every series of every figure is drawn, and the page's own figures are the program's.
 pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
     assert_eq!(paper.differences(page), [""; 0]);
     assert_eq!(paper.counted_otherwise(LIST, name), None);
@@ -18,14 +19,12 @@ pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
     }
     for figure in &paper.figures {
         let svg = figure.svg();
-        for series in &figure.series {
-            let drawn = match series.mark {
-                Mark::Line | Mark::Broad | Mark::Boxes => "<polyline",
-                Mark::Dots => "<circle",
-                Mark::Bars => "<rect",
-                Mark::Band => "<polygon",
-            };
-            assert!(svg.contains(drawn), "{}: {}", figure.name, series.name);
+        for (place, series) in figure.series.iter().enumerate() {
+            let parts = figure.parts_of(&svg, place);
+            assert!(parts > 0, "{}: {}", figure.name, series.name);
         }
     }
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/papers");
+    let read = |file: &str| std::fs::read_to_string(beside.join(file)).ok();
+    assert_eq!(paper.drawn_otherwise(page, name, read), [""; 0]);
 }

@@ -12,7 +12,7 @@ const SILENT: f64 = 1e-5;
 const WEAK: f64 = 1e-3;
 
 /// The same of shares of values: below, what a model lacks moves parameters by more than it moves others, however small deviations are.
-const FRAIL: f64 = 1.0 / 30.0;
+const FRAIL: f64 = 1.0 / 15.0;
 
 /// Deviations above this share of a value say by themselves that it is hardly known.
 pub(super) const KNOWN: f64 = 0.1;
@@ -135,7 +135,7 @@ impl std::fmt::Display for Direction {
 }
 
 /// The direction, in shares of the values of parameters that seem to be known, along which outputs change least: where an equal share of
-/// the best known direction changes them thirty times as much. An arm that moves slowly beside its friction has its inertia there.
+/// the best known direction changes them fifteen times as much. An arm that moves slowly beside its friction has its inertia there.
 pub(super) fn frail(
     r: &DMatrix<f64>,
     values: &[f64],
