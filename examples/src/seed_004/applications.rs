@@ -12,7 +12,7 @@ fn uses(results: &Results) -> Vec<Row> {
     let off = results.shares.iter().map(|one| one.off).fold(0.0, f64::max);
     let sentences = super::shares::sentences(&results.shares);
     let said = sentences.iter();
-    let said = said.map(|(said, [held, of])| format!("{said} {held} of {of}"));
+    let said = said.map(|(said, [held, of])| format!("{said} ({held} of {of})"));
     let said: Vec<String> = said.collect();
     let crossover = super::shares::crossover();
     let [printed, repaired] = &results.balances;
