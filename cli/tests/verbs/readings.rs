@@ -55,6 +55,10 @@ fn degrees_within_all_limits_are_told_by_the_torques() {
     assert!(told("plain.robot", "degrees.csv"));
     assert!(!told("declared.robot", "degrees.csv"));
     assert!(!told("plain.robot", "radians.csv"));
+    // Before anything is simulated.
+    let simulated = ["degrees.csv", "--method", "output-error"];
+    let run = folder.run(&[&["identify", "plain.robot"], &simulated[..]].concat());
+    assert!(run.stderr.contains(ASKED), "{}", run.stderr);
 }
 
 #[test]

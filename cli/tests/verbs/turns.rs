@@ -250,6 +250,47 @@ fn a_curve_of_friction_is_looked_for_without_the_turns() {
     }
 }
 
+/// A short noisy log tells the curve by its turns alone: it comes out at twice what it is, and that is told.
+#[test]
+fn a_curve_that_turns_alone_tell_is_doubted() {
+    let folder = Folder::new();
+    folder.write(
+        "arm.robot",
+        "robot P {
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint j: revolute { a = 0.3; alpha = 0; d = 0; }
+            effects { viscous_friction on j; coulomb_friction on j; stribeck on j; }
+        }",
+    );
+    folder.write(
+        "true.json",
+        r#"{"j.m": 0, "j.mx": 0.61, "j.my": 0, "j.izz": 0.3, "j.viscous_friction.fv": 0.5, "j.coulomb_friction.fc": 1,
+            "j.stribeck.fs": 0.6, "j.stribeck.vs": 0.1}"#,
+    );
+    let mut wanted = String::from("time,q1\n");
+    for k in 0..=1600 {
+        let t = 0.005 * f64::from(k);
+        let q = 0.8 * (1.5 * t).sin() + 0.3 * (2.0 * t + 0.5).sin();
+        writeln!(wanted, "{t},{q}").expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let simulate = ["simulate", "arm.robot", "--parameters", "true.json"];
+    let motion = ["--trajectory", "wanted.csv", "--torque-noise", "0.1"];
+    let out = ["--encoder-bits", "14", "--out", "log.csv"];
+    folder.succeed(&[&simulate[..], &motion, &out].concat());
+    let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told =
+        "`j.stribeck.vs` is looked for with the rows where joints turn, as no others tell it";
+    assert!(run.stderr.contains(told), "{}", run.stderr);
+    let fit = json(&folder.read("fit.json"));
+    let mut found = fit["parameters"].as_array().expect("a list").iter();
+    let fs = found.find(|parameter| parameter["name"] == "j.stribeck.fs");
+    let fs = fs.expect("one")["value"].as_f64().expect("a number");
+    assert!(fs > 1.0, "{fs}");
+}
+
 /// What a log tells by its factor, and by the factors of two logs, is what it tells itself.
 #[test]
 fn factors_know_what_rows_at_turns_move_estimates_by() {
