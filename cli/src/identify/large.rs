@@ -2,8 +2,8 @@
 
 use robot_model::log::Log;
 
-/// Torques of all joints from where on it is told: their rows take a gigabyte or more.
-const MANY: usize = 2_000_000;
+/// Torques of all joints from where on it is told: their rows take half a gigabyte or more.
+const MANY: usize = 1_000_000;
 
 /// What is said of long logs before they are fitted, where `--factor` would take them.
 pub(super) fn hint(logs: &[Log], joints: usize) -> Option<String> {

@@ -83,6 +83,13 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
                 "  {share:.0} % of the error's power on {name} still follows the motion"
             )
             .expect("a string takes all");
+            if let Some(times) = verdict.noise_floor[joint].exceeded() {
+                writeln!(
+                    out,
+                    "    errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"
+                )
+                .expect("a string takes all");
+            }
             let found = verdict.left.iter().filter(|one| one.joint == joint);
             found.for_each(|one| out.push_str(&whereabouts(closed, one)));
         }

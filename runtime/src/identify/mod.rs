@@ -77,7 +77,7 @@ pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 pub use table::{is_shape_told, relative_deviation};
-pub(crate) use turns::leave_out as leave_out_turns;
+pub(crate) use turns::{away as away_from_turns, leave_out as leave_out_turns};
 
 use crate::columns::{Arm, Nominal};
 use crate::log::Log;

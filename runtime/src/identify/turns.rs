@@ -67,6 +67,16 @@ pub(super) fn held(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
     }
 }
 
+/// Which samples of a log say what a model of a joint is worth: those away from its turns, at which its dry friction does not hold it.
+pub(crate) fn away(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
+    if !arm.dry_joints().contains(&joint) {
+        return vec![true; log.motion.time.len()];
+    }
+    let Standing { turns, held } = Standing::of(log, joint);
+    let pairs = turns.iter().zip(&held);
+    pairs.map(|(turns, held)| !turns && !held).collect()
+}
+
 /// Which samples of a log the turns of a joint reach, and at which it is held.
 struct Standing {
     turns: Vec<bool>,

@@ -149,7 +149,7 @@ impl ParquetRows {
             let line = self.rows + row as u64 + 1;
             match column {
                 Some(k) => {
-                    let error = self.no_number(*k, row, "a null or no finite number");
+                    let error = self.no_number(*k, row, "null or NaN");
                     table.lost.push(line, error);
                 }
                 None => table.lines.push(line),

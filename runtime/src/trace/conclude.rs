@@ -27,7 +27,8 @@ pub(super) fn verdict(
     tried: Vec<Tried>,
 ) -> Verdict {
     let found = findings(state, &values.std);
-    let left = unsettled(&before, &after, state);
+    let is_beyond = values.floor.iter().any(|floor| floor.exceeded().is_some());
+    let left = is_beyond || unsettled(&before, &after, state);
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
         (false, true) => Outcome::NothingMissing,

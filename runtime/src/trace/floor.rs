@@ -8,6 +8,7 @@ use faer::Mat;
 use super::raw::mean_square;
 use super::search::{Search, State};
 use super::whereabouts::Quantity;
+use crate::identify::away_from_turns;
 use crate::signal::resample::whole_steps;
 
 /// Most curves that are fitted one after the other.
@@ -18,6 +19,12 @@ const LEAST_SHARE: f64 = 0.02;
 
 /// Added to the diagonal of a curve's normal equations, relative to its mean: knots that a fold hardly sees stay near zero.
 const RIDGE: f64 = 1e-3;
+
+/// Where a motion repeats, a model that leaves so many times what differs from period to period lacks something that comes back.
+const BEYOND: f64 = 3.0;
+
+/// Samples away from turns judge a model where they are at least this share of all.
+const LEAST_LEFT: f64 = 0.25;
 
 /// From what a floor is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,6 +62,9 @@ pub struct Floor {
     pub std: f64,
     /// From what it is known.
     pub from: FloorFrom,
+    /// What the model leaves of samples away from the joint's turns, root mean square, where the motion repeats; none where next to none
+    /// are.
+    pub left: Option<f64>,
 }
 
 impl Floor {
@@ -69,7 +79,26 @@ impl Floor {
             rms,
             std: 0.5 * variance.sqrt() / rms.max(f64::MIN_POSITIVE),
             from,
+            left: None,
         }
+    }
+
+    /// How many times the floor the model leaves, where that is too much for what differs from period to period: more than three times.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let traced = Trace::new(vec![&candidate]).run(&arm, &[measure(0.0)], &mut |_| ())?;
+    /// assert_eq!(traced.noise_floor[0].exceeded(), None);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn exceeded(&self) -> Option<f64> {
+        let times = self.left? / self.rms.max(f64::MIN_POSITIVE);
+        (times > BEYOND).then_some(times)
     }
 }
 
@@ -87,7 +116,11 @@ impl Search<'_> {
                     changing(&log[joint], period * prepared.rate_hz)
                 });
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
-                return Floor::of_parts(&parts, FloorFrom::Periods);
+                let left = self.left_away(&raw, joint);
+                return Floor {
+                    left: left.map(|left| (left + beyond[joint]).sqrt()),
+                    ..Floor::of_parts(&parts, FloorFrom::Periods)
+                };
             }
             let filtered = mean_square(&state.residuals[joint]);
             let samples = raw.iter().flat_map(|log| &log[joint]);
@@ -97,6 +130,20 @@ impl Search<'_> {
             Floor::of_parts(&parts, FloorFrom::Curves)
         };
         (0..self.arm.dof()).map(of_joint).collect()
+    }
+
+    /// Mean square of raw residuals of a joint away from its turns.
+    fn left_away(&self, raw: &[Vec<Vec<f64>>], joint: usize) -> Option<f64> {
+        let logs = raw.iter().zip(&self.prepared);
+        let away = logs.flat_map(|(log, prepared)| {
+            let is_away = away_from_turns(self.arm, prepared, joint);
+            let is_away = is_away.into_iter().skip(prepared.shared.border());
+            log[joint].iter().zip(is_away)
+        });
+        let away = away.filter_map(|(value, is_away)| is_away.then_some(*value));
+        let away: Vec<f64> = away.collect();
+        let samples: usize = raw.iter().map(|log| log[joint].len()).sum();
+        (away.len() as f64 >= LEAST_LEFT * samples as f64).then(|| mean_square(&away))
     }
 
     /// Mean square per fold of what curves leave of a residual, each sample without the curves of its own fold.

@@ -236,10 +236,14 @@ impl<'a> Trace<'a> {
         state = search.with_small(state, &grids)?;
         let after = search.structure(&state).to_vec();
         let before = self.since.clone().unwrap_or(before);
-        let is_told = |joint: &usize| after[*joint].is_material() || of_terms.contains(joint);
+        let values = search.told(&state);
+        let is_told = |joint: &usize| {
+            let is_beyond = values.floor[*joint].exceeded().is_some();
+            after[*joint].is_material() || of_terms.contains(joint) || is_beyond
+        };
         let told = (0..after.len()).filter(is_told).collect();
         let left = search.whereabouts(&state, told);
-        let mut verdict = verdict(&state, before, after, &search.told(&state), tried);
+        let mut verdict = verdict(&state, before, after, &values, tried);
         if !of_terms.is_empty() {
             verdict = verdict.unexplained();
         }
