@@ -240,3 +240,29 @@ fn a_negative_coefficient_is_no_law() {
         "{verdict:#?}"
     );
 }
+
+/// A ripple above the band of the fit leaves no structure in it, but far more than what differs from period to period.
+#[test]
+fn what_comes_back_above_the_band_is_missing_all_the_same() {
+    let traced = |extra: fn(usize, [f64; 2], [f64; 2]) -> f64| {
+        trace(&Plant {
+            extra,
+            periodic: true,
+            ..Plant::default()
+        })
+    };
+    let verdict = traced(|j, q, _| {
+        if j == 0 {
+            1.5 * (150.0 * q[0]).sin()
+        } else {
+            0.0
+        }
+    });
+    assert_eq!(verdict.outcome, Outcome::Unexplained, "{verdict:#?}");
+    let exceeded = |verdict: &Verdict| -> Vec<bool> {
+        let floors = verdict.noise_floor.iter();
+        floors.map(|floor| floor.exceeded().is_some()).collect()
+    };
+    assert_eq!(exceeded(&verdict), [true, false]);
+    assert_eq!(exceeded(&traced(|_, _, _| 0.0)), [false, false]);
+}
