@@ -83,7 +83,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
                 "  {share:.0} % of the error's power on {name} still follows the motion"
             )
             .expect("a string takes all");
-            if let Some(times) = verdict.noise_floor[joint].exceeded() {
+            let is_unexplained = verdict.outcome == Outcome::Unexplained;
+            let exceeded = verdict.noise_floor[joint].exceeded();
+            if let Some(times) = exceeded.filter(|_| is_unexplained) {
                 writeln!(
                     out,
                     "    errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"

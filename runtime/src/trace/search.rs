@@ -238,7 +238,8 @@ impl<'a> Trace<'a> {
         let before = self.since.clone().unwrap_or(before);
         let values = search.told(&state);
         let is_told = |joint: &usize| {
-            let is_beyond = values.floor[*joint].exceeded().is_some();
+            let is_named = state.accepted.iter().any(|effect| !effect.is_small);
+            let is_beyond = !is_named && values.floor[*joint].exceeded().is_some();
             after[*joint].is_material() || of_terms.contains(joint) || is_beyond
         };
         let told = (0..after.len()).filter(is_told).collect();
