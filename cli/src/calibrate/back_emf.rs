@@ -27,7 +27,8 @@ const SHOWN: usize = 12;
 
 /// The back electromotive force of a motor, and its resistance where its voltage is logged.
 ///
-/// With `--voltage`: `v = R i + k w + v0` by least squares; the inductance is left out. Without: the voltage was commanded between
+/// With `--voltage`: `v = R i + k w + v0` by least squares, or by instruments where current or velocity are noisy; the inductance is
+/// left out. Without: the voltage was commanded between
 /// constants, and `k` is the factor that makes `u + k w` constant in pieces, where `u` is `--current`: amperes, or the voltage across
 /// a known resistance. Velocities of `--position` are means over five samples, as are the others then.
 #[derive(Debug, Args)]
@@ -73,6 +74,8 @@ struct VoltageReport {
     offset: f64,
     offset_std: f64,
     offset_interval: [f64; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    least_squares: Option<[f64; 3]>,
     residual_std: f64,
     current_velocity_r: f64,
     samples: usize,
@@ -217,6 +220,14 @@ fn note_voltage(found: &MotorVoltage) {
             found.alike
         ));
     }
+    if let Some([resistance, back_emf, _]) = found.least_squares {
+        output::say(&format!(
+            "note: noise of the current or of the velocity makes least squares find {} ohm and {} V s/rad; values are by instruments, \
+             which samples beside each one are",
+            significant(resistance, 4),
+            significant(back_emf, 4)
+        ));
+    }
     for (what, value) in [
         ("resistance", found.resistance),
         ("back-EMF", found.back_emf),
@@ -294,6 +305,7 @@ fn voltage_report(found: &MotorVoltage) -> VoltageReport {
         offset: found.offset.value,
         offset_std: found.offset.std,
         offset_interval: found.offset.interval,
+        least_squares: found.least_squares,
         residual_std: found.residual_std,
         current_velocity_r: found.alike,
         samples: found.samples,

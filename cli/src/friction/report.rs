@@ -28,6 +28,8 @@ pub(super) struct Report<'a> {
     joint: &'a str,
     /// Columns of the rigid body that were fitted beside the curve; none where its parameters were given.
     rank: Option<usize>,
+    /// By how much torques came after the positions, s, where that is seen.
+    late: Option<Number>,
     points: Vec<PointReport>,
     law: LawReport,
     bristles: Option<BristlesReport>,
@@ -179,6 +181,7 @@ impl Found<'_> {
         Report {
             joint: &self.joint.name,
             rank: self.is_fitted.then_some(self.curve.rank),
+            late: self.curve.late.map(Number::from),
             points: self.curve.points.iter().map(point).collect(),
             law: LawReport {
                 coulomb: law.coulomb.into(),

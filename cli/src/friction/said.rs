@@ -91,6 +91,15 @@ impl Found<'_> {
                 law.misfit
             ));
         }
+        if let Some(late) = curve.late {
+            doubts.push(format!(
+                "torques come {:.1} +- {:.1} ms {} the positions, as what changes with position says; the curve is that of torques of the same \
+                 time",
+                1e3 * late.value.abs(),
+                1e3 * late.std,
+                if late.value > 0.0 { "behind" } else { "ahead of" }
+            ));
+        }
         let is_one_way = law.offset.is_none();
         if is_one_way {
             doubts.push(

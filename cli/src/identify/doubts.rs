@@ -142,6 +142,29 @@ pub(super) fn at_turns(arm: &dyn Arm, estimate: &Estimate) -> Option<String> {
     })
 }
 
+/// Torques that are early by half of a sample.
+pub(super) fn held_torques(estimate: &Estimate) -> Option<String> {
+    let held = estimate.held_torques.iter();
+    let held: Vec<String> = held
+        .map(|held| {
+            format!(
+                "`{}` by {:.1} +- {:.1} ms ({:.0} % of its error)",
+                estimate.joints[held.joint],
+                -1e3 * held.seconds,
+                1e3 * held.std,
+                100.0 * held.gain
+            )
+        })
+        .collect();
+    (!held.is_empty()).then(|| {
+        format!(
+            "torques are early by less than a sample, as those are that are set at a sample and held until the next: {}; values are bent by that: \
+             log at a higher rate, or declare `time_delay;` among the effects; `--method output-error` holds torques between samples",
+            held.join(", ")
+        )
+    })
+}
+
 /// Why fewer rows are fitted than there are.
 pub(super) const AWAY_FROM_TURNS: &str = "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer \
      there than its law says, and open shapes of friction would be bent after that";

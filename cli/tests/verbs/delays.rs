@@ -215,6 +215,92 @@ fn torque_that_is_not_late_is_no_fault() {
 }
 
 /// Of the error of a joint most may be of something else; one bus makes all torques late by the same.
+const SWING: &str = "robot Swing {
+    gravity = [0, -9.81, 0];
+    convention = standard_dh;
+    joint swing: revolute { a = 0.5 m; alpha = 0; d = 0; offset = -90 deg; }
+    effects { viscous_friction on all; }
+}";
+
+/// At 25 Hz and 2 Hz of motion half of a sample is a quarter of a radian.
+#[test]
+fn torque_that_is_held_from_sample_to_sample_is_noted() {
+    let folder = Folder::new();
+    folder.write("arm.robot", SWING);
+    let values = r#"{"swing.m": 1, "swing.mx": -0.2, "swing.my": 0, "swing.mz": 0, "swing.ixx": 0.1, "swing.iyy": 0.1, "swing.ixy": 0,
+        "swing.ixz": 0, "swing.iyz": 0, "swing.izz": 0.1, "swing.viscous_friction.fv": 0.4}"#;
+    folder.write("values.json", values);
+    let held = |row: u32| {
+        let wave = |hz: f64| (std::f64::consts::TAU * hz * 0.04 * f64::from(row)).sin();
+        0.8 * wave(0.3) + 0.9 * wave(1.1) + 1.2 * wave(2.3)
+    };
+    let mut torque = "time,tau1\n".to_owned();
+    for k in 0..=30_000_u32 {
+        writeln!(torque, "{},{}", 0.001 * f64::from(k), held(k / 40)).expect("a string takes all");
+    }
+    folder.write("torque.csv", &torque);
+    folder.write("rest.csv", "time,q1\n0,0\n10,0\n20,0\n30,0\n");
+    folder.succeed(&[
+        "simulate",
+        "arm.robot",
+        "--trajectory",
+        "rest.csv",
+        "--torque",
+        "torque.csv",
+        "--parameters",
+        "values.json",
+        "--duration",
+        "30",
+        "--log-rate",
+        "25",
+        "--out",
+        "means.csv",
+        "--torque-noise",
+        "0.02",
+    ]);
+    // The log of `simulate` has means about its samples; one of commands has what acts from each sample on.
+    let means = folder.read("means.csv");
+    let mut commands = "time,q1,tau1\n".to_owned();
+    for (k, line) in means.lines().skip(1).enumerate() {
+        let fields: Vec<&str> = line.split(',').collect();
+        let noise = 0.02 * (12.9898 * (k * k % 7919) as f64).sin();
+        let tau = held(u32::try_from(k).expect("few")) + noise;
+        writeln!(commands, "{},{},{tau}", fields[0], fields[1]).expect("a string takes all");
+    }
+    folder.write("commands.csv", &commands);
+    let identify = |log: &str| {
+        let run = folder.run(&["identify", "arm.robot", log, "--json", "out.json"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let fit = json(&folder.read("out.json"));
+        assert_eq!(fit["data_faults"].as_array().map(Vec::len), Some(0));
+        let parameters = fit["parameters"].as_array().expect("a list").iter();
+        let mut friction = parameters.filter(|one| one["name"] == "swing.viscous_friction.fv");
+        let friction = friction.next().expect("friction")["value"].as_f64();
+        (run.stderr, friction.expect("a number"))
+    };
+    let (said, friction) = identify("commands.csv");
+    let note = said
+        .lines()
+        .find(|line| line.contains("held until the next"));
+    let note = note.unwrap_or_else(|| panic!("{said}"));
+    assert!(
+        note.contains("`swing` by 1") && note.contains("`time_delay;`"),
+        "{note}"
+    );
+    assert!(friction < 0.32, "{friction}");
+    let (said, friction) = identify("means.csv");
+    assert!(!said.contains("held until"), "{said}");
+    assert!((friction - 0.4).abs() < 0.01, "{friction}");
+    // The way out.
+    folder.write(
+        "arm.robot",
+        &SWING.replace("on all;", "on all; time_delay;"),
+    );
+    let (said, friction) = identify("commands.csv");
+    assert!(!said.contains("held until"), "{said}");
+    assert!((friction - 0.4).abs() < 0.01, "{friction}");
+}
+
 #[test]
 fn a_delay_that_another_joint_is_sure_of_is_told_of_all() {
     let folder = crate::output_error::two(12.0, 1.0, &[]);

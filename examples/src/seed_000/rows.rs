@@ -7,9 +7,6 @@ use super::words::{GRAVITY, INERTIA};
 use super::{Findings, Law};
 use crate::paper::{Error, Row};
 
-/// Samples that a cost is a sum over.
-const WINDOW: f64 = 401.0;
-
 /// A cost that no search of model (5.1) comes below, and all of model (5.2) do.
 const FAILED: f64 = 100.0;
 
@@ -136,9 +133,10 @@ fn searches(found: &Findings) -> Vec<Row> {
     let apart = found.changes.each_ref().map(super::Change::apart);
     let per_unit = |k: usize| apart[k] / found.changes[k].by.abs();
     let values = directional.values();
+    let samples = found.data.window.len() as f64;
     let degrees = TABLE_2.map(|lines| {
         let cost = lines.last().map_or(0.0, |line| line.cost);
-        format!("{:.2}", (cost / WINDOW).sqrt().to_degrees())
+        format!("{:.2}", (cost / samples).sqrt().to_degrees())
     });
     vec![
         Row::holds(

@@ -42,7 +42,7 @@ impl Told {
         [0, 1].map(|k| over(&self.found.values, k) / over(&ARM, k))
     }
 
-    /// The direction that the tool says is hardly identified beside the others, where all four parameters are in it with one sign.
+    /// The direction that the tool says is told by little of the motion, where all four parameters are in it with one sign.
     #[must_use]
     pub fn common_factor(&self) -> Option<&Direction> {
         let frail = self.found.frail.as_ref()?;

@@ -22,7 +22,7 @@ pub(super) fn rows(results: &Results) -> Vec<Row> {
 }
 
 /// What a missing effect leaves, over what is left otherwise, at least.
-const SEVERAL: f64 = 2.0;
+const SEVERAL: f64 = 3.0;
 
 /// The largest of all installations.
 fn largest(results: &Results, of: impl Fn(&Installation) -> f64) -> f64 {

@@ -18,6 +18,8 @@ pub const NAMES: [&str; 5] = ["inertia", "Coriolis", "gravity", "viscous", "Coul
 pub struct Shares {
     /// One a name of [`NAMES`].
     pub rms: [Three; 5],
+    /// Of viscous and Coulomb friction together, which are not at right angles to each other.
+    pub friction: Three,
     /// Of the whole torque.
     pub torque: Three,
     /// Largest difference of the sum of all shares from the torque, N m.
@@ -39,7 +41,7 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
         .fold(0.0, |top: f64, v| top.max(v.abs()));
     let motion = motion.clone().at_pace(FASTEST / fastest);
     let mut sums = [[0.0; 3]; 5];
-    let (mut torque, mut off) = ([0.0; 3], 0.0_f64);
+    let (mut torque, mut friction, mut off) = ([0.0; 3], [0.0; 3], 0.0_f64);
     for [q, v, a] in states(&motion) {
         let (q, v, a) = (Vector::from(q), Vector::from(v), Vector::from(a));
         let found = Dissection::new(&arm, &State::new(q, v, a));
@@ -62,6 +64,7 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
         }
         for j in 0..3 {
             torque[j] += whole[j] * whole[j];
+            friction[j] += (parts[3][j] + parts[4][j]).powi(2);
             for (sum, part) in sums.iter_mut().zip(&parts) {
                 sum[j] += part[j] * part[j];
             }
@@ -70,6 +73,7 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
     let root = |sum: Three| sum.map(|x| (x / f64::from(samples)).sqrt());
     Shares {
         rms: sums.map(root),
+        friction: root(friction),
         torque: root(torque),
         off,
     }
@@ -80,7 +84,6 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
 pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
     let [inertia, coriolis, gravity] = [0, 1, 2];
     let of = |one: &Shares, share: usize, j: usize| one.rms[share][j];
-    let friction = |one: &Shares, j: usize| of(one, 3, j).hypot(of(one, 4, j));
     let [upright, gimbal, sensor, _, turned_gimbal] = all else {
         return Vec::new();
     };
@@ -93,13 +96,14 @@ pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
     let gimbals = [gimbal, turned_gimbal];
     vec![
         count("friction is most of joint 1", &every, &|one| {
-            (0..3).all(|share| friction(one, 0) > of(one, share, 0))
+            (0..3).all(|share| one.friction[0] > of(one, share, 0))
         }),
         count("and Coriolis comes next", &every, &|one| {
             of(one, coriolis, 0) > of(one, inertia, 0)
         }),
         count("inertia is most of joint 2", &every, &|one| {
             (1..3).all(|share| of(one, inertia, 1) > of(one, share, 1))
+                && of(one, inertia, 1) > one.friction[1]
         }),
         count("and Coriolis comes next there", &every, &|one| {
             of(one, coriolis, 1) > of(one, gravity, 1)

@@ -10,7 +10,11 @@ use crate::identify::{RANK_TOLERANCE, long_run_sum};
 /// What is below this share of the target is rounding.
 const ROUNDING: f64 = 1e-12;
 
+/// Deviations of a difference from which on it is one.
+const FAR: f64 = 3.0;
+
 /// `target = sum_c values_c columns_c + residuals`.
+#[derive(Clone)]
 pub(super) struct Regression {
     pub values: Vec<f64>,
     pub residuals: Vec<f64>,
@@ -29,12 +33,11 @@ impl Regression {
         if samples <= count {
             return None;
         }
-        let squares = |column: &[f64]| column.iter().map(|x| x * x).sum::<f64>();
-        let length: Vec<f64> = columns.iter().map(|c| squares(c).sqrt()).collect();
-        if length.contains(&0.0) {
+        let norm = norms(columns);
+        if norm.contains(&0.0) {
             return None;
         }
-        let scaled = Mat::from_fn(samples, count, |k, c| columns[c][k] / length[c]);
+        let scaled = Mat::from_fn(samples, count, |k, c| columns[c][k] / norm[c]);
         let factors = scaled.qr();
         let r = factors.thin_R().to_owned();
         if (0..count).any(|c| r[(c, c)].abs() < RANK_TOLERANCE) {
@@ -42,22 +45,69 @@ impl Regression {
         }
         let q = factors.compute_thin_Q();
         let gains = r.partial_piv_lu().solve(q.transpose().to_owned());
-        let gains: Vec<Vec<f64>> = (0..count)
-            .map(|c| (0..samples).map(|k| gains[(c, k)] / length[c]).collect())
-            .collect();
+        Some(Self::of_gains(&gains, &norm, columns, target))
+    }
+
+    /// `sum_k instruments_ak (target_k - sum_c values_c columns_ck) = 0` for each instrument `a`, one a column: errors of the columns that
+    /// the instruments do not know of leave the values as they are (Söderström & Stoica 1983). `None` as above.
+    pub fn by_instruments(
+        columns: &[&[f64]],
+        instruments: &[&[f64]],
+        target: &[f64],
+    ) -> Option<Self> {
+        let (samples, count) = (target.len(), columns.len());
+        if samples <= count {
+            return None;
+        }
+        // What the instruments tell of the columns stands for these in the gains; residuals are those of the columns.
+        let (norm, of_instruments) = (norms(columns), norms(instruments));
+        if norm.contains(&0.0) || of_instruments.contains(&0.0) {
+            return None;
+        }
+        let products = Mat::from_fn(count, count, |a, c| {
+            dot(instruments[a], columns[c]) / (of_instruments[a] * norm[c])
+        });
+        let singular = products.singular_values().ok()?;
+        if singular.last().is_none_or(|last| *last < RANK_TOLERANCE) {
+            return None;
+        }
+        let scaled = Mat::from_fn(count, samples, |a, k| instruments[a][k] / of_instruments[a]);
+        let gains = products.partial_piv_lu().solve(scaled);
+        Some(Self::of_gains(&gains, &norm, columns, target))
+    }
+
+    /// From gains of columns of length 1.
+    fn of_gains(gains: &Mat<f64>, norm: &[f64], columns: &[&[f64]], target: &[f64]) -> Self {
+        let (samples, count) = (target.len(), columns.len());
+        let gain = |c: usize| (0..samples).map(|k| gains[(c, k)] / norm[c]).collect();
+        let gains: Vec<Vec<f64>> = (0..count).map(gain).collect();
         let values: Vec<f64> = gains.iter().map(|gain| dot(gain, target)).collect();
         let left = |k: usize| {
             let terms = columns.iter().zip(&values);
             target[k] - terms.map(|(column, value)| column[k] * value).sum::<f64>()
         };
-        let residuals: Vec<f64> = (0..samples).map(left).collect();
-        Some(Self {
-            rounding: ROUNDING * (squares(target) / samples as f64).sqrt(),
+        Self {
+            residuals: (0..samples).map(left).collect(),
+            rounding: ROUNDING * (dot(target, target) / samples as f64).sqrt(),
             values,
-            residuals,
             gains,
             freedom: (samples - count) as f64,
-        })
+        }
+    }
+
+    /// Whether an unknown is another than that of `self` by more than errors of the target, alike from sample to sample, would make it
+    /// in 99.7 % of logs (Hausman 1978).
+    pub fn is_another(&self, unknown: usize, other: &Self) -> bool {
+        let pairs = self.gains[unknown].iter().zip(&other.gains[unknown]);
+        let pairs = pairs.zip(&self.residuals);
+        let mut series: Vec<f64> = pairs.map(|((one, other), e)| (one - other) * e).collect();
+        // Residuals of `self` that the other's gains know make a mean, which is the difference itself.
+        let mean = series.iter().sum::<f64>() / series.len() as f64;
+        series.iter_mut().for_each(|x| *x -= mean);
+        let std = self.of_sum(&series);
+        let length: f64 = dot(&self.gains[unknown], &self.gains[unknown]).sqrt();
+        let difference = (self.values[unknown] - other.values[unknown]).abs();
+        difference > FAR * std.max(self.rounding * length)
     }
 
     /// Standard deviation of the errors.
@@ -76,10 +126,13 @@ impl Regression {
     pub fn of_correlated_errors(&self, unknown: usize) -> Measured {
         let pairs = self.gains[unknown].iter().zip(&self.residuals);
         let series: Vec<f64> = pairs.map(|(gain, residual)| gain * residual).collect();
-        // The unknowns have taken their share of the residuals.
+        Measured::new(self.values[unknown], self.of_sum(&series), self.freedom)
+    }
+
+    /// Deviation of the sum of a series of moved residuals, of which the unknowns have taken their share.
+    fn of_sum(&self, series: &[f64]) -> f64 {
         let correction = series.len() as f64 / self.freedom;
-        let std = (correction * long_run_sum(&series)).max(0.0).sqrt();
-        Measured::new(self.values[unknown], std, self.freedom)
+        (correction * long_run_sum(series)).max(0.0).sqrt()
     }
 
     /// How probable a value as far from zero is by chance, where it is zero.
@@ -103,6 +156,10 @@ pub(crate) fn quantile(freedom: f64) -> f64 {
 
 fn student(freedom: f64) -> Option<StudentsT> {
     StudentsT::new(0.0, 1.0, freedom).ok()
+}
+
+fn norms(columns: &[&[f64]]) -> Vec<f64> {
+    columns.iter().map(|c| dot(c, c).sqrt()).collect()
 }
 
 fn dot(one: &[f64], other: &[f64]) -> f64 {
@@ -144,6 +201,22 @@ mod tests {
         // t = 3 sqrt(3) with one degree: 2 (1/2 - atan(t) / pi).
         let p = 1.0 - 2.0 * (3.0 * 3.0_f64.sqrt()).atan() / std::f64::consts::PI;
         assert!((fit.p_value(0) - p).abs() < 1e-9);
+    }
+
+    /// `sum z y / sum z x = 8 / 6` in place of `sum x y / sum x x = 13 / 9`.
+    #[test]
+    fn instruments_stand_for_columns_in_the_equations() {
+        let (x, z, y) = ([1.0, 2.0, 2.0], [2.0, 1.0, 1.0], [1.0, 3.0, 3.0]);
+        let least_squares = Regression::new(&[&x], &y).expect("a slope");
+        assert!((least_squares.values[0] - 13.0 / 9.0).abs() < 1e-12);
+        let found = Regression::by_instruments(&[&x], &[&z], &y).expect("a slope");
+        assert!((found.values[0] - 8.0 / 6.0).abs() < 1e-12);
+        let left = [-1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0];
+        for (residual, left) in found.residuals.iter().zip(left) {
+            assert!((residual - left).abs() < 1e-12);
+        }
+        // What is at right angles to the column tells nothing of it.
+        assert!(Regression::by_instruments(&[&x], &[&[0.0, 1.0, -1.0]], &y).is_none());
     }
 
     #[test]

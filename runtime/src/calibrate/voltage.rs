@@ -2,12 +2,18 @@
 
 use super::regression::Regression;
 use super::statistics::{correlation, stands};
+use super::windows::REACH;
 use super::{CalibrateError, Measured, check};
 
 /// Fewest samples.
 const LEAST: usize = 16;
 
-/// `voltage = resistance * current + back_emf * velocity + offset`, by least squares.
+/// Samples between one and its instruments: windows of velocities share no position that far apart.
+const AWAY: usize = 2 * REACH + 1;
+
+/// `voltage = resistance * current + back_emf * velocity + offset`, by least squares; where noise of the current or of the velocity makes
+/// these too small, by instruments: `resistance` and `back_emf` of means of the samples five before and five after, which do not know of a
+/// sample's noise. That it does is seen where both differ by more than three deviations of their difference (Durbin, Wu, Hausman).
 ///
 /// The voltage of the inductance, `L di/dt`, is left out: it matters where the current changes within the motor's electric time
 /// constant. Deviations are those of errors that are alike from sample to sample: `n` times the spectral density at frequency zero of
@@ -21,6 +27,8 @@ pub struct MotorVoltage {
     pub back_emf: Measured,
     /// V.
     pub offset: Measured,
+    /// Resistance, back-EMF and offset by least squares, where those above are by instruments.
+    pub least_squares: Option<[f64; 3]>,
     /// Standard deviation of the voltage that is left, V.
     pub residual_std: f64,
     /// Correlation of current and velocity: near 1 or -1 they are hardly told apart.
@@ -55,19 +63,44 @@ impl MotorVoltage {
         check(&[current, velocity, voltage], LEAST)?;
         vary(current, velocity)?;
         let ones = vec![1.0; current.len()];
-        let fit = Regression::new(&[current, velocity, &ones], voltage)
-            .ok_or(CalibrateError::NotApart)?;
-        let pairs = voltage.iter().zip(&fit.residuals);
+        let columns: [&[f64]; 3] = [current, velocity, &ones];
+        let all = Regression::new(&columns, voltage).ok_or(CalibrateError::NotApart)?;
+        let instrumented = by_neighbors(&columns, voltage);
+        let is_instrumented = instrumented.is_some();
+        let fit = instrumented.unwrap_or_else(|| all.clone());
+        let fitted = |k: usize| {
+            let terms = columns.iter().zip(&fit.values);
+            terms.map(|(column, value)| column[k] * value).sum()
+        };
         Ok(Self {
             resistance: fit.of_correlated_errors(0),
             back_emf: fit.of_correlated_errors(1),
             offset: fit.of_correlated_errors(2),
+            least_squares: is_instrumented.then(|| [all.values[0], all.values[1], all.values[2]]),
             residual_std: fit.residual_std(),
             alike: correlation(current, velocity),
-            samples: current.len(),
-            fitted: pairs.map(|(v, residual)| v - residual).collect(),
+            samples: fit.residuals.len(),
+            fitted: (0..current.len()).map(fitted).collect(),
         })
     }
+}
+
+/// By instruments, where least squares on the same samples finds another resistance or back-EMF.
+fn by_neighbors(columns: &[&[f64]; 3], voltage: &[f64]) -> Option<Regression> {
+    let samples = AWAY..voltage.len().checked_sub(AWAY)?;
+    if samples.len() < LEAST {
+        return None;
+    }
+    let mean = |column: &[f64], k: usize| 0.5 * (column[k - AWAY] + column[k + AWAY]);
+    let neighbors = columns.map(|column| samples.clone().map(|k| mean(column, k)).collect());
+    let instruments: [Vec<f64>; 3] = neighbors;
+    let instruments = instruments.each_ref().map(Vec::as_slice);
+    let columns = columns.map(|column| &column[samples.clone()]);
+    let voltage = &voltage[samples];
+    let least_squares = Regression::new(&columns, voltage)?;
+    let found = Regression::by_instruments(&columns, &instruments, voltage)?;
+    let is_another = |unknown| least_squares.is_another(unknown, &found);
+    (is_another(0) || is_another(1)).then_some(found)
 }
 
 /// Refuses a current or a velocity that does not vary.

@@ -1,12 +1,11 @@
 //! Friction torque over speed, the rigid body's torque fitted beside it.
 
 use faer::Mat;
-use faer::linalg::solvers::{Solve, SolveLstsq};
 
 use super::rows::{Measured, Rows, Runs};
+use super::solution::{Chosen, Solution, deviation, norm, within};
 use super::stretch::SAME;
-use super::{FrictionError, Value};
-use crate::identify::correlation_time;
+use super::{FrictionError, Value, late};
 use crate::log::Log;
 
 /// What is left of a column of unit length beside others, or while the speed stays: below this it counts as nothing. Errors of what is
@@ -15,9 +14,6 @@ const APART: f64 = 1e-3;
 
 /// Columns below this are rounding, per unit of their parameter in SI.
 const ROUNDING: f64 = 1e-12;
-
-/// A cell's own noise counts beside that of all cells as if the latter were so many blocks.
-const PRIOR: f64 = 10.0;
 
 /// Friction at one speed.
 ///
@@ -61,17 +57,11 @@ pub struct Curve {
     /// By how much a velocity changes with one step of the encoder where it is the difference of two neighboring samples, rad/s or m/s; the
     /// least of all logs. Speeds of the points are slopes over stretches, and far finer.
     pub speed_step: f64,
+    /// By how much torques come after the positions, s, where the stretches tell; it is fitted beside the points. A weight's torque that comes
+    /// late is greater on the way up and less on the way down, or the other way round, as viscous friction is.
+    pub late: Option<Value>,
     /// How far each block's error moves each point, one deviation of it, `[block, point]`.
     influence: Mat<f64>,
-}
-
-/// The rigid body's columns that count.
-struct Chosen {
-    /// Their places among [`Measured::columns`].
-    places: Vec<usize>,
-    /// Their lengths.
-    lengths: Vec<f64>,
-    has_constant: bool,
 }
 
 impl Measured<'_> {
@@ -97,7 +87,7 @@ impl Measured<'_> {
     /// ```
     pub fn curve(&self, logs: &[Log]) -> Result<Curve, FrictionError> {
         let Runs {
-            rows,
+            mut rows,
             stretches,
             range,
             speed_step,
@@ -110,7 +100,7 @@ impl Measured<'_> {
         let cell: Vec<usize> = rows.stretch.iter().map(|&k| cells[k]).collect();
         let count = cells.iter().max().map_or(0, |most| most + 1);
         let travel = range[self.joint].1 - range[self.joint].0;
-        let chosen = self.chosen(&rows, &cell, count, travel)?;
+        let mut chosen = self.chosen(&rows, &cell, count, travel)?;
         let has_both = [-1.0, 1.0]
             .iter()
             .all(|way| stretches.iter().any(|(speed, _)| way * speed > 0.0));
@@ -118,7 +108,15 @@ impl Measured<'_> {
             let joint = self.name();
             return Err(FrictionError::Constant { joint });
         }
-        let (torques, beta, influence) = solve(&rows, &cell, count, &chosen);
+        let first = Solution::new(&rows, &cell, count, &chosen);
+        let later = late::beside(&mut rows, &mut chosen, &first, &cell, count);
+        let late = later.as_ref().map(|(late, _)| *late);
+        let Solution {
+            torques,
+            beta,
+            influence,
+            ..
+        } = later.map_or(first, |(_, solution)| solution);
         let points = (0..count).map(|k| {
             let here = stretches.iter().zip(&cells).filter(|(_, at)| **at == k);
             let seconds: f64 = here.clone().map(|((_, seconds), _)| seconds).sum();
@@ -143,6 +141,7 @@ impl Measured<'_> {
             beside,
             range,
             speed_step,
+            late,
             influence,
         })
     }
@@ -217,7 +216,8 @@ impl Curve {
             lengths: Vec::new(),
             has_constant: false,
         };
-        let (torques, _, influence) = solve(&rows, &cell, count, &nothing);
+        let solution = Solution::new(&rows, &cell, count, &nothing);
+        let (torques, influence) = (solution.torques, solution.influence);
         let point = |k: usize| Point {
             speed: speeds[k],
             torque: Value {
@@ -234,6 +234,7 @@ impl Curve {
             beside: Vec::new(),
             range: Vec::new(),
             speed_step: 0.0,
+            late: None,
             influence,
         }
     }
@@ -263,22 +264,6 @@ fn cells(stretches: &[(f64, f64)]) -> Vec<usize> {
     cells
 }
 
-/// Values less their mean in each cell.
-fn within(values: &[f64], cell: &[usize], count: usize) -> Vec<f64> {
-    let means = means(values, cell, count);
-    let pairs = values.iter().zip(cell);
-    pairs.map(|(x, &cell)| x - means[cell]).collect()
-}
-
-fn means(values: &[f64], cell: &[usize], count: usize) -> Vec<f64> {
-    let mut sums = vec![(0.0, 0.0); count];
-    for (x, &cell) in values.iter().zip(cell) {
-        sums[cell].0 += x;
-        sums[cell].1 += 1.0;
-    }
-    sums.into_iter().map(|(sum, n)| sum / n).collect()
-}
-
 /// Columns of which more than [`APART`] is left beside those before, by pivoted QR.
 fn independent<'a>(columns: impl Iterator<Item = &'a Vec<f64>>) -> Vec<usize> {
     let columns: Vec<&Vec<f64>> = columns.collect();
@@ -292,89 +277,4 @@ fn independent<'a>(columns: impl Iterator<Item = &'a Vec<f64>>) -> Vec<usize> {
         .take_while(|&k| diagonal[(k, k)].abs() > APART)
         .count();
     pivoted.P().arrays().0[..rank].to_vec()
-}
-
-/// Torques of the cells, values of the chosen columns, and how far the blocks' errors move the torques.
-fn solve(
-    rows: &Rows,
-    cell: &[usize],
-    count: usize,
-    chosen: &Chosen,
-) -> (Vec<f64>, Vec<f64>, Mat<f64>) {
-    let (n, r) = (rows.torque.len(), chosen.places.len());
-    let columns: Vec<Vec<f64>> = chosen
-        .places
-        .iter()
-        .zip(&chosen.lengths)
-        .map(|(&place, length)| rows.columns[place].iter().map(|x| x / length).collect())
-        .collect();
-    let inside: Vec<Vec<f64>> = columns.iter().map(|x| within(x, cell, count)).collect();
-    let mut rest = within(&rows.torque, cell, count);
-    let mut torques = means(&rows.torque, cell, count);
-    let column_means: Vec<Vec<f64>> = columns.iter().map(|x| means(x, cell, count)).collect();
-    let mut beta = vec![0.0; r];
-    // What a block's error does to the values of the columns.
-    let mut moves = Mat::<f64>::zeros(n, r);
-    if r > 0 {
-        let matrix = Mat::from_fn(n, r, |row, c| inside[c][row]);
-        let right = Mat::from_fn(n, 1, |row, _| rest[row]);
-        let solved = matrix.qr().solve_lstsq(&right);
-        beta = (0..r).map(|c| solved[(c, 0)]).collect();
-        let inverse = (matrix.transpose() * &matrix)
-            .partial_piv_lu()
-            .solve(Mat::<f64>::identity(r, r));
-        moves = &matrix * inverse;
-    }
-    for (c, value) in beta.iter().enumerate() {
-        let pairs = rest.iter_mut().zip(&inside[c]);
-        pairs.for_each(|(rest, x)| *rest -= value * x);
-        let pairs = torques.iter_mut().zip(&column_means[c]);
-        pairs.for_each(|(torque, mean)| *torque -= value * mean);
-    }
-    let (blocks, sigma) = noise(&rest, cell, count, r);
-    let influence = Mat::from_fn(n, count, |row, k| {
-        let own = if cell[row] == k { 1.0 / blocks[k] } else { 0.0 };
-        let by_columns: f64 = (0..r).map(|c| moves[(row, c)] * column_means[c][k]).sum();
-        sigma[cell[row]] * (own - by_columns)
-    });
-    let beta = beta.iter().zip(&chosen.lengths);
-    (
-        torques,
-        beta.map(|(value, length)| value / length).collect(),
-        influence,
-    )
-}
-
-/// How many blocks each cell has, and the deviation of a block's error there, larger where neighbors are alike so that the sums of
-/// errors come out: cells have their own noise, and those of few blocks nearly that of all.
-fn noise(rest: &[f64], cell: &[usize], count: usize, unknowns: usize) -> (Vec<f64>, Vec<f64>) {
-    let mut sums = vec![(0.0, 0.0); count];
-    for (rest, &cell) in rest.iter().zip(cell) {
-        sums[cell].0 += 1.0;
-        sums[cell].1 += rest * rest;
-    }
-    let freedom = rest.len() as f64 - count as f64;
-    let squares: f64 = sums.iter().map(|(_, squares)| squares).sum();
-    let taken = freedom.max(1.0) / (freedom - unknowns as f64).max(1.0);
-    let all = squares / freedom.max(1.0);
-    let factor = taken * correlation_time(rest);
-    let sigma = |&(blocks, squares): &(f64, f64)| {
-        (factor * (squares + PRIOR * all) / (blocks - 1.0 + PRIOR)).sqrt()
-    };
-    let sigma = sums.iter().map(sigma).collect();
-    (sums.iter().map(|(blocks, _)| *blocks).collect(), sigma)
-}
-
-/// Standard deviation of a weighted sum of the points.
-fn deviation(influence: &Mat<f64>, weight: impl Fn(usize) -> f64) -> f64 {
-    let weights: Vec<f64> = (0..influence.ncols()).map(weight).collect();
-    let moved = (0..influence.nrows()).map(|row| -> f64 {
-        let pairs = weights.iter().enumerate();
-        pairs.map(|(k, weight)| weight * influence[(row, k)]).sum()
-    });
-    norm(&moved.collect::<Vec<f64>>())
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -16,8 +16,10 @@
 mod bristles;
 mod curve;
 mod error;
+mod late;
 mod law;
 mod rows;
+mod solution;
 mod stretch;
 
 pub use bristles::Bristles;

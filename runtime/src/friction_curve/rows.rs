@@ -76,6 +76,8 @@ pub struct Measured<'a> {
 pub(super) struct Along {
     /// N m or N; less what is known of it.
     pub torque: Vec<f64>,
+    /// What is known of it.
+    known: Vec<f64>,
     /// `[column][sample]`, in the order of [`Measured::columns`].
     pub columns: Vec<Vec<f64>>,
 }
@@ -85,7 +87,11 @@ pub(super) struct Along {
 pub(super) struct Rows {
     /// Which stretch a block belongs to.
     pub stretch: Vec<usize>,
+    /// Length of each block, s.
+    pub seconds: Vec<f64>,
     pub torque: Vec<f64>,
+    /// What is known of the torque, and was taken from it.
+    pub known: Vec<f64>,
     /// `[column][block]`: columns at no acceleration, and behind them what accelerations add to each. Their values are looked for apart,
     /// as the little acceleration of a constant speed says nothing of a weight.
     pub columns: Vec<Vec<f64>>,
@@ -112,9 +118,12 @@ impl Measured<'_> {
     pub(super) fn along(&self, motion: &Motion) -> Along {
         let gain = self.arm.actuator_gain()[self.joint];
         let known = self.arm.known_torque(motion, &self.shapes);
-        let torque = motion.tau[self.joint].iter().zip(&known[self.joint]);
         let mut along = Along {
-            torque: torque.map(|(tau, known)| gain * tau - known).collect(),
+            torque: motion.tau[self.joint]
+                .iter()
+                .map(|tau| gain * tau)
+                .collect(),
+            known: known[self.joint].clone(),
             columns: vec![vec![0.0; motion.time.len()]; self.columns.len()],
         };
         for Entry {
@@ -131,8 +140,8 @@ impl Measured<'_> {
             }
             match &self.known {
                 Some(known) => {
-                    let pairs = along.torque.iter_mut().zip(values);
-                    pairs.for_each(|(torque, value)| *torque -= known[column] * value);
+                    let pairs = along.known.iter_mut().zip(values);
+                    pairs.for_each(|(all, value)| *all += known[column] * value);
                 }
                 None => along.columns[place] = values,
             }
@@ -140,6 +149,8 @@ impl Measured<'_> {
         if self.known.is_some() {
             along.columns.clear();
         }
+        let pairs = along.torque.iter_mut().zip(&along.known);
+        pairs.for_each(|(torque, known)| *torque -= known);
         along
     }
 
@@ -194,7 +205,9 @@ impl Measured<'_> {
                 let number = runs.stretches.len();
                 let seconds = stretch.samples.len() as f64 / log.rate_hz();
                 runs.stretches.push((stretch.speed, seconds));
-                runs.rows.push(number, &self.parted(&motion), block);
+                let seconds = block as f64 / prepared.rate_hz;
+                runs.rows
+                    .push(number, &self.parted(&motion), block, seconds);
             }
         }
         Ok(runs)
@@ -203,7 +216,7 @@ impl Measured<'_> {
 
 impl Rows {
     /// Appends the means of a stretch's blocks. What a mean leaves of an acceleration is the difference of two velocities.
-    fn push(&mut self, stretch: usize, along: &Along, block: usize) {
+    fn push(&mut self, stretch: usize, along: &Along, block: usize, seconds: f64) {
         let means = |values: &[f64]| -> Vec<f64> {
             let blocks = values.chunks_exact(block);
             blocks
@@ -213,7 +226,10 @@ impl Rows {
         let torque = means(&along.torque);
         self.stretch
             .extend(std::iter::repeat_n(stretch, torque.len()));
+        self.seconds
+            .extend(std::iter::repeat_n(seconds, torque.len()));
         self.torque.extend(torque);
+        self.known.extend(means(&along.known));
         for (column, values) in self.columns.iter_mut().zip(&along.columns) {
             column.extend(means(values));
         }

@@ -5,7 +5,7 @@ use crate::signal::Bands;
 
 use super::fitted::Fitted;
 use super::instruments::Hausman;
-use super::late::Delay;
+use super::late::{Delay, Late};
 use super::least_squares::Solution;
 use super::possible::Possible;
 use super::{Bootstrap, Combination, Essential, Method};
@@ -114,6 +114,9 @@ pub struct Estimate {
     pub essential: Option<Essential>,
     /// Torques that are late or early against positions, or the position that is instead, in logs without a payload; none of a [`Factor`](super::Factor).
     pub delays: Vec<Delay>,
+    /// Torques that are early by about half of a sample, and explained far better without: set at a sample and held until the next one, which
+    /// is how a drive works and bends values where samples are slow beside the motion. Empty where there are [`Self::delays`].
+    pub held_torques: Vec<Delay>,
 }
 
 impl Estimate {
@@ -170,6 +173,15 @@ impl Estimate {
             bootstrap: None,
             essential: None,
             delays: Vec::new(),
+            held_torques: Vec::new(),
+        }
+    }
+
+    pub(super) fn with_late(self, late: Late) -> Self {
+        Self {
+            delays: late.told,
+            held_torques: late.held,
+            ..self
         }
     }
 

@@ -107,10 +107,7 @@ impl Identify {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
             Ok(instruments::rows(&filtered, &wanted, &shapes))
         })?;
-        Ok(Estimate {
-            delays: self.delays_of_logs(arm, logs, &bands, &shapes),
-            ..estimate
-        })
+        Ok(estimate.with_late(self.delays_of_logs(arm, logs, &bands, &shapes)))
     }
 
     /// As for the usual form: `L` weakens the model's torque and what it leaves alike, so their ratio is the same.

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use super::words::{hertz, in_unit, joints, list, plural};
+
 /// Why a log cannot be used. `source_name` is the file, `line` counts from 1 and the header is line 1.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -266,6 +268,16 @@ pub enum LogError {
         /// The field.
         text: String,
     },
+    /// Many rows that lack a number.
+    #[error("{first}; {rows} of {of} rows have such a field, too many to be filled in")]
+    ManyLost {
+        /// What is wrong with the first.
+        first: Box<LogError>,
+        /// How many there are.
+        rows: usize,
+        /// Of how many.
+        of: usize,
+    },
     /// NaN or infinity in samples that came from memory.
     #[error("{source_name}: sample {sample} is not finite; remove or repair it")]
     NotFiniteSample {
@@ -331,7 +343,7 @@ pub enum LogError {
     },
     /// No arm is sampled like that.
     #[error(
-        "{source_name}: the sample rate is {rate_hz:.4} Hz, outside {slowest} Hz .. {fastest} Hz; is time in seconds?"
+        "{source_name}: the sample rate is {} Hz, outside {slowest} Hz .. {fastest} Hz; is time in seconds?{}", hertz(*.rate_hz), in_unit(*.unit)
     )]
     Rate {
         /// The log.
@@ -342,6 +354,8 @@ pub enum LogError {
         slowest: f64,
         /// The highest rate that is taken.
         fastest: f64,
+        /// The unit of time in which it would be one that is taken.
+        unit: Option<&'static str>,
     },
     /// A position or torque that no arm has.
     #[error(
@@ -368,30 +382,4 @@ pub enum LogError {
         /// The fewest that are allowed.
         fewest: usize,
     },
-}
-
-/// Names in backticks with commas; a long list keeps its first eight.
-pub(super) fn list(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let mut text: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{name}`"))
-        .collect();
-    if names.len() > SHOWN {
-        text.push(format!("and {} more", names.len() - SHOWN));
-    }
-    text.join(", ")
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "" } else { "s" }
-}
-
-fn joints(dof: usize) -> String {
-    if dof == 1 {
-        "number 1".to_owned()
-    } else {
-        format!("numbers 1 to {dof}")
-    }
 }

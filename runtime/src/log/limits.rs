@@ -21,6 +21,14 @@ pub(super) const LONGEST_ROW: u64 = 100 * MOST_COLUMNS as u64;
 /// Numbers in memory at a time, 2 GiB of them. A log of fifty columns at 1 kHz comes to that in an hour and a half.
 pub(super) const MOST_NUMBERS: usize = 1 << 28;
 
+/// The longest unit of time in which a rate would be one of an arm.
+fn unit(rate_hz: f64) -> Option<&'static str> {
+    let units = [("ms", 1e3), ("us", 1e6), ("ns", 1e9)];
+    let mut fitting = units.iter();
+    let fits = fitting.find(|(_, scale)| RATES_HZ.contains(&(rate_hz * scale)));
+    fits.map(|(unit, _)| *unit)
+}
+
 /// Refuses files with more columns than a log has.
 ///
 /// # Errors
@@ -87,6 +95,7 @@ impl Log {
             rate_hz,
             slowest: *RATES_HZ.start(),
             fastest: *RATES_HZ.end(),
+            unit: unit(rate_hz),
         })
     }
 }

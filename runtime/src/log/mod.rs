@@ -21,6 +21,7 @@ mod pieces;
 mod rows;
 mod turns;
 mod uniform;
+mod words;
 
 use std::io::Read;
 use std::ops::Range;

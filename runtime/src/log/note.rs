@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Stretches;
-use super::error::list;
+use super::words::list;
 
 /// Something about a log that its user should know, and that is no error.
 #[derive(Debug, Clone, PartialEq)]

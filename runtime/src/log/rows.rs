@@ -184,15 +184,21 @@ impl Lost {
     /// # Errors
     /// That, where there are many.
     pub fn few(&self, sound: usize) -> Result<Option<(usize, &LogError)>, LogError> {
-        match self.runs.first() {
-            Some((_, first))
-                if self.runs.len() > MOST_RUNS
-                    || self.rows as f64 >= MANY * (sound + self.rows) as f64 =>
-            {
-                Err(first.clone())
-            }
-            first => Ok(first.map(|(_, first)| (self.rows, first))),
+        let Some((_, first)) = self.runs.first() else {
+            return Ok(None);
+        };
+        let (rows, of) = (self.rows, sound + self.rows);
+        if self.runs.len() <= MOST_RUNS && (rows as f64) < MANY * of as f64 {
+            return Ok(Some((rows, first)));
         }
+        Err(match rows {
+            1 => first.clone(),
+            _ => LogError::ManyLost {
+                first: Box::new(first.clone()),
+                rows,
+                of,
+            },
+        })
     }
 
     /// What is wrong with the first between two lines of sound rows that follow one another.

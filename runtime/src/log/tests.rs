@@ -101,6 +101,15 @@ fn bad_fields_are_told_with_line_and_column() {
         with(5, "0.03,nan,1"),
         "monday.csv:5: `nan` in column `q1` is not finite; remove or repair the row"
     );
+    let mut holes = rows(20);
+    for line in [3, 9, 11] {
+        holes[line - 2] = String::from("0,nan,1");
+    }
+    assert_eq!(
+        refusal(&text("time,q1,tau1", &holes), 1),
+        "monday.csv:3: `nan` in column `q1` is not finite; remove or repair the row; 3 of 20 rows have such a field, too many to be \
+         filled in"
+    );
     assert_eq!(
         with(6, "0.04,1,-inf"),
         "monday.csv:6: `-inf` in column `tau1` is not finite; remove or repair the row"
@@ -328,8 +337,11 @@ fn implausible_logs_are_refused() {
     };
     assert_eq!(
         at_step(5.0).expect_err("milliseconds").to_string(),
-        "monday.csv: the sample rate is 0.2000 Hz, outside 10 Hz .. 100000 Hz; is time in seconds?"
+        "monday.csv: the sample rate is 0.2000 Hz, outside 10 Hz .. 100000 Hz; is time in seconds? in ms it \
+         would be one of an arm: `time = \"..\": ms;` in the `log` of the spec says so"
     );
+    let in_nanoseconds = at_step(1e7).expect_err("nanoseconds").to_string();
+    assert!(in_nanoseconds.contains("rate is 1.0e-7 Hz") && in_nanoseconds.contains(": ns;`"));
     assert!(matches!(at_step(1e-6), Err(LogError::Rate { .. })));
     assert!(at_step(0.1 - 1e-9).is_ok() && at_step(1.1e-5).is_ok());
 

@@ -12,7 +12,7 @@ use super::search::{Search, State};
 use super::structure::Structure;
 
 /// Of a joint's rows: where turns reach all but this share, rows away from them are no judges.
-const LEAST_LEFT: f64 = 0.25;
+pub(super) const LEAST_LEFT: f64 = 0.25;
 
 /// What is worked out of a state when it is asked for.
 #[derive(Default)]

@@ -5,6 +5,7 @@
 
 use faer::Mat;
 
+use super::away::LEAST_LEFT;
 use super::raw::mean_square;
 use super::search::{Search, State};
 use super::whereabouts::Quantity;
@@ -22,9 +23,6 @@ const RIDGE: f64 = 1e-3;
 
 /// Where a motion repeats, a model that leaves so many times what differs from period to period lacks something that comes back.
 const BEYOND: f64 = 3.0;
-
-/// Samples away from turns judge a model where they are at least this share of all.
-const LEAST_LEFT: f64 = 0.25;
 
 /// From what a floor is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

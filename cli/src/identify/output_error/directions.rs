@@ -54,7 +54,7 @@ pub(super) fn hanging(frail: &Direction) -> String {
         format!("{:.0} times less than", 1.0 / frail.singular)
     };
     format!(
-        "hardly identified beside the others: {}: a share of {} value moves positions {less} the same share of what moves them most, so \
+        "told by little of the motion: {}: a share of {} value moves positions {less} the same share of what moves them most, so \
          whatever the model lacks is laid upon it; ratios of the others are known better than this, whatever the deviations say",
         moves.join(", "),
         if moves.len() == 1 { "its" } else { "their" },

@@ -10,15 +10,17 @@
 
 mod nearest;
 mod position;
+mod rows;
 
 use nearest::nearest;
+use rows::Rows;
 
 use super::shapes::with_slopes;
-use super::stack::{Stack, norm, says_nothing};
-use super::{Beyond, Identify, clipped, prepare_all, turns};
-use crate::columns::{Arm, Entry, Unknown};
+use super::stack::{Stack, norm};
+use super::{Beyond, Identify, prepare_all};
+use crate::columns::Arm;
 use crate::log::{LateChannel, Log};
-use crate::signal::{Bands, Prepared, derivative};
+use crate::signal::{Bands, Prepared};
 
 /// What is told: so many deviations, and so large a part of a log's sample. Torque that is set at a sample and holds until the next is early by
 /// half of that, and one more sample may go where the next one is computed, which is how a drive works and no fault.
@@ -92,22 +94,26 @@ pub fn is_delay(seconds: f64, period: f64) -> bool {
     !(-HELD..=LATE).contains(&(seconds / period))
 }
 
+/// Whether a torque is as early as one that is set at a sample and holds until the next.
+fn is_held(seconds: f64, period: f64) -> bool {
+    (-HELD..-LATE).contains(&(seconds / period))
+}
+
+/// Channels that are not of the time of the others.
+#[derive(Default)]
+pub(super) struct Late {
+    /// Torques that are late or early, or the one position that is instead.
+    pub told: Vec<Delay>,
+    /// Torques that are as early as held ones are, where there are no others.
+    pub held: Vec<Delay>,
+}
+
 /// Time from one sample to the next of the slowest log, s.
 pub(crate) fn longest_period(logs: &[Prepared]) -> f64 {
     let periods = logs
         .iter()
         .map(|log| 1.0 / (log.rate_hz * log.stride as f64));
     periods.fold(0.0, f64::max)
-}
-
-/// The equations without delays.
-struct Rows<'a> {
-    arm: &'a dyn Arm,
-    logs: &'a [Prepared],
-    /// Per log the joints that say nothing.
-    silent: Vec<Vec<usize>>,
-    stack: Stack,
-    leave_out_turns: bool,
 }
 
 /// Delays with their deviations, and the lengths of the residuals.
@@ -120,6 +126,7 @@ struct Found {
 /// Late torques that are told, and the sum of the logarithms of what is left without all delays of torques.
 struct Torques {
     told: Vec<Delay>,
+    held: Vec<Delay>,
     left: f64,
 }
 
@@ -132,9 +139,9 @@ impl Identify {
         logs: &[Prepared],
         stack: Stack,
         (shapes, estimate): (&[f64], &[f64]),
-    ) -> Vec<Delay> {
+    ) -> Late {
         if self.beyond < Beyond::Delays {
-            return Vec::new();
+            return Late::default();
         }
         let is_poor = stack
             .relative_percent(estimate)
@@ -143,17 +150,22 @@ impl Identify {
         let rows = self.late_rows(arm, logs, stack, (shapes, estimate));
         let counted: usize = rows.stack.counts().iter().sum();
         if counted < FEWEST * rows.stack.unknowns.len() {
-            return Vec::new();
+            return Late::default();
         }
         let Some(torques) = self.late_torques(&rows) else {
-            return Vec::new();
+            return Late::default();
         };
         // Positions take long, as all columns move with them.
         let position = (is_poor || !torques.told.is_empty())
             .then(|| self.late_position(&rows, (shapes, estimate), torques.left));
-        position
-            .flatten()
-            .map_or(torques.told, |position| vec![position])
+        let position = position.flatten();
+        let told = position.map_or(torques.told, |position| vec![position]);
+        let held = if told.is_empty() {
+            torques.held
+        } else {
+            Vec::new()
+        };
+        Late { told, held }
     }
 
     fn late_rows<'a>(
@@ -175,16 +187,16 @@ impl Identify {
         logs: &[Log],
         bands: &Bands,
         shapes: &[f64],
-    ) -> Vec<Delay> {
+    ) -> Late {
         if self.beyond < Beyond::Delays {
-            return Vec::new();
+            return Late::default();
         }
         let Ok(mut prepared) = prepare_all(logs, bands) else {
-            return Vec::new();
+            return Late::default();
         };
         let Ok((solution, shapes, stack)) = self.solve(arm, &mut prepared, Some(shapes.to_vec()))
         else {
-            return Vec::new();
+            return Late::default();
         };
         self.delays(arm, &prepared, stack, (&shapes, &solution.estimate))
     }
@@ -195,27 +207,34 @@ impl Identify {
         let period = longest_period(rows.logs);
         let mut delays = nearest(rows);
         let mut left = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for round in 1..=ROUNDS {
             let found = self.further(&rows.shifted(&delays))?;
             for (delay, step) in delays.iter_mut().zip(&found.step) {
                 *delay += step.clamp(-MOST, MOST);
             }
             left = left.min(logarithm(&found.residuals));
-            let is_far = |joint: &usize| {
-                let (delay, std) = (delays[*joint], found.std[*joint]);
-                delay.abs() > DEVIATIONS * std && is_delay(delay, period)
+            let is_seen = |joint: &usize| delays[*joint].abs() > DEVIATIONS * found.std[*joint];
+            let of = |is: fn(f64, f64) -> bool| -> Vec<usize> {
+                let seen = (0..dof).filter(is_seen);
+                seen.filter(|joint| is(delays[*joint], period)).collect()
             };
-            let far: Vec<usize> = (0..dof).filter(is_far).collect();
+            let far = of(is_delay);
             let has_settled = |joint: &usize| found.step[*joint].abs() < found.std[*joint];
-            if far.iter().all(has_settled) {
+            let mut held = of(is_held);
+            // Whether a torque is held is worth no more than the rounds that there are.
+            if far.iter().all(has_settled) && (round == ROUNDS || held.iter().all(has_settled)) {
+                held.retain(has_settled);
                 let told = self.told(rows, &delays, &found, far)?;
+                let mut held = self.told(rows, &delays, &found, held)?;
+                held.retain(|held| held.gain > SHARE);
                 let left = logarithm(&found.residuals);
-                return Some(Torques { told, left });
+                return Some(Torques { told, held, left });
             }
         }
         // No delay of torques is the answer.
         Some(Torques {
             told: Vec::new(),
+            held: Vec::new(),
             left,
         })
     }
@@ -279,120 +298,8 @@ impl Identify {
     }
 }
 
-impl<'a> Rows<'a> {
-    /// Of a stack, with friction that the arm may not have.
-    fn new(arm: &'a dyn Arm, logs: &'a [Prepared], stack: Stack, leave_out_turns: bool) -> Self {
-        let mut rows = Self {
-            arm,
-            logs,
-            silent: logs.iter().map(says_nothing).collect(),
-            stack,
-            leave_out_turns,
-        };
-        let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
-            let speeds = log.motion.wide.dq[joint].iter();
-            let sign = |v: &f64| if *v == 0.0 { 0.0 } else { v.signum() };
-            speeds.map(sign).collect()
-        };
-        let columns = |series: &dyn Fn(&Prepared, usize) -> Vec<f64>| -> Vec<Vec<f64>> {
-            let joints = 0..arm.dof();
-            let of = |joint| rows.filtered(joint, |log| series(log, joint));
-            joints.map(of).collect()
-        };
-        let viscous = columns(&|log, joint| log.motion.smooth.dq[joint].clone());
-        let dry = columns(&sign);
-        let turns = columns(&|log, joint| {
-            let mut slope = Vec::new();
-            derivative(&sign(log, joint), 1.0 / log.rate_hz, &mut slope);
-            slope
-        });
-        for columns in [viscous, dry, turns] {
-            append(&mut rows.stack, columns);
-        }
-        clipped::clear_again(&mut rows.stack);
-        if leave_out_turns {
-            turns::leave_out(&mut rows.stack);
-        }
-        rows
-    }
-
-    /// A joint's series of all logs, as the rows have it: zero where the joint says nothing.
-    fn filtered(&self, joint: usize, series: impl Fn(&Prepared) -> Vec<f64>) -> Vec<f64> {
-        let mut all = Vec::new();
-        let mut filtered = Vec::new();
-        for (log, silent) in self.logs.iter().zip(&self.silent) {
-            log.shared.apply(&series(log), &mut filtered);
-            if silent.contains(&joint) {
-                filtered.fill(0.0);
-            }
-            all.extend_from_slice(&filtered);
-        }
-        all
-    }
-
-    /// What a joint's torque of so much later has more than that of now, as rows have it.
-    fn moved(&self, joint: usize, delay: f64) -> Vec<f64> {
-        let gain = self.arm.actuator_gain()[joint];
-        self.filtered(joint, |log| {
-            let later = log.motion.late(&log.tau[joint], -delay);
-            let pairs = later.into_iter().zip(&log.tau[joint]);
-            pairs.map(|(later, now)| gain * (later - now)).collect()
-        })
-    }
-
-    /// Rows that were left out say nothing of columns that came later, either.
-    fn leave_out(&self, stack: &mut Stack) {
-        clipped::clear_again(stack);
-        if self.leave_out_turns {
-            turns::leave_out(stack);
-        }
-    }
-
-    /// The same equations for the torque of so much later, and behind their columns the slopes of that torque.
-    fn shifted(&self, delays: &[f64]) -> Stack {
-        let mut stack = self.stack.clone();
-        let mut slopes = Vec::new();
-        for (joint, delay) in delays.iter().enumerate() {
-            let later = |log: &Prepared| log.motion.late(&log.tau[joint], -delay);
-            let moved = self.moved(joint, *delay);
-            let rows = &mut stack.joints[joint];
-            for values in [&mut rows.tau, &mut rows.target] {
-                values.iter_mut().zip(&moved).for_each(|(x, by)| *x += by);
-            }
-            let gain = self.arm.actuator_gain()[joint];
-            slopes.push(self.filtered(joint, |log| {
-                let mut slope = Vec::new();
-                derivative(&later(log), 1.0 / log.rate_hz, &mut slope);
-                slope.iter().map(|x| -gain * x).collect()
-            }));
-        }
-        append(&mut stack, slopes);
-        self.leave_out(&mut stack);
-        stack
-    }
-}
-
 /// Sum of the logarithms of lengths of residuals, of which joints that say nothing have none.
 fn logarithm(residuals: &[f64]) -> f64 {
     let sizes = residuals.iter().filter(|size| **size > 0.0);
     sizes.map(|size| size.ln()).sum()
-}
-
-/// A column for each joint.
-fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
-    let entries = columns.into_iter().enumerate();
-    let entries = entries.map(|(joint, values)| Entry {
-        joint,
-        column: joint,
-        values,
-    });
-    let entries: Vec<Entry> = entries.collect();
-    stack.append(&vec![nameless(); entries.len()], &entries);
-}
-
-fn nameless() -> Unknown {
-    Unknown {
-        name: String::new(),
-        nonnegative: false,
-    }
 }

@@ -2,7 +2,8 @@
 
 use faer::Mat;
 
-use super::{Rows, logarithm, nameless};
+use super::rows::nameless;
+use super::{Rows, logarithm};
 use crate::columns::Entry;
 use crate::identify::least_squares::Factors;
 

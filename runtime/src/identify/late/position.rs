@@ -5,8 +5,9 @@
 //! column `d(W beta)/dd`, and the motion is moved by it and fitted again.
 
 use super::nearest::TRIED;
+use super::rows::nameless;
 use super::{DEVIATIONS, Delay, MOST, ROUNDS, Rows, SHARE};
-use super::{is_delay, logarithm, longest_period, nameless};
+use super::{is_delay, logarithm, longest_period};
 use crate::columns::Entry;
 use crate::identify::Identify;
 use crate::identify::stack::{Stack, norm};

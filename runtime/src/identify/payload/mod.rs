@@ -61,6 +61,7 @@ impl Carried {
         let mut estimate = Estimate {
             shape_std: alone.shape_std.clone(),
             delays: alone.delays.clone(),
+            held_torques: alone.held_torques.clone(),
             ..found
         };
         estimate.parameters.truncate(count);

@@ -1,0 +1,133 @@
+//! The equations of logs, with columns beside those of the model that look like a delay.
+
+use super::super::stack::{Stack, says_nothing};
+use super::super::{clipped, turns};
+use crate::columns::{Arm, Entry, Unknown};
+use crate::signal::{Prepared, derivative};
+
+/// The equations without delays.
+pub(super) struct Rows<'a> {
+    pub arm: &'a dyn Arm,
+    pub logs: &'a [Prepared],
+    /// Per log the joints that say nothing.
+    silent: Vec<Vec<usize>>,
+    pub stack: Stack,
+    leave_out_turns: bool,
+}
+
+impl<'a> Rows<'a> {
+    /// Of a stack, with friction that the arm may not have.
+    pub fn new(
+        arm: &'a dyn Arm,
+        logs: &'a [Prepared],
+        stack: Stack,
+        leave_out_turns: bool,
+    ) -> Self {
+        let mut rows = Self {
+            arm,
+            logs,
+            silent: logs.iter().map(says_nothing).collect(),
+            stack,
+            leave_out_turns,
+        };
+        let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
+            let speeds = log.motion.wide.dq[joint].iter();
+            let sign = |v: &f64| if *v == 0.0 { 0.0 } else { v.signum() };
+            speeds.map(sign).collect()
+        };
+        let columns = |series: &dyn Fn(&Prepared, usize) -> Vec<f64>| -> Vec<Vec<f64>> {
+            let joints = 0..arm.dof();
+            let of = |joint| rows.filtered(joint, |log| series(log, joint));
+            joints.map(of).collect()
+        };
+        let viscous = columns(&|log, joint| log.motion.smooth.dq[joint].clone());
+        let dry = columns(&sign);
+        let turns = columns(&|log, joint| {
+            let mut slope = Vec::new();
+            derivative(&sign(log, joint), 1.0 / log.rate_hz, &mut slope);
+            slope
+        });
+        for columns in [viscous, dry, turns] {
+            append(&mut rows.stack, columns);
+        }
+        clipped::clear_again(&mut rows.stack);
+        if leave_out_turns {
+            turns::leave_out(&mut rows.stack);
+        }
+        rows
+    }
+
+    /// A joint's series of all logs, as the rows have it: zero where the joint says nothing.
+    pub fn filtered(&self, joint: usize, series: impl Fn(&Prepared) -> Vec<f64>) -> Vec<f64> {
+        let mut all = Vec::new();
+        let mut filtered = Vec::new();
+        for (log, silent) in self.logs.iter().zip(&self.silent) {
+            log.shared.apply(&series(log), &mut filtered);
+            if silent.contains(&joint) {
+                filtered.fill(0.0);
+            }
+            all.extend_from_slice(&filtered);
+        }
+        all
+    }
+
+    /// What a joint's torque of so much later has more than that of now, as rows have it.
+    pub fn moved(&self, joint: usize, delay: f64) -> Vec<f64> {
+        let gain = self.arm.actuator_gain()[joint];
+        self.filtered(joint, |log| {
+            let later = log.motion.late(&log.tau[joint], -delay);
+            let pairs = later.into_iter().zip(&log.tau[joint]);
+            pairs.map(|(later, now)| gain * (later - now)).collect()
+        })
+    }
+
+    /// Rows that were left out say nothing of columns that came later, either.
+    pub fn leave_out(&self, stack: &mut Stack) {
+        clipped::clear_again(stack);
+        if self.leave_out_turns {
+            turns::leave_out(stack);
+        }
+    }
+
+    /// The same equations for the torque of so much later, and behind their columns the slopes of that torque.
+    pub fn shifted(&self, delays: &[f64]) -> Stack {
+        let mut stack = self.stack.clone();
+        let mut slopes = Vec::new();
+        for (joint, delay) in delays.iter().enumerate() {
+            let later = |log: &Prepared| log.motion.late(&log.tau[joint], -delay);
+            let moved = self.moved(joint, *delay);
+            let rows = &mut stack.joints[joint];
+            for values in [&mut rows.tau, &mut rows.target] {
+                values.iter_mut().zip(&moved).for_each(|(x, by)| *x += by);
+            }
+            let gain = self.arm.actuator_gain()[joint];
+            slopes.push(self.filtered(joint, |log| {
+                let mut slope = Vec::new();
+                derivative(&later(log), 1.0 / log.rate_hz, &mut slope);
+                slope.iter().map(|x| -gain * x).collect()
+            }));
+        }
+        append(&mut stack, slopes);
+        self.leave_out(&mut stack);
+        stack
+    }
+}
+
+/// A column for each joint.
+pub(super) fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
+    let entries = columns.into_iter().enumerate();
+    let entries = entries.map(|(joint, values)| Entry {
+        joint,
+        column: joint,
+        values,
+    });
+    let entries: Vec<Entry> = entries.collect();
+    stack.append(&vec![nameless(); entries.len()], &entries);
+}
+
+pub(super) fn nameless() -> Unknown {
+    Unknown {
+        name: String::new(),
+        nonnegative: false,
+    }
+}
