@@ -38,8 +38,8 @@ fn the_page_says_what_the_program_says() {
         "2.9",
         "2.9.sign",
     ];
-    agrees(paper, "seed_002", PAGE, [&[], &wrong]);
-    assert_eq!(paper.rows.len(), 21);
+    agrees(paper, "seed_002", PAGE, [&["2.5.here"], &wrong]);
+    assert_eq!(paper.rows.len(), 22);
 }
 
 #[test]

@@ -5,6 +5,7 @@ use robot_model::identify::{Errors, Estimate, Identified, is_shape_told};
 use robot_model::log::Log;
 use robot_model_spec::Model;
 
+use crate::interpreted::is_delaying;
 use crate::output::names;
 
 /// What is left of each joint's torque, from where on the model says nothing of it, percent.
@@ -142,8 +143,12 @@ pub(super) fn at_turns(arm: &dyn Arm, estimate: &Estimate) -> Option<String> {
     })
 }
 
-/// Torques that are early by half of a sample.
-pub(super) fn held_torques(estimate: &Estimate) -> Option<String> {
+/// Torques that are early by half of a sample, where the model knows of no delay.
+pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String> {
+    let mut effects = model.effects.iter();
+    if effects.any(|effect| is_delaying(&effect.definition)) {
+        return None;
+    }
     let held = estimate.held_torques.iter();
     let held: Vec<String> = held
         .map(|held| {

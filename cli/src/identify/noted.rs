@@ -76,7 +76,7 @@ impl IdentifyArguments {
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));
         all.extend(doubts::at_turns(form.arm(), estimate));
-        all.extend(doubts::held_torques(estimate));
+        all.extend(doubts::held_torques(form.model(), estimate));
         all.extend(brief::doubt(estimate));
         let resting = doubts::resting(form.model(), logs);
         all.extend(coarse::doubt(estimate, form.model(), logs, &resting));

@@ -70,9 +70,9 @@ impl InterpretedArm {
         };
         // Of delays there is one.
         let mut effects = model.effects.iter();
-        let is_late = effects.any(|effect| delays(&effect.definition));
+        let is_late = effects.any(|effect| is_delaying(&effect.definition));
         let is_there = |definition: &EffectDefinition, joints: &[usize]| {
-            is_declared(&definition.name, joints) || (is_late && delays(definition))
+            is_declared(&definition.name, joints) || (is_late && is_delaying(definition))
         };
         let all = all.filter(|(definition, joints)| !is_there(definition, joints));
         let found = each(all, |(definition, joints)| {
@@ -83,7 +83,7 @@ impl InterpretedArm {
 }
 
 /// Whether an effect makes the log's torques late.
-fn delays(definition: &EffectDefinition) -> bool {
+pub(crate) fn is_delaying(definition: &EffectDefinition) -> bool {
     let mut acts = definition.acts.iter();
     acts.any(|act| matches!(act, Act::Delay { .. }))
 }
@@ -115,7 +115,7 @@ impl InterpretedChange {
             arm: with,
             neutral: Vec::new(),
             probe: Vec::new(),
-            is_delay: delays(definition),
+            is_delay: is_delaying(definition),
         };
         for grid in grids(definition) {
             let (low, high) = (grid[0], grid[grid.len() - 1]);

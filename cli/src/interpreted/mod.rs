@@ -30,6 +30,7 @@ mod undeclared;
 pub use body::InterpretedBody;
 pub use candidate::InterpretedCandidate;
 pub use change::InterpretedChange;
+pub(crate) use change::is_delaying;
 pub use constants::Constants;
 pub use function::InterpretedFunction;
 pub use momentum::{InterpretedMomentum, NoMomentumForm};

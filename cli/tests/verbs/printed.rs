@@ -75,7 +75,10 @@ fn measured(motion: fn(f64) -> [f64; 3]) -> Folder {
 #[test]
 fn the_misprint_of_seed_004_is_told_as_a_term_of_joint_3() {
     let folder = measured(fast);
-    folder.write("printed.robot", include_str!("phantom_printed.robot"));
+    folder.write(
+        "printed.robot",
+        include_str!("../../../examples/src/seed_004/phantom_printed.robot"),
+    );
     let told = folder.succeed(&["trace", "printed.robot", "log.csv", "--json", "out.json"]);
     let out = json(&folder.read("out.json"));
     assert_eq!(out["outcome"], "unexplained", "{told}");
@@ -98,7 +101,7 @@ fn the_misprint_of_seed_004_is_told_as_a_term_of_joint_3() {
 #[test]
 fn the_regressor_without_the_misprint_lacks_nothing() {
     let folder = measured(slow);
-    let printed = include_str!("phantom_printed.robot");
+    let printed = include_str!("../../../examples/src/seed_004/phantom_printed.robot");
     let right = printed.replace("+ dq(j)^2*c23/2", "- dq(j)^2*c23/2");
     assert_ne!(right, printed);
     folder.write("right.robot", &right);

@@ -11,6 +11,7 @@ mod row;
 mod sensor;
 mod spec;
 mod table;
+mod wanted;
 
 use std::fmt;
 
@@ -22,6 +23,7 @@ pub use row::{Row, Status};
 pub use sensor::{normal, rounded};
 pub use spec::{compiled, interpreted};
 pub use table::Table;
+pub use wanted::{WANTED, lacking, wanted};
 
 /// An error of any of the libraries.
 pub type Error = Box<dyn std::error::Error + Send + Sync>;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::Table;
 use super::table::wrapped;
+use super::wanted::wanted;
 
 /// What became of an item.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -101,23 +102,25 @@ impl Row {
     }
 
     /// What is told of it, each under a word.
-    fn parts(&self) -> [(&'static str, String); 3] {
-        [
-            ("printed", self.printed.clone()),
+    fn parts(&self) -> Vec<(&'static str, String)> {
+        let wanted = wanted(self.item).map(|wanted| ("wanted", wanted.to_owned()));
+        let printed = ("printed", self.printed.clone());
+        let rest = [
             ("here", self.ours.clone()),
             ("outcome", self.status.to_string()),
-        ]
+        ];
+        [printed].into_iter().chain(wanted).chain(rest).collect()
     }
 
     /// As an entry of a list in Markdown.
     pub(super) fn markdown(&self) -> String {
         let start = format!("- **{}**, {}", self.item, escaped(&self.what));
         let start = wrapped(&start, LINE).join("\n  ") + "\n";
-        let parts = self.parts().map(|(word, part)| {
+        let parts = self.parts().into_iter().map(|(word, part)| {
             let lines = wrapped(&format!("{word}: {}", escaped(&part)), LINE);
             format!("  - {}\n", lines.join("\n    "))
         });
-        start + &parts.concat()
+        start + &parts.collect::<String>()
     }
 
     /// As a block for a terminal.
@@ -125,11 +128,11 @@ impl Row {
         let width = super::table::WIDTH - INDENT.len();
         let what = format!("{}  {}", self.item, self.what);
         let what = wrapped(&what, width).join(&format!("\n{INDENT}"));
-        let parts = self.parts().map(|(word, part)| {
+        let parts = self.parts().into_iter().map(|(word, part)| {
             let lines = wrapped(&format!("{word}: {part}"), width);
             format!("{INDENT}{}\n", lines.join(&format!("\n{INDENT}  ")))
         });
-        format!("  {what}\n{}", parts.concat())
+        format!("  {what}\n{}", parts.collect::<String>())
     }
 }
 

@@ -10,7 +10,7 @@ use super::truth::{Line, TABLE_1, TABLE_2};
 use crate::paper::{Error, Table, rounded};
 
 /// Iterations at most: the paper's longest search has 14.
-const ITERATIONS: usize = 20;
+pub(super) const ITERATIONS: usize = 20;
 
 /// What came of a law.
 #[derive(Debug, Clone)]

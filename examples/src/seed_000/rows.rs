@@ -1,7 +1,7 @@
 //! The list of what a reproduction has to show, item by item.
 
 use super::drive::{GAIN, white_gain};
-use super::fits::{Fit, digits, listed};
+use super::fits::{Fit, ITERATIONS, digits, listed};
 use super::truth::{ARM, BACK_EMF, RATE, STATIC_R, TABLE_1, TABLE_2};
 use super::words::{GRAVITY, INERTIA};
 use super::{Findings, Law};
@@ -141,7 +141,9 @@ fn searches(found: &Findings) -> Vec<Row> {
     vec![
         Row::holds(
             "0.7",
-            "last costs of (5.1): linear, quadratic, directional",
+            format!(
+                "last costs of (5.1) after {ITERATIONS} iterations at most: linear, quadratic, directional"
+            ),
             printed(TABLE_1),
             format!(
                 "{}; directional in windows of 1 s: {}",
@@ -194,16 +196,14 @@ fn measurements(found: &Findings) -> Vec<Row> {
         Row::holds(
             "0.10",
             format!(
-                "correlation of torque and current, and the gain (simulated with {GAIN:.0} N m/A)"
+                "correlation of torque and current, and the gain (simulated with {GAIN:.0} N m/A, and with noise that makes about the printed correlation)"
             ),
-            "0.999; none",
+            format!("{STATIC_R}; none"),
             format!(
                 "{:.4}; {:.2} N m/A, 95 % {:.2} .. {:.2}",
                 line.r, gain.value, gain.interval[0], gain.interval[1]
             ),
-            (line.r - STATIC_R).abs() < 1e-3
-                && gain.interval[0] <= GAIN
-                && GAIN <= gain.interval[1],
+            gain.interval[0] <= GAIN && GAIN <= gain.interval[1],
             "the interval does not hold the gain",
         ),
         Row::holds(
@@ -237,7 +237,7 @@ fn misprint(found: &Findings) -> Row {
     let is_that = wrong.len() == 1 && wrong[0].name == "c2" && (wrong[0].off - 1.0).abs() < 0.02;
     Row::wrong_in_print(
         "0.misprint",
-        "c2 where Table 1 starts, law (6.3)",
+        "c2 where Table 1 starts, law (6.3) (arithmetic with the numbers of Table 2, no check of the tool)",
         "4.87",
         wrong
             .iter()
@@ -312,7 +312,11 @@ fn audit(found: &Findings) -> Vec<Row> {
                     "flagged"
                 },
             ),
-            is_flagged && is_off(straight) && is_off(measured) && ratios.len() == 3,
+            is_flagged
+                && conditions.iter().flatten().all(|x| x * x > 1e3)
+                && is_off(straight)
+                && is_off(measured)
+                && ratios.len() == 3,
             &format!(
                 "with {:.0} 1/s of damping at {RATE} Hz a common factor of alpha, beta and the damping hardly shows; only their ratios do",
                 0.5 * (ARM[2] + ARM[3])

@@ -26,7 +26,8 @@ impl Results {
         let same = printed.iter().filter(same).count();
         Row::wrong_in_print(
             "1.errors",
-            "(7), (8): y and y-bar are both the output of the system in the text (a comparison with Tables 3, 4, 7 and 8, no check of the tool)",
+            "the sentence that explains (7), (8), which are right: y and y-bar are both the output of the system (a comparison with Tables 3, 4, 7 and 8, no \
+             check of the tool)",
             format!(
                 "MAE {}, NRMSE {} at {} degrees",
                 printed[0].mae, printed[0].nrmse, HEIGHTS[0].angle
@@ -40,7 +41,7 @@ impl Results {
                 mended.nrmse
             ),
             is_blind && same == 0 && pairs.iter().any(|pair| pair[1] != mended),
-            "one of the two is the model's output",
+            "the sentence, not the equations: one of the two is the model's output",
         )
     }
 
@@ -94,15 +95,15 @@ impl Results {
         };
         Row::wrong_in_print(
             "1.cost",
-            "(9), (10): the text looks for lambda, the measured angles, and calls theta the parameters (a comparison of counts, no check of \
-             the tool)",
+            "the sentences that explain (9), (10), which are right: the text looks for lambda, the measured angles, and calls theta the parameters (a \
+             comparison of counts, no check of the tool)",
             "lambda-hat = arg min of (9)",
             format!(
                 "lambda has {angles} values at {} degrees, Tables 6 and 11 have {values}; a search for these {ending}",
                 HEIGHTS[HEIGHTS.len() - 1].angle
             ),
             angles != values && own.values.len() == values && own.ending == Ending::Converged,
-            "lambda and theta are exchanged in the text",
+            "the sentences, not the equations: lambda and theta are exchanged",
         )
     }
 

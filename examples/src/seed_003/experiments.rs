@@ -56,6 +56,21 @@ pub fn sweeps(friction: Friction, held_by: Loop) -> Vec<Run> {
         .collect()
 }
 
+/// How many of the twenty speeds the printed gains hold on the error of the speed: over the second half of a run its way is that of the
+/// wanted speed, within a twentieth.
+#[must_use]
+pub fn held_on_speed() -> usize {
+    let runs = sweeps(super::plant::PRINTED, Loop::PrintedOnSpeed);
+    let pairs = runs.iter().zip(speeds());
+    let holds = |(run, speed): &(&Run, f64)| {
+        let (middle, last) = (run.time.len() / 2, run.time.len() - 1);
+        let way = run.q[last] - run.q[middle];
+        let wanted = speed * (run.time[last] - run.time[middle]);
+        last > middle && (way / wanted - 1.0).abs() < 0.05
+    };
+    pairs.filter(holds).count()
+}
+
 /// Bits of an encoder, and whether currents pass the transducer and the converter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sensors {

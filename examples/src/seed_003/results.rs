@@ -76,6 +76,8 @@ pub struct Results {
     pub found: Found,
     /// Static laws by protocol, of printed and of stiff bristles.
     pub protocols: Vec<Protocol>,
+    /// Of the twenty speeds, those that the printed gains hold on the error of the speed.
+    pub on_speed: usize,
     /// The link.
     pub body: Body,
     /// Largest distance from the Stribeck curve of bristles that have settled, N m: by hand, and the spec's.
@@ -140,6 +142,7 @@ pub fn results() -> Result<Results, Error> {
     };
     Ok(Results {
         protocols: protocols(&found)?,
+        on_speed: experiments::held_on_speed(),
         body: body()?,
         settled: settled()?,
         encoders: encoder::study(&found.curve, &found.law)?,

@@ -79,9 +79,10 @@ pub fn driven(
 /// Who holds a speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loop {
-    /// The gains of the paper at its 1 kHz, in N m, on the distance from where a constant speed would be. On the error of the speed itself
-    /// they run away: the damping of the bristles alone answers a torque within half a millisecond.
+    /// The gains of the paper at its 1 kHz, in N m, on the distance from where a constant speed would be.
     Printed,
+    /// The same on the error of the speed: the damping of the bristles alone answers a torque within half a millisecond.
+    PrintedOnSpeed,
     /// A stiffer one on the error of the speed, at 2 kHz: friction falls with speed by more than the printed gains
     /// make up for.
     Stiff,
@@ -96,7 +97,7 @@ const STIFF_HZ: f64 = 2000.0;
 pub fn sweep(link: &Link, wanted: f64, way: f64, held_by: Loop) -> Run {
     let low = range()[0];
     let (rate, kept) = match held_by {
-        Loop::Printed => (truth::LOOP_HZ, 1),
+        Loop::Printed | Loop::PrintedOnSpeed => (truth::LOOP_HZ, 1),
         Loop::Stiff => (STIFF_HZ, 2),
     };
     let period = 1.0 / rate;
@@ -112,9 +113,13 @@ pub fn sweep(link: &Link, wanted: f64, way: f64, held_by: Loop) -> Run {
     while x.q < low + way && t < 3.0 * way / wanted {
         t = k as f64 * period;
         let torque = match held_by {
-            Loop::Printed => {
+            Loop::Printed | Loop::PrintedOnSpeed => {
                 let [kp, ki, kd] = truth::PID;
-                let error = low + wanted * t - x.q;
+                let error = if held_by == Loop::Printed {
+                    low + wanted * t - x.q
+                } else {
+                    wanted - x.v
+                };
                 sum += error * period;
                 let change = (error - before) / period;
                 before = error;

@@ -3,12 +3,14 @@
 use rand::{RngExt as _, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use robot_model::signal::FirstOrder;
+use robot_model::trace::{Outcome, Verdict};
 use robot_model::{Mechanics as _, RobotModel as _, Vector};
 
 use super::device::Phantom;
 use super::plant::Three;
 use super::sensors::RATE;
 use super::sines::Sines;
+use super::tracing::{FASTER, said, term};
 use super::truth::{CORNER, NAMES};
 use crate::paper::{Error, Row};
 
@@ -178,8 +180,9 @@ pub fn compare(is_repaired: bool) -> Comparison {
     found
 }
 
-/// The entry with the wrong sign: `pi4` on joint 3.
+/// The entry with the wrong sign: `pi4` on joint 3, and the function of the motion there.
 const SIGN: Place = (3, 2);
+const TERM: &str = "cos(theta2 - theta3) dtheta2^2";
 
 fn note(places: &mut Vec<Place>, rest: &mut f64, off: f64, place: Place) {
     if off.abs() <= ROUNDING {
@@ -264,9 +267,36 @@ fn names(places: &[Place]) -> String {
     }
 }
 
+/// What the tracer says where (4) is the model: of print, of what is mended.
+fn traced([printed, mended]: &[Verdict; 2]) -> (String, bool) {
+    let term = term(printed);
+    let said = term.map_or_else(
+        || said(printed),
+        |(joint, term)| {
+            format!(
+                "{} on joint {}, times {:.2e}, {:.0} % of what is left",
+                term.term,
+                joint + 1,
+                term.coefficient,
+                100.0 * term.share
+            )
+        },
+    );
+    let is_told = term.is_some_and(|(joint, term)| joint == SIGN.1 && term.term == TERM);
+    (
+        format!("{said}; with a minus {}", mended.outcome),
+        is_told && mended.outcome == Outcome::NothingMissing,
+    )
+}
+
 /// Items 4.1 and 4.2.
 #[must_use]
-pub fn rows(found: &Comparison, [printed, passed]: &[Vec<Off>; 2]) -> Vec<Row> {
+pub fn rows(
+    found: &Comparison,
+    [printed, passed]: &[Vec<Off>; 2],
+    equation_4: &[Verdict; 2],
+) -> Vec<Row> {
+    let (traced, is_traced) = traced(equation_4);
     let places: Vec<Place> = printed.iter().map(|(place, _)| *place).collect();
     let percents: Vec<String> = printed.iter().map(|(_, off)| format!("{off:.0}")).collect();
     vec![
@@ -286,8 +316,11 @@ pub fn rows(found: &Comparison, [printed, passed]: &[Vec<Off>; 2]) -> Vec<Row> {
             "4.1.sign",
             "(4), pi4 on joint 3: sign of 1/2 dtheta2^2 cos(theta2 - theta3)",
             "+",
-            format!("differs from the derived one: {}", names(&found.regressor)),
-            found.regressor == [SIGN] && found.regressor_sign < ROUNDING,
+            format!(
+                "differs from the derived one: {}; the tracer, with (4) as the model of a motion {FASTER} times as fast: {traced}",
+                names(&found.regressor)
+            ),
+            found.regressor == [SIGN] && found.regressor_sign < ROUNDING && is_traced,
             "Lagrange's equations have a minus",
         ),
         Row::holds(
@@ -300,7 +333,7 @@ pub fn rows(found: &Comparison, [printed, passed]: &[Vec<Off>; 2]) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "4.2.sign",
-            "(13), pi4 on joint 3: dtheta2^2 cos(theta2 - theta3) inside L",
+            "(13), pi4 on joint 3: dtheta2^2 cos(theta2 - theta3) inside L (a comparison with the compiler's regressor)",
             "1 times",
             format!("derived: 0 times; differs: {}", names(&found.filtered)),
             found.filtered == [SIGN] && found.filtered_sign < ROUNDING,
@@ -308,7 +341,7 @@ pub fn rows(found: &Comparison, [printed, passed]: &[Vec<Off>; 2]) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "4.2.L",
-            "(13), entries without the subscript L",
+            "(13), entries without the subscript L (a comparison with the compiler's regressor)",
             names(&places),
             format!(
                 "off the derived ones by {} %; inside L {} of 24 differ",

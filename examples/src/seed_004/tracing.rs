@@ -1,7 +1,7 @@
 //! Figures 5 and 7: what is left of the torque with friction and without, as the tracer sees it.
 
 use robot_model::log::Log;
-use robot_model::trace::{Trace, Verdict};
+use robot_model::trace::{Outcome, TermShare, Trace, Verdict};
 
 use super::audit::audited;
 use super::device::{self, SPEC};
@@ -30,13 +30,22 @@ pub struct Traces {
     pub falling_rms: Three,
     /// The true ones.
     pub true_viscous: [f64; 3],
+    /// UR by equation (4) as a spec: as printed, and with the sign put right.
+    pub equation_4: [Verdict; 2],
 }
+
+/// Equation (4) as it is printed, and the term whose sign is wrong.
+const EQUATION_4: &str = include_str!("phantom_printed.robot");
+const WRONG: [&str; 2] = ["+ dq(j)^2*c23/2", "- dq(j)^2*c23/2"];
+
+/// How much faster than for identification joints move, so that squares of their velocities count beside friction.
+pub(super) const FASTER: f64 = 4.0;
 
 /// Viscous friction, positive.
 const VISCOUS: [f64; 3] = [0.4e-3, 0.3e-3, 0.3e-3];
 
 /// What there is at rest beyond dry friction, as a part of that, and the speed beyond which it is gone, rad/s.
-const FALLING: [f64; 2] = [1.5, 0.3];
+pub(super) const FALLING: [f64; 2] = [1.5, 0.3];
 
 /// Traces.
 ///
@@ -53,7 +62,22 @@ pub fn all(upright: &Log, motion: &Sines) -> Result<Traces, Error> {
         falling_rms: falling.rms,
         falling: falling.verdict,
         true_viscous: VISCOUS,
+        equation_4: equation_4(motion)?,
     })
+}
+
+/// UR with positive viscous friction, as that of table 1 drives.
+fn equation_4(motion: &Sines) -> Result<[Verdict; 2], Error> {
+    let mut pi = table_1(0);
+    pi[8..11].copy_from_slice(&VISCOUS);
+    let motion = motion.clone().at_pace(FASTER);
+    let plant = Plant::new(pi, motion.at(0.0)[0]);
+    let [dropped, ..] = fits::SECONDS;
+    let record = rig::run(plant, &motion, &STIFF, dropped + TRACED, 62)?;
+    let log = record.log("fast", dropped, dropped + TRACED)?;
+    let [wrong, right] = WRONG;
+    let mended = EQUATION_4.replace(wrong, right);
+    Ok([trace(EQUATION_4, &log)?, trace(&mended, &log)?])
 }
 
 /// A device with friction that falls with speed.
@@ -102,6 +126,16 @@ fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
     let undeclared = arm.undeclared();
     let trace = Trace::new(undeclared.candidates());
     Ok(trace.run(&arm, std::slice::from_ref(log), &mut |_| ())?)
+}
+
+/// The term of the equations that says most of what is left of a joint, from 0, where nothing else is said to be missing.
+#[must_use]
+pub fn term(verdict: &Verdict) -> Option<(usize, &TermShare)> {
+    let [only] = verdict.left.as_slice() else {
+        return None;
+    };
+    let is_alone = verdict.findings.is_empty() && verdict.outcome == Outcome::Unexplained;
+    is_alone.then_some((only.joint, only.terms.first()?))
 }
 
 /// Findings of a verdict as `effect on 1, 2`, with their largest p-value.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use robot_model_examples::Paper;
+use robot_model_examples::paper::lacking;
 
 const LIST: &str = include_str!("../../../docs/papers/README.md");
 
@@ -11,6 +12,8 @@ const LIST: &str = include_str!("../../../docs/papers/README.md");
 pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
     assert_eq!(paper.differences(page), [""; 0]);
     assert_eq!(paper.counted_otherwise(LIST, name), None);
+    let number = name.chars().last().expect("a number");
+    assert_eq!(lacking(paper, number), [""; 0]);
     let [not_reached, impossible] = paper.failing();
     assert_eq!(not_reached, outcomes[0], "{paper}");
     assert_eq!(impossible, outcomes[1], "{paper}");

@@ -103,7 +103,9 @@ impl Regression {
         let mut series: Vec<f64> = pairs.map(|((one, other), e)| (one - other) * e).collect();
         // Residuals of `self` that the other's gains know make a mean, which is the difference itself.
         let mean = series.iter().sum::<f64>() / series.len() as f64;
-        series.iter_mut().for_each(|x| *x -= mean);
+        for x in &mut series {
+            *x -= mean;
+        }
         let std = self.of_sum(&series);
         let length: f64 = dot(&self.gains[unknown], &self.gains[unknown]).sqrt();
         let difference = (self.values[unknown] - other.values[unknown]).abs();

@@ -84,10 +84,8 @@ fn to_and_fro(late: f64) -> Log {
         (-1.0, 0.0)
     };
     let seconds: f64 = legs.iter().map(|speed| 2.0 / speed.abs()).sum();
-    let time: Vec<f64> = (0..)
-        .map(|k| f64::from(k) / RATE)
-        .take_while(|t| *t < seconds)
-        .collect();
+    let time = (0..100_000_u32).map(|k| f64::from(k) / RATE);
+    let time: Vec<f64> = time.take_while(|t| *t < seconds).collect();
     let torque = |(k, t): (usize, &f64)| {
         let (q, speed) = place(t - late);
         let noise = 0.02 * (12.9898 * (k * k % 7919) as f64).sin();
