@@ -8,7 +8,7 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{Factor, JointRows, Method, Segment, Stack};
+use robot_model::identify::{Factor, JointRows, Method, Segment, Stack, Weights};
 use robot_model::motion::{Kinematics, Motion};
 use robot_model::signal::Bands;
 use robot_model_cli::interpreted::InterpretedArm;
@@ -17,6 +17,12 @@ use robot_model_codegen::compile_model;
 /// Samples of the log, and of a piece that is reduced at once.
 const SAMPLES: usize = 20_000;
 const PIECE: usize = 1000;
+
+/// Base parameters of the arm.
+const COLUMNS: usize = 70;
+
+/// How the libraries below `NumPy` are told how many threads to take.
+const BLAS_THREADS: [&str; 3] = ["OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"];
 
 /// Runs of each; the least counts.
 const RUNS: usize = 7;
@@ -117,10 +123,14 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
 /// Pieces of a log by their number.
 type Pieces<'a> = &'a (dyn Fn(usize) -> Cow<'a, Motion> + Sync);
 
-/// So many pieces one after the other, on all cores: seconds, the estimate's errors.
-fn ours(arm: &InterpretedArm, count: usize, pieces: Pieces<'_>) -> (f64, f64) {
+/// Cores of this machine.
+fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+/// So many pieces one after the other, by so many threads: seconds, the estimate's errors.
+fn ours(arm: &InterpretedArm, count: usize, pieces: Pieces<'_>, workers: usize) -> (f64, f64) {
     let start = Instant::now();
-    let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let share = count.div_ceil(workers);
     let new = || Factor::new(arm, Bands::DEFAULT).expect("every shape has a value");
     let factors: Vec<Factor> = std::thread::scope(|scope| {
@@ -141,7 +151,9 @@ fn ours(arm: &InterpretedArm, count: usize, pieces: Pieces<'_>) -> (f64, f64) {
     for factor in factors {
         whole.merge(factor).expect("one arm");
     }
-    let estimate = whole.estimate(arm, Method::Wls, false).expect("excited");
+    let estimate = whole
+        .estimate(arm, Method::Wls, Weights::Residual, false)
+        .expect("excited");
     let seconds = start.elapsed().as_secs_f64();
     let values = estimate.values();
     let errors = values.iter().enumerate();
@@ -160,9 +172,8 @@ fn memory() -> Option<f64> {
 /// Reduces so many pieces, which are made where they are needed, as a file would be read; largest memory of that, MB.
 fn reduce_alone(pieces: usize) -> Option<f64> {
     let arm = arm();
-    let (_, error) = ours(&arm, pieces, &|k| {
-        Cow::Owned(motion(arm.dof(), k * PIECE, PIECE))
-    });
+    let made = |k| Cow::Owned(motion(arm.dof(), k * PIECE, PIECE));
+    let (_, error) = ours(&arm, pieces, &made, cores());
     assert!(error < 0.05, "values are found: {error}");
     memory()
 }
@@ -177,25 +188,34 @@ fn memory_of(pieces: usize) -> Option<f64> {
     String::from_utf8(run.stdout).ok()?.trim().parse().ok()
 }
 
-fn numpy(rows: usize, columns: usize) -> Option<f64> {
+/// Seconds of the reference with so many threads.
+fn numpy(rows: usize, columns: usize, threads: usize) -> Option<f64> {
     let python = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
     let arguments = [rows, columns, RUNS].map(|number| number.to_string());
     let run = Command::new(python)
         .arg("-c")
         .arg(NUMPY)
         .args(arguments)
+        .envs(BLAS_THREADS.map(|name| (name, threads.to_string())))
         .output();
     let run = run.ok().filter(|run| run.status.success())?;
     String::from_utf8(run.stdout).ok()?.trim().parse().ok()
+}
+
+/// Both with so many threads.
+struct Timed {
+    threads: usize,
+    seconds: f64,
+    /// Of the reference.
+    numpy: Option<f64>,
 }
 
 /// What was measured, where it could be.
 struct Measured {
     rows: usize,
     columns: usize,
-    seconds: f64,
-    /// Of the reference.
-    numpy: Option<f64>,
+    /// With one thread, and with one a core.
+    timed: [Timed; 2],
     /// MB: of the log, of one that fills the blocks, of the long one.
     memory: Option<f64>,
     memory_full: Option<f64>,
@@ -209,25 +229,32 @@ fn measure() -> Measured {
     let pieces = SAMPLES / PIECE;
     let of = |k: usize| motion(arm.dof(), k * PIECE, PIECE);
     let motions: Vec<Motion> = (0..pieces).map(of).collect();
-    let mut seconds = f64::INFINITY;
-    for _ in 0..RUNS {
-        let (run, error) = ours(&arm, pieces, &|k| Cow::Borrowed(&motions[k]));
-        assert!(error < 0.05, "values are found: {error}");
-        seconds = seconds.min(run);
-    }
+    let (rows, columns) = (SAMPLES * arm.dof(), arm.unknowns().len());
+    assert_eq!(columns, COLUMNS);
+    let timed = [1, cores()].map(|threads| {
+        let mut seconds = f64::INFINITY;
+        for _ in 0..RUNS {
+            let (run, error) = ours(&arm, pieces, &|k| Cow::Borrowed(&motions[k]), threads);
+            assert!(error < 0.05, "values are found: {error}");
+            seconds = seconds.min(run);
+        }
+        Timed {
+            threads,
+            seconds,
+            numpy: numpy(rows, columns, threads),
+        }
+    });
     let start = Instant::now();
     let memory_long = memory_of(LONGER * pieces);
     let seconds_long = start.elapsed().as_secs_f64();
-    let (rows, columns) = (SAMPLES * arm.dof(), arm.unknowns().len());
     Measured {
         rows,
         columns,
-        seconds,
+        timed,
         memory: memory_of(pieces),
         memory_full: memory_of(FULL * pieces),
         memory_long,
         seconds_long,
-        numpy: numpy(rows, columns),
     }
 }
 
@@ -257,30 +284,40 @@ impl Verdict {
     }
 }
 
-fn verdicts(measured: &Measured) -> [Verdict; 3] {
-    let time = match measured.numpy {
-        Some(numpy) => Verdict::of(
-            measured.seconds <= MOST_TIME * numpy,
-            format!(
-                "{:.1} ms are {:.2} of the {:.1} ms of numpy.linalg.lstsq on the matrix alone; {MOST_TIME:.2} at most",
-                1e3 * measured.seconds,
-                measured.seconds / numpy,
-                1e3 * numpy
+impl Timed {
+    fn verdict(&self) -> Verdict {
+        let threads = match self.threads {
+            1 => "1 thread".to_owned(),
+            more => format!("{more} threads"),
+        };
+        let ours = 1e3 * self.seconds;
+        match self.numpy {
+            Some(numpy) => Verdict::of(
+                self.seconds <= MOST_TIME * numpy,
+                format!(
+                    "{threads}: {ours:.1} ms are {:.2} of the {:.1} ms of numpy.linalg.lstsq on the matrix alone; {MOST_TIME:.2} at most",
+                    self.seconds / numpy,
+                    1e3 * numpy
+                ),
             ),
-        ),
-        None => Verdict::NotJudged(format!(
-            "{:.1} ms, beside nothing: the reference is NumPy, which was not found; set PYTHON to a Python that has it",
-            1e3 * measured.seconds
-        )),
-    };
+            None => Verdict::NotJudged(format!(
+                "{threads}: {ours:.1} ms, beside nothing: the reference is NumPy, which was not found; set PYTHON to a Python that has it"
+            )),
+        }
+    }
+}
+
+fn verdicts(measured: &Measured) -> [Verdict; 4] {
+    let [one, all] = measured.timed.each_ref().map(Timed::verdict);
     let (Some(memory), Some(full), Some(long)) =
         (measured.memory, measured.memory_full, measured.memory_long)
     else {
         let says_nothing = || Verdict::NotJudged("memory: the system does not say it".to_owned());
-        return [time, says_nothing(), says_nothing()];
+        return [one, all, says_nothing(), says_nothing()];
     };
     [
-        time,
+        one,
+        all,
         Verdict::of(
             memory < MOST_MEMORY,
             format!("{memory:.0} MB at most in memory; below {MOST_MEMORY:.0}"),

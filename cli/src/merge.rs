@@ -9,6 +9,7 @@ use crate::Error;
 use crate::identify::factor_file;
 use crate::identify::fit::{ByAcceleration, Fit};
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
+use crate::identify::options::WeightsArgument;
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
 use crate::interpreted::InterpretedArm;
@@ -31,6 +32,9 @@ pub(crate) struct Merge {
     /// How parameters are found.
     #[arg(long, value_enum, default_value_t)]
     method: MethodArgument,
+    /// What `--method wls` weighs joints by.
+    #[arg(long, value_enum, default_value_t)]
+    weights: WeightsArgument,
     /// A log that is not fitted, to judge the model on.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
@@ -100,7 +104,7 @@ impl Merge {
             MethodArgument::Ls => Method::Ls,
             MethodArgument::Wls => Method::Wls,
         };
-        let estimate = factor.estimate(arm, method, self.leave_out_turns)?;
+        let estimate = factor.estimate(arm, method, self.weights.into(), self.leave_out_turns)?;
         if !self.partial {
             told_apart(&estimate)?;
         }

@@ -12,7 +12,7 @@ mod large;
 mod likeness;
 mod nominal;
 pub(crate) mod noted;
-mod options;
+pub(crate) mod options;
 mod output_error;
 mod page;
 mod payload;
@@ -272,7 +272,12 @@ impl IdentifyArguments {
         };
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(&form.0, method, self.rows.leave_out_turns)?;
+        let estimate = reduced.estimate(
+            &form.0,
+            method,
+            self.weights.into(),
+            self.rows.leave_out_turns,
+        )?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?

@@ -47,7 +47,7 @@ impl MethodArgument {
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-pub(super) enum WeightsArgument {
+pub(crate) enum WeightsArgument {
     /// The deviation of its residual.
     #[default]
     Residual,
@@ -168,10 +168,10 @@ impl IdentifyArguments {
                 return refuse("`--factor` is of `--form acceleration`");
             }
             if !matches!(method, Method::Ls | Method::Wls)
-                || self.weights != WeightsArgument::Residual
+                || self.weights == WeightsArgument::MaxTorque
             {
                 return refuse(
-                    "`--factor` is of `--method ls` and `wls`, weighted by residuals: others need all samples at once",
+                    "`--factor` is of `--method ls` and of `wls` weighted by residuals or lengths of torques: others ask for single samples",
                 );
             }
         }

@@ -156,7 +156,7 @@ impl Streams<'_> {
 mod tests {
     use std::fmt::Write;
 
-    use robot_model::identify::Method;
+    use robot_model::identify::{Method, Weights};
 
     use super::super::factor_file::text;
     use super::*;
@@ -199,7 +199,7 @@ mod tests {
             let factor = streams.reduce(&identify, &mut faults, &progress);
             let factor = factor.expect("a sound log");
             let estimate = factor
-                .estimate(&form.0, Method::Wls, false)
+                .estimate(&form.0, Method::Wls, Weights::Residual, false)
                 .expect("excited");
             let errors = streams.errors(&estimate, &progress).expect("a sound log");
             (text(&factor), errors)

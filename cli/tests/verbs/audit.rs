@@ -66,6 +66,15 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
     let (code, checks, text) = audit(&arm, &sound);
     assert_eq!(code, Some(0), "{text}");
     assert_eq!(checks.len(), 6, "{text}");
+    let ranks = checks["rank"]["quantities"].as_array().expect("a list");
+    let rank = |what: &str| {
+        let found = ranks.iter().find(|one| one["what"] == what);
+        found
+            .and_then(|one| one["value"].as_f64())
+            .expect("a number")
+    };
+    assert!(rank("base_parameters") < rank("parameters"), "{text}");
+    assert!(text.contains("in sums with others"), "{text}");
     let with = |name: &str, value: f64| {
         let mut values = sound.clone();
         values.insert(name.to_owned(), value);

@@ -308,3 +308,33 @@ fn a_log_that_is_in_two_factors_is_noted() {
         );
     }
 }
+
+/// Joints of different torques: weights by these are others than those by residuals, and the same of a factor as of its log.
+#[test]
+fn factors_weigh_by_lengths_of_torques() {
+    let folder = crate::payload::folder("");
+    let identify = ["identify", "arm.robot", "empty.csv", "--weights"];
+    let fit = |rest: &[&str]| values(&report(&folder, &[&identify[..], rest].concat()), "value");
+    let bands = |weights| [&[weights][..], &BANDS].concat();
+    let [norms, residuals] = ["torque-norm", "residual"].map(|weights| fit(&bands(weights)));
+    let factor = ["--factor", "factor.json"];
+    let reduced = fit(&[&bands("torque-norm")[..], &factor].concat());
+    let merge = ["merge", "arm.robot", "factor.json", "--weights"];
+    let merged = report(&folder, &[&merge[..], &["torque-norm"]].concat());
+    let near = |one: &[f64], other: &[f64]| {
+        let size = one.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let pairs = one.iter().zip(other);
+        pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) < 1e-7 * size
+    };
+    assert!(near(&norms, &reduced), "{norms:?} {reduced:?}");
+    assert!(
+        near(&norms, &values(&merged, "value")),
+        "{norms:?} {merged}"
+    );
+    assert!(!near(&norms, &residuals), "{residuals:?}");
+    let refused = folder.refuse(&[&merge[..], &["max-torque"]].concat());
+    assert!(
+        refused.contains("`max-torque` weighs by single samples"),
+        "{refused}"
+    );
+}

@@ -15,13 +15,14 @@ use super::IdentifyError;
 use super::hac::{Rows, weighed};
 use super::least_squares::Solution;
 use super::stack::Stack;
+use crate::calibrate::quantile as quantile_of;
 use crate::signal::resample::whole_steps;
 
 /// Blocks are at least so many times as long as errors are alike.
 const LONG: f64 = 5.0;
 
 /// Fewer blocks than this say nothing of a spread.
-const LEAST_BLOCKS: usize = 10;
+const LEAST_BLOCKS: usize = 6;
 
 /// Most blocks: more say nothing more, and take longer.
 const MOST_BLOCKS: usize = 200;
@@ -93,8 +94,7 @@ pub(super) fn intervals(
     let mut random = ChaCha8Rng::seed_from_u64(0);
     let mut moves: Vec<Vec<f64>> = vec![Vec::with_capacity(draws); size];
     let whole = whole_pivots(&blocks, size);
-    // About the mean of as many draws with replacement, the spread is too small by one block.
-    let correction = (count as f64 / (count - 1) as f64).sqrt();
+    let correction = small_sample(count, samples as f64 / alike, size);
     for _ in 0..draws {
         let mut information = Mat::<f64>::zeros(size, size);
         let mut score = Mat::<f64>::zeros(size, 1);
@@ -127,6 +127,15 @@ pub(super) fn intervals(
         blocks: count,
         intervals,
     })
+}
+
+/// How much too narrow the middle of the draws is: about the mean of as many draws with replacement by one block, of few blocks as a normal
+/// distribution beside Student's, and by what the unknowns have taken of the residuals.
+fn small_sample(blocks: usize, independent: f64, unknowns: usize) -> f64 {
+    let freedom = (blocks - 1) as f64;
+    let student = quantile_of(freedom) / quantile_of(f64::from(u32::MAX));
+    let left = (independent - unknowns as f64).max(1.0);
+    (blocks as f64 / freedom * independent / left).sqrt() * student
 }
 
 /// Pivots of the information of all blocks.

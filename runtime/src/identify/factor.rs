@@ -13,7 +13,7 @@ use super::estimate::{Estimate, Form};
 use super::fitted::Fitted;
 use super::least_squares::{Factors, check_counts, check_excited};
 use super::stack::{Stack, percent};
-use super::{IdentifyError, Method, turns};
+use super::{IdentifyError, Method, Weights, turns};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
@@ -21,6 +21,7 @@ use crate::signal::Bands;
 mod block;
 mod deviations;
 mod equations;
+mod solution;
 
 use block::reduced;
 pub use block::{FactorBlock, FactorRows};
@@ -40,7 +41,7 @@ const MOST_BLOCKS: usize = 32;
 /// let bands = Identify::default().bands_of(&arm, &log)?;
 /// let mut factor = Factor::new(&arm, bands)?;
 /// factor.push(&arm, &log)?;
-/// let estimate = factor.estimate(&arm, Method::Wls, false)?;
+/// let estimate = factor.estimate(&arm, Method::Wls, Weights::Residual, false)?;
 /// assert!((estimate.values()[0] - 2.0).abs() < 0.02);
 /// # Ok::<(), robot_model::identify::IdentifyError>(())
 /// ```
@@ -289,7 +290,7 @@ impl Factor {
         (0..self.joints.len()).map(joint).collect()
     }
 
-    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`]. By how much rows at turns move the estimate is in its
+    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`], the latter by residuals or by the lengths of torques. By how much rows at turns move the estimate is in its
     /// deviations, or they are left out, as by [`super::Identify::leave_out_turns`].
     ///
     /// # Errors
@@ -299,10 +300,10 @@ impl Factor {
     /// # Examples
     /// ```
     /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
-    /// use robot_model::identify::Method;
+    /// use robot_model::identify::{Method, Weights};
     /// let (arm, factor) = (factor::pendulum::pendulum(), factor::factor());
-    /// assert!((factor.estimate(&arm, Method::Wls, false)?.values()[1] - 9.0).abs() < 0.1);
-    /// let refused = factor.estimate(&arm, Method::Robust, false).unwrap_err();
+    /// assert!((factor.estimate(&arm, Method::Wls, Weights::TorqueNorm, false)?.values()[1] - 9.0).abs() < 0.1);
+    /// let refused = factor.estimate(&arm, Method::Robust, Weights::Residual, false).unwrap_err();
     /// assert!(refused.to_string().contains("`robust` weighs single samples"));
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
@@ -310,6 +311,7 @@ impl Factor {
         &self,
         arm: &dyn Arm,
         method: Method,
+        weights: Weights,
         leave_out_turns: bool,
     ) -> Result<Estimate, IdentifyError> {
         Self::new(arm, self.bands)?.check(self)?;
@@ -318,19 +320,11 @@ impl Factor {
         let away = has_turns.then(|| self.without_turns());
         let used = away.as_ref().filter(|_| leave_out_turns).unwrap_or(self);
         let factors = used.whole();
-        let ones = vec![1.0; self.joints.len()];
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
         check_counts(&used.counts(), self.unknowns.len())?;
-        let mut solution = match method {
-            Method::Ls => factors.ordinary(&ones),
-            Method::Wls => factors.weighted(&ones),
-            _ => {
-                let why = format!("`{}` weighs single samples", method.name());
-                return Err(IdentifyError::NotReduced { why });
-            }
-        };
+        let mut solution = used.solution(&factors, method, weights)?;
         check_excited(&solution)?;
         let lone = used.deviations(&mut solution);
         if let (Some(away), false) = (&away, leave_out_turns) {

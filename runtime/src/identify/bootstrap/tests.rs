@@ -56,7 +56,8 @@ fn bootstrap(stack: &Stack, draws: usize) -> (Solution, Result<Bootstrap, Identi
 #[test]
 fn intervals_hold_the_truth_about_as_often_as_they_say() {
     const LOGS: u64 = 150;
-    for slow in [0.5, 8.0] {
+    // Of the last there are some ten blocks.
+    for slow in [0.5, 8.0, 35.0] {
         let mut inside = [0; 2];
         for seed in 0..LOGS {
             let (_, found) = bootstrap(&stack(seed, slow), 200);
@@ -68,7 +69,7 @@ fn intervals_hold_the_truth_about_as_often_as_they_say() {
         }
         for inside in inside {
             let share = f64::from(inside) / LOGS as f64;
-            assert!((0.88..=0.985).contains(&share), "{slow}: {share}");
+            assert!((0.90..=0.987).contains(&share), "{slow}: {share}");
         }
     }
 }
@@ -92,7 +93,7 @@ fn errors_alike_over_the_whole_log_have_no_blocks() {
     let (_, found) = bootstrap(&stack(1, 3000.0), 50);
     let error = found.expect_err("one block");
     assert!(
-        matches!(error, IdentifyError::FewBlocks { blocks: 10, .. }),
+        matches!(error, IdentifyError::FewBlocks { blocks: 6, .. }),
         "{error}"
     );
 }

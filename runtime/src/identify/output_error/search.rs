@@ -340,3 +340,6 @@ fn next_control(search: Search, now: f64, ratio: f64, length: f64) -> f64 {
         Search::TrustRegion => now,
     }
 }
+
+#[cfg(test)]
+mod tests;
