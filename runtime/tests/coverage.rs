@@ -3,13 +3,16 @@
 mod plant;
 
 use plant::{Pendulums, Plant, TRUTH};
-use robot_model::identify::{Estimate, Factor, Identify, Method, Weights};
+use robot_model::identify::{Beyond, Estimate, Factor, Identify, Method, Weights};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 
 const EXPERIMENTS: u64 = 200;
 
 type Fit<'a> = &'a dyn Fn(&Pendulums, Log) -> Estimate;
+
+/// How often blocks are drawn.
+const DRAWS: usize = 200;
 
 #[test]
 fn intervals_cover_the_truth_as_often_as_they_say() {
@@ -26,6 +29,24 @@ fn intervals_of_total_least_squares_do() {
 }
 
 #[test]
+fn intervals_of_ordinary_and_of_robust_least_squares_do() {
+    cover("ls", &[0.2], &|arm, log| fit(arm, log, Method::Ls));
+    cover("robust", &[0.2], &|arm, log| fit(arm, log, Method::Robust));
+}
+
+/// What blocks that are drawn say, in place of a formula.
+#[test]
+fn intervals_of_blocks_do() {
+    cover("bootstrap", &[0.2], &|arm, log| {
+        let identify = Identify {
+            bootstrap: DRAWS,
+            ..of_method(Method::Wls)
+        };
+        identify.fit(arm, &[log]).expect("the log is long enough")
+    });
+}
+
+#[test]
 fn intervals_of_merged_factors_do() {
     cover("merge", &[0.005, 0.2], &|arm, log| {
         let mut factor = Factor::new(arm, Bands::DEFAULT).expect("bands");
@@ -36,13 +57,31 @@ fn intervals_of_merged_factors_do() {
     });
 }
 
-fn fit(arm: &Pendulums, log: Log, method: Method) -> Estimate {
-    let identify = Identify {
+fn of_method(method: Method) -> Identify {
+    Identify {
         method,
         bands: Some(Bands::DEFAULT),
+        beyond: Beyond::Deviations,
         ..Identify::default()
-    };
-    identify.fit(arm, &[log]).expect("the log is sound")
+    }
+}
+
+fn fit(arm: &Pendulums, log: Log, method: Method) -> Estimate {
+    of_method(method)
+        .fit(arm, &[log])
+        .expect("the log is sound")
+}
+
+/// The intervals of an estimate: those of its blocks, where they were drawn.
+fn intervals(estimate: &Estimate) -> Vec<[f64; 2]> {
+    if let Some(drawn) = &estimate.bootstrap {
+        let told = drawn.intervals.iter();
+        return told.map(|own| own.expect("all is told")).collect();
+    }
+    let parameters = estimate.parameters.iter();
+    parameters
+        .map(|own| [-1.96, 1.96].map(|times| own.value + times * own.std))
+        .collect()
 }
 
 fn cover(name: &str, times: &[f64], fit: Fit) {
@@ -72,11 +111,11 @@ fn cover(name: &str, times: &[f64], fit: Fit) {
                     .for_each(|(tau, (x, y))| *tau += x - y);
             }
             let estimate = fit(&arm, log);
-            for (k, found) in estimate.parameters.iter().enumerate() {
-                let error = found.value - TRUTH[k];
-                hits[k] += u32::from(error.abs() < 1.96 * found.std);
-                errors[k] += error * error;
-                claimed[k] += found.std * found.std;
+            let values = estimate.values();
+            for (k, [low, high]) in intervals(&estimate).into_iter().enumerate() {
+                hits[k] += u32::from(low < TRUTH[k] && TRUTH[k] < high);
+                errors[k] += (values[k] - TRUTH[k]).powi(2);
+                claimed[k] += ((high - low) / (2.0 * 1.96)).powi(2);
             }
         }
         let all = f64::from(hits.iter().sum::<u32>()) / (8.0 * EXPERIMENTS as f64);

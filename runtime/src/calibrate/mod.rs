@@ -30,7 +30,7 @@ mod windows;
 
 pub use commanded::{Commanded, Piece};
 pub use error::CalibrateError;
-pub(crate) use regression::quantile;
+pub(crate) use regression::{NORMAL, quantile};
 pub use static_gain::{Hysteresis, StaticGain, Term};
 pub use voltage::MotorVoltage;
 pub use windows::{REACH, Windows};

@@ -7,6 +7,11 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use super::{CONFIDENCE, Measured};
 use crate::identify::{RANK_TOLERANCE, long_run_sum};
 
+/// Standard deviations of a normal distribution that hold 95 % of it, and the freedom from which on Student's has the same: a search for
+/// its quantile does not end there.
+pub(crate) const NORMAL: f64 = 1.959_963_984_540_054;
+const MUCH: f64 = 1e6;
+
 /// What is below this share of the target is rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -151,6 +156,9 @@ impl Regression {
 
 /// How many standard deviations a value is in its interval.
 pub(crate) fn quantile(freedom: f64) -> f64 {
+    if freedom > MUCH {
+        return NORMAL;
+    }
     student(freedom).map_or(f64::INFINITY, |student| {
         student.inverse_cdf(0.5 + 0.5 * CONFIDENCE)
     })
@@ -181,6 +189,8 @@ mod tests {
             (10.0, 2.2281),
             (100.0, 1.98397),
             (60_000.0, 1.96),
+            (999_999.0, 1.959_97),
+            (4e9, 1.959_96),
         ] {
             let found = quantile(freedom);
             assert!((found - table).abs() < 1e-4, "{freedom}: {found}");

@@ -15,11 +15,12 @@ use super::IdentifyError;
 use super::hac::{Rows, weighed};
 use super::least_squares::Solution;
 use super::stack::Stack;
-use crate::calibrate::quantile as quantile_of;
+use crate::calibrate::{NORMAL, quantile as quantile_of};
 use crate::signal::resample::whole_steps;
 
-/// Blocks are at least so many times as long as errors are alike.
+/// Blocks are so many times as long as errors are alike; where there are few of them, half of that at least.
 const LONG: f64 = 5.0;
+const LEAST_LONG: f64 = 2.5;
 
 /// Fewer blocks than this say nothing of a spread.
 const LEAST_BLOCKS: usize = 6;
@@ -79,14 +80,14 @@ pub(super) fn intervals(
     let alike = alike.into_iter().fold(1.0, f64::max);
     let samples = stack.samples();
     let count = samples as f64 / (LONG * alike);
-    if count < LEAST_BLOCKS as f64 {
+    if samples as f64 / (LEAST_LONG * alike) < LEAST_BLOCKS as f64 {
         return Err(IdentifyError::FewBlocks {
             blocks: LEAST_BLOCKS,
-            samples: LONG * alike,
+            samples: LEAST_LONG * alike,
             rows: samples,
         });
     }
-    let count = whole_steps(count).min(MOST_BLOCKS);
+    let count = whole_steps(count).clamp(LEAST_BLOCKS, MOST_BLOCKS);
     let rows = Rows::new(stack, &solution.unexcited, &solution.scale);
     let residuals = weighed(residuals, &solution.scale, weights);
     let blocks = blocks(&rows, &residuals, weights, count);
@@ -133,7 +134,7 @@ pub(super) fn intervals(
 /// distribution beside Student's, and by what the unknowns have taken of the residuals.
 fn small_sample(blocks: usize, independent: f64, unknowns: usize) -> f64 {
     let freedom = (blocks - 1) as f64;
-    let student = quantile_of(freedom) / quantile_of(f64::from(u32::MAX));
+    let student = quantile_of(freedom) / NORMAL;
     let left = (independent - unknowns as f64).max(1.0);
     (blocks as f64 / freedom * independent / left).sqrt() * student
 }

@@ -55,20 +55,26 @@ fn bootstrap(stack: &Stack, draws: usize) -> (Solution, Result<Bootstrap, Identi
 
 #[test]
 fn intervals_hold_the_truth_about_as_often_as_they_say() {
-    const LOGS: u64 = 150;
+    const LOGS: u32 = 150;
     // Of the last there are some ten blocks.
     for slow in [0.5, 8.0, 35.0] {
-        let mut inside = [0; 2];
+        let (mut inside, mut refused) = ([0; 2], 0);
         for seed in 0..LOGS {
-            let (_, found) = bootstrap(&stack(seed, slow), 200);
-            let intervals = found.expect("long enough").intervals;
+            let (_, found) = bootstrap(&stack(seed.into(), slow), 200);
+            // Noise that is slower than it is in the mean leaves too few blocks of some logs.
+            let Ok(found) = found else {
+                refused += 1;
+                continue;
+            };
+            let intervals = found.intervals;
             for (k, truth) in [2.0, 3.0].into_iter().enumerate() {
                 let [low, high] = intervals[k].expect("excited");
                 inside[k] += u32::from(low < truth && truth < high);
             }
         }
+        assert!(refused <= LOGS / 20, "{slow}: {refused}");
         for inside in inside {
-            let share = f64::from(inside) / LOGS as f64;
+            let share = f64::from(inside) / f64::from(LOGS - refused);
             assert!((0.90..=0.987).contains(&share), "{slow}: {share}");
         }
     }

@@ -4,11 +4,8 @@ use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
 use super::{Factor, residual};
-use crate::calibrate::quantile;
+use crate::calibrate::{NORMAL, quantile};
 use crate::identify::least_squares::Solution;
-
-/// Of a normal distribution 95 % are within so many deviations.
-const NORMAL: f64 = 1.96;
 
 /// A direction of which the other blocks tell less than this share is told by one block alone.
 const LEAST_BESIDE: f64 = 0.1;
