@@ -223,7 +223,7 @@ fn what_is_no_factor_of_the_arm_is_refused() {
                 "--method",
                 "tls",
             ],
-            "need all samples at once",
+            "others ask for single samples",
         ),
         (
             &[
