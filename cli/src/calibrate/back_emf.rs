@@ -28,9 +28,9 @@ const SHOWN: usize = 12;
 /// The back electromotive force of a motor, and its resistance where its voltage is logged.
 ///
 /// With `--voltage`: `v = R i + k w + v0` by least squares, or by instruments where current or velocity are noisy; the inductance is
-/// left out. Without: the voltage was commanded between
-/// constants, and `k` is the factor that makes `u + k w` constant in pieces, where `u` is `--current`: amperes, or the voltage across
-/// a known resistance. Velocities of `--position` are means over five samples, as are the others then.
+/// left out. Without: the voltage was commanded between constants, and `k` is the factor that makes `u + k w` constant in pieces, where
+/// `u` is `--current`: amperes, or the voltage across a known resistance. Velocities of `--position` are means over five samples, as are
+/// the others then.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model calibrate back-emf log.csv --current i --velocity w --voltage v

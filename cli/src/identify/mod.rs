@@ -272,12 +272,8 @@ impl IdentifyArguments {
         };
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(
-            &form.0,
-            method,
-            self.weights.into(),
-            self.rows.leave_out_turns,
-        )?;
+        let (weights, leave_out_turns) = (self.weights.into(), self.rows.leave_out_turns);
+        let estimate = reduced.estimate(&form.0, method, weights, leave_out_turns)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?
