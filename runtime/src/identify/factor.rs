@@ -36,7 +36,7 @@ const MOST_BLOCKS: usize = 32;
 /// ```
 /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
 /// # use pendulum::{measure, pendulum};
-/// use robot_model::identify::{Factor, Identify, Method};
+/// use robot_model::identify::{Factor, Identify, Method, Weights};
 /// let (arm, log) = (pendulum(), measure(0.0));
 /// let bands = Identify::default().bands_of(&arm, &log)?;
 /// let mut factor = Factor::new(&arm, bands)?;
