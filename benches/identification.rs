@@ -8,7 +8,7 @@ use std::process::{Command, ExitCode};
 use std::time::Instant;
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{Factor, JointRows, Method, Segment, Stack, Weights};
+use robot_model::identify::{Factor, Identify, JointRows, Segment, Stack};
 use robot_model::motion::{Kinematics, Motion};
 use robot_model::signal::Bands;
 use robot_model_cli::interpreted::InterpretedArm;
@@ -151,9 +151,7 @@ fn ours(arm: &InterpretedArm, count: usize, pieces: Pieces<'_>, workers: usize) 
     for factor in factors {
         whole.merge(factor).expect("one arm");
     }
-    let estimate = whole
-        .estimate(arm, Method::Wls, Weights::Residual, false)
-        .expect("excited");
+    let estimate = whole.estimate(arm, &Identify::default()).expect("excited");
     let seconds = start.elapsed().as_secs_f64();
     let values = estimate.values();
     let errors = values.iter().enumerate();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{Factor, Method};
+use robot_model::identify::{Factor, Identify, Method};
 
 use crate::Error;
 use crate::identify::factor_file;
@@ -35,6 +35,9 @@ pub(crate) struct Merge {
     /// What `--method wls` weighs joints by.
     #[arg(long, value_enum, default_value_t)]
     weights: WeightsArgument,
+    /// Of `ridge`: by which share of a body's own size the spec's nominal values are off (one standard deviation); 0.3 without it.
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    prior: Option<f64>,
     /// A log that is not fitted, to judge the model on.
     #[arg(long, value_name = "LOG")]
     validate: Option<PathBuf>,
@@ -61,10 +64,42 @@ enum MethodArgument {
     /// Least squares weighted by each joint's residual.
     #[default]
     Wls,
+    /// The same toward the spec's nominal values.
+    Ridge,
+    /// The arm nearest to `wls` that can exist.
+    Physical,
 }
 
 impl Merge {
+    /// What is asked of the factors; options that the method does not read are mistakes.
+    fn identify(&self) -> Result<Identify, Error> {
+        let method = match self.method {
+            MethodArgument::Ls => Method::Ls,
+            MethodArgument::Wls => Method::Wls,
+            MethodArgument::Ridge => Method::Ridge,
+            MethodArgument::Physical => Method::Physical,
+        };
+        if method != Method::Wls && self.weights != WeightsArgument::Residual {
+            let reason = format!("`--weights` is of `wls`; `{}` has its own", method.name());
+            return Err(Error::Argument(reason));
+        }
+        if self.prior.is_some() && method != Method::Ridge {
+            return Err(Error::Argument(
+                "`--prior` is of `--method ridge`".to_owned(),
+            ));
+        }
+        let default = Identify::default();
+        Ok(Identify {
+            method,
+            weights: self.weights.into(),
+            prior: self.prior.unwrap_or(default.prior),
+            leave_out_turns: self.leave_out_turns,
+            ..default
+        })
+    }
+
     pub(crate) fn run(&self) -> Result<(), Error> {
+        let identify = self.identify()?;
         let inputs = std::iter::once(&self.spec)
             .chain(&self.factors)
             .chain(&self.validate);
@@ -100,11 +135,7 @@ impl Merge {
             }
         }
         let factor = all.ok_or(robot_model::identify::IdentifyError::NoLog)?;
-        let method = match self.method {
-            MethodArgument::Ls => Method::Ls,
-            MethodArgument::Wls => Method::Wls,
-        };
-        let estimate = factor.estimate(arm, method, self.weights.into(), self.leave_out_turns)?;
+        let estimate = factor.estimate(arm, &identify)?;
         if !self.partial {
             told_apart(&estimate)?;
         }

@@ -3,7 +3,7 @@
 mod plant;
 
 use plant::{Pendulums, Plant, TRUTH};
-use robot_model::identify::{Beyond, Estimate, Factor, Identify, Method, Weights};
+use robot_model::identify::{Beyond, Estimate, Factor, Identify, Method};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 
@@ -51,9 +51,8 @@ fn intervals_of_merged_factors_do() {
     cover("merge", &[0.005, 0.2], &|arm, log| {
         let mut factor = Factor::new(arm, Bands::DEFAULT).expect("bands");
         factor.push(arm, &log).expect("the log is sound");
-        factor
-            .estimate(arm, Method::Wls, Weights::Residual, false)
-            .expect("excited")
+        let estimate = factor.estimate(arm, &Identify::default());
+        estimate.expect("excited")
     });
 }
 

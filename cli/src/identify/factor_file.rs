@@ -40,6 +40,7 @@ struct Part {
     /// Rows of each joint that say something.
     counts: Vec<usize>,
     torque_squares: Vec<f64>,
+    most_torque: Vec<f64>,
     /// `[joint][row][column]`: columns are the unknowns, then the torque.
     rows: Vec<Vec<Vec<f64>>>,
 }
@@ -49,6 +50,7 @@ impl Part {
         Self {
             counts: rows.counts.clone(),
             torque_squares: rows.torque_squares.clone(),
+            most_torque: rows.most_torque.clone(),
             rows: rows.rows.clone(),
         }
     }
@@ -58,6 +60,7 @@ impl Part {
             counts: self.counts,
             rows: self.rows,
             torque_squares: self.torque_squares,
+            most_torque: self.most_torque,
         }
     }
 
@@ -66,16 +69,18 @@ impl Part {
         let lists = [
             self.rows.len(),
             self.torque_squares.len(),
+            self.most_torque.len(),
             self.counts.len(),
         ];
         let mut rows = self.rows.iter().flatten();
-        if lists != [joints; 3] || !rows.all(|row| row.len() == width) {
+        if lists != [joints; 4] || !rows.all(|row| row.len() == width) {
             return Some(format!(
                 "has not one list of rows per joint with {width} numbers each"
             ));
         }
-        let is_negative = self.torque_squares.iter().any(|sum| *sum < 0.0);
-        is_negative.then(|| "has a sum of squares below zero".to_owned())
+        let mut sizes = self.torque_squares.iter().chain(&self.most_torque);
+        let is_negative = sizes.any(|size| *size < 0.0);
+        is_negative.then(|| "has a sum of squares or a size below zero".to_owned())
     }
 }
 
@@ -98,8 +103,9 @@ impl Block {
 /// What a factor is not that is refused.
 const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
 
-/// The first did not say what its columns are made of, nor which rows are at turns, the second not of which parts a block is.
-const FORM: u32 = 3;
+/// The first did not say what its columns are made of, nor which rows are at turns, the second not of which parts a block is, the third no
+/// largest torques.
+const FORM: u32 = 4;
 
 /// The text of a factor's file.
 pub(crate) fn text(factor: &Factor) -> String {

@@ -195,19 +195,12 @@ impl IdentifyArguments {
         }
         let instruments = self.instruments.iter();
         let instruments = instruments.map(|path| trajectory(path, dof));
-        let mut identify = Identify {
-            method,
-            weights: self.weights.into(),
-            bands: self.bands,
+        let identify = Identify {
             instruments: instruments.collect::<Result<_, _>>()?,
             bootstrap: self.bootstrap.map_or(0, |draws| draws as usize),
             essential: self.essential,
-            leave_out_turns: self.rows.leave_out_turns,
-            ..Identify::default()
+            ..self.asked(method)
         };
-        if let Some(prior) = self.prior {
-            identify.prior = prior;
-        }
         progress.step("identifying");
         let estimate = form
             .fit(&identify, &logs)
@@ -250,6 +243,19 @@ impl IdentifyArguments {
         self.hand_over(form, found, results, progress)
     }
 
+    /// What is asked of logs and of what is reduced of them.
+    fn asked(&self, method: Method) -> Identify {
+        let default = Identify::default();
+        Identify {
+            method,
+            weights: self.weights.into(),
+            bands: self.bands,
+            prior: self.prior.unwrap_or(default.prior),
+            leave_out_turns: self.rows.leave_out_turns,
+            ..default
+        }
+    }
+
     /// As [`Self::fit`], in memory that does not grow with the logs.
     fn reduce(&self, form: &ByAcceleration, method: Method, factor: &Path) -> Result<(), Error> {
         let inputs = std::iter::once(&self.spec)
@@ -266,14 +272,10 @@ impl IdentifyArguments {
             as_logged: self.rows.as_logged,
             workers: workers(),
         };
-        let identify = Identify {
-            bands: self.bands,
-            ..Identify::default()
-        };
+        let identify = self.asked(method);
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let (weights, leave_out_turns) = (self.weights.into(), self.rows.leave_out_turns);
-        let estimate = reduced.estimate(&form.0, method, weights, leave_out_turns)?;
+        let estimate = reduced.estimate(&form.0, &identify)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?

@@ -167,11 +167,10 @@ impl IdentifyArguments {
             if self.form == FormArgument::Filtered {
                 return refuse("`--factor` is of `--form acceleration`");
             }
-            if !matches!(method, Method::Ls | Method::Wls)
-                || self.weights == WeightsArgument::MaxTorque
-            {
+            let single = [Method::Robust, Method::Total, Method::Instrumental];
+            if single.contains(&method) {
                 return refuse(
-                    "`--factor` is of `--method ls` and of `wls` weighted by residuals or lengths of torques: others ask for single samples",
+                    "`--factor` is of `--method ls`, `wls`, `ridge` and `physical`: others ask for single samples",
                 );
             }
         }

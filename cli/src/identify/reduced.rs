@@ -156,8 +156,6 @@ impl Streams<'_> {
 mod tests {
     use std::fmt::Write;
 
-    use robot_model::identify::{Method, Weights};
-
     use super::super::factor_file::text;
     use super::*;
     use crate::interpreted::InterpretedArm;
@@ -198,9 +196,7 @@ mod tests {
             let mut faults = Vec::new();
             let factor = streams.reduce(&identify, &mut faults, &progress);
             let factor = factor.expect("a sound log");
-            let estimate = factor
-                .estimate(&form.0, Method::Wls, Weights::Residual, false)
-                .expect("excited");
+            let estimate = factor.estimate(&form.0, &identify).expect("excited");
             let errors = streams.errors(&estimate, &progress).expect("a sound log");
             (text(&factor), errors)
         };

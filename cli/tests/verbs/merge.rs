@@ -146,7 +146,7 @@ fn strangers() -> Folder {
     folder.write("cut.json", &text[..text.len() / 2]);
     folder.write(
         "form.json",
-        &text.replacen("\"factor\":3", "\"factor\":9", 1),
+        &text.replacen("\"factor\":4", "\"factor\":9", 1),
     );
     folder.write("old.json", "{\"factor\":1,\"unknowns\":[]}");
     folder.write(
@@ -183,15 +183,15 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         (&["merge", "cart.robot", "cut.json"], "cut.json"),
         (
             &["merge", "cart.robot", "form.json"],
-            "a factor of form 9, this program reads form 3; write it anew with `identify --factor`",
+            "a factor of form 9, this program reads form 4; write it anew with `identify --factor`",
         ),
         (
             &["merge", "cart.robot", "old.json"],
-            "a factor of form 1, this program reads form 3",
+            "a factor of form 1, this program reads form 4",
         ),
         (
             &["merge", "cart.robot", "negative.json"],
-            "negative.json: block 1 has a sum of squares below zero",
+            "negative.json: block 1 has a sum of squares or a size below zero",
         ),
         (
             &["merge", "cart.robot", "rows.json"],
@@ -311,30 +311,58 @@ fn a_log_that_is_in_two_factors_is_noted() {
 
 /// Joints of different torques: weights by these are others than those by residuals, and the same of a factor as of its log.
 #[test]
-fn factors_weigh_by_lengths_of_torques() {
+fn factors_weigh_by_lengths_and_sizes_of_torques() {
     let folder = crate::payload::folder("");
     let identify = ["identify", "arm.robot", "empty.csv", "--weights"];
     let fit = |rest: &[&str]| values(&report(&folder, &[&identify[..], rest].concat()), "value");
     let bands = |weights| [&[weights][..], &BANDS].concat();
-    let [norms, residuals] = ["torque-norm", "residual"].map(|weights| fit(&bands(weights)));
-    let factor = ["--factor", "factor.json"];
-    let reduced = fit(&[&bands("torque-norm")[..], &factor].concat());
-    let merge = ["merge", "arm.robot", "factor.json", "--weights"];
-    let merged = report(&folder, &[&merge[..], &["torque-norm"]].concat());
-    let near = |one: &[f64], other: &[f64]| {
-        let size = one.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let pairs = one.iter().zip(other);
-        pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) < 1e-7 * size
-    };
-    assert!(near(&norms, &reduced), "{norms:?} {reduced:?}");
+    let all = ["torque-norm", "max-torque", "residual"].map(|weights| fit(&bands(weights)));
+    for (weights, direct) in ["torque-norm", "max-torque"].into_iter().zip(&all) {
+        let factor = ["--factor", "factor.json"];
+        let reduced = fit(&[&bands(weights)[..], &factor].concat());
+        let merge = ["merge", "arm.robot", "factor.json", "--weights", weights];
+        let merged = values(&report(&folder, &merge), "value");
+        assert!(far(direct, &reduced) < 1e-7, "{direct:?} {reduced:?}");
+        assert!(far(direct, &merged) < 1e-7, "{direct:?} {merged:?}");
+    }
+    for (one, other) in [(0, 1), (0, 2), (1, 2)] {
+        assert!(far(&all[one], &all[other]) > 1e-7, "{all:?}");
+    }
+}
+
+/// The largest difference over the largest value.
+fn far(one: &[f64], other: &[f64]) -> f64 {
+    let size = one.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let pairs = one.iter().zip(other);
+    pairs.map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / size
+}
+
+/// Methods that weigh CAD against the logs find of a factor what they find of its log: how many samples are worth one is not quite the same.
+#[test]
+fn factors_are_weighed_against_nominal_values() {
+    let folder = crate::payload::folder("");
+    let fit = |arguments: &[&str]| report(&folder, arguments);
+    for method in ["ridge", "physical"] {
+        let identify = ["identify", "arm.robot", "empty.csv", "--method", method];
+        let direct = fit(&[&identify[..], &BANDS].concat());
+        let factor = ["--factor", "factor.json"];
+        let reduced = fit(&[&identify[..], &BANDS, &factor].concat());
+        let merged = fit(&["merge", "arm.robot", "factor.json", "--method", method]);
+        let [here, there] = [&reduced, &merged].map(|fit| values(fit, "value"));
+        assert!(far(&here, &there) < 1e-12, "{here:?} {there:?}");
+        let [of_log, of_factor] = [&direct, &merged].map(|fit| values(fit, "value"));
+        assert!(far(&of_log, &of_factor) < 0.01, "{of_log:?} {of_factor:?}");
+        let is_possible = method == "physical";
+        assert_eq!(merged["possible"]["standard"].is_array(), is_possible);
+        let wls = fit(&["merge", "arm.robot", "factor.json"]);
+        assert!(far(&values(&wls, "value"), &of_factor) > 0.0, "{merged}");
+    }
+    let refused = folder.refuse(&["merge", "arm.robot", "factor.json", "--prior", "0.1"]);
     assert!(
-        near(&norms, &values(&merged, "value")),
-        "{norms:?} {merged}"
-    );
-    assert!(!near(&norms, &residuals), "{residuals:?}");
-    let refused = folder.refuse(&[&merge[..], &["max-torque"]].concat());
-    assert!(
-        refused.contains("`max-torque` weighs by single samples"),
+        refused.contains("`--prior` is of `--method ridge`"),
         "{refused}"
     );
+    let of_all = ["--method", "physical", "--weights", "torque-norm"];
+    let refused = folder.refuse(&[&["merge", "arm.robot", "factor.json"][..], &of_all].concat());
+    assert!(refused.contains("`--weights` is of `wls`"), "{refused}");
 }

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use robot_model::columns::Arm;
 use robot_model::excite::Fourier;
-use robot_model::identify::{Factor, Method, Stack, Weights};
+use robot_model::identify::{Factor, Identify, Stack};
 use robot_model::motion::Motion;
 use robot_model::signal::Bands;
 
@@ -90,7 +90,7 @@ pub fn stream(arm: &dyn Arm, motion: &Fourier) -> Result<Streamed, Error> {
         let mut whole = half_by_half(&half)?;
         let [first, second] = &mut whole;
         first.merge(second.clone())?;
-        let estimate = first.estimate(arm, Method::Wls, Weights::Residual, false)?;
+        let estimate = first.estimate(arm, &Identify::default())?;
         streamed.seconds = streamed.seconds.min(start.elapsed().as_secs_f64());
         streamed.rank = estimate.rank;
         let values = estimate.values();

@@ -11,9 +11,9 @@
 
 use super::estimate::{Estimate, Form};
 use super::fitted::Fitted;
-use super::least_squares::{Factors, check_counts, check_excited};
+use super::least_squares::Factors;
 use super::stack::{Stack, percent};
-use super::{IdentifyError, Method, Weights, turns};
+use super::{Identify, IdentifyError};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::Bands;
@@ -22,9 +22,11 @@ mod block;
 mod deviations;
 mod equations;
 mod solution;
+mod worth;
 
 use block::reduced;
 pub use block::{FactorBlock, FactorRows};
+use solution::Solved;
 
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
@@ -36,12 +38,12 @@ const MOST_BLOCKS: usize = 32;
 /// ```
 /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
 /// # use pendulum::{measure, pendulum};
-/// use robot_model::identify::{Factor, Identify, Method, Weights};
+/// use robot_model::identify::{Factor, Identify};
 /// let (arm, log) = (pendulum(), measure(0.0));
 /// let bands = Identify::default().bands_of(&arm, &log)?;
 /// let mut factor = Factor::new(&arm, bands)?;
 /// factor.push(&arm, &log)?;
-/// let estimate = factor.estimate(&arm, Method::Wls, Weights::Residual, false)?;
+/// let estimate = factor.estimate(&arm, &Identify::default())?;
 /// assert!((estimate.values()[0] - 2.0).abs() < 0.02);
 /// # Ok::<(), robot_model::identify::IdentifyError>(())
 /// ```
@@ -290,46 +292,42 @@ impl Factor {
         (0..self.joints.len()).map(joint).collect()
     }
 
-    /// What all these logs together say; `method` is [`Method::Ls`] or [`Method::Wls`], the latter by residuals or by the lengths of torques. By how much rows at turns move the estimate is in its
-    /// deviations, or they are left out, as by [`super::Identify::leave_out_turns`].
+    /// What all these logs together say, by [`Method::Ls`](super::Method::Ls), `Wls`, `Ridge` or `Physical`; of `identify` the
+    /// method, its weights, the prior and [`Identify::leave_out_turns`] are read. Without the latter, by how much rows at turns move the
+    /// estimate is in its deviations.
     ///
     /// # Errors
-    /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for a method that needs the rows themselves,
-    /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`].
+    /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for what needs the rows themselves,
+    /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`]; those of the method.
     ///
     /// # Examples
     /// ```
     /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
-    /// use robot_model::identify::{Method, Weights};
+    /// use robot_model::identify::{Identify, Method, Weights};
     /// let (arm, factor) = (factor::pendulum::pendulum(), factor::factor());
-    /// assert!((factor.estimate(&arm, Method::Wls, Weights::TorqueNorm, false)?.values()[1] - 9.0).abs() < 0.1);
-    /// let refused = factor.estimate(&arm, Method::Robust, Weights::Residual, false).unwrap_err();
+    /// let by_torque = Identify { weights: Weights::TorqueNorm, ..Identify::default() };
+    /// assert!((factor.estimate(&arm, &by_torque)?.values()[1] - 9.0).abs() < 0.1);
+    /// let robust = Identify { method: Method::Robust, ..Identify::default() };
+    /// let refused = factor.estimate(&arm, &robust).unwrap_err();
     /// assert!(refused.to_string().contains("`robust` weighs single samples"));
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
-    pub fn estimate(
-        &self,
-        arm: &dyn Arm,
-        method: Method,
-        weights: Weights,
-        leave_out_turns: bool,
-    ) -> Result<Estimate, IdentifyError> {
+    pub fn estimate(&self, arm: &dyn Arm, identify: &Identify) -> Result<Estimate, IdentifyError> {
+        let (method, leave_out_turns) = (identify.method, identify.leave_out_turns);
         Self::new(arm, self.bands)?.check(self)?;
         let at_turns = self.turns();
         let has_turns = at_turns.iter().any(|count| *count > 0);
         let away = has_turns.then(|| self.without_turns());
         let used = away.as_ref().filter(|_| leave_out_turns).unwrap_or(self);
-        let factors = used.whole();
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
-        check_counts(&used.counts(), self.unknowns.len())?;
-        let mut solution = used.solution(&factors, method, weights)?;
-        check_excited(&solution)?;
-        let lone = used.deviations(&mut solution);
-        if let (Some(away), false) = (&away, leave_out_turns) {
-            turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
-        }
+        let widened_by = away.as_ref().filter(|_| !leave_out_turns);
+        let Solved {
+            solution,
+            lone,
+            possible,
+        } = used.solved(arm, identify, widened_by)?;
         let fitted = Fitted {
             relative_percent: used.relative_percent(&solution.estimate),
             samples: self.samples(),
@@ -345,6 +343,7 @@ impl Factor {
             blocks: Some(used.blocks.len()),
             of_one_block: lone.iter().map(|&k| self.unknowns[k].clone()).collect(),
             is_without_turns: leave_out_turns,
+            possible,
             ..estimate
         })
     }

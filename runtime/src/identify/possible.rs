@@ -10,6 +10,7 @@
 //! identification; Lee, Wensing, Park 2019, Geometric robot dynamic identification.
 
 mod barrier;
+mod bodies;
 mod origin;
 
 use std::fmt;
@@ -23,12 +24,11 @@ use crate::columns::Arm;
 use crate::link::Inertial;
 
 use barrier::{Barrier, Cone, Found, LAST_WEIGHT};
+use bodies::{pseudo_inertia, thick, unknown_body};
 pub use origin::Origin;
 
-/// Bodies of links whose spec says none, all alike: powers of ten of a mass, kg, of which that is taken with which the logs agree
-/// best, and a spread along each axis about the frame's origin, m.
+/// Powers of ten of a mass, kg, that links have whose spec says no body; that is taken with which the logs agree best.
 const UNKNOWN_MASSES: std::ops::RangeInclusive<i32> = -6..=6;
-const UNKNOWN_SPREAD: f64 = 0.1;
 
 /// What a friction, rotor or other parameter that is not negative is of the order of, where the logs are silent.
 const UNKNOWN_EFFECT: f64 = 1.0;
@@ -39,9 +39,6 @@ const CAD_WEIGHT: f64 = 1.0;
 
 /// CAD contradicts the logs where it moves a parameter by more than so many deviations.
 const FAR: f64 = 3.0;
-
-/// Principal second moments of a nominal body below this share of the largest are this share: a rod has an inside too.
-const THINNEST: f64 = 1e-3;
 
 /// A body that is thinner than this share of its length lies on the border of what is possible.
 const THIN: f64 = 1e-2;
@@ -122,17 +119,30 @@ struct Nearest {
     gap: f64,
 }
 
-/// The possible arm nearest to a solution takes its place; deviations stay those of the logs alone, and what the logs tell only in sums
-/// stays in them.
+/// That of the rows of a stack, see [`of_factors`].
 pub(super) fn make(
     arm: &dyn Arm,
     solution: &mut Solution,
     stack: &Stack,
 ) -> Result<Possible, IdentifyError> {
+    let percent = stack.relative_percent(&solution.estimate);
+    let worth = solution.worth(stack);
+    of_factors(arm, solution, &Factors::new(stack), &worth, percent)
+}
+
+/// The possible arm nearest to a solution takes its place; deviations stay those of the logs alone, and what the logs tell only in sums
+/// stays in them.
+///
+/// Rows of each joint are divided by what one independent sample of it is `worth`, so that the weight of CAD is that beside deviations.
+pub(super) fn of_factors(
+    arm: &dyn Arm,
+    solution: &mut Solution,
+    factors: &Factors,
+    worth: &[f64],
+    unconstrained_percent: Vec<f64>,
+) -> Result<Possible, IdentifyError> {
     let arms = arm.possible_arms().ok_or(IdentifyError::NoBodies)?;
-    let unconstrained_percent = stack.relative_percent(&solution.estimate);
-    // So that the weight of CAD is that beside deviations.
-    let factor = Factors::new(stack).stacked(&solution.worth(stack));
+    let factor = factors.stacked(worth);
     let told = Told {
         values: &solution.estimate,
         deviations: &solution.std,
@@ -150,7 +160,7 @@ pub(super) fn make(
         solution.is_told(*k) && (*near - *free).abs() > FAR * solution.std[*k]
     });
     let pulled = pulled
-        .map(|(k, _)| stack.unknowns[k].name.clone())
+        .map(|(k, _)| arm.unknowns()[k].name.clone())
         .collect();
     let gap = (nearest.cost / freest.cost.max(f64::MIN_POSITIVE) - 1.0).max(0.0) + freest.gap;
     let border = arms.border(&solution.estimate, &nearest.standard);
@@ -335,43 +345,6 @@ impl PossibleArms {
         });
         links.chain(effects).collect()
     }
-}
-
-fn pseudo_inertia(inertial: &Inertial) -> Mat<f64> {
-    let matrix = inertial.pseudo_inertia();
-    Mat::from_fn(4, 4, |i, j| matrix[(i, j)])
-}
-
-fn unknown_body(mass: f64) -> Mat<f64> {
-    Mat::from_fn(4, 4, |i, j| match (i == j, i) {
-        (true, 3) => mass,
-        (true, _) => mass * UNKNOWN_SPREAD * UNKNOWN_SPREAD,
-        (false, _) => 0.0,
-    })
-}
-
-/// The nearest body that has an inside, with the same mass and center of mass: CAD values may be those of a rod or a plate. `None` for
-/// a point, and where there is no mass.
-fn thick(nominal: &Inertial) -> Option<Mat<f64>> {
-    let eigen = nominal
-        .second_moments()
-        .filter(|_| nominal.mass > 0.0)?
-        .symmetric_eigen();
-    let largest = eigen.eigenvalues.max();
-    if largest.is_nan() || largest <= 0.0 {
-        return None;
-    }
-    let mut clipped = eigen;
-    clipped
-        .eigenvalues
-        .apply(|value| *value = value.max(THINNEST * largest));
-    let about_com = clipped.recompose();
-    let first = nominal.first_moments;
-    Some(Mat::from_fn(4, 4, |i, j| match (i, j) {
-        (3, 3) => nominal.mass,
-        (3, k) | (k, 3) => first[k],
-        (i, j) => about_com[(i, j)] + first[i] * first[j] / nominal.mass,
-    }))
 }
 
 impl fmt::Display for Possible {

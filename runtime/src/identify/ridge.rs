@@ -13,14 +13,26 @@ use super::least_squares::{Excited, Factors, Solution, condition};
 use super::stack::Stack;
 use super::{IdentifyError, Nominal};
 
-/// Puts the estimate of logs and nominal values together in the place of that of the logs.
-///
-/// `nominal` has one entry an unknown, `None` where the spec gives no value; `prior` is `d`.
+/// That of the rows of a stack, see [`of_factors`].
 pub(super) fn make(
     nominal: &[Option<Nominal>],
     prior: f64,
     solution: &mut Solution,
     stack: &Stack,
+) -> Result<(), IdentifyError> {
+    let worth = solution.worth(stack);
+    of_factors(nominal, prior, solution, &Factors::new(stack), &worth)
+}
+
+/// Puts the estimate of logs and nominal values together in the place of that of the logs.
+///
+/// `nominal` has one entry an unknown, `None` where the spec gives no value; `prior` is `d`; `worth` is `sigma sqrt(t)` of each joint.
+pub(super) fn of_factors(
+    nominal: &[Option<Nominal>],
+    prior: f64,
+    solution: &mut Solution,
+    factors: &Factors,
+    worth: &[f64],
 ) -> Result<(), IdentifyError> {
     if !(prior > 0.0 && prior.is_finite()) {
         return Err(IdentifyError::Prior { prior });
@@ -28,8 +40,7 @@ pub(super) fn make(
     if nominal.iter().all(Option::is_none) {
         return Err(IdentifyError::NoNominal);
     }
-    let factors = Factors::new(stack);
-    let told = factors.stacked(&solution.worth(stack));
+    let told = factors.stacked(worth);
     let n = nominal.len();
     let mut all = Mat::zeros(told.nrows() + n, n + 1);
     all.submatrix_mut(0, 0, told.nrows(), n + 1)

@@ -43,6 +43,8 @@ pub struct FactorRows {
     pub rows: Vec<Vec<Vec<f64>>>,
     /// Sum of the squared torque, one a joint.
     pub torque_squares: Vec<f64>,
+    /// The largest torque either way, one a joint.
+    pub most_torque: Vec<f64>,
 }
 
 impl FactorRows {
@@ -59,17 +61,21 @@ impl FactorRows {
             counts: vec![0; joints],
             rows: vec![Vec::new(); joints],
             torque_squares: vec![0.0; joints],
+            most_torque: vec![0.0; joints],
         }
     }
 
     /// The rows of a stack for which that is so.
     fn of(stack: &Stack, is_so: &dyn Fn(usize, usize) -> bool) -> Self {
         let factors = Factors::of_rows(stack, &|joint, row| f64::from(is_so(joint, row)));
-        let squares = stack.joints.iter().enumerate().map(|(joint, rows)| {
+        let joints = stack.joints.iter().enumerate();
+        let torques = joints.map(|(joint, rows)| {
             let rows = rows.tau.iter().enumerate();
-            let rows = rows.filter(|(row, _)| is_so(joint, *row));
-            rows.map(|(_, tau)| tau * tau).sum()
+            let rows = rows.filter(move |(row, _)| is_so(joint, *row));
+            rows.map(|(_, tau)| *tau)
         });
+        let squares = torques.clone().map(|taus| taus.map(|tau| tau * tau).sum());
+        let most = torques.map(|taus| taus.fold(0.0, |most: f64, tau| most.max(tau.abs())));
         // Where no row counts there is nothing to keep.
         let rows = factors.joints().iter().zip(factors.counts());
         let rows = rows.map(|(rows, count)| match count {
@@ -80,6 +86,7 @@ impl FactorRows {
             counts: factors.counts().to_vec(),
             rows: rows.collect(),
             torque_squares: squares.collect(),
+            most_torque: most.collect(),
         }
     }
 
@@ -89,6 +96,9 @@ impl FactorRows {
         }
         for (sum, more) in self.torque_squares.iter_mut().zip(other.torque_squares) {
             *sum += more;
+        }
+        for (most, more) in self.most_torque.iter_mut().zip(other.most_torque) {
+            *most = most.max(more);
         }
         for (rows, more) in self.rows.iter_mut().zip(other.rows) {
             rows.extend(more);
