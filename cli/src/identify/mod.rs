@@ -217,10 +217,10 @@ impl IdentifyArguments {
             .as_ref()
             .map(|log| form.errors(&estimate, log))
             .transpose()?;
-        let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref());
-        doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
         progress.step("asking whether columns are as the spec says");
-        doubts.extend(readings::others(form, &identify, &logs, &estimate));
+        let reading = readings::others(form, &identify, &logs, &estimate);
+        let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref(), reading);
+        doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));

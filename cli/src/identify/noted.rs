@@ -65,8 +65,14 @@ impl IdentifyArguments {
         estimate: &Estimate,
         logs: &[Log],
         validation: Option<&Errors>,
+        reading: Option<String>,
     ) -> Vec<String> {
         let mut all = twice::doubts(&self.logs, self.validate.as_deref());
+        // All else follows from columns that are read in another way than they are meant.
+        if let Some(reading) = reading {
+            all.insert(0, reading);
+            return all;
+        }
         let negative = doubts::negative(estimate, form.unknowns());
         let explained = doubts::explained(estimate, validation);
         let is_odd = negative.is_some() || !explained.is_empty();

@@ -66,6 +66,13 @@ impl IdentifyArguments {
             .chain(&self.validate);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
         let results = Results::claim(&mut files, self)?;
+        if let Some([loaded, unloaded]) = twice::with_and_without(&self.logs, &self.payload) {
+            return Err(Error::Argument(format!(
+                "--payload: {} is the same log as {}, which is without the payload: give a log of the arm that carries it",
+                loaded.display(),
+                unloaded.display()
+            )));
+        }
         let progress = Progress::new();
         let mut faults = Vec::new();
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);

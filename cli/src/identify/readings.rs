@@ -193,7 +193,7 @@ pub(super) fn others(
         identify: plain(identify, found, &log),
         log,
     };
-    let as_logged = asked.left(&asked.log)?;
+    let as_logged = asked.fit(&asked.log)?.left;
     let mut candidates = Vec::new();
     for reading in units(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
@@ -213,20 +213,14 @@ pub(super) fn others(
             candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
-    // Of readings that are as good, the plainest.
-    let best = candidates.into_iter().reduce(|best, next| {
-        if all(&next.left) < LESS * all(&best.left) {
-            next
-        } else {
-            best
-        }
-    })?;
+    let best = candidates.into_iter().reduce(Candidate::better)?;
+    let best_left = &best.found.left;
     let most = |percents: &[f64]| percents.iter().copied().fold(0.0, f64::max);
-    (FACTOR * all(&best.left) < all(&as_logged)).then(|| {
+    (FACTOR * all(best_left) < all(&as_logged)).then(|| {
         let [what, question] = best.reading.said(&found.joints);
         format!(
             "with {what} the model leaves {:.1} % of the torque of its worst joint, as logged {:.0} %: {question}",
-            most(&best.left),
+            most(best_left),
             most(&as_logged)
         )
     })
@@ -308,10 +302,33 @@ fn plain(identify: &Identify, found: &Estimate, log: &Log) -> Identify {
     }
 }
 
-/// A reading and what it leaves of each joint's torque, percent.
+/// What a fit leaves and finds.
+struct Found {
+    /// Of each joint's torque, percent.
+    left: Vec<f64>,
+    /// Parameters below zero that no arm has there.
+    impossible: usize,
+}
+
+/// A reading and what comes of it.
 struct Candidate {
     reading: Reading,
-    left: Vec<f64>,
+    found: Found,
+}
+
+impl Candidate {
+    /// The better of two. One torque the other way round is all others the other way round, with an arm of negative parameters: of readings
+    /// that are as good the possible one, and of these the first, which is the plainest.
+    fn better(self, next: Self) -> Self {
+        let [best, other] = [&self, &next].map(|one| all(&one.found.left));
+        let is_less = other < LESS * best;
+        let is_alike = LESS * other <= best;
+        if is_less || is_alike && next.found.impossible < self.found.impossible {
+            next
+        } else {
+            self
+        }
+    }
 }
 
 /// What is asked.
@@ -322,15 +339,19 @@ struct Asked<'a> {
 }
 
 impl Asked<'_> {
-    fn left(&self, log: &Log) -> Option<Vec<f64>> {
+    fn fit(&self, log: &Log) -> Option<Found> {
         let found = self.form.fit(&self.identify, std::slice::from_ref(log));
-        let left = found.ok()?.relative_percent;
-        all(&left).is_finite().then_some(left)
+        let found = found.ok()?;
+        let pairs = found.parameters.iter().zip(self.form.unknowns());
+        let impossible = pairs.filter(|(own, unknown)| unknown.nonnegative && own.value < 0.0);
+        let impossible = impossible.count();
+        let left = found.relative_percent;
+        all(&left).is_finite().then_some(Found { left, impossible })
     }
 
     fn read(&self, reading: Reading) -> Option<Candidate> {
-        let left = self.left(&reading.of(&self.log))?;
-        Some(Candidate { reading, left })
+        let found = self.fit(&reading.of(&self.log))?;
+        Some(Candidate { reading, found })
     }
 
     /// The order that exchanges of two columns lead to, one after the other, each of which leaves less. Torques that are another joint's
@@ -350,9 +371,10 @@ impl Asked<'_> {
                 order.swap(i, k);
                 self.read(Reading::Ordered(columns, order))
             });
-            let next = exchanged.min_by(|x, y| all(&x.left).total_cmp(&all(&y.left)))?;
-            let so_far = best.as_ref().map_or(as_logged, |best| &best.left);
-            if all(&next.left) > LESS * all(so_far) {
+            let next =
+                exchanged.min_by(|x, y| all(&x.found.left).total_cmp(&all(&y.found.left)))?;
+            let so_far = best.as_ref().map_or(as_logged, |best| &best.found.left);
+            if all(&next.found.left) > LESS * all(so_far) {
                 break;
             }
             if let Reading::Ordered(_, found) = &next.reading {

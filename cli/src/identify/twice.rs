@@ -31,6 +31,17 @@ pub(super) fn doubts(fitted: &[PathBuf], validate: Option<&Path>) -> Vec<String>
     found
 }
 
+/// A log that is to be one with a payload and is one without it.
+pub(super) fn with_and_without<'a>(
+    unloaded: &'a [PathBuf],
+    loaded: &'a [PathBuf],
+) -> Option<[&'a Path; 2]> {
+    loaded.iter().find_map(|loaded| {
+        let same = unloaded.iter().find(|unloaded| is_same(unloaded, loaded))?;
+        Some([loaded.as_path(), same.as_path()])
+    })
+}
+
 /// Whether two paths lead to the same file, or to the same content. What cannot be read is told by who reads it.
 fn is_same(one: &Path, other: &Path) -> bool {
     let real = |path: &Path| fs::canonicalize(path).ok();
@@ -86,5 +97,9 @@ mod tests {
         assert_eq!(count(&[&one, &other], Some(&copy)), 1);
         assert_eq!(count(&[&one], Some(&other)), 0);
         assert_eq!(count(&[&folder.path().join("none")], Some(&one)), 0);
+        let payload = |loaded: &PathBuf| {
+            with_and_without(std::slice::from_ref(&one), std::slice::from_ref(loaded)).is_some()
+        };
+        assert!(payload(&copy) && !payload(&other));
     }
 }

@@ -65,7 +65,10 @@ fn torques_in_another_unit_or_with_another_sign_are_noted() {
         "{said}"
     );
     let said = notes(&folder, &["true.robot", "turned.csv"]);
-    assert!(said.contains("the other way round on `lower`"), "{said}");
+    assert!(
+        said.contains("with the torque of `lower` the other way round the model leaves"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -129,14 +129,25 @@ fn a_payload_that_tells_no_gain_is_refused() {
     // On the first link a mass alone does what first moments do.
     let inner = ["--payload-mass", "0.8", "--payload-link", "up"];
     assert!(said(&inner).contains("no drive's gain is told"));
-    // Logs that have no payload.
-    let nothing = [
-        "identify",
-        "drives.robot",
-        "empty.csv",
-        "--payload",
-        "empty.csv",
-    ];
-    let said = folder.refuse(&[&nothing[..], &["--payload-mass", "0.8"]].concat());
-    assert!(said.contains("is it there in all of them"), "{said}");
+    // Logs that have no payload, and the log itself.
+    let log = folder.read("empty.csv");
+    let (shorter, _) = log.trim_end().rsplit_once('\n').expect("rows");
+    folder.write("again.csv", shorter);
+    for (payload, told) in [
+        ("again.csv", "is it there in all of them"),
+        (
+            "empty.csv",
+            "is the same log as empty.csv, which is without the payload",
+        ),
+    ] {
+        let nothing = [
+            "identify",
+            "drives.robot",
+            "empty.csv",
+            "--payload",
+            payload,
+        ];
+        let said = folder.refuse(&[&nothing[..], &["--payload-mass", "0.8"]].concat());
+        assert!(said.contains(told), "{said}");
+    }
 }

@@ -53,3 +53,4 @@ mod slower;
 mod starts;
 mod trace;
 mod turns;
+mod verdicts;

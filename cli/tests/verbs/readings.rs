@@ -214,6 +214,20 @@ fn one_joint_in_degrees_or_of_the_other_sign_is_told_by_the_torques() {
     }
 }
 
+/// The torque of one of two joints the other way round is that of the other, with an arm of negative friction and links.
+#[test]
+fn a_torque_is_the_other_way_round_where_the_arm_is_possible() {
+    let folder = crate::payload::folder("");
+    let log = folder.read("empty.csv");
+    let (header, rows) = log.split_once('\n').expect("a header");
+    for (column, joint) in [("tau1", "up"), ("tau2", "lo")] {
+        folder.write("other.csv", &scaled(header, rows, column, -1.0));
+        let said = folder.run(&["identify", "arm.robot", "other.csv"]).stderr;
+        let told = format!("with the torque of `{joint}` the other way round the model leaves");
+        assert!(said.contains(&told), "{said}");
+    }
+}
+
 /// The way out that is told leads out.
 #[test]
 fn a_column_that_the_spec_turns_is_that_of_the_joint() {
