@@ -21,7 +21,10 @@ impl Completions {
         let mut command = CommandLine::command();
         let name = command.get_name().to_owned();
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut command, name, &mut text);
-        output::print(&String::from_utf8_lossy(&text))
+        clap_complete::generate(self.shell, &mut command, &name, &mut text);
+        let text = String::from_utf8_lossy(&text);
+        // The generator for bash has a hyphen in one way where it sets a verb and in another where it looks for it.
+        let [set, looked_for] = ["__", "__subcmd__"].map(|hyphen| name.replace('-', hyphen));
+        output::print(&text.replace(&looked_for, &set))
     }
 }

@@ -142,7 +142,7 @@ impl<'a> Evidence<'a> {
         };
         let left = self.errors.iter().map(|(of, errors)| {
             format!(
-                "Of the torque of no joint more than {:.2} % is left ({of}).",
+                "At most {:.2} % of a joint's torque is left ({of}).",
                 most(errors)
             )
         });
@@ -208,7 +208,7 @@ impl<'a> Evidence<'a> {
             arm,
             estimate,
         };
-        let drawn = Drawn::new(&[shown], log)?;
+        let drawn = Drawn::new(&self.compiled.model, &[shown], log)?;
         // Those of which most is left.
         let left = &estimate.relative_percent;
         let mut worst: Vec<usize> = (0..arm.dof()).collect();

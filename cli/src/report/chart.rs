@@ -5,17 +5,21 @@ use std::ops::Range;
 
 use plotters::prelude::*;
 
+use super::axis::Axis;
 use super::page::escaped;
 use crate::output::significant;
 
-const SIZE: (u32, u32) = (420, 270);
+const SIZE: (u32, u32) = (420, 290);
+
+/// Letters at axes.
+pub(super) const TEXT: (&str, i32) = ("sans-serif", 15);
 
 /// A string takes whatever is drawn on it.
-const DRAWN: &str = "drawing on a string does not fail";
+pub(super) const DRAWN: &str = "drawing on a string does not fail";
 
 /// Stand-ins for colors that the style of the page has.
-const GRID: RGBColor = RGBColor(1, 2, 3);
-const INK: RGBColor = RGBColor(4, 5, 6);
+pub(super) const GRID: RGBColor = RGBColor(1, 2, 3);
+pub(super) const INK: RGBColor = RGBColor(4, 5, 6);
 
 /// What is drawn in which color.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,7 +32,7 @@ pub(crate) enum Ink {
 impl Ink {
     const ALL: [Self; 3] = [Self::Measured, Self::Before, Self::After];
 
-    const fn stand_in(self) -> RGBColor {
+    pub(super) const fn stand_in(self) -> RGBColor {
         match self {
             Self::Measured => RGBColor(7, 8, 9),
             Self::Before => RGBColor(10, 11, 12),
@@ -81,18 +85,23 @@ impl Chart<'_> {
         };
         let (x, y) = (roomy(points().map(|p| p.0)), roomy(points().map(|p| p.1)));
         let (x_span, y_span) = (x.end - x.start, y.end - y.start);
+        let axis = if self.is_logarithmic {
+            Axis::of_powers
+        } else {
+            Axis::linear
+        };
         let mut text = String::new();
         {
             let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
             let mut chart = ChartBuilder::on(&root)
                 .margin(6)
-                .x_label_area_size(34)
-                .y_label_area_size(52)
-                .build_cartesian_2d(x, y)
+                .x_label_area_size(42)
+                .y_label_area_size(66)
+                .build_cartesian_2d(axis(x), axis(y))
                 .expect(DRAWN);
             let tick = |value: f64, span: f64| {
                 if self.is_logarithmic {
-                    significant(10.0_f64.powf(value), 2)
+                    significant(10.0_f64.powf(value), 1)
                 } else if value.abs() < ROUNDING * span {
                     tick(0.0)
                 } else {
@@ -104,13 +113,11 @@ impl Chart<'_> {
                 .light_line_style(TRANSPARENT)
                 .bold_line_style(GRID)
                 .axis_style(INK)
-                .x_labels(6)
-                .y_labels(6)
                 .x_label_formatter(&|value| tick(*value, x_span))
                 .y_label_formatter(&|value| tick(*value, y_span))
                 .x_desc(self.x)
                 .y_desc(self.y)
-                .label_style(("sans-serif", 11).into_font().color(&INK))
+                .label_style(TEXT.into_font().color(&INK))
                 .draw()
                 .expect(DRAWN);
             for series in &self.series {
@@ -128,49 +135,48 @@ impl Chart<'_> {
             }
             root.present().expect(DRAWN);
         }
-        self.on_page(&text)
+        on_page(&text, self.label, SIZE)
     }
+}
 
-    /// The same in the page's colors, with a label; dots of one color are one path, which is a tenth as long.
-    fn on_page(&self, svg: &str) -> String {
-        let mut out = String::with_capacity(svg.len() / 4);
-        let mut dots: Option<(&str, String)> = None;
-        for line in svg.lines() {
-            let dot = line.starts_with("<circle").then(|| dot(line)).flatten();
-            if let Some((color, at)) = dot {
-                match &mut dots {
-                    Some((same, path)) if *same == color => path.push_str(&at),
-                    other => {
-                        out.push_str(&path_of(other.take()));
-                        *other = Some((color, at));
-                    }
+/// A drawing in the page's colors, with a label; dots of one color are one path, which is a tenth as long.
+pub(super) fn on_page(svg: &str, label: &str, (width, height): (u32, u32)) -> String {
+    let mut out = String::with_capacity(svg.len() / 4);
+    let mut dots: Option<(&str, String)> = None;
+    for line in svg.lines() {
+        let dot = line.starts_with("<circle").then(|| dot(line)).flatten();
+        if let Some((color, at)) = dot {
+            match &mut dots {
+                Some((same, path)) if *same == color => path.push_str(&at),
+                other => {
+                    out.push_str(&path_of(other.take()));
+                    *other = Some((color, at));
                 }
-                continue;
             }
-            out.push_str(&path_of(dots.take()));
-            if line.starts_with("<svg") {
-                let (width, height) = SIZE;
-                writeln!(
-                    out,
-                    "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\">",
-                    escaped(self.label)
-                )
-                .expect("a string takes all");
-            } else {
-                out.push_str(line);
-                out.push('\n');
-            }
+            continue;
         }
         out.push_str(&path_of(dots.take()));
-        let hex = |color: RGBColor| format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2);
-        let mut out = out
-            .replace(&hex(GRID), "var(--grid)")
-            .replace(&hex(INK), "currentColor");
-        for color in Ink::ALL {
-            out = out.replace(&hex(color.stand_in()), color.style());
+        if line.starts_with("<svg") {
+            writeln!(
+                out,
+                "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\">",
+                escaped(label)
+            )
+            .expect("a string takes all");
+        } else {
+            out.push_str(line);
+            out.push('\n');
         }
-        out
     }
+    out.push_str(&path_of(dots.take()));
+    let hex = |color: RGBColor| format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2);
+    let mut out = out
+        .replace(&hex(GRID), "var(--grid)")
+        .replace(&hex(INK), "currentColor");
+    for color in Ink::ALL {
+        out = out.replace(&hex(color.stand_in()), color.style());
+    }
+    out
 }
 
 /// Color and path of a dot.
@@ -196,7 +202,7 @@ fn path_of(dots: Option<(&str, String)>) -> String {
 const ROUNDING: f64 = 1e-9;
 
 /// A number at an axis.
-fn tick(value: f64) -> String {
+pub(super) fn tick(value: f64) -> String {
     let text = format!("{value:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if value != 0.0 && (value.abs() < 1e-4 || value.abs() >= 1e6) {

@@ -3,12 +3,15 @@
 //! [`Page`] knows how a page is written and nothing of robots, `chart` draws, [`Drawn`] has what is drawn of models on a log, and `sections`
 //! what several verbs say. What stands in the report of a verb is the verb's own.
 
+mod axis;
+mod bars;
 mod chart;
 mod folder;
 mod page;
 mod sections;
 mod series;
 
+pub(crate) use bars::Bars;
 pub(crate) use chart::Ink;
 pub(crate) use folder::ReportFolder;
 pub(crate) use page::Page;

@@ -31,24 +31,35 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
             }
             None => ["-".to_owned(), "-".to_owned()],
         };
+        let (unit, meaning) = meaning(compiled, one.name);
         vec![
             one.name.to_owned(),
             told(one.value, 5),
             told(one.std.filter(|std| *std > 0.0), 3),
             ends[0].clone(),
             ends[1].clone(),
-            meaning(compiled, one.name),
+            unit.to_owned(),
+            meaning,
         ]
     });
     page.table(
-        "Parameters in SI units; intervals hold the value with 95 %, `-` where the logs do not tell it.",
-        &["parameter", "value", "deviation", "from", "to", "what it is"],
+        "Intervals hold the value with 95 %, `-` where the logs do not tell it.",
+        &[
+            "parameter",
+            "value",
+            "deviation",
+            "from",
+            "to",
+            "unit",
+            "what it is",
+        ],
         &rows.collect::<Vec<_>>(),
     );
 }
 
-/// The comment in the definition of an effect's parameter; of a base parameter what it is made of.
-fn meaning(compiled: &Compiled, name: &str) -> String {
+/// Unit and meaning: the comment in the definition of an effect's parameter, which has its unit; of a base parameter which moment of which
+/// link it is, with the others that it is a sum of.
+fn meaning(compiled: &Compiled, name: &str) -> (&'static str, String) {
     let model: &Model = &compiled.model;
     for (number, effect) in model.effects.iter().enumerate() {
         let prefix = format!("{}.", model.effect_name(number));
@@ -66,10 +77,49 @@ fn meaning(compiled: &Compiled, name: &str) -> String {
             .iter()
             .map(|one| (&one.name, &one.doc));
         if let Some((_, doc)) = linear.chain(shapes).find(|(one, _)| *one == own) {
-            return doc.split_whitespace().collect::<Vec<_>>().join(" ");
+            return ("", doc.split_whitespace().collect::<Vec<_>>().join(" "));
         }
     }
-    combination(compiled, name).unwrap_or_default()
+    let base = &compiled.base;
+    let place = base.names.iter().position(|one| one == name);
+    let Some(place) = place else {
+        return ("", String::new());
+    };
+    let (unit, moment) = moment(&compiled.standard[base.kept[place]].name);
+    let is_sum = base.combinations[place].len() > 1;
+    let sum = is_sum.then(|| combination(compiled, name)).flatten();
+    let meaning = match (moment.is_empty(), sum) {
+        (false, Some(sum)) => format!("{moment}, in a sum: {sum}"),
+        (false, None) => moment,
+        (true, sum) => sum.unwrap_or_default(),
+    };
+    (unit, meaning)
+}
+
+/// Unit and meaning of a link's standard parameter.
+fn moment(name: &str) -> (&'static str, String) {
+    let Some((link, own)) = name.rsplit_once('.') else {
+        return ("", String::new());
+    };
+    let axes: String = own.chars().skip(1).collect();
+    let (unit, what) = match (own.chars().next(), axes.as_str()) {
+        (Some('m'), "") => ("kg", format!("mass of {link}")),
+        (Some('m'), "x" | "y" | "z") => {
+            let what = format!("first moment of {link} along {axes} of its frame");
+            ("kg m", what)
+        }
+        (Some('i'), "xx" | "yy" | "zz") => {
+            let axis = &axes[..1];
+            let what = format!("moment of inertia of {link} about {axis} of its frame");
+            ("kg m^2", what)
+        }
+        (Some('i'), "xy" | "xz" | "yz") => {
+            let what = format!("product of inertia of {link}, {axes} of its frame");
+            ("kg m^2", what)
+        }
+        _ => ("", String::new()),
+    };
+    (unit, what)
 }
 
 /// What a base parameter is made of.
@@ -144,7 +194,10 @@ pub(crate) fn figures(
             page.figures(
                 &[drawn.torque(joint, name)],
                 &measured,
-                &format!("Measured and predicted torque of {name}, raw samples, N m or N."),
+                &format!(
+                    "Measured and predicted torque of {name}, raw samples, {}.",
+                    drawn.torque_unit(joint)
+                ),
             );
             page.figures(
                 &drawn.errors(joint, name),

@@ -5,6 +5,9 @@ use robot_model::identify::Estimate;
 use robot_model::log::Log;
 use robot_model::signal::{band_density, prepare};
 
+use robot_model_spec::Model;
+use robot_model_spec::model::JointKind;
+
 use super::chart::{Chart, Ink, Series};
 use crate::Error;
 
@@ -34,6 +37,32 @@ pub(crate) struct Drawn {
     velocity: Vec<Vec<f64>>,
     load: Vec<Vec<f64>>,
     row_time: Vec<f64>,
+    units: Vec<Units>,
+}
+
+/// Units of a joint.
+#[derive(Clone, Copy)]
+struct Units {
+    position: &'static str,
+    velocity: &'static str,
+    torque: &'static str,
+}
+
+impl Units {
+    const fn of(kind: JointKind) -> Self {
+        match kind {
+            JointKind::Revolute => Self {
+                position: "rad",
+                velocity: "rad/s",
+                torque: "N m",
+            },
+            JointKind::Prismatic => Self {
+                position: "m",
+                velocity: "m/s",
+                torque: "N",
+            },
+        }
+    }
 }
 
 struct OfModel {
@@ -44,8 +73,8 @@ struct OfModel {
 }
 
 impl Drawn {
-    /// Models on a log. Rows are those of the first model's filters.
-    pub(crate) fn new(models: &[Shown], log: &Log) -> Result<Self, Error> {
+    /// Models on a log of an arm. Rows are those of the first model's filters.
+    pub(crate) fn new(arm: &Model, models: &[Shown], log: &Log) -> Result<Self, Error> {
         let (first, last) = (&models[0], &models[models.len() - 1]);
         let bands = first.estimate.bands.at_rate(log.rate_hz());
         let prepared = prepare(log, &bands).map_err(robot_model::identify::IdentifyError::from)?;
@@ -84,7 +113,9 @@ impl Drawn {
             .map(|(_, value)| *value)
             .collect();
         let load = last.arm.rigid_torque(&prepared.motion, &shapes, &values);
+        let units = arm.joints.iter().map(|joint| Units::of(joint.kind));
         Ok(Self {
+            units: units.collect(),
             rate_hz: log.rate_hz(),
             time: log.time.clone(),
             models: models_drawn,
@@ -94,6 +125,11 @@ impl Drawn {
             row_time: pick(&prepared.motion.time),
             measured,
         })
+    }
+
+    /// Unit of a joint's torque.
+    pub(crate) fn torque_unit(&self, joint: usize) -> &'static str {
+        self.units[joint].torque
     }
 
     /// Measured torque and that of the last model over time.
@@ -107,7 +143,7 @@ impl Drawn {
         Chart {
             label: &format!("measured and predicted torque of {name} over time"),
             x: "time, s",
-            y: "torque",
+            y: &format!("torque, {}", self.units[joint].torque),
             is_logarithmic: false,
             series: vec![
                 line(Ink::Measured, &self.measured[joint]),
@@ -119,6 +155,11 @@ impl Drawn {
 
     /// Errors of all models over velocity, position, load, time and frequency.
     pub(crate) fn errors(&self, joint: usize, name: &str) -> Vec<String> {
+        let Units {
+            position,
+            velocity,
+            torque,
+        } = self.units[joint];
         let over = |what: &str, unit: &str, of: &[f64]| {
             let dots = |model: &OfModel| {
                 let values = &model.filtered[joint];
@@ -134,18 +175,18 @@ impl Drawn {
             };
             Chart {
                 label: &format!("residual torque of {name} over {what}"),
-                x: &format!("{what}{unit}"),
-                y: "residual",
+                x: &format!("{what}, {unit}"),
+                y: &format!("residual, {torque}"),
                 is_logarithmic: false,
                 series: self.models.iter().map(dots).collect(),
             }
             .svg()
         };
         vec![
-            over("velocity", ", rad/s or m/s", &self.velocity[joint]),
-            over("position", ", rad or m", &self.position[joint]),
-            over("load", " of the rigid body, N m or N", &self.load[joint]),
-            over("time", ", s", &self.row_time),
+            over("velocity", velocity, &self.velocity[joint]),
+            over("position", position, &self.position[joint]),
+            over("load of the rigid body", torque, &self.load[joint]),
+            over("time", "s", &self.row_time),
             self.spectrum(joint, name),
         ]
     }
@@ -175,7 +216,7 @@ impl Drawn {
         Chart {
             label: &format!("spectrum of the residual torque of {name}"),
             x: "frequency, Hz",
-            y: "residual per root of Hz",
+            y: &format!("residual, {}/\u{221a}Hz", self.units[joint].torque),
             is_logarithmic: true,
             series: self.models.iter().map(line).collect(),
         }

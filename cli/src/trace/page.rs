@@ -6,13 +6,15 @@ use robot_model::trace::{FloorFrom, Outcome};
 use super::doubt::{doubt, impossible, on_joints};
 use super::report::effect;
 use super::tried::rows;
-use super::whereabouts::whereabouts;
+use super::whereabouts::structure_left;
 use crate::Error;
-use crate::close_the_loop::Loop;
+use crate::close_the_loop::{Loop, Stage};
 use crate::diff::diff;
 use crate::identify::report::identified;
 use crate::output::significant;
-use crate::report::{Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters};
+use crate::report::{
+    Bars, Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters,
+};
 
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
@@ -105,14 +107,11 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
         page.part("What these logs cannot tell from it");
         page.preformatted(&doubt(spec, text, closed));
     }
-    let left: String = verdict
-        .left
-        .iter()
-        .map(|one| whereabouts(closed, one))
-        .collect();
+    let left = structure_left(closed).into_iter();
+    let left: Vec<String> = left.map(|said| said.join("; ")).collect();
     if !left.is_empty() {
         page.part("Where the structure lives that is left");
-        page.preformatted(&left);
+        page.list(&left);
     }
 }
 
@@ -153,6 +152,18 @@ fn errors(page: &mut Page, closed: &Loop) {
         Some(FloorFrom::Periods) => "what differs from period to period of the motion",
         _ => "what curves in quantities of the motion leave of data that they were not fitted on",
     };
+    page.figures(
+        &[bars(closed)],
+        &[("before", "declared model"), ("after", "amended model")],
+        &format!(
+            "Error over torque, in the filtered band, on {}.",
+            if closed.before.validation.is_some() {
+                "the log that was not fitted"
+            } else {
+                "the logs that were fitted"
+            }
+        ),
+    );
     page.table(
         &format!(
             "RMSE of raw samples in N m (prismatic joints: N), first and last second cut; relative errors in the filtered band. \
@@ -173,6 +184,28 @@ fn errors(page: &mut Page, closed: &Loop) {
     if closed.before.validation.is_none() {
         page.text("Give --validate for a log that is not fitted.");
     }
+}
+
+/// Relative errors of every joint, of the log that was not fitted where there is one.
+fn bars(closed: &Loop) -> String {
+    let percents = |stage: &Stage| {
+        let unseen = stage.validation.as_ref();
+        unseen.map_or_else(
+            || stage.estimate.relative_percent.clone(),
+            |errors| errors.relative_percent.clone(),
+        )
+    };
+    let mut models = vec![(Ink::Before, percents(&closed.before))];
+    if closed.changed.is_some() {
+        models.push((Ink::After, percents(closed.after())));
+    }
+    let bars = Bars {
+        label: "relative errors of every joint before and after the amendment",
+        x: "relative error, %",
+        joints: closed.before.arm.joints(),
+        models,
+    };
+    bars.svg()
 }
 
 fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
@@ -198,7 +231,8 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
         None => (&closed.traced[0], "the first log that was fitted"),
     };
     page.text(&format!("On {which}, {}.", log.source));
-    let drawn = Drawn::new(&models, log)?;
+    let model = &closed.before.arm.compiled().model;
+    let drawn = Drawn::new(model, &models, log)?;
     let named = |joint: usize| {
         let mut found = closed.verdict.findings.iter().chain(&closed.verdict.leads);
         found.any(|finding| finding.joints.contains(&joint))

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome, Whereabouts};
+use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
 use super::doubt::{doubt, impossible, on_joints};
 use super::report::effect;
 use super::tried::tried;
-use super::whereabouts::whereabouts;
+use super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
 use crate::diff::diff;
 use crate::output::{self, significant};
@@ -73,27 +73,10 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         )
         .expect("a string takes all");
     }
-    for (joint, left) in verdict.after.iter().enumerate() {
-        let is_told = |one: &Whereabouts| one.joint == joint;
-        if left.is_material() || verdict.left.iter().any(is_told) {
-            let name = &closed.before.arm.joints()[joint];
-            let share = 100.0 * left.share;
-            writeln!(
-                out,
-                "  {share:.0} % of the error's power on {name} still follows the motion"
-            )
-            .expect("a string takes all");
-            let is_unexplained = verdict.outcome == Outcome::Unexplained;
-            let exceeded = verdict.noise_floor[joint].exceeded();
-            if let Some(times) = exceeded.filter(|_| is_unexplained) {
-                writeln!(
-                    out,
-                    "    errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"
-                )
-                .expect("a string takes all");
-            }
-            let found = verdict.left.iter().filter(|one| one.joint == joint);
-            found.for_each(|one| out.push_str(&whereabouts(closed, one)));
+    for said in structure_left(closed) {
+        for (k, said) in said.iter().enumerate() {
+            let indent = if k == 0 { 2 } else { 4 };
+            writeln!(out, "{:indent$}{said}", "").expect("a string takes all");
         }
     }
     for told in impossible(closed) {

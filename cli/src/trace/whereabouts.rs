@@ -1,9 +1,7 @@
 //! What the structure of a residual follows from, for people.
 
-use std::fmt::Write;
-
 use robot_model::columns::Arm;
-use robot_model::trace::{Quantity, Share, Whereabouts};
+use robot_model::trace::{Outcome, Quantity, Share, Whereabouts};
 
 use crate::close_the_loop::Loop;
 use crate::output::significant;
@@ -15,8 +13,34 @@ const LEAST_PERCENT: f64 = 10.0;
 /// Position and velocity together are told where they say so much more than either alone.
 const MORE: f64 = 0.1;
 
+/// What is said of each joint's error that still follows the motion, or where it lives: the first says of which joint it is.
+pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
+    let verdict = &closed.verdict;
+    let joints = closed.before.arm.joints().iter().enumerate();
+    let told = joints.filter_map(|(joint, name)| {
+        let found = verdict.left.iter().filter(|one| one.joint == joint);
+        let found: Vec<String> = found.map(|one| whereabouts(closed, one)).collect();
+        let left = &verdict.after[joint];
+        if !left.is_material() && found.is_empty() {
+            return None;
+        }
+        let share = 100.0 * left.share;
+        let follows = format!("{share:.0} % of the error's power on {name} still follows the motion");
+        let exceeded = verdict.noise_floor[joint].exceeded();
+        let exceeded = exceeded.filter(|_| verdict.outcome == Outcome::Unexplained);
+        let exceeded = exceeded.map(|times| {
+            format!(
+                "errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"
+            )
+        });
+        let said = std::iter::once(follows).chain(exceeded).chain(found);
+        Some(said.collect())
+    });
+    told.collect()
+}
+
 /// One line: the term of the equations and the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.
-pub(super) fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
+fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let names = closed.before.arm.joints();
     let is_both = |share: &&Share| matches!(share.of, Quantity::Motion(_));
     let mut alone = one.shares.iter().filter(|share| !is_both(share));
@@ -47,18 +71,13 @@ pub(super) fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     });
     let term = term.filter(|(percent, _)| *percent >= LEAST_PERCENT);
     let told: Vec<String> = term.into_iter().map(|(_, told)| told).chain(told).collect();
-    let mut out = String::from("    of its residual out of fold: ");
-    if told.is_empty() {
-        out.push_str("no function of a position, velocity, acceleration, load or time");
+    let told = if told.is_empty() {
+        "no function of a position, velocity, acceleration, load or time".to_owned()
     } else {
-        out.push_str(&told.join(", "));
-    }
-    let percent = 100.0 * one.peak_share;
-    writeln!(
-        out,
-        "; highest line of its spectrum at {:.2} Hz ({percent:.0} %)",
-        one.peak_hz
+        told.join(", ")
+    };
+    let (peak, percent) = (one.peak_hz, 100.0 * one.peak_share);
+    format!(
+        "of its residual out of fold: {told}; highest line of its spectrum at {peak:.2} Hz ({percent:.0} %)"
     )
-    .expect("a string takes all");
-    out
 }

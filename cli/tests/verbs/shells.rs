@@ -43,9 +43,25 @@ fn every_shell_gets_its_completions() {
 fn bash_understands_its_completions() {
     let folder = Folder::new();
     folder.write("completions", &folder.succeed(&["completions", "bash"]));
-    let script = "source ./completions; set -- $(complete -p robot-model); while [ \"$1\" != -F ]; do shift; done; \
-                  COMP_WORDS=(robot-model ident); COMP_CWORD=1; $2 robot-model ident robot-model; echo ${COMPREPLY[@]}";
-    for arguments in [vec!["-n", "completions"], vec!["-c", script]] {
+    // What bash calls with the words so far, of which the last is completed.
+    let script = "source ./completions; set -- $(complete -p robot-model) \"$@\"; while [ \"$1\" != -F ]; do shift; done; call=$2; \
+                  while [ \"$1\" != robot-model ]; do shift; done; shift; COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); \
+                  $call robot-model \"${COMP_WORDS[COMP_CWORD]}\" \"${COMP_WORDS[COMP_CWORD - 1]}\"; echo ${COMPREPLY[@]}";
+    let of = |words: &'static [&'static str]| {
+        let first = ["-c", script, "bash"];
+        [&first[..], words].concat()
+    };
+    for (arguments, told) in [
+        (vec!["-n", "completions"], ""),
+        (of(&["robot-model", "ident"]), "identify"),
+        (of(&["robot-model", "identify", "--meth"]), "--method"),
+        (
+            of(&["robot-model", "identify", "--method", "phys"]),
+            "physical",
+        ),
+        (of(&["robot-model", "export", "--as", "mj"]), "mjcf"),
+        (of(&["robot-model", "calibrate", "stat"]), "static"),
+    ] {
         let bash = Command::new("bash")
             .current_dir(folder.path("."))
             .args(&arguments)
@@ -56,9 +72,8 @@ fn bash_understands_its_completions() {
         };
         let said = String::from_utf8_lossy(&bash.stderr);
         assert!(bash.status.success(), "{arguments:?}: {said}");
-        if arguments[0] == "-c" {
-            assert_eq!(String::from_utf8_lossy(&bash.stdout).trim(), "identify");
-        }
+        let completed = String::from_utf8_lossy(&bash.stdout);
+        assert_eq!(completed.trim(), told, "{arguments:?}");
     }
 }
 

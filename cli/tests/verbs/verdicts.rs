@@ -101,7 +101,7 @@ fn mended() -> Vec<Fault> {
             "samples are missing, 1 times, 6 samples in all",
             None,
         ),
-        ("late velocity", late, "dq1 is 0.06", Some("late-velocity")),
+        ("late velocity", late, "dq1 is 0.06", Some("velocity-late")),
         (
             "spikes",
             changed(spikes),

@@ -3,8 +3,8 @@
 use faer::Mat;
 
 /// A column is called not excited when its pivot, after every column was scaled to unit norm, is below this: its estimate
-/// would amplify errors a million times.
-pub const RANK_TOLERANCE: f64 = 1e-6;
+/// would amplify errors a hundred thousand times, which the digits of no log bear.
+pub const RANK_TOLERANCE: f64 = 1e-5;
 
 /// The columns of a factor that can be told from each other.
 pub(in crate::identify) struct Excited {
