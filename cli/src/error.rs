@@ -67,13 +67,7 @@ impl Error {
     pub(crate) fn read(path: &Path, error: &std::io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),
-            reason: match error.kind() {
-                std::io::ErrorKind::InvalidData => {
-                    "it is no text in UTF-8; save it as such, or name the file that has the text"
-                        .to_owned()
-                }
-                _ => error.to_string(),
-            },
+            reason: error.to_string(),
         }
     }
 

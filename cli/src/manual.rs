@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::builder::Resettable;
 use clap::{Args, Command, CommandFactory};
 use clap_mangen::Man as Page;
 
@@ -37,12 +38,26 @@ fn pages(command: &Command) -> Vec<(String, String)> {
     std::iter::once(page(command)).chain(below).collect()
 }
 
+/// A page and its file's name. Examples stand line by line, so that they can be copied.
 fn page(command: &Command) -> (String, String) {
-    let page = Page::new(command.clone());
+    let examples = command.get_after_help().map(ToString::to_string);
+    let page = Page::new(command.clone().after_help(Resettable::Reset));
     let name = page.get_filename();
     let mut text = Vec::new();
     page.render(&mut text).expect("a list takes all");
-    (name, String::from_utf8_lossy(&text).into_owned())
+    let mut text = String::from_utf8_lossy(&text).into_owned();
+    if let Some(examples) = examples {
+        let commands = examples.trim_start_matches("Examples:").trim_matches('\n');
+        text.push_str(".SH EXAMPLES\n.nf\n");
+        for line in commands.lines() {
+            // A hyphen is one that is typed, and a line that begins with a dot is none of the page's.
+            text.push_str("\\&");
+            text.push_str(&line.replace('\\', "\\e").replace('-', "\\-"));
+            text.push('\n');
+        }
+        text.push_str(".fi\n");
+    }
+    (name, text)
 }
 
 /// All of them, or none where one cannot be written.

@@ -42,8 +42,16 @@ fn read_at_most(path: &Path, most: usize) -> Result<String, Error> {
             reason: format!("it has more than {most} bytes; name a smaller file"),
         });
     }
-    let no_text = |_| failed(&io::ErrorKind::InvalidData.into());
-    String::from_utf8(bytes).map_err(no_text)
+    String::from_utf8(bytes).map_err(|error| {
+        let sound = error.utf8_error().valid_up_to();
+        let line = String::from_utf8_lossy(&error.as_bytes()[..sound]).matches('\n').count() + 1;
+        Error::Read {
+            path: path.to_owned(),
+            reason: format!(
+                "line {line} is no text in UTF-8; save the file as such, or name the file that has the text"
+            ),
+        }
+    })
 }
 
 /// Reads and checks a spec.

@@ -4,6 +4,8 @@
 mod build_script;
 #[path = "../examples/close_the_loop.rs"]
 mod close_the_loop;
+#[path = "../examples/custom_effect.rs"]
+mod custom_effect;
 #[path = "../examples/derive.rs"]
 mod derive;
 #[path = "../examples/node.rs"]
@@ -14,6 +16,11 @@ mod scalars;
 #[test]
 fn build_script() {
     build_script::main();
+}
+
+#[test]
+fn custom_effect() {
+    custom_effect::main().unwrap_or_else(|error| panic!("{error}"));
 }
 
 #[test]

@@ -209,6 +209,9 @@ struct Entry {
     help: Option<String>,
 }
 
+/// Mistakes that are shown at once: more of them follow from one another, mostly.
+const MOST_SHOWN: usize = 20;
+
 impl Diagnostics {
     /// Ties mistakes to the text that they were found in.
     #[must_use]
@@ -258,7 +261,7 @@ impl Diagnostics {
         })
     }
 
-    /// The way rustc shows errors: message, place, source line, help; with ANSI colors on request.
+    /// The way rustc shows errors: message, place, source line, help; with ANSI colors on request. Of very many the first ones.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
         let renderer = if color {
@@ -266,11 +269,15 @@ impl Diagnostics {
         } else {
             Renderer::plain()
         };
-        let mistakes: Vec<String> = self
-            .entries
-            .iter()
+        let shown = self.entries.iter().take(MOST_SHOWN);
+        let mut mistakes: Vec<String> = shown
             .map(|entry| renderer.render(&[self.group(entry)]))
             .collect();
+        if let Some(others) = self.entries.len().checked_sub(MOST_SHOWN + 1) {
+            let others = others + 1;
+            let mistake = if others == 1 { "mistake" } else { "mistakes" };
+            mistakes.push(format!("{others} more {mistake}: mend those above first"));
+        }
         mistakes.join("\n\n")
     }
 
@@ -324,6 +331,27 @@ mod tests {
         let again: Vec<Diagnostic> = Diagnostic::from_syn(mistake.to_syn_error()).collect();
         assert_eq!(again[0].message(), "wrong");
         assert_eq!(again[0].help_text(), Some("do it right"));
+    }
+
+    #[test]
+    fn of_many_mistakes_the_first_are_shown() {
+        let shown = |count: usize| {
+            let mistakes = (0..count)
+                .map(|k| Diagnostic::new(Span::call_site(), format!("wrong {k}"), "here"));
+            Diagnostics::new("arm.robot", "robot A {}", mistakes.collect()).render(false)
+        };
+        let all = shown(20);
+        assert!(
+            all.matches("error: wrong").count() == 20 && !all.contains("more mistake"),
+            "{all}"
+        );
+        for (count, told) in [(21, "1 more mistake:"), (2000, "1980 more mistakes:")] {
+            let some = shown(count);
+            assert!(
+                some.matches("error: wrong").count() == 20 && some.contains(told),
+                "{some}"
+            );
+        }
     }
 
     #[test]

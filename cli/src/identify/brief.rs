@@ -2,6 +2,7 @@
 
 use robot_model::identify::{Estimate, Factor};
 
+use super::doubts;
 use crate::output;
 
 /// Independent samples of all joints for a parameter. Of 80 simulated logs each of a two-link arm, with noise correlated over 20 ms, intervals
@@ -11,8 +12,19 @@ const ENOUGH: f64 = 15.0;
 /// With fewer a fifth of the intervals miss.
 const TOO_FEW: f64 = 3.0;
 
-/// What is said of logs with few independent samples.
+/// Share of a joint's error that is of a late channel, from where on that is most of it.
+const MOSTLY: f64 = 0.5;
+
+/// What is said of logs with few independent samples. Errors that a late channel makes, or a model that does not fit, are alike along the
+/// whole motion, and longer logs would have no more of them.
 pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
+    let is_late = estimate.delays.iter().any(|late| late.gain > MOSTLY);
+    let is_ill = doubts::left(estimate)
+        .iter()
+        .any(|percent| *percent > doubts::MUCH);
+    if is_late || is_ill {
+        return None;
+    }
     let independent: f64 = estimate.effective_samples.as_ref()?.iter().sum();
     said(independent, estimate.rank)
 }

@@ -27,9 +27,19 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
             standing.join(", ")
         ),
     };
+    let drowned = match estimate.drowned {
+        0 => String::new(),
+        count => format!(
+            "; {} noise of the positions alone: lower `--bands` leave less of it, and `iv` needs none",
+            match count {
+                1 => "one of these directions is".to_owned(),
+                _ => format!("{count} of these directions are"),
+            }
+        ),
+    };
     estimate.separated().map_err(|error| {
         Error::Argument(format!(
-            "{error}{standing}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
+            "{error}{standing}{drowned}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
              part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`"
         ))
     })

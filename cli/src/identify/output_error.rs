@@ -3,6 +3,7 @@
 mod beginning;
 mod bounds;
 mod directions;
+mod hold;
 mod law;
 mod options;
 mod recordings;
@@ -87,6 +88,7 @@ impl IdentifyArguments {
         let asked = std::mem::replace(&mut settings.window, found.window);
         let mut said = beginning.doubts(&form, &logs, &found);
         said.extend(shorter_windows(asked, found.window));
+        said.extend(hold::doubt(&beginning.names, &found));
         said.extend(mended_torques(&settings, &faults));
         said.extend(twice::doubts(&self.logs, self.validate.as_deref()));
         for doubt in said {

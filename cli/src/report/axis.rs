@@ -7,8 +7,9 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 /// Ticks at an axis, about.
 const TICKS: f64 = 5.0;
 
-/// Powers of ten that an axis spans at least where no numbers between them have ticks.
+/// Powers of ten that an axis spans at least where no numbers between them have ticks, and where few have.
 const WIDE: f64 = 2.0;
+const NARROW: f64 = 0.8;
 
 /// Numbers from one end to the other, with ticks.
 pub(super) struct Axis {
@@ -35,12 +36,12 @@ impl Axis {
         Self { range, ticks }
     }
 
-    /// Of powers of ten, whose exponents the range has: a tick at each, on a short axis at 2 and 5 times each, too.
+    /// Of powers of ten, whose exponents the range has: a tick at each, on a short axis at multiples of each, too.
     pub fn of_powers(range: Range<f64>) -> Self {
-        let between: &[f64] = if range.end - range.start < WIDE {
-            &[1.0, 2.0, 5.0]
-        } else {
-            &[1.0]
+        let between: &[f64] = match range.end - range.start {
+            span if span < NARROW => &[1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0],
+            span if span < WIDE => &[1.0, 2.0, 5.0],
+            _ => &[1.0],
         };
         let first = range.start.floor();
         let powers = (0..).map(|k| first + f64::from(k));
@@ -100,6 +101,7 @@ mod tests {
         near(Axis::linear(0.0..11.2), &[0.0, 5.0, 10.0]);
         near(Axis::linear(1e-7..5.2e-7), &[1e-7, 2e-7, 3e-7, 4e-7, 5e-7]);
         near(Axis::of_powers(-0.7..2.3), &[0.0, 1.0, 2.0]);
+        near(Axis::of_powers(0.1..0.5), &[1.5, 2.0, 3.0].map(f64::log10));
         near(
             Axis::of_powers(0.1..1.1),
             &[2.0_f64.log10(), 5.0_f64.log10(), 1.0],

@@ -9,12 +9,15 @@ use crate::output::significant;
 
 /// Width of the drawing, and what each joint adds to its height.
 const WIDTH: u32 = 640;
-const EACH: u32 = 44;
-const AROUND: u32 = 64;
+const EACH: u32 = 56;
+const AROUND: u32 = 90;
 
 /// Room for a letter of a joint's name, and for the numbers behind the bars as a share of the longest one.
 const LETTER: usize = 8;
 const ROOM: f64 = 0.12;
+
+/// Between a bar and its number, as a share of the axis.
+const GAP: f64 = 0.008;
 
 /// Share of a joint's height that its bars have.
 const FILLED: f64 = 0.76;
@@ -83,8 +86,8 @@ impl Bars<'_> {
                     .color(&INK)
                     .pos(Pos::new(HPos::Left, VPos::Center));
                 let number = |(joint, value): (usize, &f64)| {
-                    let at = (*value, top(joint) - each / 2.0);
-                    Text::new(format!(" {}", significant(*value, 3)), at, style.clone())
+                    let at = (*value + GAP * end, top(joint) - each / 2.0);
+                    Text::new(significant(*value, 3), at, style.clone())
                 };
                 chart
                     .draw_series(values.iter().enumerate().map(number))
@@ -116,13 +119,13 @@ mod tests {
         for told in [
             "one",
             "two",
-            " 10.0",
-            " 0.500",
-            " 2.00",
-            " 0.250",
+            "10.0",
+            "0.500",
+            "2.00",
+            "0.250",
             "relative error, %",
         ] {
-            assert!(svg.contains(told.trim()), "{told}: {svg}");
+            assert!(svg.contains(told), "{told}: {svg}");
         }
         // A bar five times as long as another.
         let widths = |ink: &str| -> Vec<f64> {

@@ -101,7 +101,8 @@ impl Chart<'_> {
                 .expect(DRAWN);
             let tick = |value: f64, span: f64| {
                 if self.is_logarithmic {
-                    significant(10.0_f64.powf(value), 1)
+                    let digits = significant(10.0_f64.powf(value), 2);
+                    tick(digits.parse().unwrap_or_default())
                 } else if value.abs() < ROUNDING * span {
                     tick(0.0)
                 } else {

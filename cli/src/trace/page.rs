@@ -105,7 +105,9 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     }
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
         page.part("What these logs cannot tell from it");
-        page.preformatted(&doubt(spec, text, closed));
+        let doubt = doubt(spec, text, closed);
+        let lines = doubt.lines().map(|line| line.trim().to_owned());
+        page.list(&lines.collect::<Vec<_>>());
     }
     let left = structure_left(closed).into_iter();
     let left: Vec<String> = left.map(|said| said.join("; ")).collect();

@@ -124,7 +124,7 @@ fn names_a_place(said: &str) -> bool {
             .split_once(':')
             .is_some_and(|(line, column)| is_number(line) && is_number(column))
     });
-    in_text || said.contains("cannot read `arm.robot`: it is no text")
+    in_text || said.contains("cannot read `arm.robot`: line ")
 }
 
 #[test]

@@ -135,10 +135,10 @@ fn what_is_not_finite_is_refused_with_its_state() {
 #[test]
 fn what_is_no_text_is_refused_with_the_way_out() {
     let folder = Folder::new();
-    std::fs::write(folder.path("arm.robot"), [0xff, 0xfe, 0x00]).expect("a file in the folder");
+    std::fs::write(folder.path("arm.robot"), b"robot A {\n\xff\xfe").expect("a file in the folder");
     assert_eq!(
         folder.refuse(&["check", "arm.robot"]),
-        "error: cannot read `arm.robot`: it is no text in UTF-8; save it as such, or name the file that has the text\n"
+        "error: cannot read `arm.robot`: line 2 is no text in UTF-8; save the file as such, or name the file that has the text\n"
     );
 }
 

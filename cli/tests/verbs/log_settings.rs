@@ -339,7 +339,7 @@ fn a_damaged_file_is_refused_with_its_place() {
     std::fs::write(folder.path("robot-model.toml"), [b'[', 0xff, 0xfe]).expect("a file");
     let said = folder.refuse(&["identify", "cart.robot", "log.csv"]);
     assert!(
-        said.contains("cannot read `robot-model.toml`: it is no text in UTF-8"),
+        said.contains("cannot read `robot-model.toml`: line 1 is no text in UTF-8"),
         "{said}"
     );
 }

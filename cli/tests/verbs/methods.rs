@@ -118,6 +118,35 @@ fn instruments_see_what_noisy_accelerations_hide() {
     assert!((values(&fit, "value")[2] - TRUTH[2]).abs() < 0.01);
 }
 
+/// Filters so wide that accelerations are noise: instruments part what least squares is refused.
+#[test]
+fn what_noise_drowns_instruments_tell() {
+    let folder = folder();
+    let wide = ["identify", "arm.robot", "log.csv", "--bands", "60,100,150"];
+    let refused = folder.refuse(&[&wide[..], &["--json", "fit.json"]].concat());
+    assert!(
+        refused.contains("noise of the positions alone: lower `--bands` leave less of it"),
+        "{refused}"
+    );
+    let (fit, _) = identify(
+        &folder,
+        "arm.robot",
+        &[
+            &wide[3..],
+            &["--method", "iv", "--instruments", "wanted.csv"],
+        ]
+        .concat(),
+    );
+    let (found, std) = (values(&fit, "value"), values(&fit, "std"));
+    for (c, truth) in TRUTH.iter().enumerate() {
+        let off = (found[c] - truth).abs();
+        assert!(
+            off < 3.5 * std[c] && std[c] < 0.01,
+            "{c}: {found:?} {std:?}"
+        );
+    }
+}
+
 /// What a simulation without noise wrote is a motion for instruments; that noise of the columns is left of the torque is no fault of the model.
 #[test]
 fn instruments_may_be_of_a_simulation() {

@@ -49,7 +49,7 @@ fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
         let page = Html::parse_document(&html);
         let fit = json(&folder.read("fit.json"));
         // The parameters of the page are those of JSON.
-        let rows = cells(&page, "Parameters in SI units");
+        let rows = cells(&page, "Intervals hold the value");
         let found = fit["parameters"].as_array().expect("a list");
         assert_eq!(rows.len(), found.len(), "{more:?}");
         for (row, parameter) in rows.iter().zip(found) {
@@ -91,7 +91,7 @@ fn the_report_of_a_payload_says_what_is_carried() {
         folder.succeed(&[&identify[..], &outputs, known].concat());
         let fit = json(&folder.read("fit.json"));
         let page = Html::parse_document(&folder.read("page/index.html"));
-        let rows = cells(&page, "Parameters in SI units");
+        let rows = cells(&page, "Intervals hold the value");
         let found = [&fit["parameters"], &fit["payload"]["parameters"]];
         let names = found
             .into_iter()

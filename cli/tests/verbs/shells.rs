@@ -98,7 +98,11 @@ fn the_manual_has_a_page_of_every_verb() {
             page.contains(&format!(".TH robot-model-{verb} 1")),
             "{page}"
         );
-        assert!(page.contains("Examples:"), "{verb}");
+        // As it is typed, a command a line.
+        let (_, examples) = page.split_once(".SH EXAMPLES\n.nf\n").expect("examples");
+        let command = format!("\\&  robot\\-model {verb}");
+        assert!(examples.contains(&command), "{verb}: {examples}");
+        assert!(!page.contains("EXTRA"), "{verb}");
     }
     assert!(folder.read("man1/robot-model.1") == page);
     assert!(

@@ -16,7 +16,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::least_squares::{Excited, Solution};
 use super::stack::Stack;
-use super::{Beyond, Identify, IdentifyError, logs::update_load};
+use super::{Beyond, Identify, IdentifyError, Method, logs::update_load};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::{Bands, Prepared, position_noise};
@@ -34,7 +34,8 @@ impl Identify {
         prepare: impl Fn(&[Log]) -> Result<Vec<Prepared>, IdentifyError>,
         (solution, shapes, mut stack): (Solution, Vec<f64>, Stack),
     ) -> Result<(Solution, Vec<f64>, Stack), IdentifyError> {
-        if self.beyond < Beyond::Deviations {
+        // Instruments have no noise, and say themselves what they part.
+        if self.beyond < Beyond::Deviations || self.method == Method::Instrumental {
             return Ok((solution, shapes, stack));
         }
         let pairs = logs.iter().zip(prepared).enumerate();

@@ -77,6 +77,8 @@ pub struct Estimate {
     pub combinations: Vec<Combination>,
     /// Condition number of the weighted regressor with columns of unit norm; of [`Method::Ridge`] of logs and nominal values together, as the rank.
     pub condition: f64,
+    /// Directions of the columns that count as silent since all that is seen of them is noise of the positions.
+    pub drowned: usize,
     /// Numerical rank of the regressor.
     pub rank: usize,
     /// `100 || residual || / || tau ||` per joint on the identification logs, filtered.
@@ -156,6 +158,7 @@ impl Estimate {
             unexcited: solution.unexcited.iter().map(name).collect(),
             combinations: Combination::all(solution, &fitted.names),
             condition: solution.condition,
+            drowned: solution.drowned,
             rank: solution.estimate.len() - solution.unexcited.len(),
             relative_percent: fitted.relative_percent,
             samples: fitted.samples,

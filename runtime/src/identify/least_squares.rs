@@ -70,6 +70,8 @@ struct Solved {
     /// The triangular factor of all rows with the target.
     r: Mat<f64>,
     excited: Excited,
+    /// Directions of noise alone, which are not among those.
+    drowned: usize,
     estimate: Vec<f64>,
 }
 
@@ -219,6 +221,7 @@ impl Factors {
         let Solved {
             r,
             excited: found,
+            drowned,
             estimate,
         } = self.solved(&scale);
         let unexcited: Vec<usize> = (0..self.unknowns)
@@ -239,6 +242,7 @@ impl Factors {
             estimate,
             std,
             unexcited,
+            drowned,
             shared,
             condition,
             sigma,
@@ -251,7 +255,10 @@ impl Factors {
         // Joints share columns: one factor of all is as high as it is wide, and pivoting costs what it should.
         let r = self.stacked(scale).qr().thin_R().to_owned();
         let noise = over_scales(&self.noise, scale, n);
-        let excited = drowned::told(Excited::new(&r, n), &noise);
+        let excited = Excited::new(&r, n);
+        let seen = excited.columns.len();
+        let excited = drowned::told(excited, &noise);
+        let drowned = seen - excited.columns.len();
         let right = Mat::from_fn(r.nrows(), 1, |row, _| r[(row, n)]);
         let solution = excited.kept.qr().solve_lstsq(&right);
         let mut estimate = vec![0.0; n];
@@ -261,6 +268,7 @@ impl Factors {
         Solved {
             r,
             excited,
+            drowned,
             estimate,
         }
     }

@@ -21,18 +21,26 @@ pub(super) fn make(
     stack: &Stack,
 ) -> Result<(), IdentifyError> {
     let worth = solution.worth(stack);
-    of_factors(nominal, prior, solution, &Factors::new(stack), &worth)
+    let of_noise = vec![1.0; nominal.len()];
+    of_factors(
+        nominal,
+        prior,
+        solution,
+        (&Factors::new(stack), &worth),
+        &of_noise,
+    )
 }
 
 /// Puts the estimate of logs and nominal values together in the place of that of the logs.
 ///
-/// `nominal` has one entry an unknown, `None` where the spec gives no value; `prior` is `d`; `worth` is `sigma sqrt(t)` of each joint.
+/// `nominal` has one entry an unknown, `None` where the spec gives no value; `prior` is `d`; `worth` is `sigma sqrt(t)` of each joint;
+/// `of_noise` is by how many times the variance that the noise of the logs makes is larger than that, unknown by unknown.
 pub(super) fn of_factors(
     nominal: &[Option<Nominal>],
     prior: f64,
     solution: &mut Solution,
-    factors: &Factors,
-    worth: &[f64],
+    (factors, worth): (&Factors, &[f64]),
+    of_noise: &[f64],
 ) -> Result<(), IdentifyError> {
     if !(prior > 0.0 && prior.is_finite()) {
         return Err(IdentifyError::Prior { prior });
@@ -45,10 +53,12 @@ pub(super) fn of_factors(
     let mut all = Mat::zeros(told.nrows() + n, n + 1);
     all.submatrix_mut(0, 0, told.nrows(), n + 1)
         .copy_from(&told);
+    let mut information = vec![0.0; n];
     for (c, nominal) in nominal.iter().enumerate() {
         if let Some(Nominal { value, size }) = nominal {
             let row = told.nrows() + c;
             let deviation = prior * size;
+            information[c] = deviation.powi(-2);
             all[(row, c)] = 1.0 / deviation;
             all[(row, n)] = value / deviation;
         }
@@ -74,7 +84,14 @@ pub(super) fn of_factors(
     solution.std = vec![0.0; n];
     for (k, &c) in columns.iter().enumerate() {
         solution.estimate[c] = solved[(k, 0)] / norms[c];
-        solution.std[c] = inverse[(k, k)].max(0.0).sqrt() / norms[c];
+        // What the logs' noise has of it, and what nominal values have that are off.
+        let of_prior = |(other, c): (usize, &usize)| {
+            let information = information[*c] / norms[*c].powi(2);
+            inverse[(k, other)].powi(2) * information
+        };
+        let of_prior: f64 = columns.iter().enumerate().map(of_prior).sum();
+        let of_logs = (inverse[(k, k)] - of_prior).max(0.0);
+        solution.std[c] = (of_noise[c] * of_logs + of_prior).sqrt() / norms[c];
     }
     // Nominal values part what the logs do not; where there are none either, sums are all that is told.
     solution.shared = shared;

@@ -10,6 +10,7 @@ use flate2::read::MultiGzDecoder;
 use super::LogError;
 use super::limits::LONGEST_ROW;
 use super::rows::{Rows, Table, unreadable};
+use super::words;
 
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -195,21 +196,28 @@ impl<'a> Records<'a> {
 }
 
 fn number(source: &str, line: u64, column: &str, field: &[u8]) -> Result<f64, LogError> {
-    let text = text_of(source, line, field)?.to_owned();
+    let text = text_of(source, line, field)?;
+    let told = || (source.to_owned(), column.to_owned(), words::field(text));
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(_) => Err(LogError::NotFinite {
-            source_name: source.to_owned(),
-            line,
-            column: column.to_owned(),
-            text,
-        }),
-        Err(_) => Err(LogError::NotANumber {
-            source_name: source.to_owned(),
-            line,
-            column: column.to_owned(),
-            text,
-        }),
+        Ok(_) => {
+            let (source_name, column, text) = told();
+            Err(LogError::NotFinite {
+                source_name,
+                line,
+                column,
+                text,
+            })
+        }
+        Err(_) => {
+            let (source_name, column, text) = told();
+            Err(LogError::NotANumber {
+                source_name,
+                line,
+                column,
+                text,
+            })
+        }
     }
 }
 

@@ -14,6 +14,24 @@ pub(super) fn list(names: &[String]) -> String {
     text.join(", ")
 }
 
+/// A field of a file as a message has it: the beginning of a long one, and nothing that a terminal obeys.
+pub(super) fn field(text: &str) -> String {
+    const SHOWN: usize = 60;
+    let mut shown = String::new();
+    for (k, c) in text.chars().enumerate() {
+        if k == SHOWN {
+            shown.push_str("..");
+            break;
+        }
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
+}
+
 pub(super) fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }
@@ -40,4 +58,17 @@ pub(super) fn in_unit(unit: Option<&str>) -> String {
     unit.map_or(String::new(), |unit| {
         format!(" in {unit} it would be one of an arm: `time = \"..\": {unit};` in the `log` of the spec says so")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::field;
+
+    #[test]
+    fn fields_are_short_and_no_orders_to_a_terminal() {
+        assert_eq!(field("three"), "three");
+        assert_eq!(field("\u{1b}[31mred\0"), "\\u{1b}[31mred\\u{0}");
+        let long = field(&"x".repeat(300_000));
+        assert!(long.len() == 62 && long.ends_with("x.."), "{long}");
+    }
 }

@@ -16,8 +16,8 @@ const OF_ONE: usize = 6;
 const OF_TWO: usize = 3;
 const OF_MANY: usize = 2;
 
-/// A valley whose cost is less than this share of another's is a deeper one.
-const DEEPER: f64 = 0.99;
+/// A valley whose cost is less than this share of another's is a deeper one; first parts of searches end roughly.
+const DEEPER: f64 = 0.95;
 
 /// Searches to the end, from the best places of all starts, until one has found the arm.
 const SEARCHES: usize = 3;

@@ -1,6 +1,7 @@
 //! `identify --method output-error`.
 
 mod falling;
+mod held;
 mod mistakes;
 
 use std::fmt::Write;

@@ -26,18 +26,19 @@ impl Factor {
         check_counts(&self.counts(), self.unknowns.len())?;
         let mut solution = self.solution(&factors, identify)?;
         check_excited(&solution)?;
-        let worth = self.worth(&solution);
         let mut possible = None;
         if identify.method == Method::Ridge {
-            let toward_cad = |solution: &mut Solution, factors: &Factors, worth: &[f64]| {
-                ridge::of_factors(&arm.nominal(), identify.prior, solution, factors, worth)
+            let toward_cad = |used: &Self, solution: &mut Solution, factors: &Factors| {
+                let worth = used.worth(solution);
+                let of_noise = used.beyond_worth(solution, factors, &worth);
+                let logs = (factors, worth.as_slice());
+                ridge::of_factors(&arm.nominal(), identify.prior, solution, logs, &of_noise)
             };
-            toward_cad(&mut solution, &factors, &worth)?;
+            toward_cad(self, &mut solution, &factors)?;
             if let Some(away) = away {
                 let factors = away.whole();
                 let mut without = away.solution(&factors, identify)?;
-                let worth = away.worth(&without);
-                toward_cad(&mut without, &factors, &worth)?;
+                toward_cad(away, &mut without, &factors)?;
                 let with = solution.clone();
                 turns::widen_between(&with, &without, &mut solution.std);
             }
@@ -47,6 +48,7 @@ impl Factor {
                 possible,
             });
         }
+        let worth = self.worth(&solution);
         let lone = self.deviations(&mut solution);
         if let Some(away) = away {
             turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);

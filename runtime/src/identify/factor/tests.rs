@@ -9,6 +9,8 @@ use crate::columns::Unknown;
 use crate::identify::Identify;
 use crate::identify::{JointRows, Segment, turns};
 
+mod worth;
+
 const TRUTH: [f64; 3] = [2.0, -0.5, 0.1];
 
 /// Two joints, three unknowns of which the first joint sees two; noise that is correlated over some ten samples.
@@ -188,35 +190,6 @@ fn deviations_from_blocks_are_the_spread_of_the_estimates() {
         let ratio = (told[c] / errors[c]).sqrt();
         assert!((ratio - 1.0).abs() < 0.15, "{c}: {ratio}");
     }
-}
-
-/// Noise that some nineteen samples share: `(1 + 0.9) / (1 - 0.9)`.
-#[test]
-fn what_a_sample_is_worth_is_told_by_blocks_as_by_rows() {
-    let whole = stack(7, 0, 12_000);
-    let identify = Identify::default();
-    let of_rows = identify.solve_stack(&whole).expect("samples").worth(&whole);
-    let worth = |count: usize| {
-        let mut factor = empty();
-        for part in parts(&whole, count) {
-            factor.push_rows(&part);
-        }
-        let solution = factor.whole().weighted(&[1.0, 1.0]);
-        (factor.worth(&solution), solution.sigma)
-    };
-    let (of_blocks, sigma) = worth(30);
-    for ((blocks, rows), sigma) in of_blocks.iter().zip(&of_rows).zip(&sigma) {
-        assert!((blocks / rows - 1.0).abs() < 0.25, "{blocks} {rows}");
-        let time = (blocks / sigma).powi(2);
-        assert!((time / 19.0 - 1.0).abs() < 0.4, "{time}");
-    }
-    // One block is fitted as well as it can be.
-    let (of_one, sigma) = worth(1);
-    let pairs = of_one.iter().zip(&sigma);
-    assert!(
-        pairs.into_iter().all(|(one, sigma)| one < &(3.0 * sigma)),
-        "{of_one:?}"
-    );
 }
 
 /// An unknown that the second joint tells along one of twelve blocks only, beside noise that is correlated.

@@ -3,7 +3,7 @@
 use faer::Mat;
 
 use super::{Factor, FactorRows};
-use crate::identify::least_squares::Solution;
+use crate::identify::least_squares::{Factors, Solution};
 
 impl Factor {
     /// What rows of each joint are divided by so that what they say is as sure as independent samples would make it: `sigma_j sqrt(t_j)`.
@@ -36,6 +36,32 @@ impl Factor {
             sigma * time.max(1.0).sqrt()
         };
         joints.map(of).collect()
+    }
+
+    /// By how many times the variance that estimates without each block tell is larger than that of samples that are worth so much, unknown
+    /// by unknown: what is slow shares its noise with more neighbors than what is fast.
+    pub(super) fn beyond_worth(
+        &self,
+        solution: &Solution,
+        factors: &Factors,
+        worth: &[f64],
+    ) -> Vec<f64> {
+        let pairs = worth.iter().zip(&solution.sigma);
+        let times: Vec<f64> = pairs
+            .map(|(worth, sigma)| (worth / sigma).powi(2))
+            .collect();
+        let of_worth = factors.solve(worth, &times).std;
+        let mut of_blocks = solution.clone();
+        self.deviations(&mut of_blocks);
+        let pairs = of_blocks.std.iter().zip(&of_worth);
+        let ratio = |(blocks, worth): (&f64, &f64)| {
+            if *worth > 0.0 {
+                (blocks / worth).powi(2).max(1.0)
+            } else {
+                1.0
+            }
+        };
+        pairs.map(ratio).collect()
     }
 }
 

@@ -11,6 +11,8 @@ pub struct Solution {
     pub std: Vec<f64>,
     /// Unknowns that the logs do not excite, ascending.
     pub unexcited: Vec<usize>,
+    /// Directions of the columns that count as silent since all that is seen of them is noise of the positions.
+    pub drowned: usize,
     /// Excited unknowns that stand for a combination with others.
     pub shared: Vec<Shared>,
     /// Ratio of the largest to the smallest singular value of the weighted regressor with columns of unit norm.

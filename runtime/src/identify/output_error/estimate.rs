@@ -74,6 +74,31 @@ pub struct OutputEstimate {
     pub window: Option<f64>,
     /// How logged torque goes between samples; none where a controller makes it.
     pub hold: Option<Hold>,
+    /// What was found where torque goes between samples in the other way, where the logs were asked which it is.
+    pub rival_hold: Option<RivalHold>,
+}
+
+/// What is found where torque goes between samples in another way than that which fits best.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct RivalHold {
+    /// How it goes there.
+    pub hold: Hold,
+    /// By which share errors of positions are larger there, in the geometric mean of the joints.
+    pub worse: f64,
+    /// Values, in the order of the parameters.
+    pub values: Vec<f64>,
+}
+
+impl RivalHold {
+    pub(super) fn of<P: Adjustable + Clone + Sync>(part: &Part<'_, P>, best: f64) -> Self {
+        let joints = part.problem.scale.len().max(1) as f64;
+        Self {
+            hold: part.problem.hold,
+            worse: ((part.error() - best) / joints).exp() - 1.0,
+            values: part.place.values.clone(),
+        }
+    }
 }
 
 pub(super) fn result<P: Adjustable + Clone + Sync>(
@@ -162,6 +187,7 @@ pub(super) fn result<P: Adjustable + Clone + Sync>(
         identifiability,
         window: *window,
         hold: problem.law.is_none().then_some(problem.hold),
+        rival_hold: None,
         starts: place.starts.iter().map(|x| x.as_slice().to_vec()).collect(),
         values: part.place.values,
     }

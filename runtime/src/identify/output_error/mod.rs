@@ -30,7 +30,7 @@ mod window;
 use crate::simulate::Adjustable;
 
 pub use error::OutputErrorError;
-pub use estimate::{Comparison, Distance, OutputEstimate};
+pub use estimate::{Comparison, Distance, OutputEstimate, RivalHold};
 pub use identifiable::{Direction, Identifiability};
 pub use law::{JointLaw, Law, Tap};
 pub use ratios::Ratio;
@@ -140,6 +140,7 @@ impl OutputError {
             }
             (whole, _) => whole?,
         };
+        let mut rival = None;
         // A search that has not come to its end would only be given more time.
         if part.found.1 == search::Ending::Converged && self.is_hold_open(recordings) {
             let window = part.window;
@@ -151,12 +152,21 @@ impl OutputError {
                 End::Fine,
             );
             // An arm that runs away was not driven so.
-            part = match other {
-                Ok(other) if other.error() < part.error() - FITS_BETTER => other,
-                _ => part,
-            };
+            if let Ok(other) = other {
+                let is_better = other.error() < part.error() - FITS_BETTER;
+                let (chosen, left) = if is_better {
+                    (other, part)
+                } else {
+                    (part, other)
+                };
+                rival = Some(RivalHold::of(&left, chosen.error()));
+                part = chosen;
+            }
         }
-        Ok(result(part, &parts.bounds, parts.iterates, names))
+        Ok(OutputEstimate {
+            rival_hold: rival,
+            ..result(part, &parts.bounds, parts.iterates, names)
+        })
     }
 
     /// How an arm with given parameters moves beside logs, with the start of each window fitted.

@@ -279,15 +279,19 @@ fn quantile(mut values: Vec<f64>, share: f64) -> f64 {
 /// Most values of a torque that is a command of a few levels, as a square wave or a random binary one: what stands and jumps there is no fault.
 const LEVELS: usize = 16;
 
+/// Values that differ by this share of the largest are one value, written by a program that computed it.
+const SAME: f64 = 1e-9;
+
 /// Whether a channel has no more than so many values.
 fn has_few_levels(values: &[f64], most: usize) -> bool {
-    let mut levels: Vec<u64> = Vec::new();
+    let largest = values
+        .iter()
+        .fold(0.0, |most: f64, value| most.max(value.abs()));
+    let mut levels: Vec<f64> = Vec::new();
     values.iter().all(|value| {
-        // Zero has two signs and is one value.
-        let bits = (value + 0.0).to_bits();
-        let is_new = !levels.contains(&bits);
-        if is_new {
-            levels.push(bits);
+        let is_old = |level: &f64| (level - value).abs() <= SAME * largest;
+        if !levels.iter().any(is_old) {
+            levels.push(*value);
         }
         levels.len() <= most
     })
