@@ -38,6 +38,7 @@ mod show;
 mod simulate;
 mod spec;
 mod trace;
+mod units;
 
 use std::ffi::OsString;
 use std::io::IsTerminal;

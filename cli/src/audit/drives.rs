@@ -1,11 +1,11 @@
 //! Whether motors move their joints at all: what holds a joint that creeps is below the largest torque of its motor.
 
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::JointKind;
 
 use super::friction::{Effects, fastest};
 use super::{Check, Quantity};
 use crate::parameters::Values;
+use crate::units::Units;
 
 /// `None` where the spec has no torque limits.
 pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
@@ -18,10 +18,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
     let findings = joints.iter().enumerate().filter_map(|(place, joint)| {
         let most = joint.limits.torque?;
         let hold = effects.hold(place, &fastest);
-        let unit = match joint.kind {
-            JointKind::Prismatic => "N",
-            JointKind::Revolute => "N m",
-        };
+        let unit = Units::of(joint.kind).torque;
         (hold > most).then(|| {
             let name = &joint.name;
             let said = format!(

@@ -12,6 +12,7 @@ use super::inertia::{pose, workspace};
 use super::{Check, Quantity};
 use crate::interpreted::states;
 use crate::parameters::Values;
+use crate::units::Units;
 
 /// Poses, directions of several joints, and speeds that are looked at.
 const POSES: usize = 8;
@@ -41,10 +42,7 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
     let workspace = workspace(compiled);
     let effects = Effects::new(compiled, values);
     let joints = &compiled.model.joints;
-    let unit = |joint: usize| match joints[joint].kind {
-        JointKind::Prismatic => "m/s",
-        JointKind::Revolute => "rad/s",
-    };
+    let unit = |joint: usize| Units::of(joints[joint].kind).velocity;
     let fastest = fastest(compiled);
     let worst = |direction: &[f64]| {
         let poses = (0..POSES).map(|k| pose(&workspace, k));

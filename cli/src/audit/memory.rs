@@ -8,12 +8,12 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::states::StateProgram;
-use robot_model_spec::model::JointKind;
 
 use super::friction::fastest;
 use super::{Check, Quantity};
 use crate::interpreted::states;
 use crate::parameters::Values;
+use crate::units::Units;
 
 /// Fast speeds as shares of the largest one, and the slow speed as a share of the fast one: one to so many.
 const SHARES: [f64; 6] = [0.05, 0.1, 0.2, 0.4, 0.7, 1.0];
@@ -66,10 +66,11 @@ pub(super) fn check(compiled: &Compiled, values: &Values) -> Option<Check> {
             let speed = share * fastest[joint];
             Some((turns.gain(joint, speed, way)?, speed, way))
         })?;
-        let (length, per) = match joints[joint].kind {
-            JointKind::Prismatic => ("m", "m/s"),
-            JointKind::Revolute => ("rad", "rad/s"),
-        };
+        let Units {
+            position: length,
+            velocity: per,
+            ..
+        } = Units::of(joints[joint].kind);
         let name = &joints[joint].name;
         let said = format!(
             "joint `{name}` is driven by what its effects remember: over and over {way:.2e} {length} at {:.3} {per} and as far at {speed:.3} {per} \

@@ -6,6 +6,7 @@ use plotters::prelude::*;
 use robot_model_spec::model::JointKind;
 
 use super::report::Found;
+use crate::units::Units;
 
 const SIZE: (u32, u32) = (840, 520);
 /// Values of the law drawn on either side.
@@ -45,10 +46,13 @@ pub(super) fn svg(found: &Found<'_>) -> String {
     let torques = branches.iter().flatten().map(|(_, f)| *f);
     let torques = torques.chain(bars.iter().flat_map(|(_, bar)| *bar));
     let shown = roomy(torques.chain([0.0]));
-    let (torque, speed) = match found.joint.kind {
-        JointKind::Revolute => ("friction torque, N m", "speed, rad/s"),
-        JointKind::Prismatic => ("friction force, N", "speed, m/s"),
+    let units = Units::of(found.joint.kind);
+    let what = match found.joint.kind {
+        JointKind::Revolute => "torque",
+        JointKind::Prismatic => "force",
     };
+    let torque = format!("friction {what}, {}", units.torque);
+    let speed = format!("speed, {}", units.velocity);
     let mut text = String::new();
     {
         let root = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();

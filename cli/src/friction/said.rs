@@ -3,10 +3,10 @@
 use std::fmt::Write;
 
 use robot_model::friction_curve::{Bristles, Fall, Value};
-use robot_model_spec::model::JointKind;
 
 use super::report::{Found, Parameter};
 use crate::output::counted;
+use crate::units::Units;
 
 /// Stribeck's fall is over at so many times its speed.
 const FALLEN: f64 = 3.0;
@@ -17,27 +17,9 @@ const NOTHING: f64 = 2.0;
 /// Points that are off the law by so many of their deviations are of another one.
 const MISFIT: f64 = 3.0;
 
-/// The units of a joint's torque, speed and position.
-struct Units {
-    torque: &'static str,
-    speed: &'static str,
-    position: &'static str,
-}
-
 impl Found<'_> {
     fn units(&self) -> Units {
-        match self.joint.kind {
-            JointKind::Revolute => Units {
-                torque: "N m",
-                speed: "rad/s",
-                position: "rad",
-            },
-            JointKind::Prismatic => Units {
-                torque: "N",
-                speed: "m/s",
-                position: "m",
-            },
-        }
+        Units::of(self.joint.kind)
     }
 
     /// What is to be known of the numbers before they are used.
@@ -53,14 +35,14 @@ impl Found<'_> {
                 doubts.push(format!(
                     "no speed is below the Stribeck speed of {:.4} {unit}: the breakaway torque is extrapolated from {least:.4} {unit}",
                     speed.value,
-                    unit = units.speed
+                    unit = units.velocity
                 ));
             }
             if most < FALLEN * speed.value {
                 doubts.push(format!(
                     "no speed is above {:.4} {}, where the fall is over: Coulomb and viscous friction are extrapolated",
                     FALLEN * speed.value,
-                    units.speed
+                    units.velocity
                 ));
             }
         }
@@ -68,7 +50,7 @@ impl Found<'_> {
             doubts.push(format!(
                 "one step of the encoder from sample to sample is {:.4} {}, above the Stribeck speed: velocities that are differences of samples \
                  do not tell the fall, the slopes of the stretches do",
-                curve.speed_step, units.speed
+                curve.speed_step, units.velocity
             ));
         }
         if law.coulomb.value < -NOTHING * law.coulomb.std {
@@ -161,7 +143,7 @@ impl Found<'_> {
         let units = self.units();
         let Units {
             torque,
-            speed,
+            velocity: speed,
             position,
         } = units;
         let (curve, law) = (self.curve, self.law);

@@ -4,6 +4,8 @@ use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
 
+use crate::units::Units;
+
 /// Positions and torques beyond this many times their limit are of another unit.
 const BEYOND: f64 = 3.0;
 
@@ -65,10 +67,7 @@ pub(crate) fn torques(model: &Model, log: &Log) -> Option<String> {
             .map(|tau| tau.abs())
             .fold(0.0, f64::max);
         let most = most * declared.actuator_gain.abs();
-        let unit = match declared.kind {
-            JointKind::Revolute => "N m",
-            JointKind::Prismatic => "N",
-        };
+        let unit = Units::of(declared.kind).torque;
         (most > BEYOND * limit)
             .then(|| format!("`{}` {most:.1} of {limit:.1} {unit}", declared.name))
     });

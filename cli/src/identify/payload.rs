@@ -86,13 +86,7 @@ impl IdentifyArguments {
             validate,
             faults,
         };
-        let identify = Identify {
-            method,
-            weights: self.weights.into(),
-            bands: self.bands,
-            leave_out_turns: self.rows.leave_out_turns,
-            ..Identify::default()
-        };
+        let identify = self.asked(method);
         progress.step("identifying");
         match self.payload_mass {
             None => self.carried(form, &identify, &logs, results, progress),

@@ -6,10 +6,10 @@ use robot_model::log::Log;
 use robot_model::signal::{band_density, prepare};
 
 use robot_model_spec::Model;
-use robot_model_spec::model::JointKind;
 
 use super::chart::{Chart, Ink, Series};
 use crate::Error;
+use crate::units::Units;
 
 /// Most dots of a color in a drawing, and most points of a line, two for each place.
 const DOTS: usize = 400;
@@ -38,31 +38,6 @@ pub(crate) struct Drawn {
     load: Vec<Vec<f64>>,
     row_time: Vec<f64>,
     units: Vec<Units>,
-}
-
-/// Units of a joint.
-#[derive(Clone, Copy)]
-struct Units {
-    position: &'static str,
-    velocity: &'static str,
-    torque: &'static str,
-}
-
-impl Units {
-    const fn of(kind: JointKind) -> Self {
-        match kind {
-            JointKind::Revolute => Self {
-                position: "rad",
-                velocity: "rad/s",
-                torque: "N m",
-            },
-            JointKind::Prismatic => Self {
-                position: "m",
-                velocity: "m/s",
-                torque: "N",
-            },
-        }
-    }
 }
 
 struct OfModel {

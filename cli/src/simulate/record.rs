@@ -6,10 +6,11 @@ use std::path::Path;
 use robot_model::log::JointStates;
 use robot_model::simulate::{Desired, Record, Trajectory};
 use robot_model_spec::Model;
-use robot_model_spec::model::{Joint, JointKind};
+use robot_model_spec::model::Joint;
 
 use super::Report;
 use crate::Error;
+use crate::units::Units;
 
 /// Whether a log is to be a bag of ROS 2, by its name.
 pub(super) fn is_bag(path: &Path) -> bool {
@@ -72,10 +73,7 @@ pub(super) fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
         report.seconds
     );
     for (joint, error) in joints.iter().zip(&report.tracking_error) {
-        let unit = match joint.kind {
-            JointKind::Prismatic => "m",
-            JointKind::Revolute => "rad",
-        };
+        let unit = Units::of(joint.kind).position;
         let _ = writeln!(
             text,
             "largest tracking error of {}: {error:.3e} {unit}",

@@ -29,6 +29,7 @@ mod friction;
 mod identifiable;
 mod identify;
 mod import;
+mod instruments;
 mod interrupted;
 mod log_settings;
 mod logs;

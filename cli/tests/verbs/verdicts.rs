@@ -108,7 +108,12 @@ fn mended() -> Vec<Fault> {
             "tau1: 41 samples are far from both their neighbors",
             Some("spikes"),
         ),
-        ("held samples", changed(held), "", None),
+        (
+            "held samples",
+            changed(held),
+            "tau1 stands still while the arm moves on",
+            Some("held"),
+        ),
         (
             "a drive at its limit",
             changed(|_, [t, q, dq, tau]| [t, q, dq, tau.clamp(-12.0, 12.0)]),
@@ -138,6 +143,9 @@ fn what_can_be_mended_is_told_and_the_arm_is_found() {
         let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
         assert!(run.stderr.contains(told), "{name}: {}", run.stderr);
+        // A sound log, and an encoder that is fine enough, are not talked about.
+        let is_noted = run.stderr.contains("note: ");
+        assert_eq!(is_noted, !told.is_empty(), "{name}: {}", run.stderr);
         let fit = json(&folder.read("fit.json"));
         let faults = fit["data_faults"].as_array().expect("a list");
         let kinds: Vec<&str> = faults

@@ -22,52 +22,64 @@ impl Factor {
         identify: &Identify,
         away: Option<&Self>,
     ) -> Result<Solved, IdentifyError> {
-        let factors = self.whole();
-        check_counts(&self.counts(), self.unknowns.len())?;
-        let mut solution = self.solution(&factors, identify)?;
-        check_excited(&solution)?;
-        let mut possible = None;
         if identify.method == Method::Ridge {
-            let toward_cad = |used: &Self, solution: &mut Solution, factors: &Factors| {
-                let worth = used.worth(solution);
-                let of_noise = used.beyond_worth(solution, factors, &worth);
-                let logs = (factors, worth.as_slice());
-                ridge::of_factors(&arm.nominal(), identify.prior, solution, logs, &of_noise)
-            };
-            toward_cad(self, &mut solution, &factors)?;
-            if let Some(away) = away {
-                let factors = away.whole();
-                let mut without = away.solution(&factors, identify)?;
-                toward_cad(away, &mut without, &factors)?;
-                let with = solution.clone();
-                turns::widen_between(&with, &without, &mut solution.std);
-            }
-            return Ok(Solved {
-                solution,
-                lone: Vec::new(),
-                possible,
-            });
+            return self.near_nominal(arm, identify, away);
         }
+        let (factors, mut solution) = self.told(identify)?;
         let worth = self.worth(&solution);
         let lone = self.deviations(&mut solution);
         if let Some(away) = away {
             turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
         }
+        let mut possible = None;
         if identify.method == Method::Physical {
             let percent = self.relative_percent(&solution.estimate);
-            possible = Some(possible::of_factors(
-                arm,
-                &mut solution,
-                &factors,
-                &worth,
-                percent,
-            )?);
+            let found = possible::of_factors(arm, &mut solution, &factors, &worth, percent)?;
+            possible = Some(found);
         }
         Ok(Solved {
             solution,
             lone,
             possible,
         })
+    }
+
+    /// The estimate toward nominal values, whose deviations are of logs and nominal values together.
+    fn near_nominal(
+        &self,
+        arm: &dyn Arm,
+        identify: &Identify,
+        away: Option<&Self>,
+    ) -> Result<Solved, IdentifyError> {
+        let nominal = arm.nominal();
+        let near = |used: &Self| -> Result<Solution, IdentifyError> {
+            let (factors, mut solution) = used.told(identify)?;
+            let worth = used.worth(&solution);
+            let of_noise = used.beyond_worth(&solution, &factors, &worth);
+            let logs = (&factors, worth.as_slice());
+            ridge::of_factors(&nominal, identify.prior, &mut solution, logs, &of_noise)?;
+            Ok(solution)
+        };
+        let mut solution = near(self)?;
+        // Where other rows do not tell, deviations stay as they are.
+        if let Some(Ok(without)) = away.map(near) {
+            let with = solution.clone();
+            turns::widen_between(&with, &without, &mut solution.std);
+        }
+        Ok(Solved {
+            solution,
+            lone: Vec::new(),
+            possible: None,
+        })
+    }
+
+    /// The factor of all blocks and what least squares finds of it, which is enough and tells something.
+    fn told(&self, identify: &Identify) -> Result<(Factors, Solution), IdentifyError> {
+        let factors = self.whole();
+        check_counts(&self.counts(), self.unknowns.len())?;
+        let solution = self.solution(&factors, identify)?;
+        check_excited(&solution)?;
+        Ok((factors, solution))
     }
 
     /// The solution of least squares that a method has or starts from.
