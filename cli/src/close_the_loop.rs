@@ -179,7 +179,9 @@ fn trace(
         if let Some(found) = &found {
             trace = trace.since(found.before.clone());
         }
-        let verdict = trace.run(&arm, &logs, &mut |stage| progress.step(stage))?;
+        let verdict = trace.run(&arm, &logs, &mut |stage| {
+            progress.stage(stage.words, stage.done)
+        })?;
         let (goes_on, fresh) = (verdict.goes_on, verdict.findings.len());
         let verdict = match found {
             Some(before) => before.followed_by(verdict),

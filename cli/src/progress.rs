@@ -89,6 +89,15 @@ impl Progress {
         bar.set_position(done);
     }
 
+    /// Says a stage: in plain lines where it begins, on a terminal with the part of it that is done, too.
+    pub(crate) fn stage(&self, what: &str, done: Option<f64>) {
+        match done {
+            Some(done) if self.is_live() => self.part(what, done),
+            Some(done) if done > 0.0 => {}
+            _ => self.step(what),
+        }
+    }
+
     /// Says one of many steps, and which part is behind where that is known; elsewhere than on a terminal only now and then.
     pub(crate) fn often(&self, what: &str, done: Option<f64>) {
         if self.bar.is_none() {

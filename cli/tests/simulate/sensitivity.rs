@@ -44,15 +44,25 @@ impl Motion {
         let size = 2 * n + arm.states();
         let mut start = DMatrix::zeros(size, u + 1);
         start[(n, u)] = 1.0;
-        let mut tangent = Tangent::new(arm, start);
-        let mut moving = self.integrator(arm, &self.dq);
-        for (k, torque) in self.torques.iter().enumerate() {
-            moving.drive(Drive {
-                torque: torque.clone(),
-                ..Drive::default()
-            });
-            let end = 0.1 * (k + 1) as f64;
-            moving.advance_with(end, &mut tangent).expect("a motion");
+        let follow = |mut tangent: Tangent| {
+            let mut moving = self.integrator(arm, &self.dq);
+            for (k, torque) in self.torques.iter().enumerate() {
+                moving.drive(Drive {
+                    torque: torque.clone(),
+                    ..Drive::default()
+                });
+                let end = 0.1 * (k + 1) as f64;
+                moving.advance_with(end, &mut tangent).expect("a motion");
+            }
+            (tangent.state, moving.work().events)
+        };
+        let tangent = Tangent::new(arm, start);
+        let (coarse, _) = follow(tangent.clone().coarse());
+        let (slopes, events) = follow(tangent);
+        for row in 0..size {
+            let most = 2e-3 * (1.0 + slopes.row(row).amax());
+            let away = (coarse.row(row) - slopes.row(row)).amax();
+            assert!(away < most, "row {row}: {away} of {most}");
         }
         let values = arm.values();
         for column in 0..=u {
@@ -71,15 +81,15 @@ impl Motion {
             });
             for row in 0..size {
                 let expected = (up[row] - down[row]) / (2.0 * step);
-                let found = tangent.state[(row, column)];
-                let most = within * (1.0 + tangent.state.row(row).amax());
+                let found = slopes[(row, column)];
+                let most = within * (1.0 + slopes.row(row).amax());
                 assert!(
                     (found - expected).abs() < most,
                     "row {row}, column {column}: {found} {expected}"
                 );
             }
         }
-        (tangent.state, moving.work().events)
+        (slopes, events)
     }
 }
 

@@ -1,7 +1,8 @@
 //! How a motion changes with what is unknown in it: exact sensitivities beside the motion itself.
 //!
-//! `S = dx/du` follows `dS/dt = f_x S + f_u` along each step between events: by the slopes of the explicit step itself, or, where the motion is
-//! stiff or the step short, by a rule of order four that is stable there (Lobatto IIIA). At an event, whose instant moves with the unknowns, it jumps:
+//! `S = dx/du` follows `dS/dt = f_x S + f_u` along each step between events: by the slopes of the explicit step itself; where the motion is
+//! stiff or the step short, by a rule of order four that is stable there (Lobatto IIIA); where it is very short, as between samples of a fast
+//! log, with the slopes of its middle (Magnus' expansion, to order two), if a search is content with that. At an event, whose instant moves with the unknowns, it jumps:
 //! `S+ = S- - (f- - f+) (g_x S- + g_u) / (dg/dt)-`, so that the velocity of a joint that comes to rest has no slope left.
 //!
 //! Source: Galan, Feehery, Barton 1999, Parametric sensitivity functions for hybrid discrete/continuous systems.
@@ -132,9 +133,18 @@ pub(super) struct Passage<'a> {
 /// Steps times the fastest rate of the motion: shorter ones are not worth the stages of an explicit step.
 const SHORT: f64 = 0.02;
 
+/// Those as short as this may take the slopes of their middle: what the motion turns them on the way changes `S` by less than a twelfth of the
+/// square of this, 8e-4.
+const BRIEF: f64 = 0.1;
+
 /// The same from where on an explicit step is not surely stable: what a step's error hardly shows of a stiff state that has settled, as of
 /// bristles under a joint that slides, would grow in sensitivities.
 const STIFF: f64 = 2.0;
+
+/// Fastest rate of a motion whose slope by its state is this, 1/s.
+fn fastest(by_state: &DMatrix<f64>) -> f64 {
+    (by_state * by_state).norm().sqrt()
+}
 
 /// What looks on while a plant moves; by itself it does nothing.
 pub(super) trait Watch<P> {
@@ -176,6 +186,9 @@ pub struct Tangent {
     /// Slope of the torque that is held, a row a joint.
     pub drive: DMatrix<f64>,
     slopes: ParameterSlopes,
+    /// Fastest rate of the motion in the last step, 1/s; infinite where none tells.
+    fastest: f64,
+    is_coarse: bool,
     /// At an event: the rate before it, and by how much its instant moves with each unknown.
     arrival: Option<(DVector<f64>, DVector<f64>)>,
 }
@@ -205,9 +218,32 @@ impl Tangent {
         Self {
             drive: DMatrix::zeros(plant.joints(), state.ncols()),
             slopes: ParameterSlopes::zeros(plant),
+            fastest: f64::INFINITY,
+            is_coarse: false,
             state,
             arrival: None,
         }
+    }
+
+    /// The same to a part in a thousand where steps are short, as between samples of a fast log: enough to search with, at half the work.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::Tangent;
+    /// // dq = v exp(-c t / m), so d dq / dc = -t dq / m; unknown are m and c, on which the start does not depend.
+    /// let mut tangent = Tangent::new(&block::Block([2.0, 0.7]), nalgebra::DMatrix::zeros(2, 2)).coarse();
+    /// let mut block = block::sliding();
+    /// for sample in 1..=100 {
+    ///     block.advance_with(0.01 * f64::from(sample), &mut tangent)?;
+    /// }
+    /// assert!((tangent.state[(1, 1)] / (-0.5 * block.dq()[0]) - 1.0).abs() < 1e-3);
+    /// # Ok::<(), robot_model::simulate::SimulateError>(())
+    /// ```
+    #[must_use]
+    pub fn coarse(mut self) -> Self {
+        self.is_coarse = true;
+        self
     }
 
     /// `f`, `f_x` and `f_u` at a state.
@@ -260,6 +296,26 @@ impl Tangent {
         Ok(())
     }
 
+    /// `S1 = exp(h f_x) (S0 + ...)` with slopes of the middle, to order three of `h`.
+    fn in_one<P: Adjustable>(
+        &mut self,
+        moving: &mut Moving<P>,
+        step: &Passage<'_>,
+    ) -> Result<(), SimulateError> {
+        let h = step.length;
+        let middle = (step.x + step.y) * 0.5;
+        let [_, by_state, by_unknowns] = self.linear(moving, step.start + 0.5 * h, &middle)?;
+        self.fastest = fastest(&by_state);
+        let mut term = by_unknowns;
+        term.gemm(h, &by_state, &self.state, h);
+        self.state += &term;
+        for order in [2.0, 3.0] {
+            term = &by_state * term * (h / order);
+            self.state += &term;
+        }
+        Ok(())
+    }
+
     /// `S1 = S0 + h/6 (F0 + 4 Fm + F1)` with `Sm = (S0 + S1)/2 + h/8 (F0 - F1)` and `F = f_x S + f_u`.
     fn collocated<P: Adjustable>(
         &mut self,
@@ -301,12 +357,16 @@ impl Tangent {
 
 impl<P: Adjustable> Watch<P> for Tangent {
     fn moved(&mut self, moving: &mut Moving<P>, step: &Passage<'_>) -> Result<(), SimulateError> {
-        let first = self.linear(moving, step.start, step.x)?;
-        let fastest = (&first[1] * &first[1]).norm().sqrt();
-        if step.is_explicit && (SHORT..STIFF).contains(&(step.length * fastest)) {
-            self.staged(moving, step, first)?;
+        if self.is_coarse && step.length * self.fastest < BRIEF {
+            self.in_one(moving, step)?;
         } else {
-            self.collocated(moving, step, first)?;
+            let first = self.linear(moving, step.start, step.x)?;
+            self.fastest = fastest(&first[1]);
+            if step.is_explicit && (SHORT..STIFF).contains(&(step.length * self.fastest)) {
+                self.staged(moving, step, first)?;
+            } else {
+                self.collocated(moving, step, first)?;
+            }
         }
         self.stand(moving);
         Ok(())
@@ -343,6 +403,7 @@ impl<P: Adjustable> Watch<P> for Tangent {
         time: f64,
         x: &DVector<f64>,
     ) -> Result<(), SimulateError> {
+        self.fastest = f64::INFINITY;
         if let Some((before, instants)) = self.arrival.take() {
             let after = moving.rate(time, x)?;
             self.state += (before - after) * instants.transpose();

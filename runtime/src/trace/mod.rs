@@ -54,6 +54,7 @@ mod score;
 mod search;
 mod slopes;
 mod small;
+mod stage;
 mod structure;
 mod sure;
 mod trial;
@@ -62,6 +63,7 @@ mod whereabouts;
 
 pub use floor::{Floor, FloorFrom};
 pub use search::{MOST_EFFECTS, Trace};
+pub use stage::Stage;
 pub use structure::Structure;
 pub use verdict::{
     Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,

@@ -27,14 +27,16 @@ const LEFT_OF_PERIOD: f64 = 0.15;
 const CHANGES: usize = 3;
 
 impl Search<'_> {
-    /// One round: the best candidate that passes, with its rivals.
+    /// One round: the best candidate that passes, with its rivals. `done` gets what part of it is behind.
     pub(super) fn round<'a>(
         &self,
         state: &State,
         grids: &[Grid<'a>],
         told: &mut Vec<Tried>,
+        done: &mut dyn FnMut(f64),
     ) -> Option<Accepted<'a>> {
-        let mut judged = self.judged(state, grids);
+        done(0.0);
+        let mut judged = self.judged(state, grids, done);
         let round = state.accepted.len();
         told.extend(judged.iter().map(|judged| judged.told(round)));
         judged.retain(Judged::passes);
@@ -46,7 +48,7 @@ impl Search<'_> {
 
     /// The torque that explains most of those that have nothing against them but their size.
     pub(super) fn small<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Option<Accepted<'a>> {
-        let mut judged = self.judged(state, grids);
+        let mut judged = self.judged(state, grids, &mut |_| ());
         judged.retain(|judged| judged.refusals == [Refusal::Small] && judged.changed.is_none());
         let best = judged
             .into_iter()
@@ -57,7 +59,12 @@ impl Search<'_> {
     }
 
     /// The candidates that explain most, judged.
-    fn judged<'a>(&self, state: &State, grids: &[Grid<'a>]) -> Vec<Judged<'a>> {
+    fn judged<'a>(
+        &self,
+        state: &State,
+        grids: &[Grid<'a>],
+        done: &mut dyn FnMut(f64),
+    ) -> Vec<Judged<'a>> {
         let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
         let tests = self.tests.get_or_init(|| {
             let (stack, sigma) = (&state.stack, &state.solution.sigma);
@@ -71,10 +78,12 @@ impl Search<'_> {
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut changes = 0;
-        let finalists = best.into_iter().take(FINALISTS);
-        finalists
+        best.truncate(FINALISTS);
+        let count = best.len();
+        best.into_iter()
             .enumerate()
             .filter_map(|(place, (_, trial))| {
+                done(place as f64 / count as f64);
                 let trial = trial.refined(&baseline.present, &self.prepared, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
                 let mut judged = if is_of_phase(trial.candidate) {

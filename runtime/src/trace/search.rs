@@ -15,6 +15,7 @@ use super::away::Looks;
 use super::conclude::{Told, changed, verdict};
 use super::folds::{self, Fold};
 use super::grid::Grid;
+use super::stage::Stage;
 use super::structure::Structure;
 use super::trial::Trial;
 use super::verdict::{Alternative, Evidence, Verdict};
@@ -97,7 +98,7 @@ impl<'a> Trace<'a> {
         self
     }
 
-    /// Runs the trace on the identification logs. `progress` gets a line whenever a stage begins.
+    /// Runs the trace on the identification logs. `progress` is told whenever a stage begins or has come on.
     ///
     /// # Errors
     /// Those of [`Identify::fit`].
@@ -119,7 +120,7 @@ impl<'a> Trace<'a> {
         &self,
         arm: &dyn Arm,
         logs: &[Log],
-        progress: &mut dyn FnMut(&str),
+        progress: &mut dyn FnMut(&Stage<'_>),
     ) -> Result<Verdict, IdentifyError> {
         check_logs(arm, logs)?;
         let bands = slowest_bands(logs);
@@ -131,7 +132,7 @@ impl<'a> Trace<'a> {
         if logs.iter().all(|log| !log.turn_speeds.is_empty()) {
             return self.traced(arm, &identify, bands, logs, progress);
         }
-        progress("finding how slowly joints turn round");
+        progress(&Stage::whole("finding how slowly joints turn round"));
         let speeds = identify.turn_speeds(arm, logs)?;
         let logs = Log::all_with_turn_speeds(logs, &speeds);
         self.traced(arm, &identify, bands, &logs, progress)
@@ -144,10 +145,10 @@ impl<'a> Trace<'a> {
         identify: &Identify,
         bands: Bands,
         logs: &[Log],
-        progress: &mut dyn FnMut(&str),
+        progress: &mut dyn FnMut(&Stage<'_>),
     ) -> Result<Verdict, IdentifyError> {
         let mut prepared = prepare_all(logs, &bands)?;
-        progress("fitting the declared model");
+        progress(&Stage::whole("fitting the declared model"));
         let (solution, shapes, mut stack) = identify.solve(arm, &mut prepared, None)?;
         stack.silence(&solution.unexcited);
         let of_log = |log: &Prepared| period(&log.motion.wide.q, log.rate_hz);
@@ -175,7 +176,7 @@ impl<'a> Trace<'a> {
         search.update_rigid_torque(&state);
         let before = search.structure(&state).to_vec();
 
-        progress("forming candidate columns");
+        progress(&Stage::whole("forming candidate columns"));
         // What a log does not hold cannot be judged.
         let candidates: Vec<&'a dyn Candidate> = self
             .candidates
@@ -190,19 +191,14 @@ impl<'a> Trace<'a> {
         let mut tried = Vec::new();
         let mut of_terms = Vec::new();
         while state.accepted.len() < MOST_EFFECTS {
-            progress(&format!(
-                "round {}: {} candidates",
-                state.accepted.len() + 1,
-                candidates.len()
-            ));
-            let Some(found) = search.round(&state, &grids, &mut tried) else {
+            let round = state.accepted.len() + 1;
+            let words = format!("round {round}: {} candidates", candidates.len());
+            let judged = &mut |done| progress(&Stage::part(&words, done));
+            let Some(found) = search.round(&state, &grids, &mut tried, judged) else {
                 break;
             };
-            progress(&format!(
-                "round {}: {} passes",
-                state.accepted.len() + 1,
-                found.trial.candidate.kind()
-            ));
+            let kind = found.trial.candidate.kind();
+            progress(&Stage::whole(&format!("round {round}: {kind} passes")));
             of_terms = search.where_a_term_is(&state, &found);
             if !of_terms.is_empty() {
                 break;

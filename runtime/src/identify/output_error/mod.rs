@@ -40,6 +40,7 @@ pub use search::{Ending, Iterate, Search};
 use estimate::{comparison, result};
 use parts::Parts;
 use problem::{Place, Problem};
+use run::Asked;
 use search::End;
 use window::Window;
 
@@ -201,7 +202,7 @@ impl OutputError {
             if let Some((shorter, known)) = before {
                 problem.start_as(&mut place, shorter, known);
             }
-            let found = problem.run(&place, false).and_then(|runs| {
+            let found = problem.run(&place, Asked::Motion).and_then(|runs| {
                 search::search(
                     self.search,
                     &mut problem,

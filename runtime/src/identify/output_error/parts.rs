@@ -1,7 +1,7 @@
 //! The parts of a search: with short windows, with those that are asked for, and with torque that goes the other way between samples.
 
 use super::problem::{Place, Problem};
-use super::run::Run;
+use super::run::{Asked, Run};
 use super::search::{self, End, Found};
 use super::{Iterate, OutputError, OutputErrorError, Recording};
 use crate::simulate::Adjustable;
@@ -71,7 +71,7 @@ impl<'s> Parts<'s> {
         for &end in rounds {
             problem.end = end;
             problem.scale.clone_from(&self.scale);
-            let runs = problem.run(&place, false);
+            let runs = problem.run(&place, Asked::Motion);
             let runs = runs.map_err(|error| no_start(&problem, error))?;
             let found = search::search(
                 self.search,

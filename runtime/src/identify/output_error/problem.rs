@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::law::Law;
 use super::recording::Hold;
-use super::run::Run;
+use super::run::{Asked, Run};
 use super::search::End;
 use super::window::{Rows, Window};
 use crate::simulate::{Adjustable, SimulateError};
@@ -34,16 +34,12 @@ pub(super) struct Problem<'a, P> {
 
 impl<P: Adjustable + Clone + Sync> Problem<'_, P> {
     /// Simulates all windows, on all cores; which of them fails first is said with its error.
-    pub fn run(
-        &mut self,
-        place: &Place,
-        with_slopes: bool,
-    ) -> Result<Vec<Run>, (usize, SimulateError)> {
+    pub fn run(&mut self, place: &Place, asked: Asked) -> Result<Vec<Run>, (usize, SimulateError)> {
         self.plant.adjust(&place.values);
         let (plant, law, hold) = (&self.plant, self.law, self.hold);
         let windows: Vec<_> = self.windows.iter().zip(&place.starts).collect();
         let runs = threads::map(&windows, |(window, start)| {
-            window.run(plant, start, law, hold, with_slopes)
+            window.run(plant, start, law, hold, asked)
         });
         let runs = runs.into_iter().enumerate();
         runs.map(|(k, run)| run.map_err(|error| (k, error)))

@@ -21,6 +21,17 @@ const FAR: f64 = 10.0;
 /// simulations alone move it by as much as a motion is long.
 const SENSITIVE: f64 = 1e8;
 
+/// What a simulation is to give.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Asked {
+    /// Positions and torques.
+    Motion,
+    /// Slopes to search with, too.
+    Slopes,
+    /// Slopes to judge by.
+    ExactSlopes,
+}
+
 /// A simulated window.
 #[derive(Debug, Clone)]
 pub(super) struct Run {
@@ -39,17 +50,22 @@ impl Window<'_> {
         &self,
         plant: &P,
         start: &DVector<f64>,
-        with_slopes: bool,
+        asked: Asked,
     ) -> Result<(Integrator<P>, Option<Tangent>), SimulateError> {
         let (dof, states) = (plant.dof(), plant.states());
         let (q, dq) = start.as_slice().split_at(dof);
-        let tangent = with_slopes.then(|| {
+        let tangent = (asked != Asked::Motion).then(|| {
             let unknowns = plant.parameters();
             let mut state = DMatrix::zeros(2 * dof + states, unknowns + 2 * dof);
             for k in 0..2 * dof {
                 state[(k, unknowns + k)] = 1.0;
             }
-            Tangent::new(plant, state)
+            let tangent = Tangent::new(plant, state);
+            if asked == Asked::Slopes {
+                tangent.coarse()
+            } else {
+                tangent
+            }
         });
         let arm = Integrator::new(plant.clone(), q, dq, TOLERANCES)?;
         let time = self.recording.log.time[self.samples.start];
@@ -63,10 +79,10 @@ impl Window<'_> {
         start: &DVector<f64>,
         law: Option<&Law>,
         hold: Hold,
-        with_slopes: bool,
+        asked: Asked,
     ) -> Result<Run, SimulateError> {
         let time = &self.recording.log.time[self.samples.clone()];
-        let (mut arm, mut tangent) = self.stand(plant, start, with_slopes)?;
+        let (mut arm, mut tangent) = self.stand(plant, start, asked)?;
         let (joints, count) = (plant.joints(), time.len());
         let columns = tangent.as_ref().map_or(0, |tangent| tangent.state.ncols());
         let mut run = Run {

@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::{Equations, Reduced, triangle};
 use super::identifiable::audible;
 use super::problem::{Place, Problem};
-use super::run::Run;
+use super::run::{Asked, Run};
 use crate::simulate::{Adjustable, SimulateError};
 
 /// Iterations at most of a search that is to end.
@@ -203,7 +203,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     let last = iterates.last();
     let (mut simulations, stage) =
         last.map_or((1, 0), |iterate| (iterate.simulations, iterate.stage + 1));
-    let mut best = problem.run(place, true)?;
+    let mut best = problem.run(place, Asked::Slopes)?;
     let mut scale = DVector::zeros(place.values.len());
     let mut control: Option<f64> = None;
     let mut ending = Ending::OutOfIterations;
@@ -243,8 +243,12 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
             }
             let trial = place.moved(&step, &equations, bounds);
             simulations += 1;
-            let has_slopes = attempt == 0;
-            let found = problem.run(&trial, has_slopes);
+            let asked = if attempt == 0 {
+                Asked::Slopes
+            } else {
+                Asked::Motion
+            };
+            let found = problem.run(&trial, asked);
             let after = found
                 .as_ref()
                 .map_or(f64::INFINITY, |runs| problem.cost(runs));
@@ -252,10 +256,9 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
             now = next_control(search, now, ratio, step.length);
             if ratio > 0.0 {
                 // Where only its slopes run away nothing tells how to go on from there.
-                let runs = if has_slopes {
-                    found
-                } else {
-                    problem.run(&trial, true)
+                let runs = match asked {
+                    Asked::Motion => problem.run(&trial, Asked::Slopes),
+                    _ => found,
                 };
                 if let Ok(runs) = runs {
                     next = Some((trial, after, step, runs));
@@ -288,6 +291,10 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
             ending = Ending::Converged;
             break;
         }
+    }
+    if problem.end == End::Fine {
+        // Where these run away those of the search have to do.
+        best = problem.run(place, Asked::ExactSlopes).unwrap_or(best);
     }
     problem.plant.adjust(&place.values);
     Ok((best, ending))

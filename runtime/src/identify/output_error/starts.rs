@@ -3,6 +3,7 @@
 //! Costs have several valleys where shapes matter, as that of a Stribeck curve, and a search ends in the one where it starts. A few
 //! steps from each of several starts tell which valley is the deepest.
 
+use super::run::Asked;
 use super::{Iterate, OutputError, OutputErrorError, Recording, search};
 use crate::simulate::Adjustable;
 
@@ -65,7 +66,7 @@ impl OutputError {
             let mut place = problem.place(start);
             let bounds = self.bounds_of(start.len());
             let mut iterates = Vec::new();
-            let found = problem.run(&place, false).and_then(|runs| {
+            let found = problem.run(&place, Asked::Motion).and_then(|runs| {
                 problem.scale = problem.scales(&runs);
                 search::search(
                     self.search,

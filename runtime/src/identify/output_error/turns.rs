@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, DVector};
 use super::Hold;
 use super::equations::Reduced;
 use super::problem::{Place, Problem};
-use super::run::Run;
+use super::run::{Asked, Run};
 use super::window::Rows;
 use crate::simulate::Adjustable;
 
@@ -41,8 +41,13 @@ impl Moves {
                 }
                 let ends = [0, 1].map(|later| {
                     let driven = window.driven_at(joint, &turns, later);
-                    let run =
-                        driven.run(&problem.plant, &place.starts[k], None, problem.hold, false);
+                    let run = driven.run(
+                        &problem.plant,
+                        &place.starts[k],
+                        None,
+                        problem.hold,
+                        Asked::Motion,
+                    );
                     run.ok().map(|run| driven.errors(&run, &problem.scale))
                 });
                 // Where one runs away nothing is told by it.
