@@ -180,7 +180,7 @@ fn trace(
             trace = trace.since(found.before.clone());
         }
         let verdict = trace.run(&arm, &logs, &mut |stage| {
-            progress.stage(stage.words, stage.done)
+            progress.stage(stage.words, stage.done);
         })?;
         let (goes_on, fresh) = (verdict.goes_on, verdict.findings.len());
         let verdict = match found {

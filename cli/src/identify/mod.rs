@@ -20,6 +20,7 @@ mod readings;
 mod reduced;
 pub(crate) mod report;
 mod results;
+mod steps;
 pub(crate) mod table;
 mod twice;
 mod unequal;

@@ -18,6 +18,11 @@ const FAR: f64 = 5.0;
 /// By how much joints may differ in a factor that they are said to have in common.
 const APART: f64 = 3.0;
 
+/// A joint whose factor is another one than that of all others by so much, while torques go as nominal ones do on all joints: friction or a
+/// rotor turns them by more than this.
+const ALONE: f64 = 1.5;
+const SAME_WAY: f64 = 0.95;
+
 /// What logged torque over nominal torque is on a joint, and the cosine of the angle between them.
 #[derive(Clone, Copy)]
 struct Likeness {
@@ -119,6 +124,9 @@ fn said(all: &[Likeness], joints: &[String], is_odd: bool) -> Option<String> {
             short(factor)
         ));
     }
+    if let Some(alone) = alone(all, joints) {
+        return Some(alone);
+    }
     let is_turned = |joint: &Likeness| is_odd && joint.cosine < -ALIKE;
     let turned = joints.iter().zip(all).filter(|(_, joint)| is_turned(joint));
     let turned: Vec<&str> = turned.map(|(name, _)| name.as_str()).collect();
@@ -149,6 +157,40 @@ fn common(all: &[Likeness]) -> Option<f64> {
     let is_far = is_negative || !(1.0 / FAR..FAR).contains(&size);
     let sign = if is_negative { -1.0 } else { 1.0 };
     (is_common && is_far).then_some(sign * size)
+}
+
+/// The joint whose factor is not that of the others.
+fn alone(all: &[Likeness], joints: &[String]) -> Option<String> {
+    let is_alike = |joint: &Likeness| joint.cosine > SAME_WAY && joint.factor > 0.0;
+    if all.len() < 2 || !all.iter().all(is_alike) {
+        return None;
+    }
+    let off = |joint: usize| {
+        let others = all.iter().enumerate().filter(|(k, _)| *k != joint);
+        let logs = others.map(|(_, other)| other.factor.ln());
+        let ranges = logs.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+            [low.min(x), high.max(x)]
+        });
+        let own = all[joint].factor.ln();
+        // From the nearest of them.
+        let away = f64::max(ranges[0] - own, own - ranges[1]);
+        (away > ALONE.ln() && ranges[1] - ranges[0] < ALONE.ln()).then_some(())
+    };
+    // Of two joints either may be the one.
+    let (_, joint) = (0..all.len())
+        .filter(|&joint| off(joint).is_some())
+        .map(|joint| (all[joint].factor.ln().abs(), joint))
+        .max_by(|x, y| x.0.total_cmp(&y.0))?;
+    let factors = all.iter().zip(joints);
+    let factors: Vec<String> = factors
+        .map(|(found, name)| format!("`{name}` {}", short(found.factor)))
+        .collect();
+    Some(format!(
+        "logged torques are those of the spec's nominal links times {}: are the gain and the unit of `{}` right, and its links and payload those of \
+         the spec? Its parameters come out by as much too large or small",
+        factors.join(", "),
+        joints[joint]
+    ))
 }
 
 /// Two digits.
@@ -186,6 +228,19 @@ mod tests {
             ["about -0.99 times", "signs"],
         );
         assert_eq!(told(&[(-1.1, -0.7), (-0.9, -0.99)], false), None);
+    }
+
+    #[test]
+    fn a_drive_with_another_gain_is_told_beside_the_others() {
+        let said = told(&[(1.1, 0.99), (0.6, 0.98), (0.95, 0.97)], false).expect("a gain");
+        assert!(
+            said.contains("unit of `j2`") && said.contains("`j2` 0.6"),
+            "{said}"
+        );
+        // CAD that is off by a third, a joint that friction turns, joints that are all different.
+        assert_eq!(told(&[(1.1, 0.99), (0.8, 0.98), (0.95, 0.97)], false), None);
+        assert_eq!(told(&[(1.1, 0.99), (0.6, 0.9), (0.95, 0.97)], false), None);
+        assert_eq!(told(&[(2.0, 0.99), (0.6, 0.98), (1.1, 0.97)], false), None);
     }
 
     #[test]

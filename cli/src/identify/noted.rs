@@ -4,7 +4,7 @@ use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
 
 use super::fit::{ByAcceleration, Fit};
-use super::{IdentifyArguments, brief, coarse, doubts, nominal, twice, untold};
+use super::{IdentifyArguments, brief, coarse, doubts, nominal, steps, twice, untold};
 use crate::Error;
 
 /// That all parameters have values, or the ways out.
@@ -92,7 +92,8 @@ impl IdentifyArguments {
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));
         all.extend(doubts::at_turns(form.arm(), estimate));
-        all.extend(doubts::held_torques(form.model(), estimate));
+        let held = doubts::held_torques(form.model(), estimate);
+        all.extend(held.or_else(|| steps::doubt(&estimate.joints, logs)));
         all.extend(brief::doubt(estimate));
         let resting = doubts::resting(form.model(), logs);
         all.extend(coarse::doubt(estimate, form.model(), logs, &resting));

@@ -232,17 +232,13 @@ mod tests {
             nonnegative: false,
         };
         Stack {
-            turns: Vec::new(),
-            clipped: Vec::new(),
-            held: Vec::new(),
-            noise: Vec::new(),
             unknowns: (0..truth.len()).map(unknown).collect(),
             joints: vec![JointRows {
                 tau: target.clone(),
                 target,
                 columns,
             }],
-            segments: Vec::new(),
+            ..Stack::default()
         }
     }
 

@@ -175,7 +175,7 @@ impl Identify {
         let shapes = solved.1.clone();
         let solved = self.deviated(arm, &prepared, solved);
         let found = solved.solution.estimate.clone();
-        let late = self.delays(arm, &prepared, solved.stack.clone(), (&shapes, &found));
+        let late = self.delays_in(arm, of_logs, &solved.stack, (&shapes, &found));
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
             let wanted = self.wanted(logs)?;
             let mut wanted = prepare_all(&wanted, &bands)?;

@@ -117,10 +117,6 @@ mod tests {
             .map(|k| 2.0 * x[k] + noise(k, &mut random))
             .collect();
         Stack {
-            turns: Vec::new(),
-            clipped: Vec::new(),
-            held: Vec::new(),
-            noise: Vec::new(),
             unknowns: vec![Unknown {
                 name: "x".to_owned(),
                 nonnegative: false,
@@ -134,6 +130,7 @@ mod tests {
                 start: 0,
                 time: Vec::new(),
             }],
+            ..Stack::default()
         }
     }
 

@@ -177,10 +177,6 @@ mod tests {
                 .collect()
         };
         Stack {
-            turns: Vec::new(),
-            clipped: Vec::new(),
-            held: Vec::new(),
-            noise: Vec::new(),
             unknowns: (0..UNKNOWNS)
                 .map(|c| Unknown {
                     name: format!("p{c}"),
@@ -196,6 +192,7 @@ mod tests {
                 start: 0,
                 time: Vec::new(),
             }],
+            ..Stack::default()
         }
     }
 

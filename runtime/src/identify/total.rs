@@ -168,10 +168,6 @@ mod tests {
             nonnegative: false,
         };
         Stack {
-            turns: Vec::new(),
-            clipped: Vec::new(),
-            held: Vec::new(),
-            noise: Vec::new(),
             unknowns: vec![unknown("x"), unknown("y")],
             joints: vec![JointRows {
                 tau: target.clone(),
@@ -182,6 +178,7 @@ mod tests {
                 start: 0,
                 time: Vec::new(),
             }],
+            ..Stack::default()
         }
     }
 

@@ -13,6 +13,7 @@ mod header;
 mod limits;
 #[cfg(feature = "mcap")]
 mod mcap;
+mod middle;
 mod note;
 #[cfg(feature = "parquet")]
 mod parquet;

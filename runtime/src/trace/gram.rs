@@ -252,16 +252,13 @@ mod tests {
             nonnegative: false,
         };
         Stack {
-            turns: Vec::new(),
-            clipped: Vec::new(),
-            held: Vec::new(),
-            noise: Vec::new(),
             unknowns: vec![unknown("a"), unknown("b"), unknown("c")],
             joints: vec![rows(0, 0.3), rows(1, 1.1)],
             segments: vec![Segment {
                 start: 0,
                 time: (0..200).map(f64::from).collect(),
             }],
+            ..Stack::default()
         }
     }
 

@@ -32,17 +32,13 @@ fn stack(seed: u64, slow: f64) -> Stack {
         nonnegative: false,
     };
     Stack {
-        turns: Vec::new(),
-        clipped: Vec::new(),
-        held: Vec::new(),
-        noise: Vec::new(),
         unknowns: vec![unknown("x"), unknown("y")],
         joints: vec![JointRows {
             tau: target.clone(),
             target,
             columns,
         }],
-        segments: Vec::new(),
+        ..Stack::default()
     }
 }
 

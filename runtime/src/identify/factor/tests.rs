@@ -51,16 +51,13 @@ fn stack(seed: u64, first: usize, count: usize) -> Stack {
         nonnegative: false,
     };
     Stack {
-        turns: Vec::new(),
-        clipped: Vec::new(),
-        held: Vec::new(),
-        noise: Vec::new(),
         unknowns: ["a", "b", "c"].map(unknown).to_vec(),
         joints: joints.to_vec(),
         segments: vec![Segment {
             start: 0,
             time: Vec::new(),
         }],
+        ..Stack::default()
     }
 }
 

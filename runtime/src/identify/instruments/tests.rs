@@ -24,10 +24,6 @@ fn stacks(seed: u64, share: f64) -> [Stack; 2] {
     let worn = clean.iter().zip(&noise).map(|(x, e)| x + share.abs() * e);
     let worn: Vec<f64> = worn.collect();
     [worn, clean].map(|column| Stack {
-        turns: Vec::new(),
-        clipped: Vec::new(),
-        held: Vec::new(),
-        noise: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,
@@ -41,6 +37,7 @@ fn stacks(seed: u64, share: f64) -> [Stack; 2] {
             start: 0,
             time: Vec::new(),
         }],
+        ..Stack::default()
     })
 }
 

@@ -46,6 +46,21 @@ const ALIKE: f64 = 3.0;
 const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
 
+/// What of a log is asked, s: more of it makes no delay surer than it has to be, and takes as many times as long.
+const LONGEST: f64 = 60.0;
+
+/// The middle of logs, where some are long.
+fn excerpts(logs: &[Log]) -> Option<Vec<Log>> {
+    let middles: Vec<Option<Log>> = logs.iter().map(|log| log.middle(LONGEST)).collect();
+    let is_any = middles.iter().any(Option::is_some);
+    let pairs = middles.into_iter().zip(logs);
+    is_any.then(|| {
+        pairs
+            .map(|(middle, log)| middle.unwrap_or_else(|| log.clone()))
+            .collect()
+    })
+}
+
 /// A channel that is not of the time of the others.
 ///
 /// # Examples
@@ -131,9 +146,23 @@ struct Torques {
 }
 
 impl Identify {
+    /// The same as [`Self::delays`] for an estimate on the stack of logs, of which the middle is asked where they are long.
+    pub(super) fn delays_in(
+        &self,
+        arm: &dyn Arm,
+        (logs, prepared, bands): (&[Log], &[Prepared], &Bands),
+        stack: &Stack,
+        at: (&[f64], &[f64]),
+    ) -> Late {
+        if logs.iter().any(|log| log.seconds() > LONGEST) {
+            return self.delays_of_logs(arm, logs, bands, at.0);
+        }
+        self.delays(arm, prepared, stack.clone(), at)
+    }
+
     /// Torques that are late or early, or the one position that is instead, for an estimate on its own stack; none where the logs do not
     /// say so or nobody asks.
-    pub(super) fn delays(
+    fn delays(
         &self,
         arm: &dyn Arm,
         logs: &[Prepared],
@@ -177,7 +206,7 @@ impl Identify {
     ) -> Rows<'a> {
         let rows = |shapes: &[f64]| self.rows(arm, logs, shapes);
         let stack = with_slopes(arm, &rows, shapes, 0..shapes.len(), stack, estimate);
-        Rows::new(arm, logs, stack, self.leave_out_turns)
+        Rows::new(arm, logs, stack)
     }
 
     /// The same of logs by the equations with accelerations, for an estimate that has done without; none where these cannot be solved.
@@ -191,6 +220,8 @@ impl Identify {
         if self.beyond < Beyond::Delays {
             return Late::default();
         }
+        let excerpts = excerpts(logs);
+        let logs = excerpts.as_deref().unwrap_or(logs);
         let Ok(mut prepared) = prepare_all(logs, bands) else {
             return Late::default();
         };

@@ -31,7 +31,7 @@ pub(super) fn nearest(rows: &Rows<'_>) -> Vec<f64> {
     });
     let moved: Vec<Entry> = moved.collect();
     stack.append(&vec![nameless(); TRIED.len() - 1], &moved);
-    rows.leave_out(&mut stack);
+    Rows::leave_out(&mut stack);
     let factors = Factors::new(&stack);
     let of_joint = |joint: usize, choice: usize| {
         let block = &factors.joints()[joint];

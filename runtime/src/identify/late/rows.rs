@@ -12,23 +12,17 @@ pub(super) struct Rows<'a> {
     /// Per log the joints that say nothing.
     silent: Vec<Vec<usize>>,
     pub stack: Stack,
-    leave_out_turns: bool,
 }
 
 impl<'a> Rows<'a> {
-    /// Of a stack, with friction that the arm may not have.
-    pub fn new(
-        arm: &'a dyn Arm,
-        logs: &'a [Prepared],
-        stack: Stack,
-        leave_out_turns: bool,
-    ) -> Self {
+    /// Of a stack, with friction that the arm may not have. Rows at turns are left out in any case: what dry friction holds there is no law's,
+    /// and larger than what a delay makes.
+    pub fn new(arm: &'a dyn Arm, logs: &'a [Prepared], stack: Stack) -> Self {
         let mut rows = Self {
             arm,
             logs,
             silent: logs.iter().map(says_nothing).collect(),
             stack,
-            leave_out_turns,
         };
         let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
             let speeds = log.motion.wide.dq[joint].iter();
@@ -51,9 +45,7 @@ impl<'a> Rows<'a> {
             append(&mut rows.stack, columns);
         }
         clipped::clear_again(&mut rows.stack);
-        if leave_out_turns {
-            turns::leave_out(&mut rows.stack);
-        }
+        turns::leave_out(&mut rows.stack);
         rows
     }
 
@@ -82,11 +74,9 @@ impl<'a> Rows<'a> {
     }
 
     /// Rows that were left out say nothing of columns that came later, either.
-    pub fn leave_out(&self, stack: &mut Stack) {
+    pub fn leave_out(stack: &mut Stack) {
         clipped::clear_again(stack);
-        if self.leave_out_turns {
-            turns::leave_out(stack);
-        }
+        turns::leave_out(stack);
     }
 
     /// The same equations for the torque of so much later, and behind their columns the slopes of that torque.
@@ -108,7 +98,7 @@ impl<'a> Rows<'a> {
             }));
         }
         append(&mut stack, slopes);
-        self.leave_out(&mut stack);
+        Self::leave_out(&mut stack);
         stack
     }
 }

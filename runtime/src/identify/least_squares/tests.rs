@@ -16,16 +16,12 @@ fn stack(joints: &[&[f64]]) -> Stack {
         columns: vec![(0, vec![1.0; tau.len()])],
     };
     Stack {
-        turns: Vec::new(),
-        clipped: Vec::new(),
-        held: Vec::new(),
-        noise: Vec::new(),
         unknowns: vec![Unknown {
             name: "x".to_owned(),
             nonnegative: false,
         }],
         joints: joints.iter().map(rows).collect(),
-        segments: Vec::new(),
+        ..Stack::default()
     }
 }
 

@@ -1,0 +1,67 @@
+//! Torques that go in steps from sample to sample, as commands that hold do.
+
+use robot_model::log::Log;
+
+use crate::output::names;
+
+/// Half the change from sample to sample, over the torque, roots of mean squares, from where on half a sample matters.
+const LARGE: f64 = 0.08;
+
+/// A shorter sample, s, is nothing to an arm; what goes from one to the next is a controller's chatter.
+const SHORTEST: f64 = 0.004;
+
+/// What is said of joints whose torques go in steps in all logs.
+pub(super) fn doubt(joints: &[String], logs: &[Log]) -> Option<String> {
+    if logs.iter().any(|log| log.rate_hz() * SHORTEST > 1.0) {
+        return None;
+    }
+    let stepping = joints.iter().enumerate().filter(|(joint, _)| {
+        let steps = logs.iter().map(|log| steps(&log.tau[*joint]));
+        steps.fold(f64::INFINITY, f64::min) > LARGE
+    });
+    let stepping: Vec<&str> = stepping.map(|(_, name)| name.as_str()).collect();
+    (!stepping.is_empty()).then(|| {
+        format!(
+            "torques of {} change by much from one sample to the next: where a sample holds until the next one, as a command does, the arm felt \
+             it half a sample later, and beside friction an inertia is off by half a sample of damping without a larger error; \
+             `--method output-error` holds torques, and asks which way they go; or log at a higher rate",
+            names(&stepping)
+        )
+    })
+}
+
+/// Half the change from sample to sample over the torque, without what white noise has of it: that is as large over two samples as over
+/// one, and changes of a smooth torque are twice as large there.
+fn steps(tau: &[f64]) -> f64 {
+    let over = |lag: usize| {
+        let pairs = tau.iter().zip(tau.iter().skip(lag));
+        pairs.map(|(x, y)| (y - x).powi(2)).sum::<f64>()
+    };
+    let level: f64 = tau.iter().map(|x| x * x).sum();
+    if level > 0.0 {
+        0.5 * ((over(2) - over(1)).max(0.0) / 3.0 / level).sqrt()
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn series(f: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..1000).map(|k| f(f64::from(k))).collect()
+    }
+
+    #[test]
+    fn commands_that_jump_are_told_from_waves_and_from_noise() {
+        let square = |k: f64| if (k / 9.0).sin() > 0.0 { 1.6 } else { -1.6 };
+        assert!(steps(&series(square)) > LARGE);
+        // Half a Hz at 100 Hz, smooth and with a tenth of white noise.
+        let wave = |k: f64| (0.03 * k).sin();
+        let noisy = |k: f64| wave(k) + 0.1 * (12.9898 * k * k).sin();
+        for torque in [series(wave), series(noisy), vec![0.0; 1000]] {
+            assert!(steps(&torque) < 0.5 * LARGE, "{}", steps(&torque));
+        }
+    }
+}
