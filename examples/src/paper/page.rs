@@ -1,7 +1,7 @@
 //! A page of the docs beside what the program says: nothing on it may be of an older run.
 
 use super::table::wrapped;
-use super::{Paper, Status, Table, numbers, row};
+use super::{Paper, Row, Status, Table, numbers, row};
 
 /// What heads the items on a page; they are its last part.
 const ITEMS: &str = "## Item by item";
@@ -88,26 +88,27 @@ impl Paper {
         shown.filter(is_other).map(str::to_owned).collect()
     }
 
-    /// What a list of papers has otherwise than the program: `| .. | .. | reached | not reached | impossible as printed |`.
+    /// What a list of papers has otherwise than the program: `| .. | .. | reached | not reached | impossible by a check | by a comparison |`.
     #[must_use]
     pub fn counted_otherwise(&self, list: &str, name: &str) -> Option<String> {
-        let count = |wanted: &str| {
-            let same = self.rows.iter().filter(|row| row.status.short() == wanted);
+        let count = |wanted: &dyn Fn(&Row) -> bool| {
+            let same = self.rows.iter().filter(|row| wanted(row));
             match same.count() {
                 0 => String::new(),
                 count => count.to_string(),
             }
         };
+        let is_wrong = |row: &Row| matches!(row.status, Status::Impossible(_));
         let own = [
-            Status::Reached,
-            Status::NotReached(String::new()),
-            Status::Impossible(String::new()),
+            count(&|row| matches!(row.status, Status::Reached)),
+            count(&|row| matches!(row.status, Status::NotReached(_))),
+            count(&|row| is_wrong(row) && !row.is_compared()),
+            count(&|row| is_wrong(row) && row.is_compared()),
         ];
-        let own = own.map(|status| count(status.short()));
         let is_line = |line: &&str| line.starts_with(&format!("| [`{name}`]"));
         let line = list.lines().find(is_line).unwrap_or_default();
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        let is_same = cells.get(3..6).is_some_and(|cells| cells == own);
+        let is_same = cells.get(3..7).is_some_and(|cells| cells == own);
         (!is_same).then(|| format!("{own:?} in the program: {line}"))
     }
 

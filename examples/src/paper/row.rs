@@ -101,6 +101,12 @@ impl Row {
         }
     }
 
+    /// Whether the program compares what is printed, and no check of the tool finds it; a row says so in words.
+    pub(super) fn is_compared(&self) -> bool {
+        const WORDS: &str = "no check of the tool";
+        self.what.contains(WORDS) || self.status.to_string().contains(WORDS)
+    }
+
     /// What is told of it, each under a word.
     fn parts(&self) -> Vec<(&'static str, String)> {
         let wanted = wanted(self.item).map(|wanted| ("wanted", wanted.to_owned()));

@@ -27,7 +27,7 @@ pub use law::{LAWS, Law};
 pub use misprint::{Pair, pairs, start};
 pub use plant::Experiment;
 pub use scale::{FACTORS, Told, costs_by_factor, told};
-pub use sensitivity::{Change, changes};
+pub use sensitivity::{Change, carried, changes};
 pub use slopes::{slope_errors, upright_rate};
 pub use truth::{ARM, BACK_EMF, TABLE_1, TABLE_2};
 pub use turns::{Turns, turns};
@@ -38,6 +38,9 @@ use crate::paper::{Error, Paper};
 const EXPERIMENT: u64 = 1;
 const GAUGE: u64 = 3;
 const STANDING: u64 = 4;
+
+/// Those of logs on which figures 7 and 8 are drawn again.
+const OTHERS: std::ops::Range<u64> = 100..111;
 
 /// All that came out.
 #[derive(Debug, Clone)]
@@ -50,6 +53,8 @@ pub struct Findings {
     pub tables: Tables,
     /// Figures 7 to 10, 7 and 8 with the printed parameters and with the arm's own.
     pub changes: [Change; 6],
+    /// Distances of the middle two on logs of other noise, rad, from the least on.
+    pub carried: [Vec<f64>; 2],
     /// Motions through turn-arounds.
     pub turns: [Turns; 2],
     /// Errors of exact slopes.
@@ -79,6 +84,7 @@ impl Findings {
         Ok(Self {
             tables: Tables::of(&data)?,
             changes: changes(&data)?,
+            carried: carried(OTHERS)?,
             turns: turns(&experiment)?,
             slope_errors: slope_errors(&data)?,
             // Figures of friction that the constants of Table 2 come to, without and with the back-EMF.

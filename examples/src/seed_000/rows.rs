@@ -131,7 +131,15 @@ fn searches(found: &Findings) -> Vec<Row> {
         .all(|fit| fit.cost() > 100.0 * directional.cost() && fit.steps() > directional.steps());
     let steps: Vec<String> = second.iter().map(|fit| fit.steps().to_string()).collect();
     let apart = found.changes.each_ref().map(super::Change::apart);
-    let per_unit = |k: usize| apart[k] / found.changes[k].by.abs();
+    let far = |all: &[f64]| all.iter().filter(|apart| **apart > FAR).count();
+    let carried = found.carried.each_ref().map(|all| {
+        let (least, middle, largest) = (all[0], all[all.len() / 2], all[all.len() - 1]);
+        format!(
+            "{middle:.1} ({least:.1} .. {largest:.1}, {} beyond {FAR} rad)",
+            far(all)
+        )
+    });
+    let is_far = found.carried.iter().all(|all| 2 * far(all) > all.len());
     let values = directional.values();
     let samples = found.data.window.len() as f64;
     let degrees = TABLE_2.map(|lines| {
@@ -172,19 +180,23 @@ fn searches(found: &Findings) -> Vec<Row> {
         ),
         Row::holds(
             "0.9",
-            "largest distance of motions: figures 7, 8 (5.1) as printed and with the arm's own parameters; 9, 10 (5.2)",
-            "drawn only",
+            "largest distance of motions: figures 7, 8 (5.1) as printed, and with the arm's own parameters median and range of 11 logs; 9, 10 (5.2)",
+            "drawn only; 7 and 8 are called almost chaotic",
             format!(
                 "{}; {}; {} rad",
                 listed(&apart[..2]),
-                listed(&apart[2..4]),
+                carried.join(", "),
                 listed(&apart[4..])
             ),
-            per_unit(2).min(per_unit(3)) > 100.0 * per_unit(4).max(per_unit(5)),
-            "the models are not as different as drawn",
+            is_far && apart[4].max(apart[5]) < 2.0,
+            "how far a hundredth carries in (5.1) hangs on how long the arm stays up along a measured voltage: as far as drawn on few of our logs, on \
+             the others and with the printed parameters it falls soon, and what hangs is not sensitive",
         ),
     ]
 }
+
+/// Further than a whole change carries in model (5.2), rad.
+const FAR: f64 = 2.0;
 
 /// 0.10 to 0.12: calibration, command, velocity.
 fn measurements(found: &Findings) -> Vec<Row> {
@@ -326,7 +338,10 @@ fn audit(found: &Findings) -> Vec<Row> {
             "0.quadratic",
             "law (6.2) in model (5.2) takes alpha and beta elsewhere",
             "20.23, 26.17 with (6.2); 12.05, 21.42 with (6.3)",
-            listed(quadratic.values()),
+            format!(
+                "{}: alpha and beta fall, where they rise in print",
+                listed(quadratic.values())
+            ),
             (quadratic.values()[1] / ARM[1] - 1.0).abs() > 0.2,
             "they stay",
         ),

@@ -3,13 +3,14 @@
 use super::excitation::CRITERIA;
 use super::results::Results;
 use super::table_two::{Fit, WEIGHTS, drop, mean};
-use super::truth::{METHODS, TABLE_2};
+use super::truth::{FRICTION, METHODS, TABLE_2};
 use crate::paper::Table;
 
 /// All of them.
 #[must_use]
 pub fn tables(results: &Results) -> Vec<Table> {
     vec![
+        table_1(results),
         friction(results),
         criteria(results),
         table_2(results),
@@ -22,6 +23,33 @@ pub fn tables(results: &Results) -> Vec<Table> {
 fn cells<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Vec<String> {
     let values = values.into_iter().map(|x| format!("{x:.2}"));
     std::iter::once(name.to_owned()).chain(values).collect()
+}
+
+/// Friction of Table I, which the arm has that is simulated, and what comes back of it.
+fn table_1(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Friction of Table I, printed and true here, and identified: N m, N m s/rad, ..; fc2 as a magnitude",
+        ["", "1", "2", "3", "4", "5", "6"],
+    );
+    let found = |fit: &Fit, name: &str| -> Vec<f64> {
+        let value = |k: usize| {
+            let name = format!("j{}.rokae.{name}", k + 1);
+            let mut all = fit.estimate.parameters.iter();
+            all.find(|one| one.name == name)
+                .map_or(f64::NAN, |one| one.value)
+        };
+        (0..6).map(value).collect()
+    };
+    for (name, printed) in FRICTION.by_name() {
+        table.push(cells(&format!("{name}, printed"), &printed));
+        table.push(cells(
+            &format!("{name}, MFWLS"),
+            &found(&results.modified[1], name),
+        ));
+        let rippled = found(&results.with_ripple, name);
+        table.push(cells(&format!("{name}, with the ripple"), &rippled));
+    }
+    table
 }
 
 fn friction(results: &Results) -> Table {

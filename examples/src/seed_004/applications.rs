@@ -1,7 +1,7 @@
 //! Items of section 4: shares, weights, control, forces.
 
 use super::results::Results;
-use super::truth::{CROSSOVER, WEIGHTS};
+use super::truth::{CROSSOVER, WEIGHTS, table_1};
 use crate::paper::Row;
 
 pub(super) fn rows(results: &Results) -> Vec<Row> {
@@ -14,6 +14,8 @@ fn uses(results: &Results) -> Vec<Row> {
     let said = sentences.iter();
     let said = said.map(|(said, [held, of])| format!("{said} ({held} of {of})"));
     let said: Vec<String> = said.collect();
+    let gravity = super::shares::gravity_of_joint_3(table_1);
+    let [sensor, upright, turned] = gravity;
     let crossover = super::shares::crossover();
     let [printed, repaired] = &results.balances;
     let triple = |all: [f64; 3], digits: usize| all.map(|x| format!("{x:.digits$}")).join(", ");
@@ -33,6 +35,14 @@ fn uses(results: &Results) -> Vec<Row> {
             said.join(", "),
             sentences.iter().all(|(_, [held, of])| held == of),
             "shares hang on the motion, which is drawn only: ours has the printed frequencies, with amplitudes of our own",
+        ),
+        Row::wrong_in_print(
+            "4.8.gravity",
+            "what section 4.1 says of gravity on joint 3, beside table 1 (a comparison, no check of the tool): |pi8| over that of UR with a force sensor, and with a gimbal and counterweight in UR and USD",
+            "half of it; nearly none",
+            format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
+            !super::shares::is_as_said(gravity),
+            "gravity on joint 3 is pi8 sin(theta3), so that these are its shares along any motion: by table 1 a force sensor leaves two thirds, a gimbal upside down all",
         ),
         Row::holds(
             "4.9",

@@ -124,19 +124,34 @@ const DAMPING: f64 = 1.0;
 /// Where the sweep starts: beyond all gains of the paper.
 const LEAST_GAIN: f64 = 1500.0;
 
-/// The largest `K_P` of a sweep in steps of 5 % up to which the loop comes to rest; zero where it does not at the first.
+/// Steps of 5 % at most.
+const MOST_STEPS: i32 = 100;
+
+/// The largest `K_P` in steps of 5 % with which the loop comes to rest; zero where it does not at the first. Beyond one at which it does not
+/// none is looked for: steps are doubled until then, and halved between.
 ///
 /// # Errors
 /// Those of [`square`].
 pub fn largest_gain(truth: &Pi, known: &Pi) -> Result<f64, Error> {
-    let mut kp = LEAST_GAIN;
-    let mut largest = 0.0;
-    while kp < 2e5 {
-        if !square(truth, known, [kp, 2.0 * DAMPING * f64::sqrt(kp)])?.is_stable {
-            break;
-        }
-        largest = kp;
-        kp *= 1.05;
+    let gain = |step: i32| LEAST_GAIN * 1.05_f64.powi(step);
+    let is_stable = |step: i32| -> Result<bool, Error> {
+        let kp = gain(step);
+        Ok(square(truth, known, [kp, 2.0 * DAMPING * f64::sqrt(kp)])?.is_stable)
+    };
+    if !is_stable(0)? {
+        return Ok(0.0);
     }
-    Ok(largest)
+    let (mut stable, mut beyond) = (0, 1);
+    while beyond < MOST_STEPS && is_stable(beyond)? {
+        (stable, beyond) = (beyond, 2 * beyond);
+    }
+    while beyond - stable > 1 {
+        let middle = i32::midpoint(stable, beyond);
+        if is_stable(middle)? {
+            stable = middle;
+        } else {
+            beyond = middle;
+        }
+    }
+    Ok(gain(stable))
 }

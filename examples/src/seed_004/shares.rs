@@ -8,7 +8,7 @@ use super::device::phantom;
 use super::plant::Three;
 use super::sensors::RATE;
 use super::sines::Sines;
-use super::truth::{FASTEST, GRAVITY, LINKS, TABLE_1_UR_GRAVITY, WEIGHTS, table_1};
+use super::truth::{FASTEST, GRAVITY, LINKS, Pi, TABLE_1_UR_GRAVITY, WEIGHTS, table_1};
 
 /// Shares in the order of figure 10.
 pub const NAMES: [&str; 5] = ["inertia", "Coriolis", "gravity", "viscous", "Coulomb"];
@@ -84,10 +84,9 @@ pub fn shares(installation: usize, motion: &Sines) -> Shares {
 pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
     let [inertia, coriolis, gravity] = [0, 1, 2];
     let of = |one: &Shares, share: usize, j: usize| one.rms[share][j];
-    let [upright, gimbal, sensor, _, turned_gimbal] = all else {
+    let [upright, gimbal, _, _, turned_gimbal] = all else {
         return Vec::new();
     };
-    let upright_gravity = of(upright, gravity, 2);
     let count = |said, installations: &[&Shares], holds: &dyn Fn(&Shares) -> bool| {
         let held = installations.iter().filter(|one| holds(one)).count();
         (said, [held, installations.len()])
@@ -113,18 +112,23 @@ pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
             &every,
             &|one| of(one, gravity, 2) > of(one, gravity, 1),
         ),
-        count("a force sensor halves it", &[sensor], &|one| {
-            (0.4..0.6).contains(&(of(one, gravity, 2) / upright_gravity))
-        }),
-        count(
-            "a gimbal with its counterweight nearly nulls it",
-            &gimbals,
-            &|one| of(one, gravity, 2) < 0.1 * upright_gravity,
-        ),
-        count("at the expense of inertia", &gimbals, &|one| {
+        count("inertia is more there with a gimbal", &gimbals, &|one| {
             of(one, inertia, 2) > 2.0 * of(upright, inertia, 2)
         }),
     ]
+}
+
+/// Gravity on joint 3 over that of UR, `|pi8|` along any motion: with a force sensor, and with the gimbal's counterweight, upright and upside
+/// down; `table` gives the parameters of an installation by its column of table 1.
+#[must_use]
+pub fn gravity_of_joint_3(table: impl Fn(usize) -> Pi) -> Three {
+    [2, 1, 4].map(|column| (table(column)[7] / table(0)[7]).abs())
+}
+
+/// Whether that is as section 4.1 has it: half of it, and nearly none.
+#[must_use]
+pub fn is_as_said([sensor, upright, turned]: Three) -> bool {
+    (0.4..0.6).contains(&sensor) && upright.max(turned) < 0.1
 }
 
 /// Speed at which viscous friction is as much as dry friction, UR, deg/s.
