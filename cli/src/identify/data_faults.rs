@@ -4,6 +4,9 @@ use robot_model::identify::Estimate;
 use robot_model::log::{Fault, Stretches};
 use serde::Serialize;
 
+use super::IdentifyArguments;
+use crate::progress::Progress;
+
 /// What a sensor or a recorder did.
 #[derive(Serialize)]
 pub(super) struct FaultReport<'a> {
@@ -170,4 +173,25 @@ pub(super) fn fault_reports(faults: &[(String, Fault)]) -> Vec<FaultReport<'_>> 
         numbers: Numbers::of(fault),
     });
     told.collect()
+}
+impl IdentifyArguments {
+    /// Channels that are not of the time of the others; told of all logs at once.
+    pub(super) fn late_channels(
+        &self,
+        estimate: &Estimate,
+        progress: &Progress,
+    ) -> Vec<(String, Fault)> {
+        let logs: Vec<String> = self
+            .logs
+            .iter()
+            .map(|path| path.display().to_string())
+            .collect();
+        let logs = logs.join(", ");
+        let faults = late(estimate).into_iter();
+        let told = faults.map(|fault| {
+            progress.note(&format!("note: {logs}: {fault}"));
+            (logs.clone(), fault)
+        });
+        told.collect()
+    }
 }

@@ -377,18 +377,6 @@ impl IdentifyArguments {
         Ok(mended.log)
     }
 
-    /// Channels that are not of the time of the others; told of all logs at once.
-    fn late_channels(&self, estimate: &Estimate, progress: &Progress) -> Vec<(String, Fault)> {
-        let logs = self.logs.iter().map(|path| path.display().to_string());
-        let logs = logs.collect::<Vec<_>>().join(", ");
-        let faults = data_faults::late(estimate);
-        for fault in &faults {
-            progress.note(&format!("note: {logs}: {fault}"));
-        }
-        let named = faults.into_iter().map(|fault| (logs.clone(), fault));
-        named.collect()
-    }
-
     /// A corner that was asked for is named as it was.
     fn refused(&self, error: IdentifyError) -> Error {
         match (error, self.corner) {

@@ -18,9 +18,10 @@ const FAR: f64 = 5.0;
 /// By how much joints may differ in a factor that they are said to have in common.
 const APART: f64 = 3.0;
 
-/// A joint whose factor is another one than that of all others by so much, while torques go as nominal ones do on all joints: friction or a
-/// rotor turns them by more than this.
+/// By how much the factor of one joint is another than those of all others, to be told.
 const ALONE: f64 = 1.5;
+
+/// Cosine from where on torques go as nominal ones do, on all joints: friction or a rotor turns them by more.
 const SAME_WAY: f64 = 0.95;
 
 /// What logged torque over nominal torque is on a joint, and the cosine of the angle between them.
@@ -174,22 +175,28 @@ fn alone(all: &[Likeness], joints: &[String]) -> Option<String> {
         let own = all[joint].factor.ln();
         // From the nearest of them.
         let away = f64::max(ranges[0] - own, own - ranges[1]);
-        (away > ALONE.ln() && ranges[1] - ranges[0] < ALONE.ln()).then_some(())
+        away > ALONE.ln() && ranges[1] - ranges[0] < ALONE.ln()
     };
-    // Of two joints either may be the one.
-    let (_, joint) = (0..all.len())
-        .filter(|&joint| off(joint).is_some())
-        .map(|joint| (all[joint].factor.ln().abs(), joint))
-        .max_by(|x, y| x.0.total_cmp(&y.0))?;
+    // Of two joints it may be either.
+    let alone: Vec<&str> = (0..all.len())
+        .filter(|&joint| off(joint))
+        .map(|joint| joints[joint].as_str())
+        .collect();
+    if alone.is_empty() {
+        return None;
+    }
     let factors = all.iter().zip(joints);
     let factors: Vec<String> = factors
         .map(|(found, name)| format!("`{name}` {}", short(found.factor)))
         .collect();
     Some(format!(
-        "logged torques are those of the spec's nominal links times {}: are the gain and the unit of `{}` right, and its links and payload those of \
-         the spec? Its parameters come out by as much too large or small",
+        "logged torques are those of the spec's nominal links times {}: are gains and units of {} right, and links and payload those of the spec? \
+         If it is a gain, parameters come out by as much too large or small",
         factors.join(", "),
-        joints[joint]
+        match alone.as_slice() {
+            [one, other] => format!("`{one}` and `{other}`"),
+            _ => names(&alone),
+        }
     ))
 }
 
@@ -234,9 +241,11 @@ mod tests {
     fn a_drive_with_another_gain_is_told_beside_the_others() {
         let said = told(&[(1.1, 0.99), (0.6, 0.98), (0.95, 0.97)], false).expect("a gain");
         assert!(
-            said.contains("unit of `j2`") && said.contains("`j2` 0.6"),
+            said.contains("units of `j2`") && said.contains("`j2` 0.6"),
             "{said}"
         );
+        let said = told(&[(1.1, 0.99), (0.6, 0.98)], false).expect("one of two gains");
+        assert!(said.contains("units of `j1` and `j2`"), "{said}");
         // CAD that is off by a third, a joint that friction turns, joints that are all different.
         assert_eq!(told(&[(1.1, 0.99), (0.8, 0.98), (0.95, 0.97)], false), None);
         assert_eq!(told(&[(1.1, 0.99), (0.6, 0.9), (0.95, 0.97)], false), None);

@@ -42,7 +42,7 @@ fn uses(results: &Results) -> Vec<Row> {
             "half of it; nearly none",
             format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
             !super::shares::is_as_said(gravity),
-            "gravity on joint 3 is pi8 sin(theta3), so that these are its shares along any motion: by table 1 a force sensor leaves two thirds, a gimbal upside down all",
+            "gravity on joint 3 is pi8 sin(theta3), so that these are its shares along any motion",
         ),
         Row::holds(
             "4.9",

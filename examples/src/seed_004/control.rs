@@ -142,8 +142,11 @@ pub fn largest_gain(truth: &Pi, known: &Pi) -> Result<f64, Error> {
         return Ok(0.0);
     }
     let (mut stable, mut beyond) = (0, 1);
-    while beyond < MOST_STEPS && is_stable(beyond)? {
-        (stable, beyond) = (beyond, 2 * beyond);
+    while is_stable(beyond)? {
+        if beyond == MOST_STEPS {
+            return Ok(gain(beyond));
+        }
+        (stable, beyond) = (beyond, i32::min(2 * beyond, MOST_STEPS));
     }
     while beyond - stable > 1 {
         let middle = i32::midpoint(stable, beyond);

@@ -12,10 +12,11 @@ mod tolerances;
 
 use nalgebra::DVector;
 
+use super::adjustable::Adjustable;
 use super::error::SimulateError;
 use super::motion::{Drive, Moving, Side};
 use super::plant::Plant;
-use super::tangent::{Adjustable, Passage, Tangent, Watch};
+use super::tangent::{Passage, Tangent, Watch};
 use steps::Start;
 pub use tolerances::{Tolerances, Work};
 

@@ -6,6 +6,7 @@
 //! Dry friction is no steep curve here: a joint stands, moves, or stops at an instant that is found, and which joints stand is
 //! the solution of a complementarity problem. Stiff effects, as bristles are, take linearly implicit steps with exact slopes.
 
+mod adjustable;
 mod complementarity;
 mod controller;
 mod error;
@@ -20,6 +21,7 @@ mod tangent;
 mod through;
 mod trajectory;
 
+pub use adjustable::{Adjustable, ParameterSlopes};
 pub use controller::{ComputedTorque, Controller, Gains, InverseDynamics, Measured, Pd, Torques};
 pub use error::SimulateError;
 pub use integrate::{Integrator, Tolerances, Work};
@@ -27,6 +29,6 @@ pub use looped::{Loop, Record};
 pub use motion::Drive;
 pub use noise::Sensors;
 pub use plant::{Instant, Jumps, Plant, Slopes};
-pub use tangent::{Adjustable, ParameterSlopes, Tangent};
+pub use tangent::Tangent;
 pub use through::{Functions, Through};
 pub use trajectory::{Desired, Trajectory};

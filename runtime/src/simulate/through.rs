@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::adjustable::{Adjustable, ParameterSlopes};
 use super::plant::{Instant, Jumps, Plant, Slopes};
-use super::tangent::{Adjustable, ParameterSlopes};
 
 /// Parameters of a plant as functions of others.
 ///

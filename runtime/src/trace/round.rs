@@ -83,7 +83,9 @@ impl Search<'_> {
         best.into_iter()
             .enumerate()
             .filter_map(|(place, (_, trial))| {
-                done(place as f64 / count as f64);
+                if place > 0 {
+                    done(place as f64 / count as f64);
+                }
                 let trial = trial.refined(&baseline.present, &self.prepared, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
                 let mut judged = if is_of_phase(trial.candidate) {

@@ -53,7 +53,7 @@ pub(super) fn shown(results: &Results) -> Vec<Row> {
         Row::holds(
             "3.8.printed",
             format!(
-                "the same with the printed bristles, pulled by a spring of {} N m/rad: jumps of 30 rad, where the link has 4.9",
+                "the same with the printed bristles, pulled by a spring of {} N m/rad",
                 printed.spring.stiffness
             ),
             "figures 8, 9",

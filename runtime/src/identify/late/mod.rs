@@ -49,9 +49,31 @@ const MOST: f64 = 0.03;
 /// What of a log is asked, s: more of it makes no delay surer than it has to be, and takes as many times as long.
 const LONGEST: f64 = 60.0;
 
-/// The middle of logs, where some are long.
+/// A joint of an excerpt goes at least this share of the way, in the same time, that it goes in all of the log.
+const MOVES: f64 = 0.5;
+
+/// Ways of the joints a second.
+fn ways(log: &Log) -> impl Iterator<Item = f64> + '_ {
+    let way = |q: &Vec<f64>| {
+        q.windows(2)
+            .map(|pair| (pair[1] - pair[0]).abs())
+            .sum::<f64>()
+    };
+    log.q.iter().map(move |q| way(q) / log.seconds())
+}
+
+/// The middle of a log that is long, where no joint rests more than elsewhere.
+fn excerpt(log: &Log) -> Option<Log> {
+    let middle = log.middle(LONGEST)?;
+    let moves = ways(&middle)
+        .zip(ways(log))
+        .all(|(own, all)| own >= MOVES * all);
+    moves.then_some(middle)
+}
+
+/// Excerpts of logs, where there are any.
 fn excerpts(logs: &[Log]) -> Option<Vec<Log>> {
-    let middles: Vec<Option<Log>> = logs.iter().map(|log| log.middle(LONGEST)).collect();
+    let middles: Vec<Option<Log>> = logs.iter().map(excerpt).collect();
     let is_any = middles.iter().any(Option::is_some);
     let pairs = middles.into_iter().zip(logs);
     is_any.then(|| {

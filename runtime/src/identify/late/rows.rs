@@ -15,8 +15,8 @@ pub(super) struct Rows<'a> {
 }
 
 impl<'a> Rows<'a> {
-    /// Of a stack, with friction that the arm may not have. Rows at turns are left out in any case: what dry friction holds there is no law's,
-    /// and larger than what a delay makes.
+    /// Of a stack, with friction that the arm may not have. Rows at turns of joints whose dry friction it knows are left out in any case: what
+    /// holds a joint there is no law's, and larger than what a delay makes.
     pub fn new(arm: &'a dyn Arm, logs: &'a [Prepared], stack: Stack) -> Self {
         let mut rows = Self {
             arm,

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Moving;
-use crate::simulate::tangent::{Adjustable, ParameterSlopes};
+use crate::simulate::adjustable::{Adjustable, ParameterSlopes};
 
 impl<P: Adjustable> Moving<P> {
     pub fn parameter_slopes(&mut self, time: f64, x: &DVector<f64>, slopes: &mut ParameterSlopes) {
