@@ -45,8 +45,8 @@ fn stands(tau: &[f64]) -> bool {
     middle < STANDS * (square / changes.len().max(1) as f64).sqrt()
 }
 
-/// Half the change from sample to sample over the torque's own change, without what white noise has of it: that is as large over two samples as over
-/// one, and changes of a smooth torque are twice as large there.
+/// Half the change from sample to sample over the spread of the torque, without what white noise has of it: that is as large over two samples
+/// as over one, and changes of a smooth torque are twice as large there.
 fn steps(tau: &[f64]) -> f64 {
     let over = |lag: usize| {
         let pairs = tau.iter().zip(tau.iter().skip(lag));

@@ -136,6 +136,7 @@ fn stub(name: &syn::Ident, sizes: &Sizes) -> TokenStream {
     );
     let memory = (sizes.states > 0).then(|| {
         quote! {
+            use ::robot_model::Memory;
             #[automatically_derived]
             impl Memory #all for #name {
                 const STATES: [&'static str; #states] = [""; #states];
@@ -146,6 +147,7 @@ fn stub(name: &syn::Ident, sizes: &Sizes) -> TokenStream {
     });
     let place = match sizes.points {
         None => quote! {
+            use ::robot_model::Kinematics;
             #[automatically_derived]
             impl Kinematics<#dof> for #name {
                 fn forward_kinematics<S: Scalar>(&self, _: #vector) -> [SMatrix<S, 4, 4>; #dof] #none
@@ -156,6 +158,7 @@ fn stub(name: &syn::Ident, sizes: &Sizes) -> TokenStream {
         Some(points) => {
             let points = n(points);
             quote! {
+                use ::robot_model::Points;
                 #[automatically_derived]
                 impl Points<#dof, #points> for #name {
                     const POINTS: [&'static str; #points] = [""; #points];
@@ -167,10 +170,8 @@ fn stub(name: &syn::Ident, sizes: &Sizes) -> TokenStream {
     };
     quote! {
         const _: () = {
-            #[allow(unused_imports, reason = "a robot has not all of these faces")]
             use ::robot_model::model::{SMatrix, SVector};
-            #[allow(unused_imports, reason = "a robot has not all of these faces")]
-            use ::robot_model::{FromParameters, Kinematics, Mechanics, Memory, Points, RobotModel, Scalar, State, Vector};
+            use ::robot_model::{FromParameters, Mechanics, RobotModel, Scalar, State, Vector};
             #[automatically_derived]
             impl RobotModel #all for #name {
                 const NAME: &'static str = "";

@@ -356,3 +356,32 @@ fn logarithm(residuals: &[f64]) -> f64 {
     let sizes = residuals.iter().filter(|size| **size > 0.0);
     sizes.map(|size| size.ln()).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of 200 s at 10 Hz; the second joint rests in some of it.
+    fn log(rests: std::ops::Range<f64>) -> Log {
+        let time: Vec<f64> = (0..=2000).map(|k| 0.1 * f64::from(k)).collect();
+        let wave = |t: &f64| (0.7 * t).sin();
+        let resting = |t: &f64| if rests.contains(t) { 0.0 } else { wave(t) };
+        let q = vec![
+            time.iter().map(wave).collect(),
+            time.iter().map(resting).collect(),
+        ];
+        let tau = vec![time.clone(); 2];
+        Log::from_samples("log", time, q, tau).expect("a log")
+    }
+
+    #[test]
+    fn the_middle_stands_for_a_log_where_all_joints_move_in_it() {
+        assert!(excerpts(&[log(0.0..60.0)]).is_some());
+        assert!(excerpts(&[log(80.0..120.0)]).is_none());
+        // One of two is cut, and the other is as it was.
+        let both = [log(0.0..1.0), log(80.0..120.0)];
+        let found = excerpts(&both).expect("one is cut");
+        assert!((found[0].seconds() - LONGEST).abs() < 0.2);
+        assert_eq!(found[1], both[1]);
+    }
+}
