@@ -141,7 +141,7 @@ impl Found<'_> {
                     shape("lugre_presliding.rise", ratio, rise.std),
                 ]);
             }
-            (None, Some(Fall { torque, speed })) => {
+            (None, Some(Fall { torque, speed, .. })) => {
                 let vs = digits(speed.value);
                 let _ = write!(
                     spec,

@@ -130,7 +130,7 @@ impl Streams<'_> {
             if self.as_logged {
                 return Ok((work(&piece)?, Vec::new()));
             }
-            let Mended { log, faults } = piece.mended();
+            let Mended { log, faults, .. } = piece.mended();
             Ok((work(&log)?, faults))
         };
         in_order(self.workers, pieces, mend, |(made, faults)| {

@@ -43,6 +43,22 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
     out
 }
 
+/// The law that says that something is missing although it may not be named.
+pub(super) fn said_of_doubtful(closed: &Loop) -> Option<String> {
+    let tried = closed.verdict.doubtful()?;
+    let percent = tried
+        .joints
+        .iter()
+        .map(|&joint| tried.evidence.raw_percent[joint]);
+    let refusals: Vec<String> = tried.refusals.iter().map(ToString::to_string).collect();
+    Some(format!(
+        "{} takes {:.0} % off an error that it was not fitted to, and is not the law ({}): something like it is missing",
+        on_joints(closed, &tried.kind, &tried.joints),
+        percent.fold(f64::NEG_INFINITY, f64::max),
+        refusals.join(", ")
+    ))
+}
+
 /// Parameters in which something that is missing hides.
 pub(super) fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     closed.impossible().map(|found| {

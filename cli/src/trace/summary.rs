@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
-use super::doubt::{doubt, impossible, on_joints};
+use super::doubt::{doubt, impossible, on_joints, said_of_doubtful};
 use super::report::effect;
 use super::tried::tried;
 use super::whereabouts::structure_left;
@@ -78,6 +78,9 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             let indent = if k == 0 { 2 } else { 4 };
             writeln!(out, "{:indent$}{said}", "").expect("a string takes all");
         }
+    }
+    if let Some(told) = said_of_doubtful(closed) {
+        writeln!(out, "  {told}").expect("a string takes all");
     }
     for told in impossible(closed) {
         writeln!(out, "  {told}").expect("a string takes all");

@@ -314,50 +314,6 @@ fn a_delay_that_another_joint_is_sure_of_is_told_of_all() {
     assert_eq!(channels, ["tau1", "tau2"], "{faults:?}");
 }
 
-/// A joint that dry friction holds where it turns: what is wrong there is more than what 20 ms make, and yet no delay.
-#[test]
-fn a_delay_is_told_of_a_joint_that_sticks_where_it_turns() {
-    let folder = Folder::new();
-    let spec = "robot Pendulum { gravity = [0, -9.81, 0]; convention = standard_dh; joint arm: revolute { a = 0; alpha = 0; d = 0; } \
-                effects { viscous_friction on all; coulomb_friction on all; } }";
-    folder.write("pendulum.robot", spec);
-    folder.write(
-        "numbers.json",
-        r#"{"arm.m": 4, "arm.mx": 0.6, "arm.my": 0.05, "arm.mz": 0, "arm.ixx": 0.02, "arm.ixy": 0, "arm.ixz": 0, "arm.iyy": 0.13,
-            "arm.iyz": 0, "arm.izz": 0.14, "arm.viscous_friction.fv": 2.5, "arm.coulomb_friction.fc": 3}"#,
-    );
-    let mut motion = String::from("time,q1\n");
-    for k in 0..=2000 {
-        let t = 0.01 * f64::from(k);
-        let swing = 0.5 * (1.3 * t).sin() + 0.3 * (2.9 * t + 1.0).sin() + 0.12 * (6.1 * t).sin();
-        let grows = t.min(1.0).powi(2) * (3.0 - 2.0 * t.min(1.0));
-        writeln!(motion, "{t:.2},{:.9}", grows * swing - 0.3).expect("a string takes all");
-    }
-    folder.write("motion.csv", &motion);
-    let simulate = "simulate pendulum.robot --trajectory motion.csv --parameters numbers.json --out log.csv --frequency 30 \
-                    --torque-noise 0.01 --encoder-bits 17 --seed 4";
-    folder.succeed(&simulate.split_whitespace().collect::<Vec<_>>());
-    let log = folder.read("log.csv");
-    for (samples, count) in [(0, 0), (20, 1)] {
-        folder.write("late.csv", &late(&log, samples));
-        folder.succeed(&[
-            "identify",
-            "pendulum.robot",
-            "late.csv",
-            "--json",
-            "out.json",
-        ]);
-        let faults = json(&folder.read("out.json"))["data_faults"].clone();
-        let faults = faults.as_array().expect("a list");
-        assert_eq!(faults.len(), count, "{faults:?}");
-        for fault in faults {
-            assert_eq!(fault["kind"], "late-torque");
-            let seconds = fault["delay"]["value"].as_f64().expect("a number");
-            assert!((seconds - 0.02).abs() < 0.002, "{fault}");
-        }
-    }
-}
-
 /// Beside damping half a sample is an inertia: no error tells them apart.
 #[test]
 fn commands_that_hold_at_a_low_rate_are_told() {

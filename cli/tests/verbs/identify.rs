@@ -338,7 +338,7 @@ fn faults_of_the_data_are_mended_counted_and_told() {
     );
     assert_eq!(held["delay"], serde_json::Value::Null);
     assert!(
-        said.contains("note: worn.csv: q1 stands still while the arm moves on, 1 times"),
+        said.contains("note: worn.csv: q1 stands still while the arm moves on, once, at"),
         "{said}"
     );
     let (as_logged, out, _) = fit("worn.csv", &["--as-logged"]);

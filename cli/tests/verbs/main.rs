@@ -52,6 +52,7 @@ mod shells;
 mod simulate;
 mod slower;
 mod starts;
+mod sticks;
 mod trace;
 mod turns;
 mod verdicts;

@@ -6,7 +6,10 @@ pub const WANTED: [(&str, &str); 59] = [
         "0.1",
         "alpha, beta and the friction of the law as base parameters",
     ),
-    ("0.2", "the same data fitted with three laws"),
+    (
+        "0.2",
+        "the same data fitted with three laws, one after another",
+    ),
     ("0.3", "no step goes to zero where the arm turns"),
     ("0.4", "iterates with their costs, as in Tables 1 and 2"),
     ("0.5", "a free initial velocity in the window of the paper"),

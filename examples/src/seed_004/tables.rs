@@ -3,7 +3,7 @@
 use super::device;
 use super::results::Results;
 use super::shares;
-use super::truth::{CONFIGURATIONS, NAMES, TABLE_2};
+use super::truth::{CONFIGURATIONS, NAMES, PIECE_WISE, TABLE_2};
 use crate::paper::Table;
 
 pub(super) fn tables(results: &Results) -> Vec<Table> {
@@ -19,7 +19,15 @@ pub(super) fn tables(results: &Results) -> Vec<Table> {
 fn parameters(results: &Results) -> Table {
     let mut table = Table::new(
         "Table 1 times 1000: printed, identified in the loop without rows at turns, with them",
-        ["parameter", "UR", "GCW", "FS", "USD", "USD+GCW"],
+        [
+            "parameter",
+            "UR",
+            "GCW",
+            "FS",
+            "USD",
+            "USD+GCW",
+            "piece-wise, printed",
+        ],
     );
     for (k, name) in NAMES.iter().enumerate() {
         let cells = results.installations.iter().map(|one| {
@@ -27,6 +35,8 @@ fn parameters(results: &Results) -> Table {
                 [&one.estimate, &one.with_turns].map(|estimate| 1e3 * device::values(estimate)[k]);
             format!("{:.2}, {without:.3}, {with:.3}", 1e3 * one.truth[k])
         });
+        let piece_wise = PIECE_WISE.get(k).map(|value| format!("{value:.2}"));
+        let cells = cells.chain([piece_wise.unwrap_or_else(|| "-".to_owned())]);
         table.push(std::iter::once((*name).to_owned()).chain(cells));
     }
     table

@@ -43,7 +43,7 @@ const TABLE_1: [[f64; 5]; 14] = [
 ];
 
 /// The column of table 1 from parts that were measured one by one and drawn, times 1000; it has no friction.
-const PIECE_WISE: [f64; 8] = [2.78, 1.09, -0.40, 0.91, 2.41, 0.91, -16.30, -73.80];
+pub const PIECE_WISE: [f64; 8] = [2.78, 1.09, -0.40, 0.91, 2.41, 0.91, -16.30, -73.80];
 
 /// Table 1 of one installation.
 #[must_use]

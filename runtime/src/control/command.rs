@@ -45,6 +45,7 @@ pub struct Command<const D: usize> {
 /// assert_eq!(Status::Saturated.to_string(), "saturated");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Status {
     /// The law's torque.
     Normal,

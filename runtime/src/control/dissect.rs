@@ -18,6 +18,7 @@ const ELEMENTS: [&str; 10] = [
 /// assert_eq!(share.torque[1], 0.8);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Share<const D: usize> {
     /// `JOINT.EFFECT`, of several joints the first one's.
     pub name: &'static str,
@@ -50,6 +51,7 @@ pub struct Share<const D: usize> {
 /// assert!((shares.sum() - arm.inverse_dynamics(&state.q, &state.dq, &state.ddq)).norm() < 1e-12);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Dissection<const D: usize, const S: usize> {
     /// `M ddq`, N m or N.
     pub inertia: Vector<D>,

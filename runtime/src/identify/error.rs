@@ -5,6 +5,7 @@ use crate::signal::SignalError;
 
 /// Why an identification was refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum IdentifyError {
     /// There is no log.
     #[error("no log to identify from; give at least one")]

@@ -58,6 +58,17 @@ pub(super) fn find(stack: &mut Stack, arm: &dyn Arm, logs: &[Prepared]) {
     clear_rows(&mut stack.joints, &stack.held);
 }
 
+/// Rows of a joint whose dry friction the arm does not know: where it turns, and where it is held.
+pub(super) fn of_joint(stack: &Stack, logs: &[Prepared], joint: usize) -> Vec<usize> {
+    let of_log = |(number, log): (usize, &Prepared)| {
+        let start = stack.segments[number].start;
+        let Standing { turns, held } = Standing::of(log, joint);
+        let reached = [turns, held].map(|reached| rows_at(start, log, &reached));
+        reached.concat()
+    };
+    logs.iter().enumerate().flat_map(of_log).collect()
+}
+
 /// Which samples of a log are left out, since the dry friction of a joint holds it.
 pub(super) fn held(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
     if arm.dry_joints().contains(&joint) {

@@ -8,6 +8,8 @@ use std::sync::OnceLock;
 use crate::columns::Entry;
 use crate::identify::{Solution, Stack, leave_out_turns};
 
+use super::gate::{Judged, MATERIAL_PERCENT};
+use super::gram::{Gram, HeldOut};
 use super::search::{Search, State};
 use super::structure::Structure;
 
@@ -49,6 +51,28 @@ impl Away {
 }
 
 impl Search<'_> {
+    /// Whether a change lowers errors that were not fitted away from turns of dry joints, too, by as much as matters: what holds a joint there
+    /// no law of the model says, and an arm that is a little later or elsewhere can look like that.
+    pub(super) fn holds_away_from_turns(&self, state: &State, judged: &Judged) -> bool {
+        let (Some(away), Some(changed)) = (self.away(state), &judged.changed) else {
+            return true;
+        };
+        let held_out = |stack: &Stack| {
+            let mut stack = stack.clone();
+            stack.turns.clone_from(&away.stack.turns);
+            leave_out_turns(&mut stack);
+            Gram::new(&stack, &self.folds).held_out(&state.solution.sigma)
+        };
+        let [before, after] = [&away.stack, &changed.stack].map(held_out);
+        let judges = (0..self.arm.dof()).filter(|joint| away.mean_square(*joint).is_some());
+        let mean = |errors: &HeldOut, joint: usize| errors.mean(joint).max(f64::MIN_POSITIVE);
+        let falls = judges.map(|joint| 0.5 * (mean(&before, joint) / mean(&after, joint)).ln());
+        let falls: Vec<f64> = falls.collect();
+        let matters = -(-MATERIAL_PERCENT / 100.0).ln_1p();
+        falls.is_empty()
+            || (falls.iter().sum::<f64>() > 0.0 && falls.iter().any(|fall| *fall >= matters))
+    }
+
     /// The present model fitted away from turns; none where there are none, or where other rows do not tell the model.
     pub(super) fn away<'a>(&self, state: &'a State) -> Option<&'a Away> {
         let fit = || {

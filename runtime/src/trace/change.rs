@@ -70,7 +70,8 @@ impl Search<'_> {
         for (column, probe) in change.probe().iter().enumerate() {
             let mut moved = change.neutral().to_vec();
             moved[column] = *probe;
-            let moved = Stack::new(arm, &logs, &self.with_own(&moved)).residuals(&estimate);
+            let moved = self.identify.rows(arm, &logs, &self.with_own(&moved));
+            let moved = moved.residuals(&estimate);
             let pairs = before.iter().zip(&moved).enumerate();
             entries.extend(pairs.map(|(joint, (before, moved))| Entry {
                 joint,
@@ -101,7 +102,7 @@ impl Search<'_> {
             let shapes = self.with_own(&own);
             load(arm, &mut logs, &shapes, &estimate);
             let rows = |shapes: &[f64]| {
-                let mut stack = Stack::new(arm, &logs, shapes);
+                let mut stack = self.identify.rows(arm, &logs, shapes);
                 for effect in &state.accepted {
                     stack.append(effect.trial.candidate.unknowns(), &effect.trial.entries);
                 }

@@ -153,6 +153,7 @@ mod tests {
             merit: -error.ln(),
             raw_power: vec![error * error],
             refusals: Vec::new(),
+            keeps_signs: true,
             changed: None,
         });
         let kind = |judged: &Judged| judged.trial.candidate.kind().to_owned();

@@ -3,7 +3,7 @@
 use super::floor::Floor;
 use super::search::{Accepted, State};
 use super::structure::Structure;
-use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdict};
+use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdict, doubtful};
 
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
@@ -29,7 +29,10 @@ pub(super) fn verdict(
     let found = findings(state, &values.std);
     // Of a quiet arm a model with what was found may leave more than noise all the same.
     let is_beyond = found.is_empty() && values.floor.iter().any(|floor| floor.exceeded().is_some());
-    let left = is_beyond || unsettled(&before, &after, state);
+    // Nor is all well where a law that is not the right one takes much off.
+    let is_doubtful = found.is_empty() && doubtful(&tried).is_some();
+    let is_settled = !is_beyond && !unsettled(&before, &after, state);
+    let left = is_doubtful || !is_settled;
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
         (false, true) => Outcome::NothingMissing,
@@ -52,6 +55,7 @@ pub(super) fn verdict(
         noise_floor: values.floor.clone(),
         turn_speeds: values.turn_speeds.clone(),
         goes_on: false,
+        is_settled,
     }
 }
 
@@ -74,6 +78,7 @@ pub(super) fn changed(
         noise_floor: values.floor.clone(),
         turn_speeds: values.turn_speeds.clone(),
         goes_on: true,
+        is_settled: true,
     }
 }
 

@@ -2,15 +2,17 @@
 //!
 //! With effect `b` among the model's columns `a` is scored on what is left, and the other way round. Where `a` explains more beside `b`, and `b`
 //! nothing beside `a`, `a` encompasses `b` (Mizon & Richard 1986): `b` is what `a` looks like in these logs. A simpler law that is the
-//! right one is encompassed by none. Nor is one that leaves a smaller error on some joint, by more than noise.
+//! right one is encompassed by none, nor is one by a law whose parameters have the wrong signs, or that leaves a larger error on some joint by
+//! more than noise.
 
-use super::gate::{self, Judged};
+use super::gate::{self, Judged, SIGNIFICANCE};
 use super::gram::Gram;
 use super::score::Present;
 use super::search::{Search, State};
 
-/// Chance up to which it counts as more, of all rivals together, and from which on as nothing.
-const CHANCE: f64 = 1e-2;
+/// From which chance on it counts as nothing; as more it counts up to that up to which an effect is named, of all rivals together. A slow
+/// wander of the zero bends any law a little.
+const NOTHING: f64 = 1e-2;
 
 /// Held-out errors within this of each other are alike, percent: the error of a joint that neither effect touches is not the same in two
 /// fits.
@@ -25,9 +27,10 @@ impl Search<'_> {
         other: &Judged,
         rivals: usize,
     ) -> bool {
-        gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
-            && rivals as f64 * self.beside(state, one, other) < CHANCE
-            && self.beside(state, other, one) > CHANCE
+        one.keeps_signs
+            && gate::worse_percent(&one.raw_power, &other.raw_power) < ALIKE_PERCENT
+            && rivals as f64 * self.beside(state, one, other) < SIGNIFICANCE
+            && self.beside(state, other, one) > NOTHING
     }
 
     /// Probability of the score of `one` in noise, with `other` in the model; 1 where it says nothing new.

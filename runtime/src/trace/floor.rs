@@ -8,6 +8,7 @@ use faer::Mat;
 use super::away::LEAST_LEFT;
 use super::raw::mean_square;
 use super::search::{Search, State};
+use super::structure::laps;
 use super::whereabouts::Quantity;
 use crate::identify::away_from_turns;
 use crate::signal::resample::whole_steps;
@@ -111,11 +112,15 @@ impl Search<'_> {
         let beyond = self.beyond_all(&raw);
         let periodic = self.periods.iter().copied().collect::<Option<Vec<f64>>>();
         let of_joint = |joint: usize| {
-            if let Some(periods) = &periodic {
+            let changing = periodic.as_ref().and_then(|periods| {
                 let logs = raw.iter().zip(&self.prepared).zip(periods);
-                let parts = logs.flat_map(|((log, prepared), period)| {
+                let parts = logs.map(|((log, prepared), period)| {
                     changing(&log[joint], period * prepared.rate_hz)
                 });
+                parts.collect::<Option<Vec<_>>>()
+            });
+            if let Some(parts) = changing {
+                let parts = parts.into_iter().flatten();
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
                 let left = self.left_away(&raw, joint);
                 return Floor {
@@ -211,14 +216,10 @@ fn fitted(columns: &[Vec<f64>], values: &[f64], rows: &[usize]) -> Vec<f64> {
     (0..count).map(|c| solved[(c, 0)]).collect()
 }
 
-/// Mean square of every whole period of what differs from the mean of all, as it would be about the mean of endlessly many; of all values
-/// where there are fewer than two. Two periods differ from their mean by as much, so those of parts of both are taken.
-fn changing(values: &[f64], length: f64) -> Vec<f64> {
-    let bins = whole_steps(length);
-    let periods = whole_steps(values.len() as f64 / length.max(1.0));
-    if periods < 2 || bins < 2 {
-        return vec![mean_square(values)];
-    }
+/// Mean square of every whole period of what differs from the mean of all, as it would be about the mean of endlessly many; `None` where too
+/// little comes again. Two periods differ from their mean by as much, so those of parts of both are taken.
+fn changing(values: &[f64], length: f64) -> Option<Vec<f64>> {
+    let (periods, bins) = laps(values.len(), length)?;
     let at = |p: usize, k: usize| {
         let row = whole_steps((p as f64 * length).round() + k as f64);
         values[row.min(values.len() - 1)]
@@ -234,10 +235,10 @@ fn changing(values: &[f64], length: f64) -> Vec<f64> {
             let (length, squares) = (part.len(), part.map(|k| square(0, k)));
             squares.sum::<f64>() / length as f64
         };
-        return (0..count).map(part).map(of_part).collect();
+        return Some((0..count).map(part).map(of_part).collect());
     }
     let of_period = |p: usize| (0..bins).map(|k| square(p, k)).sum::<f64>() / bins as f64;
-    (0..periods).map(of_period).collect()
+    Some((0..periods).map(of_period).collect())
 }
 
 #[cfg(test)]
@@ -256,16 +257,18 @@ mod tests {
     #[test]
     fn what_comes_back_is_not_in_the_floor() {
         let length = 250.5;
-        // Seven periods, and two, which differ from their mean alike.
-        for samples in [2000, 501] {
+        // Seven periods, two, which differ from their mean alike, and less than two.
+        for samples in [2000, 501, 400] {
             let values: Vec<f64> = (0..samples)
                 .map(|k| (std::f64::consts::TAU * k as f64 / length).sin() + 0.2 * noise(k))
                 .collect();
-            let floor = Floor::of_parts(&changing(&values, length), FloorFrom::Periods);
+            let parts = changing(&values, length).expect("it comes again");
+            let floor = Floor::of_parts(&parts, FloorFrom::Periods);
             let truth = 0.2 / 12.0_f64.sqrt();
             assert!((floor.rms - truth).abs() < 0.1 * truth, "{floor:?}");
             assert!((0.001..0.1).contains(&(floor.std / truth)), "{floor:?}");
         }
+        assert_eq!(changing(&[0.0; 300], length), None);
     }
 
     #[test]

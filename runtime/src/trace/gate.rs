@@ -16,7 +16,7 @@ use super::verdict::{Evidence, Refusal, Tried};
 pub(super) const MATERIAL_PERCENT: f64 = 5.0;
 
 /// Family-wise error rate of the score.
-const SIGNIFICANCE: f64 = 1e-3;
+pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
 /// How far a fold's torque of the effect may be from that of all folds, relative.
 const STEADINESS: f64 = 0.5;
@@ -45,6 +45,8 @@ pub(super) struct Judged<'a> {
     pub(super) raw_power: Vec<f64>,
     /// Why it may not be named.
     pub(super) refusals: Vec<Refusal>,
+    /// Whether no parameter that must not be negative is so by any amount.
+    pub(super) keeps_signs: bool,
     /// Of an effect that changes the arm: whether it was tried as what it is, and with which rows.
     pub(super) changed: Option<Changed>,
 }
@@ -90,16 +92,12 @@ impl Baseline<'_> {
             .estimates
             .iter()
             .all(|fold| projected.distance(&fold[self.gram.unknowns()..], &gain) < STEADINESS);
-        let physical = trial
-            .candidate
-            .unknowns()
+        let unknowns = trial.candidate.unknowns().iter().enumerate();
+        let negative = unknowns.filter(|(c, unknown)| unknown.nonnegative && gain[*c] < 0.0);
+        let negative: Vec<usize> = negative.map(|(c, _)| c).collect();
+        let physical = negative
             .iter()
-            .enumerate()
-            .all(|(c, unknown)| {
-                !unknown.nonnegative
-                    || gain[c] >= 0.0
-                    || projected.power_share(&gain, c) < NEGATIVE_SHARE
-            });
+            .all(|&c| projected.power_share(&gain, c) < NEGATIVE_SHARE);
         let refusals = [
             (p_value < SIGNIFICANCE, Refusal::Chance),
             (trial.is_inside(), Refusal::EndOfRange),
@@ -112,6 +110,7 @@ impl Baseline<'_> {
             merit: compared.merit,
             raw_power: compared.raw_power,
             refusals: refused(refusals, compared.refusals),
+            keeps_signs: negative.is_empty(),
             changed: None,
         }
     }
@@ -159,6 +158,7 @@ impl Baseline<'_> {
                 ],
                 compared.refusals,
             ),
+            keeps_signs: true,
             changed: Some(changed),
             trial: first.trial,
         }

@@ -151,6 +151,10 @@ impl Search<'_> {
         let counts = change.counts(&changed.shapes, longest_period(&self.prepared));
         let follows_torque = changed.follows_torque;
         let mut judged = baseline.judge_changed(first, changed, &self.folds);
+        // What bends and gaps do is at turns, too.
+        if judged.passes() && !follows_torque && !self.holds_away_from_turns(state, &judged) {
+            judged.refusals.push(Refusal::AtTurns);
+        }
         if follows_torque && !self.is_of_structure(state, &judged) {
             judged.refusals.push(Refusal::Noise);
         }
@@ -174,7 +178,6 @@ impl Search<'_> {
 
     /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
     fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
-        // What bends and gaps do is at turns, too.
         let structure = self.structure_of_all_rows(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
         joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)

@@ -122,16 +122,37 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
     found
 }
 
+/// Where so many samples have the least of a period again that two periods are compared in, its share.
+const AGAIN: f64 = 0.3;
+
+/// How many periods of a length there are, and how many samples of each; of less than two as many as come again. `None` where these are
+/// too few.
+pub(super) fn laps(samples: usize, length: f64) -> Option<(usize, usize)> {
+    let periods = whole_steps(samples as f64 / length.max(1.0));
+    let (periods, bins) = if periods < 2 {
+        let again = samples.saturating_sub(whole_steps(length.ceil()));
+        (
+            2,
+            if again as f64 >= AGAIN * length {
+                again
+            } else {
+                0
+            },
+        )
+    } else {
+        (periods, whole_steps(length))
+    };
+    (bins >= 2).then_some((periods, bins))
+}
+
 /// Power of what comes back in every period, less what noise leaves in a mean; 0 where that is not clearly more.
 ///
 /// `values` are filtered by the shared low-pass: above it, model and motion differ by the filters of the motion alone, and
 /// that difference repeats as well.
 pub(super) fn repeated_power(values: &[f64], length: f64) -> f64 {
-    let bins = whole_steps(length);
-    let periods = whole_steps(values.len() as f64 / length.max(1.0));
-    if periods < 2 || bins < 2 {
+    let Some((periods, bins)) = laps(values.len(), length) else {
         return 0.0;
-    }
+    };
     let at = |p: usize, k: usize| {
         values[whole_steps((p as f64 * length).round() + k as f64).min(values.len() - 1)]
     };
@@ -258,5 +279,9 @@ mod tests {
         }
         let power = repeated_power(&values, 400.0);
         assert!((power - 18.0).abs() < 4.0, "{power}");
+        // Of a log whose ends the filter takes less than two are left, of which the half may come again, or too little.
+        let power = repeated_power(&values[..600], 400.0);
+        assert!((power - 18.0).abs() < 6.0, "{power}");
+        assert!(repeated_power(&values[..500], 400.0) < 1e-9);
     }
 }

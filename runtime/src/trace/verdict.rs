@@ -75,6 +75,8 @@ pub enum Refusal {
     Noise,
     /// It is a law of the part of the motion's period, and leaves of what comes back in every period.
     ComesBack,
+    /// It lowers errors where joints turn alone, whose dry friction holds them there by what no law of the model says.
+    AtTurns,
 }
 
 impl Refusal {
@@ -96,6 +98,7 @@ impl Refusal {
             Self::Unsolved => "unsolved",
             Self::Noise => "noise",
             Self::ComesBack => "comes-back",
+            Self::AtTurns => "at-turns",
         }
     }
 }
@@ -112,6 +115,7 @@ impl fmt::Display for Refusal {
             Self::Unsolved => write!(f, "no solution in its ranges"),
             Self::Noise => write!(f, "noise of the torque itself"),
             Self::ComesBack => write!(f, "leaves what comes back"),
+            Self::AtTurns => write!(f, "only where joints turn"),
         }
     }
 }
@@ -189,6 +193,27 @@ impl fmt::Display for Outcome {
     }
 }
 
+/// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
+const DOUBT_PERCENT: f64 = 10.0;
+
+/// See [`Verdict::doubtful`].
+pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
+    let last = tried.iter().map(|tried| tried.round).max()?;
+    let most = |tried: &Tried| {
+        let percent = |joint: &usize| tried.evidence.raw_percent[*joint];
+        let joints = tried.joints.iter();
+        joints.map(percent).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let is_of_law = |refusal: &Refusal| matches!(refusal, Refusal::EndOfRange | Refusal::Sign);
+    let doubted = tried.iter().filter(|tried| {
+        tried.round == last
+            && !tried.refusals.is_empty()
+            && tried.refusals.iter().all(is_of_law)
+            && most(tried) >= DOUBT_PERCENT
+    });
+    doubted.max_by(|a, b| most(a).total_cmp(&most(b)))
+}
+
 /// The result of a trace.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -216,6 +241,8 @@ pub struct Verdict {
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).
     pub goes_on: bool,
+    /// Whether no structure is left which the findings should have accounted for.
+    pub(super) is_settled: bool,
 }
 
 impl Verdict {
@@ -226,8 +253,28 @@ impl Verdict {
             outcome: Outcome::Unexplained,
             leads: leads.collect(),
             findings: Vec::new(),
+            is_settled: false,
             ..self
         }
+    }
+
+    /// Where nothing was named: of the laws of the last round against which only their signs or their ranges speak the one that takes most
+    /// off the error of its joints, where that is a tenth or more. It is not the law, and something like it is missing.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{dry_friction, measure, pendulum};
+    /// use robot_model::trace::Trace;
+    /// let (arm, candidate) = (pendulum(), dry_friction());
+    /// let traced = Trace::new(vec![&candidate]).run(&arm, &[measure(0.0)], &mut |_| ())?;
+    /// assert_eq!(traced.doubtful(), None);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub fn doubtful(&self) -> Option<&Tried> {
+        let is_open = self.outcome == Outcome::Unexplained && self.leads.is_empty();
+        doubtful(&self.tried).filter(|_| is_open)
     }
 
     /// This one, which goes on, with what was found after it.
@@ -248,7 +295,10 @@ impl Verdict {
     #[must_use]
     pub fn followed_by(self, next: Self) -> Self {
         let places = self.findings.len();
-        let is_explained = next.outcome != Outcome::Unexplained;
+        // What speaks against a model in which nothing was found does not speak against one in which something was.
+        let is_doubted = next.outcome == Outcome::Unexplained
+            && (places == 0 || !next.leads.is_empty() || !next.is_settled);
+        let is_explained = !is_doubted;
         let mut found = self.findings;
         let later = if is_explained {
             next.findings
@@ -285,6 +335,10 @@ impl Verdict {
             noise_floor: next.noise_floor,
             turn_speeds: next.turn_speeds,
             goes_on: next.goes_on,
+            is_settled: next.is_settled,
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -361,7 +361,9 @@ impl OutputReport<'_> {
         let columns = std::iter::once(("identification", self.train));
         let columns = columns.chain(self.validation.map(|judged| ("validation", judged)));
         for (name, judged) in columns {
-            let Comparison { position, torque } = &judged.comparison;
+            let Comparison {
+                position, torque, ..
+            } = &judged.comparison;
             let torque = torque.as_deref().map(|torque| ("torque", torque));
             let channels = std::iter::once(("position", position.as_slice())).chain(torque);
             for (channel, distances) in channels {

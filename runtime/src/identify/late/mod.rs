@@ -8,10 +8,12 @@
 //! later than the sign of its velocity says. So each joint has three more columns, viscous friction, dry friction and the slope of that, and
 //! free shapes have theirs: what is told is told apart from all of them, and of other torques than dry friction.
 
+mod excerpt;
 mod nearest;
 mod position;
 mod rows;
 
+use excerpt::{LONGEST, excerpts};
 use nearest::nearest;
 use rows::Rows;
 
@@ -45,43 +47,6 @@ const ALIKE: f64 = 3.0;
 /// away. What does not settle is no delay.
 const ROUNDS: usize = 8;
 const MOST: f64 = 0.03;
-
-/// What of a log is asked, s: more of it makes no delay surer than it has to be, and takes as many times as long.
-const LONGEST: f64 = 60.0;
-
-/// A joint of an excerpt goes at least this share of the way, in the same time, that it goes in all of the log.
-const MOVES: f64 = 0.5;
-
-/// Ways of the joints a second.
-fn ways(log: &Log) -> impl Iterator<Item = f64> + '_ {
-    let way = |q: &Vec<f64>| {
-        q.windows(2)
-            .map(|pair| (pair[1] - pair[0]).abs())
-            .sum::<f64>()
-    };
-    log.q.iter().map(move |q| way(q) / log.seconds())
-}
-
-/// The middle of a log that is long, where no joint rests more than elsewhere.
-fn excerpt(log: &Log) -> Option<Log> {
-    let middle = log.middle(LONGEST)?;
-    let moves = ways(&middle)
-        .zip(ways(log))
-        .all(|(own, all)| own >= MOVES * all);
-    moves.then_some(middle)
-}
-
-/// Excerpts of logs, where there are any.
-fn excerpts(logs: &[Log]) -> Option<Vec<Log>> {
-    let middles: Vec<Option<Log>> = logs.iter().map(excerpt).collect();
-    let is_any = middles.iter().any(Option::is_some);
-    let pairs = middles.into_iter().zip(logs);
-    is_any.then(|| {
-        pairs
-            .map(|(middle, log)| middle.unwrap_or_else(|| log.clone()))
-            .collect()
-    })
-}
 
 /// A channel that is not of the time of the others.
 ///
@@ -199,6 +164,8 @@ impl Identify {
             .iter()
             .any(|percent| *percent > POOR);
         let rows = self.late_rows(arm, logs, stack, (shapes, estimate));
+        let stuck = rows.stuck_at(&self.sticky(&rows));
+        let rows = rows.without(&stuck);
         let counted: usize = rows.stack.counts().iter().sum();
         if counted < FEWEST * rows.stack.unknowns.len() {
             return Late::default();
@@ -217,6 +184,20 @@ impl Identify {
             Vec::new()
         };
         Late { told, held }
+    }
+
+    /// Joints with dry friction that the arm does not have: what holds them where they turn is no delay, either.
+    fn sticky(&self, rows: &Rows<'_>) -> Vec<usize> {
+        let Ok(mut solution) = self.solve_stack(&rows.stack) else {
+            return Vec::new();
+        };
+        solution.std = self.deviations_of_products(&rows.stack, &solution);
+        let is_sure = |column: usize| {
+            solution.is_told(column)
+                && solution.estimate[column] > DEVIATIONS * solution.std[column]
+        };
+        let dry = rows.dry().filter(|(_, column)| is_sure(*column));
+        dry.map(|(joint, _)| joint).collect()
     }
 
     fn late_rows<'a>(
@@ -355,33 +336,4 @@ impl Identify {
 fn logarithm(residuals: &[f64]) -> f64 {
     let sizes = residuals.iter().filter(|size| **size > 0.0);
     sizes.map(|size| size.ln()).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Of 200 s at 10 Hz; the second joint rests in some of it.
-    fn log(rests: std::ops::Range<f64>) -> Log {
-        let time: Vec<f64> = (0..=2000).map(|k| 0.1 * f64::from(k)).collect();
-        let wave = |t: &f64| (0.7 * t).sin();
-        let resting = |t: &f64| if rests.contains(t) { 0.0 } else { wave(t) };
-        let q = vec![
-            time.iter().map(wave).collect(),
-            time.iter().map(resting).collect(),
-        ];
-        let tau = vec![time.clone(); 2];
-        Log::from_samples("log", time, q, tau).expect("a log")
-    }
-
-    #[test]
-    fn the_middle_stands_for_a_log_where_all_joints_move_in_it() {
-        assert!(excerpts(&[log(0.0..60.0)]).is_some());
-        assert!(excerpts(&[log(80.0..120.0)]).is_none());
-        // One of two is cut, and the other is as it was.
-        let both = [log(0.0..1.0), log(80.0..120.0)];
-        let found = excerpts(&both).expect("one is cut");
-        assert!((found[0].seconds() - LONGEST).abs() < 0.2);
-        assert_eq!(found[1], both[1]);
-    }
 }

@@ -12,6 +12,8 @@ pub(super) struct Rows<'a> {
     /// Per log the joints that say nothing.
     silent: Vec<Vec<usize>>,
     pub stack: Stack,
+    /// `[joint][row]` at turns of joints with dry friction that the arm does not know.
+    pub stuck: Vec<Vec<usize>>,
 }
 
 impl<'a> Rows<'a> {
@@ -23,6 +25,7 @@ impl<'a> Rows<'a> {
             logs,
             silent: logs.iter().map(says_nothing).collect(),
             stack,
+            stuck: vec![Vec::new(); arm.dof()],
         };
         let sign = |log: &Prepared, joint: usize| -> Vec<f64> {
             let speeds = log.motion.wide.dq[joint].iter();
@@ -47,6 +50,38 @@ impl<'a> Rows<'a> {
         clipped::clear_again(&mut rows.stack);
         turns::leave_out(&mut rows.stack);
         rows
+    }
+
+    /// The dry friction that joints may have beside what the arm has of it: which joint's it is, and in which column.
+    pub fn dry(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let dof = self.arm.dof();
+        // Viscous friction is before it, and turns are behind.
+        let first = self.stack.unknowns.len() - 2 * dof;
+        let known = self.arm.dry_joints();
+        let unknown = (0..dof).filter(|joint| !known.contains(joint));
+        unknown.map(move |joint| (joint, first + joint))
+    }
+
+    /// Rows at turns of joints that stick there.
+    pub fn stuck_at(&self, sticky: &[usize]) -> Vec<Vec<usize>> {
+        let of = |joint| {
+            if sticky.contains(&joint) {
+                turns::of_joint(&self.stack, self.logs, joint)
+            } else {
+                Vec::new()
+            }
+        };
+        (0..self.arm.dof()).map(of).collect()
+    }
+
+    /// The same without such rows.
+    pub fn without(mut self, stuck: &[Vec<usize>]) -> Self {
+        for (turns, stuck) in self.stack.turns.iter_mut().zip(stuck) {
+            turns.extend(stuck);
+        }
+        turns::leave_out(&mut self.stack);
+        self.stuck = stuck.to_vec();
+        self
     }
 
     /// A joint's series of all logs, as the rows have it: zero where the joint says nothing.

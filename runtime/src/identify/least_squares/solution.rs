@@ -4,6 +4,7 @@ use super::super::combination::Shared;
 
 /// A least-squares solution.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Solution {
     /// One value per unknown; 0 where the column is not excited.
     pub estimate: Vec<f64>,

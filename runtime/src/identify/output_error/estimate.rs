@@ -31,6 +31,7 @@ pub struct Distance {
 
 /// A simulated motion beside its log, a distance a joint.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Of positions.
     pub position: Vec<Distance>,

@@ -9,17 +9,17 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::{Equations, Reduced, triangle};
+use super::equations::Equations;
 use super::identifiable::audible;
 use super::problem::{Place, Problem};
 use super::run::{Asked, Run};
 use crate::simulate::{Adjustable, SimulateError};
+use step::{LEAST, Room, Step};
+
+mod step;
 
 /// Iterations at most of a search that is to end.
 pub(super) const MOST: usize = 100;
-
-/// Least damping, of columns of length one: directions that outputs do not answer to are left alone.
-const LEAST: f64 = 1e-10;
 
 /// Shares of the cost and of the parameters that are no progress.
 const STILL: f64 = 1e-10;
@@ -69,104 +69,6 @@ pub struct Iterate {
     pub simulations: usize,
 }
 
-/// A step of parameters and of the starts of windows.
-struct Step {
-    parameters: DVector<f64>,
-    starts: Vec<DVector<f64>>,
-    /// By how much it is foretold to lower the cost, and its length in units of columns.
-    predicted: f64,
-    length: f64,
-}
-
-/// How far parameters may go from where they are.
-struct Room<'a> {
-    values: &'a [f64],
-    bounds: &'a [[f64; 2]],
-    /// Lengths of their columns, 0 where they do nothing.
-    scale: &'a DVector<f64>,
-}
-
-impl Room<'_> {
-    /// The step of least `|z + R d|^2 + lambda |D d|^2` that stays within the bounds: parameters that would leave them are set there,
-    /// the others again.
-    fn parameters(&self, reduced: &Reduced, lambda: f64) -> DVector<f64> {
-        let unknowns = self.values.len();
-        let mut step = DVector::zeros(unknowns);
-        let mut free: Vec<usize> = (0..unknowns)
-            .filter(|&k| self.bounds[k][0] < self.bounds[k][1] && self.scale[k] > 0.0)
-            .collect();
-        while !free.is_empty() {
-            let count = free.len();
-            let mut rows = DMatrix::zeros(unknowns + count, count + 1);
-            let right = &reduced.z + &reduced.r * &step;
-            for (place, &k) in free.iter().enumerate() {
-                rows.view_mut((0, place), (unknowns, 1))
-                    .copy_from(&reduced.r.column(k));
-                rows[(unknowns + place, place)] = lambda.sqrt() * self.scale[k];
-            }
-            rows.view_mut((0, count), (unknowns, 1)).copy_from(&right);
-            let rows = triangle(rows);
-            let r = rows.view((0, 0), (count, count)).into_owned();
-            let z: DVector<f64> = -rows.view((0, count), (count, 1)).column(0);
-            let Some(found) = r.solve_upper_triangular(&z) else {
-                return step;
-            };
-            let mut stays = Vec::new();
-            for (&k, &change) in free.iter().zip(found.iter()) {
-                let [low, high] = self.bounds[k];
-                let value = self.values[k] + change;
-                if value < low || value > high {
-                    step[k] = value.clamp(low, high) - self.values[k];
-                } else {
-                    stays.push((k, change));
-                }
-            }
-            if stays.len() == count {
-                for (k, change) in stays {
-                    step[k] = change;
-                }
-                return step;
-            }
-            free = stays.into_iter().map(|(k, _)| k).collect();
-        }
-        step
-    }
-
-    /// The same with the starts, damped alike.
-    fn damped(&self, equations: &Equations, lambda: f64) -> Step {
-        let reduced = equations.reduced(lambda);
-        let parameters = self.parameters(&reduced, lambda);
-        let starts = reduced.starts.iter();
-        let starts: Vec<DVector<f64>> = starts.map(|start| start.step(&parameters)).collect();
-        let (predicted, square) = equations.foretold(&parameters, &starts);
-        let own = parameters.component_mul(self.scale).norm_squared();
-        Step {
-            parameters,
-            starts,
-            predicted,
-            length: (own + square).sqrt(),
-        }
-    }
-
-    /// The longest of them within a radius.
-    fn within(&self, equations: &Equations, radius: f64) -> Step {
-        let step = self.damped(equations, LEAST);
-        if step.length <= radius {
-            return step;
-        }
-        let (mut low, mut high) = (LEAST.ln(), 1e12_f64.ln());
-        for _ in 0..40 {
-            let middle = 0.5 * (low + high);
-            if self.damped(equations, middle.exp()).length > radius {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        self.damped(equations, high.exp())
-    }
-}
-
 /// Lengths of columns so far, 0 where all of a parameter is nothing beside the largest of the others.
 fn scales(now: &DMatrix<f64>, before: &DVector<f64>, values: &[f64]) -> DVector<f64> {
     let lengths = now.column_iter().map(|column| column.norm());
@@ -179,6 +81,7 @@ fn scales(now: &DMatrix<f64>, before: &DVector<f64>, values: &[f64]) -> DVector<
 
 /// How a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Ending {
     /// No step lowers the cost any more.
     Converged,
@@ -199,105 +102,235 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     iterates: &mut Vec<Iterate>,
     progress: &mut dyn FnMut(&Iterate),
 ) -> Result<Found, (usize, SimulateError)> {
-    let mut cost = problem.cost(runs);
     let last = iterates.last();
-    let (mut simulations, stage) =
-        last.map_or((1, 0), |iterate| (iterate.simulations, iterate.stage + 1));
-    let mut best = problem.run(place, Asked::Slopes)?;
-    let mut scale = DVector::zeros(place.values.len());
-    let mut control: Option<f64> = None;
-    let mut ending = Ending::OutOfIterations;
-    let mut quiet = 0;
-    let mut note = |place: &Place, cost: f64, control: f64, simulations: usize| {
-        let iterate = Iterate {
-            stage,
-            cost,
-            values: place.values.clone(),
-            control,
-            simulations,
-        };
-        progress(&iterate);
-        iterates.push(iterate);
+    let (simulations, stage) =
+        last.map_or((0, 0), |iterate| (iterate.simulations, iterate.stage + 1));
+    let best = problem.run(place, Asked::Slopes)?;
+    let mut way = Way {
+        search,
+        bounds,
+        stage,
+        // The given runs are one of them.
+        simulations: simulations + 2,
+        iterations: problem.most,
+        cost: problem.cost(runs),
+        best,
+        scale: DVector::zeros(place.values.len()),
+        control: None,
+        iterates,
+        progress,
     };
-    for _ in 0..problem.most {
-        simulations += 1;
-        let equations = Equations::new(&problem.rows(&best));
-        let reduced = equations.reduced(0.0);
-        scale = scales(&reduced.r, &scale, &place.values);
-        let mut now = control.unwrap_or_else(|| first_control(search, place, &scale));
-        note(place, cost, now, simulations);
-        let mut next = None;
-        // Shorter and shorter steps, until one goes down. Most often the first one does, so that its slopes are made at once.
-        for attempt in 0..30 {
-            let room = Room {
-                values: &place.values,
-                bounds,
-                scale: &scale,
+    let ending = way.down(problem, place, Slopes::COARSE);
+    if problem.end == End::Fine {
+        way.simulations += 1;
+        // Where these run away those of the search have to do.
+        if let Ok(best) = problem.run(place, Asked::ExactSlopes) {
+            way.best = best;
+            if ending == Ending::Converged {
+                way.control = None;
+                way.down(problem, place, Slopes::EXACT);
+            }
+        }
+    }
+    way.note(place);
+    problem.plant.adjust(&place.values);
+    Ok((way.best, ending))
+}
+
+/// By which slopes a search goes on.
+#[derive(Debug, Clone, Copy)]
+struct Slopes {
+    asked: Asked,
+    /// How many shorter and shorter steps are tried from a place.
+    attempts: usize,
+    /// Steps that are foretold to be within the noise are not tried.
+    is_content: bool,
+}
+
+impl Slopes {
+    const COARSE: Self = Self {
+        asked: Asked::Slopes,
+        attempts: 30,
+        is_content: false,
+    };
+    /// From where coarse ones have led: most often there is nothing left to do, and what they do not go down along is an edge.
+    const EXACT: Self = Self {
+        asked: Asked::ExactSlopes,
+        attempts: 3,
+        is_content: true,
+    };
+}
+
+/// The way of a search: what it has come to know.
+struct Way<'a> {
+    search: Search,
+    bounds: &'a [[f64; 2]],
+    stage: usize,
+    simulations: usize,
+    /// That are left.
+    iterations: usize,
+    cost: f64,
+    /// Runs of where it stands, with slopes.
+    best: Vec<Run>,
+    scale: DVector<f64>,
+    control: Option<f64>,
+    iterates: &'a mut Vec<Iterate>,
+    progress: &'a mut dyn FnMut(&Iterate),
+}
+
+/// A step that lowers the cost, and where it leads.
+struct Next {
+    step: Step,
+    place: Place,
+    cost: f64,
+    runs: Vec<Run>,
+    /// Damping or radius of the step behind it.
+    control: f64,
+}
+
+impl Way<'_> {
+    /// Goes down from where it stands.
+    fn down<P: Adjustable + Clone + Sync>(
+        &mut self,
+        problem: &mut Problem<'_, P>,
+        place: &mut Place,
+        slopes: Slopes,
+    ) -> Ending {
+        let mut quiet = 0;
+        while self.iterations > 0 {
+            self.iterations -= 1;
+            let equations = Equations::new(&problem.rows(&self.best));
+            let reduced = equations.reduced(0.0);
+            self.scale = scales(&reduced.r, &self.scale, &place.values);
+            let control = self
+                .control
+                .unwrap_or_else(|| first_control(self.search, place, &self.scale));
+            self.control = Some(control);
+            self.note(place);
+            let cost = self.cost;
+            let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
+            let is_little = |gain: f64, step: &Step| {
+                gain <= LITTLE * cost
+                    && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise
             };
-            let step = match search {
-                Search::LevenbergMarquardt => room.damped(&equations, now),
-                Search::TrustRegion => room.within(&equations, now),
+            if slopes.is_content {
+                let step = self.room(place).damped(&equations, LEAST);
+                if is_little(step.predicted, &step) {
+                    return Ending::Converged;
+                }
+            }
+            let Some(next) = self.next(problem, place, &equations, (control, slopes)) else {
+                return Ending::Converged;
             };
-            if step.predicted <= STILL * cost {
+            let gain = cost - next.cost;
+            let is_quiet = match problem.end {
+                End::Rough => gain <= ROUGH * cost,
+                End::Fine => is_little(gain, &next.step),
+            };
+            quiet = if is_quiet { quiet + 1 } else { 0 };
+            let size = DVector::from_column_slice(&next.place.values).component_mul(&self.scale);
+            let is_over = gain <= STILL * cost
+                || next.step.length <= NO_STEP * size.norm()
+                || quiet == IN_A_ROW;
+            (*place, self.cost, self.best) = (next.place, next.cost, next.runs);
+            self.control = Some(next.control);
+            if is_over {
+                return Ending::Converged;
+            }
+        }
+        Ending::OutOfIterations
+    }
+
+    /// The first of shorter and shorter steps that goes down. Most often the first one does, so that its
+    /// slopes are made at once.
+    fn next<P: Adjustable + Clone + Sync>(
+        &mut self,
+        problem: &mut Problem<'_, P>,
+        place: &Place,
+        equations: &Equations,
+        (mut control, slopes): (f64, Slopes),
+    ) -> Option<Next> {
+        for attempt in 0..slopes.attempts {
+            let step = self.step(equations, place, control);
+            if step.predicted <= STILL * self.cost {
                 break;
             }
-            let trial = place.moved(&step, &equations, bounds);
-            simulations += 1;
-            let asked = if attempt == 0 {
-                Asked::Slopes
-            } else {
-                Asked::Motion
+            let trial = place.moved(&step, equations, self.bounds);
+            let asked = match attempt {
+                0 => slopes.asked,
+                _ => Asked::Motion,
             };
+            self.simulations += 1;
             let found = problem.run(&trial, asked);
-            let after = found
+            let cost = found
                 .as_ref()
                 .map_or(f64::INFINITY, |runs| problem.cost(runs));
-            let ratio = (cost - after) / step.predicted;
-            now = next_control(search, now, ratio, step.length);
-            if ratio > 0.0 {
-                // Where only its slopes run away nothing tells how to go on from there.
-                let runs = match asked {
-                    Asked::Motion => problem.run(&trial, Asked::Slopes),
-                    _ => found,
-                };
-                if let Ok(runs) = runs {
-                    next = Some((trial, after, step, runs));
-                    break;
+            let ratio = (self.cost - cost) / step.predicted;
+            control = next_control(self.search, control, ratio, step.length);
+            if ratio <= 0.0 || ratio.is_nan() {
+                continue;
+            }
+            let runs = match asked {
+                Asked::Motion => {
+                    self.simulations += 1;
+                    problem.run(&trial, slopes.asked)
                 }
-                now = next_control(search, now, f64::NAN, step.length);
+                _ => found,
+            };
+            if let Ok(runs) = runs {
+                let next = Next {
+                    step,
+                    place: trial,
+                    cost,
+                    runs,
+                    control,
+                };
+                return Some(next);
             }
+            // Where only its slopes run away nothing tells how to go on from there.
+            control = next_control(self.search, control, f64::NAN, step.length);
         }
-        let Some((trial, after, step, runs)) = next else {
-            ending = Ending::Converged;
-            break;
-        };
-        let size = DVector::from_column_slice(&trial.values).component_mul(&scale);
-        let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
-        let is_quiet = match problem.end {
-            End::Rough => cost - after <= ROUGH * cost,
-            End::Fine => {
-                cost - after <= LITTLE * cost
-                    && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise
-            }
-        };
-        quiet = if is_quiet { quiet + 1 } else { 0 };
-        let is_over = cost - after <= STILL * cost
-            || step.length <= NO_STEP * size.norm()
-            || quiet == IN_A_ROW;
-        (*place, cost, best, control) = (trial, after, runs, Some(now));
-        if is_over {
-            simulations += 1;
-            note(place, cost, now, simulations);
-            ending = Ending::Converged;
-            break;
+        None
+    }
+
+    fn room<'a>(&'a self, place: &'a Place) -> Room<'a> {
+        Room {
+            values: &place.values,
+            bounds: self.bounds,
+            scale: &self.scale,
         }
     }
-    if problem.end == End::Fine {
-        // Where these run away those of the search have to do.
-        best = problem.run(place, Asked::ExactSlopes).unwrap_or(best);
+
+    fn step(&self, equations: &Equations, place: &Place, control: f64) -> Step {
+        let room = self.room(place);
+        match self.search {
+            Search::LevenbergMarquardt => room.damped(equations, control),
+            Search::TrustRegion => room.within(equations, control),
+        }
     }
-    problem.plant.adjust(&place.values);
-    Ok((best, ending))
+
+    /// Tells of a place once.
+    fn note(&mut self, place: &Place) {
+        let last = self.iterates.last_mut();
+        if let Some(last) =
+            last.filter(|last| last.stage == self.stage && last.values == place.values)
+        {
+            // Starts of windows may have moved.
+            last.cost = self.cost;
+            last.control = self.control.unwrap_or_default();
+            last.simulations = self.simulations;
+            return;
+        }
+        let iterate = Iterate {
+            stage: self.stage,
+            cost: self.cost,
+            values: place.values.clone(),
+            control: self.control.unwrap_or_default(),
+            simulations: self.simulations,
+        };
+        (self.progress)(&iterate);
+        self.iterates.push(iterate);
+    }
 }
 
 impl Place {

@@ -1,5 +1,6 @@
 //! A block on a table, that is pushed.
 
+mod cogs;
 mod controller;
 mod torques;
 mod upright;
@@ -261,9 +262,27 @@ fn a_search_is_given_so_many_iterations() {
     assert_eq!(all.ending, Ending::Converged);
     assert_eq!(
         (some.ending, some.iterates.len()),
-        (Ending::OutOfIterations, 2)
+        (Ending::OutOfIterations, 3)
     );
-    assert_eq!(some.iterates, all.iterates[..2]);
+    for (some, all) in some.iterates.iter().zip(&all.iterates) {
+        assert_eq!((&some.values, some.cost), (&all.values, all.cost));
+    }
+    assert_eq!(some.iterates[2].values, some.values);
+    // Of slopes to judge by the last simulation is.
+    let simulations = some.iterates.iter().map(|iterate| iterate.simulations);
+    assert_eq!(simulations.collect::<Vec<_>>(), [2, 3, 5]);
+    // A part begins with one of the motion and one with slopes.
+    let parts = fit(
+        &OutputError {
+            window: Some(2.0),
+            ..HELD
+        },
+        &log,
+    );
+    let pairs = parts.iterates.windows(2);
+    let mut next = pairs.filter(|pair| pair[0].stage != pair[1].stage);
+    let begins = next.next().expect("shorter windows, then those");
+    assert_eq!(begins[1].simulations, begins[0].simulations + 2);
 }
 
 #[test]

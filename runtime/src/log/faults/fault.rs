@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::words::how_often;
 use crate::log::Note;
 
 /// Which channel of a joint is not of the time of the others.
@@ -199,8 +200,9 @@ impl fmt::Display for Stretches {
         } = self;
         write!(
             f,
-            "{times} times, {samples} samples in all, {longest:.3} s at most, the first at {first:.3} s; they were replaced by straight \
-             lines, and nothing is fitted around those of more than 10 ms"
+            "{}, {samples} samples in all, {longest:.3} s at most; they were replaced by straight lines, and nothing is fitted around those \
+             of more than 10 ms",
+            how_often(*times, *first)
         )
     }
 }

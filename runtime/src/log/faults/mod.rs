@@ -33,6 +33,7 @@ const STEEP: f64 = 8.0;
 
 /// A log after its faults were looked for.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Mended {
     /// The log, with [`Log::holes`].
     pub log: Log,

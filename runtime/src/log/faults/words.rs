@@ -30,7 +30,8 @@ impl fmt::Display for Fault {
                 first,
             } => write!(
                 f,
-                "{channel} begins its turn again {times} times, the first at {first:.3} s; whole turns were taken out"
+                "{channel} begins its turn again {}; whole turns were taken out",
+                how_often(*times, *first)
             ),
             Self::Slips {
                 channel,
@@ -39,9 +40,10 @@ impl fmt::Display for Fault {
                 largest,
             } => write!(
                 f,
-                "{channel} jumps and stays {times} times, the first at {first:.3} s, by {largest:.4} at most: an encoder slipped or was set \
-                 anew; nothing is fitted around it, and positions behind it were moved back by it, as an arm does not jump: if those before \
-                 it are wrong, leave them out of the log"
+                "{channel} jumps and stays {}, by {largest:.4}{}: an encoder slipped or was set anew; nothing is fitted around it, and \
+                 positions behind it were moved back by it, as an arm does not jump: if those before it are wrong, leave them out of the log",
+                how_often(*times, *first),
+                if *times == 1 { "" } else { " at most" }
             ),
             Self::Coincident { samples, first } => write!(
                 f,
@@ -128,6 +130,14 @@ impl LateChannel {
                 "move the column by so much",
             ),
         }
+    }
+}
+
+/// Of what began `first` s behind the log's start, and came again.
+pub(super) fn how_often(times: usize, first: f64) -> String {
+    match times {
+        1 => format!("once, at {first:.3} s"),
+        _ => format!("{times} times, the first at {first:.3} s"),
     }
 }
 

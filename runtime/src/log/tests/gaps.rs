@@ -41,7 +41,7 @@ fn short_gaps_are_filled_and_long_ones_are_holes() {
     let told = log.report[0].to_string();
     assert!(
         told.starts_with(
-            "samples are missing, 3 times, 52 samples in all, 0.100 s at most, the first at 0.800 s"
+            "samples are missing, 3 times, the first at 0.800 s, 52 samples in all, 0.100 s at most"
         ),
         "{told}"
     );

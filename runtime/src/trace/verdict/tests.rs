@@ -1,0 +1,86 @@
+use super::*;
+
+fn tried(kind: &str, round: usize, percent: f64, refusals: &[Refusal]) -> Tried {
+    Tried {
+        round,
+        kind: kind.to_owned(),
+        joints: vec![1],
+        shapes: Vec::new(),
+        evidence: evidence(percent),
+        refusals: refusals.to_vec(),
+    }
+}
+
+/// Of the second of two joints; what moves on the first is not the law's.
+fn evidence(percent: f64) -> Evidence {
+    Evidence {
+        score: 30.0,
+        p_value: 0.0,
+        held_out_percent: vec![0.0, percent],
+        raw_percent: vec![50.0, percent],
+        folds: (5, 5),
+    }
+}
+
+fn verdict(outcome: Outcome, findings: Vec<Finding>, is_settled: bool) -> Verdict {
+    Verdict {
+        outcome,
+        findings,
+        leads: Vec::new(),
+        alternatives: Vec::new(),
+        tried: Vec::new(),
+        before: Vec::new(),
+        after: Vec::new(),
+        left: Vec::new(),
+        noise_floor: Vec::new(),
+        turn_speeds: Vec::new(),
+        goes_on: false,
+        is_settled,
+    }
+}
+
+fn finding() -> Finding {
+    Finding {
+        kind: "payload".to_owned(),
+        effect: "payload".to_owned(),
+        joints: vec![1],
+        parameters: Vec::new(),
+        evidence: evidence(40.0),
+    }
+}
+
+#[test]
+fn a_law_that_may_not_be_named_says_that_something_is_missing() {
+    let all = [
+        tried("of the round before", 0, 40.0, &[Refusal::Sign]),
+        tried("by chance, too", 1, 30.0, &[Refusal::Sign, Refusal::Chance]),
+        tried("noise", 1, 30.0, &[Refusal::Noise]),
+        tried("little", 1, 9.0, &[Refusal::EndOfRange]),
+        tried("it", 1, 12.0, &[Refusal::Sign, Refusal::EndOfRange]),
+    ];
+    assert_eq!(doubtful(&all).map(|tried| tried.kind.as_str()), Some("it"));
+    assert_eq!(doubtful(&all[..4]), None);
+    // What was found speaks for itself.
+    let of = |outcome, findings| Verdict {
+        tried: all.to_vec(),
+        ..verdict(outcome, findings, true)
+    };
+    assert!(of(Outcome::Unexplained, Vec::new()).doubtful().is_some());
+    assert_eq!(of(Outcome::Explained, vec![finding()]).doubtful(), None);
+}
+
+#[test]
+fn a_doubt_of_a_model_without_findings_leaves_those_before_it() {
+    let both = |is_settled, next: fn(Verdict) -> Verdict| {
+        let first = verdict(Outcome::Explained, vec![finding()], true);
+        let then = next(verdict(Outcome::Unexplained, Vec::new(), is_settled));
+        let both = first.followed_by(then);
+        (both.outcome, both.findings.len(), both.leads.len())
+    };
+    assert_eq!(both(true, |next| next), (Outcome::Explained, 1, 0));
+    assert_eq!(both(false, |next| next), (Outcome::Unexplained, 0, 1));
+    assert_eq!(
+        both(true, Verdict::unexplained),
+        (Outcome::Unexplained, 0, 1)
+    );
+}
