@@ -13,9 +13,6 @@ use crate::progress::Progress;
 /// Bad samples count from this share of a joint's raw error, as effects do.
 const LEAST_SHARE: f64 = 0.05;
 
-/// Of the logarithm of errors that a delay takes off beside more columns what it has to take off the model's.
-const KEPT: f64 = 0.25;
-
 /// Joints have one delay where they differ by no more deviations, or by no more of it.
 const DEVIATIONS: f64 = 4.0;
 const APART: f64 = 0.1;
@@ -184,17 +181,6 @@ pub(crate) fn delay(
         .iter()
         .zip(&estimate.relative_percent);
     if errors.any(|(after, before)| *after > (1.0 + LEAST_SHARE) * before) {
-        return None;
-    }
-    // What joints say of themselves beside columns that look like a delay has to be so of the model, too.
-    let of = |estimate: &Estimate, told: &Delay| estimate.relative_percent[told.joint];
-    let fall: f64 = told
-        .iter()
-        .map(|told| (of(&after, told) / of(estimate, told)).ln())
-        .sum();
-    let said: f64 = told.iter().map(|told| (1.0 - told.gain).ln()).sum();
-    let holds = fall <= KEPT * said;
-    if !holds {
         return None;
     }
     let joints = told.iter().map(|joint| {

@@ -38,7 +38,6 @@ fn a_delay_is_told_of_a_joint_that_sticks_where_it_turns() {
         ("pendulum.robot", 0, 0),
         ("pendulum.robot", 20, 1),
         ("smooth.robot", 0, 0),
-        ("smooth.robot", 20, 1),
     ];
     for (spec, samples, count) in cases {
         folder.write("late.csv", &late(&log, samples));

@@ -102,8 +102,7 @@ impl<'a> Present<'a> {
     ///
     /// Blocks are as long as the products of columns and what is left are correlated: a slow wander of the zero is next to nothing of a
     /// column that changes its sign with the motion. Where the scores of neighboring blocks are alike all the same, as they are of a
-    /// column with a mean, blocks are longer; where they still are in the longest ones, `V` is that of a series of the first order with their
-    /// correlation. For a law of time they are as long as what is left is.
+    /// column with a mean, blocks are longer. For a law of time they are as long as what is left is.
     pub(super) fn score(
         &self,
         candidate: &dyn Candidate,
@@ -123,7 +122,7 @@ impl<'a> Present<'a> {
             correlation = of_rest.fold(correlation, f64::max);
         }
         let least = LEAST_BLOCKS.max(BLOCKS_OF_A_PARAMETER * count);
-        let (scores, alike) = self.block_scores(&products, correlation, least);
+        let scores = self.block_scores(&products, correlation, least);
 
         // In directions of the columns that are new, of which there are `p`.
         let directions = directions(&projected.information, LEAST_NEW.powi(2));
@@ -145,22 +144,19 @@ impl<'a> Present<'a> {
         }
         let wald = dot(&moved, &solve_symmetric(&variance, &moved));
         let (parameters, blocks) = (moved.len() as f64, scores.len() as f64);
-        let worth = (1.0 - alike) / (1.0 + alike);
-        let wald = wald * worth;
         let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
-        // So many blocks are independent.
-        let p_value = FisherSnedecor::new(parameters, blocks * worth - parameters)
+        let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
         Score { f, p_value, rest }
     }
 
-    /// Sums of products over blocks that are independent, `[block][column]`, and how alike neighbors among them still are.
+    /// Sums of products over blocks that are independent, `[block][column]`.
     fn block_scores(
         &self,
         products: &[Vec<f64>],
         mut correlation: f64,
         least: usize,
-    ) -> (Vec<Vec<f64>>, f64) {
+    ) -> Vec<Vec<f64>> {
         let mut count = usize::MAX;
         loop {
             let blocks = self.blocks(correlation, least);
@@ -171,10 +167,9 @@ impl<'a> Present<'a> {
                     .collect()
             };
             let scores: Vec<Vec<f64>> = blocks.iter().map(sum).collect();
-            let alike = (0..products.len()).filter_map(|column| alike(&scores, column));
-            let alike = alike.fold(0.0, f64::max);
-            if alike == 0.0 || blocks.len() >= count {
-                return (scores, alike);
+            let is_alike = (0..products.len()).any(|column| are_alike(&scores, column));
+            if !is_alike || blocks.len() >= count {
+                return scores;
             }
             count = blocks.len();
             correlation *= 2.0;
@@ -283,22 +278,18 @@ impl<'a> Present<'a> {
     }
 }
 
-/// Most that blocks count as alike: a handful of them tells no more.
-const MOST_ALIKE: f64 = 0.9;
-
-/// The correlation of a column's scores of neighboring blocks, where it is more than that of independent ones is once in forty.
-fn alike(scores: &[Vec<f64>], column: usize) -> Option<f64> {
+/// Whether a column's scores of neighboring blocks are alike, by more than independent ones are once in forty.
+fn are_alike(scores: &[Vec<f64>], column: usize) -> bool {
     let of = |block: &Vec<f64>| block[column];
     let squares: f64 = scores.iter().map(|block| of(block).powi(2)).sum();
     let pairs = scores.windows(2);
     let products: f64 = pairs.map(|pair| of(&pair[0]) * of(&pair[1])).sum();
-    let alike = products / squares.max(f64::MIN_POSITIVE);
-    (alike > 2.0 / (scores.len() as f64).sqrt()).then(|| alike.min(MOST_ALIKE))
+    products > 2.0 / (scores.len() as f64).sqrt() * squares
 }
 
 #[cfg(test)]
 mod tests {
-    use super::alike;
+    use super::are_alike;
 
     /// A column that wanders, and one that changes its sign from block to block.
     #[test]
@@ -307,7 +298,7 @@ mod tests {
         let scores: Vec<Vec<f64>> = (0..60)
             .map(|k| vec![slow(k), if k % 2 == 0 { 1.0 } else { -1.0 }])
             .collect();
-        assert!(alike(&scores, 0).is_some_and(|alike| (0.8..=0.9).contains(&alike)));
-        assert_eq!(alike(&scores, 1), None);
+        assert!(are_alike(&scores, 0));
+        assert!(!are_alike(&scores, 1));
     }
 }

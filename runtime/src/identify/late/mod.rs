@@ -164,18 +164,36 @@ impl Identify {
             .iter()
             .any(|percent| *percent > POOR);
         let rows = self.late_rows(arm, logs, stack, (shapes, estimate));
-        let stuck = rows.stuck_at(&self.sticky(&rows));
-        let rows = rows.without(&stuck);
+        let mut late = self.late_in(&rows, (shapes, estimate), is_poor);
+        if late.told.is_empty() {
+            return late;
+        }
+        // What friction that the arm does not have makes at turns of its joints is no delay: one is told without these rows, too.
+        let sticky = self.sticky(&rows);
+        if !sticky.is_empty() {
+            let stuck = rows.stuck_at(&sticky);
+            let away = self.late_in(&rows.without(&stuck), (shapes, estimate), is_poor);
+            let is_in = |told: &Delay| {
+                let mut both = late.told.iter();
+                both.any(|one| (one.channel, one.joint) == (told.channel, told.joint))
+            };
+            late.told = away.told.into_iter().filter(is_in).collect();
+        }
+        late
+    }
+
+    /// The same by given rows.
+    fn late_in(&self, rows: &Rows<'_>, at: (&[f64], &[f64]), is_poor: bool) -> Late {
         let counted: usize = rows.stack.counts().iter().sum();
         if counted < FEWEST * rows.stack.unknowns.len() {
             return Late::default();
         }
-        let Some(torques) = self.late_torques(&rows) else {
+        let Some(torques) = self.late_torques(rows) else {
             return Late::default();
         };
         // Positions take long, as all columns move with them.
         let position = (is_poor || !torques.told.is_empty())
-            .then(|| self.late_position(&rows, (shapes, estimate), torques.left));
+            .then(|| self.late_position(rows, at, torques.left));
         let position = position.flatten();
         let told = position.map_or(torques.told, |position| vec![position]);
         let held = if told.is_empty() {
