@@ -67,14 +67,7 @@ impl Identify {
         for _ in 0..ROUNDS {
             let mut here = self.rows_without(rows, (joint, seconds), at);
             let solution = self.solve_stack(&here).ok()?;
-            let mut next = self.rows_without(rows, (joint, seconds + h), at);
-            // A row that is at a turn of one motion alone has no slope.
-            for (turns, others) in here.turns.iter_mut().zip(&next.turns) {
-                turns.extend(others);
-            }
-            next.turns.clone_from(&here.turns);
-            Rows::leave_out(&mut here);
-            Rows::leave_out(&mut next);
+            let next = self.rows_without(rows, (joint, seconds + h), at);
             let next = next.residuals(&solution.estimate);
             let residuals = here.residuals(&solution.estimate);
             let slopes = residuals.iter().zip(&next).enumerate();
@@ -84,7 +77,6 @@ impl Identify {
                 values: here.iter().zip(next).map(|(x, y)| (x - y) / h).collect(),
             });
             here.append(&[nameless()], &slopes.collect::<Vec<_>>());
-            Rows::leave_out(&mut here);
             let mut solution = self.solve_stack(&here).ok()?;
             solution.std = self.deviations_of_products(&here, &solution);
             let own = here.unknowns.len() - 1;
