@@ -18,7 +18,6 @@ const ELEMENTS: [&str; 10] = [
 /// assert_eq!(share.torque[1], 0.8);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Share<const D: usize> {
     /// `JOINT.EFFECT`, of several joints the first one's.
     pub name: &'static str,

@@ -25,7 +25,6 @@ const ROUNDING: f64 = 1e-12;
 /// assert!(point.speed * point.torque.value > 0.0);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Point {
     /// Mean speed, rad/s or m/s.
     pub speed: f64,

@@ -122,27 +122,18 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
     found
 }
 
-/// Where so many samples have the least of a period again that two periods are compared in, its share.
+/// The least share of a period that has to come again for two to be compared in it.
 const AGAIN: f64 = 0.3;
 
-/// How many periods of a length there are, and how many samples of each; of less than two as many as come again. `None` where these are
+/// How many periods of a length there are, and how many samples of each; of less than two those that come again. `None` where these are
 /// too few.
 pub(super) fn laps(samples: usize, length: f64) -> Option<(usize, usize)> {
     let periods = whole_steps(samples as f64 / length.max(1.0));
-    let (periods, bins) = if periods < 2 {
-        let again = samples.saturating_sub(whole_steps(length.ceil()));
-        (
-            2,
-            if again as f64 >= AGAIN * length {
-                again
-            } else {
-                0
-            },
-        )
-    } else {
-        (periods, whole_steps(length))
+    let (periods, bins) = match periods {
+        0 | 1 => (2, samples.saturating_sub(whole_steps(length.ceil()))),
+        _ => (periods, whole_steps(length)),
     };
-    (bins >= 2).then_some((periods, bins))
+    (bins as f64 >= f64::max(2.0, AGAIN * length)).then_some((periods, bins))
 }
 
 /// Power of what comes back in every period, less what noise leaves in a mean; 0 where that is not clearly more.

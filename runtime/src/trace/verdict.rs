@@ -241,7 +241,7 @@ pub struct Verdict {
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).
     pub goes_on: bool,
-    /// Whether no structure is left which the findings should have accounted for.
+    /// Whether what is left is no structure that the findings should have accounted for, and, where there are none, near the floor.
     pub(super) is_settled: bool,
 }
 
@@ -295,7 +295,7 @@ impl Verdict {
     #[must_use]
     pub fn followed_by(self, next: Self) -> Self {
         let places = self.findings.len();
-        // What speaks against a model in which nothing was found does not speak against one in which something was.
+        // A law that may not be named is no word against a model in which something was named before.
         let is_doubted = next.outcome == Outcome::Unexplained
             && (places == 0 || !next.leads.is_empty() || !next.is_settled);
         let is_explained = !is_doubted;

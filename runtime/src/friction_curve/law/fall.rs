@@ -13,7 +13,6 @@ use super::super::Value;
 /// assert!((left - 0.515).abs() < 1e-3);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Fall {
     /// `F_s - F_c`, N m or N.
     pub torque: Value,

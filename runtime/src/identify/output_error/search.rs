@@ -26,7 +26,8 @@ const STILL: f64 = 1e-10;
 const NO_STEP: f64 = 1e-9;
 
 /// Of deviations, as white noise with the size of the errors makes them: shorter steps of the parameters are none, where twice in a row they
-/// lower the cost by less than this share. A cost with turns of dry friction in it has edges along which a search creeps for ever.
+/// lower the cost by less than this share, or once where exact slopes foretell no more. A cost with turns of dry friction in it has edges
+/// along which a search creeps for ever.
 const WITHIN_NOISE: f64 = 0.01;
 const LITTLE: f64 = 1e-5;
 const IN_A_ROW: usize = 2;
@@ -167,7 +168,7 @@ struct Way<'a> {
     bounds: &'a [[f64; 2]],
     stage: usize,
     simulations: usize,
-    /// That are left.
+    /// Those that are left.
     iterations: usize,
     cost: f64,
     /// Runs of where it stands, with slopes.

@@ -133,7 +133,7 @@ impl LateChannel {
     }
 }
 
-/// Of what began `first` s behind the log's start, and came again.
+/// How often something was there, and at which second first.
 pub(super) fn how_often(times: usize, first: f64) -> String {
     match times {
         1 => format!("once, at {first:.3} s"),
