@@ -156,13 +156,14 @@ impl Merge {
                 Some(form.errors(&estimate, &mended.log)?)
             }
         };
+        let notes = progress.noted();
         drop(progress);
         if let Some(file) = out {
             file.commit(factor_file::text(&factor).as_bytes())?;
         }
         if let Some(file) = json {
             let report = report(&estimate, None, validation.as_ref(), &faults);
-            file.commit(output::json(&report).as_bytes())?;
+            file.commit(output::json_with_notes(&report, &notes).as_bytes())?;
         }
         let joints = estimate.joints.iter().zip(&estimate.relative_percent);
         let fitted: Vec<String> = joints

@@ -282,6 +282,24 @@ pub(crate) fn json(value: &impl Serialize) -> String {
     text
 }
 
+/// What was found, with what the program says of it besides numbers.
+#[derive(Serialize)]
+struct Noted<'a, R> {
+    #[serde(flatten)]
+    report: &'a R,
+    notes: Vec<&'a str>,
+}
+
+/// The same with notes, which a terminal has with a word before them.
+pub(crate) fn json_with_notes(report: &impl Serialize, notes: &[String]) -> String {
+    let notes = notes.iter();
+    let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note));
+    json(&Noted {
+        report,
+        notes: notes.collect(),
+    })
+}
+
 /// A number with so many digits.
 pub(crate) fn significant(number: f64, digits: usize) -> String {
     let decimals = decimals(number, digits);

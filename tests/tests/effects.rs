@@ -33,7 +33,7 @@ fn lugre_rate(at: &At) -> f64 {
 
 /// Torque on the effect's first joint. Friction is positive where the joint moves in positive direction: it is what the
 /// motor has to supply.
-const LAWS: [(&str, Law); 25] = [
+const LAWS: [(&str, Law); 26] = [
     ("asymmetric_coulomb", |at| at.p[0] * at.dq[0].signum().abs()),
     ("asymmetric_viscous", |at| at.p[0] * at.dq[0].abs()),
     ("cable_hysteresis", |at| at.p[0] * at.z[0]),
@@ -87,6 +87,14 @@ const LAWS: [(&str, Law); 25] = [
         } else {
             dry * v.signum() + at.p[2] * v + at.p[3] * v.powi(2) + at.p[4] * v.powi(3)
         }
+    }),
+    ("rokae_continuous", |at| {
+        let v = at.dq[0];
+        let dry = if v > 0.0 { at.p[0] } else { at.p[1] };
+        dry * (v.abs() / at.s[0]).min(1.0) * v.signum()
+            + at.p[2] * v
+            + at.p[3] * v.powi(2)
+            + at.p[4] * v.powi(3)
     }),
     ("stribeck", |at| {
         at.p[0] * (-at.dq[0] * at.dq[0] / (at.s[0] * at.s[0])).exp() * at.dq[0].signum()

@@ -11,14 +11,6 @@ use crate::output::{self, Files, OutFile};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 
-/// What was found, with what the program says of it besides numbers.
-#[derive(Serialize)]
-struct Noted<'a, R> {
-    #[serde(flatten)]
-    report: &'a R,
-    notes: Vec<&'a str>,
-}
-
 /// Files of a result that were asked for.
 pub(super) struct Results {
     json: Option<OutFile>,
@@ -52,11 +44,8 @@ impl Results {
             .page
             .map(|folder| Ok::<_, Error>((folder, found.page()?)));
         let page = page.transpose()?;
-        let notes = found.notes.iter();
-        let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note));
-        let notes = notes.collect();
-        let noted = Noted { report, notes };
-        let json = self.json.map(|file| (file, output::json(&noted)));
+        let text = || output::json_with_notes(report, &found.notes);
+        let json = self.json.map(|file| (file, text()));
         drop(progress);
         for (file, text) in self.others.into_iter().chain(json) {
             file.commit(text.as_bytes())?;

@@ -78,6 +78,7 @@ fn factors_of_logs_are_one_estimate() {
     assert!(merged["rmse"].is_null());
     assert!(numbers(&merged["rmse_validate"])[0] > 0.0);
     let again = report(&folder, &["merge", "cart.robot", "both.json"]);
+    assert!(again["notes"].is_array());
     for (found, direct) in values(&again, "value").iter().zip(values(&merged, "value")) {
         assert!((found / direct - 1.0).abs() < 1e-12, "{found} {direct}");
     }

@@ -7,16 +7,21 @@ use plotters::prelude::*;
 
 use super::figure::{Figure, Mark, Series};
 
-const WIDTH: u32 = 720;
+/// The drawing has whole numbers for places: so many of them to a pixel.
+const FINE: u32 = 10;
+const WIDTH: u32 = 720 * FINE;
 /// Of the title and the axes.
-const HEIGHT: u32 = 420;
+const HEIGHT: u32 = 420 * FINE;
 /// A line of the key.
-const LINE: u32 = 18;
+const LINE: u32 = 18 * FINE;
 /// Where the key begins and ends, and the swatch before a name.
-const EDGE: u32 = 64;
-const SWATCH: u32 = 22;
+const EDGE: u32 = 64 * FINE;
+const SWATCH: u32 = 22 * FINE;
 /// A letter of the key is so wide, or less.
-const LETTER: u32 = 7;
+const LETTER: u32 = 7 * FINE;
+const TITLE: (&str, u32) = ("sans-serif", 16 * FINE);
+const SMALL: (&str, u32) = ("sans-serif", 12 * FINE);
+const DOT: u32 = 2 * FINE;
 
 const GRID: RGBColor = RGBColor(225, 225, 225);
 /// Told apart by those who do not see all colors (Okabe & Ito 2008).
@@ -73,30 +78,46 @@ impl Figure {
             }
             root.present().expect(DRAWN);
         }
-        text
+        // As large as it is meant, its places as they are.
+        let [fine, own] = [FINE, 1].map(|fine| {
+            let (width, height) = (size.0 * fine / FINE, size.1 * fine / FINE);
+            format!(r#"width="{width}" height="{height}""#)
+        });
+        text.replacen(&fine, &own, 1)
     }
 
     fn axes(&self, area: &Area<'_>) {
         let (x, y) = self.ranges();
         let mut chart = ChartBuilder::on(area)
-            .caption(&self.title, ("sans-serif", 16))
-            .margin(10)
-            .x_label_area_size(40)
-            .y_label_area_size(64)
+            .caption(&self.title, TITLE)
+            .margin(10 * FINE)
+            .x_label_area_size(40 * FINE)
+            .y_label_area_size(EDGE)
             .build_cartesian_2d(x, y)
-            .expect(DRAWN);
-        chart
-            .configure_mesh()
-            .light_line_style(TRANSPARENT)
-            .bold_line_style(GRID)
-            .axis_style(BLACK.mix(0.5))
-            .x_desc(&self.x)
-            .y_desc(&self.y)
-            .label_style(("sans-serif", 12))
-            .draw()
             .expect(DRAWN);
         let bars = self.series.iter().filter(|one| one.mark == Mark::Bars);
         let bars: Vec<&Series> = bars.collect();
+        // Bars stand at numbers, and nothing between them has one.
+        let tick = |x: &f64| {
+            let is_place = bars.is_empty() || x.fract().abs() < 1e-9;
+            if is_place {
+                format!("{x}")
+            } else {
+                String::new()
+            }
+        };
+        chart
+            .configure_mesh()
+            .light_line_style(TRANSPARENT)
+            .bold_line_style(GRID.stroke_width(FINE))
+            .axis_style(BLACK.mix(0.5).stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
+            .x_desc(&self.x)
+            .y_desc(&self.y)
+            .x_label_formatter(&tick)
+            .label_style(SMALL)
+            .draw()
+            .expect(DRAWN);
         for (series, color) in self.series.iter().zip(colors()) {
             let place = bars.iter().position(|bar| std::ptr::eq(*bar, series));
             draw(&mut chart, series, color, [place.unwrap_or(0), bars.len()]);
@@ -142,9 +163,10 @@ fn places(series: &[Series]) -> Vec<(u32, u32)> {
 
 fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor) {
     let [x, y] = at.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
-    let right = x + 14;
+    let px = FINE.cast_signed();
+    let right = x + 14 * px;
     let swatch = |half: i32, share: f64| {
-        let corners = [(x, y - half), (right, y + half)];
+        let corners = [(x, y - half * px), (right, y + half * px)];
         Rectangle::new(corners, color.mix(share).filled())
     };
     match series.mark {
@@ -152,10 +174,10 @@ fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor) {
         Mark::Broad => area.draw(&swatch(3, PALE)),
         Mark::Bars => area.draw(&swatch(4, 1.0)),
         Mark::Band | Mark::Boxes => area.draw(&swatch(4, PALE)),
-        Mark::Dots => area.draw(&Circle::new((x + 7, y), 2, color.filled())),
+        Mark::Dots => area.draw(&Circle::new((x + 7 * px, y), DOT, color.filled())),
     }
     .expect(DRAWN);
-    let name = Text::new(series.name.clone(), (right + 5, y - 6), ("sans-serif", 12));
+    let name = Text::new(series.name.clone(), (right + 5 * px, y - 6 * px), SMALL);
     area.draw(&name).expect(DRAWN);
 }
 
@@ -164,15 +186,15 @@ fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]
     let points = finite(&series.points);
     match series.mark {
         Mark::Line => {
-            let line = LineSeries::new(points, color.stroke_width(2));
+            let line = LineSeries::new(points, color.stroke_width(2 * FINE));
             chart.draw_series(line).expect(DRAWN);
         }
         Mark::Broad => {
-            let line = LineSeries::new(points, color.mix(PALE).stroke_width(7));
+            let line = LineSeries::new(points, color.mix(PALE).stroke_width(7 * FINE));
             chart.draw_series(line).expect(DRAWN);
         }
         Mark::Dots => {
-            let dots = points.map(|at| Circle::new(at, 2, color.filled()));
+            let dots = points.map(|at| Circle::new(at, DOT, color.filled()));
             chart.draw_series(dots).expect(DRAWN);
         }
         Mark::Bars => {
@@ -197,7 +219,7 @@ fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]
                 let corners = [(x - half, low), (x + half, high)];
                 let area = Rectangle::new(corners, color.mix(PALE).filled());
                 chart.draw_series([area]).expect(DRAWN);
-                let outline = Rectangle::new(corners, color.stroke_width(1));
+                let outline = Rectangle::new(corners, color.stroke_width(FINE));
                 chart.draw_series([outline]).expect(DRAWN);
                 let across = |y: f64, half: f64| vec![(x - half, y), (x + half, y)];
                 let lines = [
@@ -207,7 +229,7 @@ fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]
                     across(most, 0.5 * half),
                     across(middle, half),
                 ];
-                let lines = lines.map(|line| PathElement::new(line, color.stroke_width(2)));
+                let lines = lines.map(|line| PathElement::new(line, color.stroke_width(2 * FINE)));
                 chart.draw_series(lines).expect(DRAWN);
             }
         }

@@ -1,15 +1,12 @@
 //! What has to come out of each item: the list that the items are taken from, in our words.
 
-/// Items with what is wanted of them, in the order of the papers. Items that are not here are findings beside the list.
+/// Items with what is wanted of them, in the order of the papers. Items that are not here are findings, of which it is wanted that they come out.
 pub const WANTED: [(&str, &str); 59] = [
     (
         "0.1",
         "alpha, beta and the friction of the law as base parameters",
     ),
-    (
-        "0.2",
-        "the same data fitted with three laws, one after another",
-    ),
+    ("0.2", "the same data, three fits in one call"),
     ("0.3", "no step goes to zero where the arm turns"),
     ("0.4", "iterates with their costs, as in Tables 1 and 2"),
     ("0.5", "a free initial velocity in the window of the paper"),
@@ -25,7 +22,7 @@ pub const WANTED: [(&str, &str); 59] = [
         "0.scale",
         "flagged with a condition above 1e3, and ratios told",
     ),
-    ("1.1", "no difference"),
+    ("1.1", "a difference of zero, whatever the state"),
     ("1.2", "the start of searches"),
     ("1.3", "the simulated truth"),
     ("1.4", "no step leaves the box"),
@@ -34,7 +31,7 @@ pub const WANTED: [(&str, &str); 59] = [
         "1.6",
         "a cost that falls from step to step, and the way of each parameter",
     ),
-    ("1.7", "both distances by these names"),
+    ("1.7", "both metrics by these names, with unit tests"),
     (
         "1.8",
         "54 to 56 % before in the first seconds, 99 % and more after, without noise",
@@ -45,7 +42,7 @@ pub const WANTED: [(&str, &str); 59] = [
         "8 of 11, the silent directions, no value for what is not told",
     ),
     ("1.rest", "in the band that dry friction holds"),
-    ("2.1", "the law by name, and one without the jump"),
+    ("2.1", "the law by name, and a continuous variant"),
     ("2.1.passive", "a warning with these speeds"),
     ("2.2", "70 base parameters"),
     ("2.3", "the same set by numbers and by symbols"),

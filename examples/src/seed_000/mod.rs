@@ -83,7 +83,7 @@ impl Findings {
         let data = Data::new(&experiment)?;
         Ok(Self {
             tables: Tables::of(&data)?,
-            changes: changes(&data)?,
+            changes: changes(&experiment, &data)?,
             carried: carried(OTHERS)?,
             turns: turns(&experiment)?,
             slope_errors: slope_errors(&data)?,

@@ -45,15 +45,18 @@ fn own() -> [f64; 4] {
 /// Where figures start, and what drives them.
 struct Runs {
     angle: f64,
+    /// The arm's, which a log with steps of an encoder does not tell, rad/s.
+    velocity: f64,
     measured: Vec<f64>,
     commanded: Vec<f64>,
 }
 
 impl Runs {
-    fn of(data: &Data) -> Self {
+    fn of(experiment: &Experiment, data: &Data) -> Self {
         let part = |input: &[f64]| input[data.window.clone()].to_vec();
         Self {
             angle: data.start()[0],
+            velocity: experiment.velocity[data.window.start],
             measured: part(&data.u),
             commanded: part(&data.wave),
         }
@@ -95,10 +98,10 @@ impl Runs {
         Ok([change(0, c1), change(1, start)])
     }
 
-    /// Figures 7 and 8 with the arm's own parameters.
+    /// Figures 7 and 8 with the arm's own parameters and its own velocity at the start.
     fn own(&self) -> Result<[Change; 2], Error> {
         let what = ["c1, (5.1), the arm's own", "velocity, (5.1), the arm's own"];
-        self.both((own(), FIGURE_8[0]), SMALL, [7, 8], what)
+        self.both((own(), self.velocity), SMALL, [7, 8], what)
     }
 }
 
@@ -113,8 +116,8 @@ const LARGE: [f64; 2] = [FIGURE_9_C1 - ARM[2], FIGURE_10[1] - FIGURE_10[0]];
 ///
 /// # Errors
 /// Where the simulator stops.
-pub fn changes(data: &Data) -> Result<[Change; 6], Error> {
-    let runs = Runs::of(data);
+pub fn changes(experiment: &Experiment, data: &Data) -> Result<[Change; 6], Error> {
+    let runs = Runs::of(experiment, data);
     let of_printed = ["c1, (5.1), as printed", "velocity, (5.1), as printed"];
     let of_second = ["c1, (5.2)", "velocity, (5.2)"];
     let [a, b] = runs.both((FIGURE_7, FIGURE_8[0]), SMALL, [7, 8], of_printed)?;
@@ -124,14 +127,15 @@ pub fn changes(data: &Data) -> Result<[Change; 6], Error> {
 }
 
 /// How far changes carry in figures 7 and 8 with the arm's own parameters, on logs of other noise, rad, from the least on. How soon the arm
-/// falls along a measured input hangs on the noise in it, and what hangs is not sensitive.
+/// falls along a measured input depends on the noise in it, and an arm that hangs down is not sensitive.
 ///
 /// # Errors
 /// Where the simulator stops.
 pub fn carried(seeds: std::ops::Range<u64>) -> Result<[Vec<f64>; 2], Error> {
     let mut apart: [Vec<f64>; 2] = Default::default();
     for seed in seeds {
-        let own = Runs::of(&Data::new(&Experiment::run(seed))?).own()?;
+        let experiment = Experiment::run(seed);
+        let own = Runs::of(&experiment, &Data::new(&experiment)?).own()?;
         for (all, change) in apart.iter_mut().zip(&own) {
             all.push(change.apart());
         }

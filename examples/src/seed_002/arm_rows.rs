@@ -77,9 +77,11 @@ pub(super) fn of_use(results: &Results) -> Vec<Row> {
             "hand guiding (31): torque of the hand on joint 3 at 0.01 rad/s and less",
             "less with MFWLS than with TFLS",
             format!(
-                "{:.2} N m with MFWLS, {:.2} with TFLS; less on {better} of 6 joints; off by {:.2} and {:.2} N m where it stands",
+                "{:.2} N m with MFWLS, {:.2} with TFLS; less on {better} of 6 joints; while the arm stands {:.2} and {:.2} N m, where gravity is off by {:.2} and {:.2}",
                 slow(2)[1],
                 slow(2)[0],
+                mfwls.holding[2].abs(),
+                tfls.holding[2].abs(),
                 mfwls.at_rest[2].abs(),
                 tfls.at_rest[2].abs()
             ),

@@ -76,8 +76,11 @@ pub struct Guided {
     pub hand: [Vec<f64>; 6],
     /// Torque of the motor, N m.
     pub motor: [Vec<f64>; 6],
-    /// What is compensated less gravity, N m, where the arm stands at the start.
+    /// What is compensated less gravity, N m, where the arm stands at the start and nothing moves yet.
     pub at_rest: Joints,
+    /// Torque of the hand while it holds the arm there, N m, in the mean: beside what gravity is off by it holds against the dry friction that
+    /// is compensated for a creep.
+    pub holding: Joints,
 }
 
 impl Guided {
@@ -166,5 +169,8 @@ where
         });
         t += CYCLE;
     }
+    let standing = guided.time.iter().take_while(|t| **t < STANDS).count();
+    guided.holding =
+        array::from_fn(|k| guided.hand[k][..standing].iter().sum::<f64>() / standing as f64);
     Ok(guided)
 }

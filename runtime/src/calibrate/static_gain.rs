@@ -22,7 +22,7 @@ pub struct StaticGain {
     pub residual_std: f64,
     /// Points.
     pub samples: usize,
-    /// The term `c i^2` beside the line, N m/A^2; `None` where there are fewer than three currents or four points.
+    /// The term `c i |i|` beside the line, as a drive that saturates has one, N m/A^2; `None` where there are fewer than three currents or four points.
     pub curvature: Option<Term>,
     /// What rising and falling currents differ by; `None` where currents go one way only.
     pub hysteresis: Option<Hysteresis>,
@@ -100,8 +100,11 @@ impl StaticGain {
         let mean_current = mean(current);
         let branch = branches(current);
         // Parabola and branches are looked for beside each other, so that neither is taken for noise of the other.
-        let centered: Vec<f64> = current.iter().map(|i| (i - mean_current).powi(2)).collect();
-        let mut columns = vec![current, &ones, &centered];
+        // Less its own line about the mean, which the other columns have.
+        let line_of = |i: f64| mean_current.abs() * (2.0 * i - mean_current);
+        let bent = current.iter().map(|&i| i * i.abs() - line_of(i));
+        let bent: Vec<f64> = bent.collect();
+        let mut columns = vec![current, &ones, &bent];
         columns.extend(branch.as_deref());
         let with_both = Regression::new(&columns, torque);
         let curvature = with_both.as_ref().map(|fit| term(fit, 2, 1.0));

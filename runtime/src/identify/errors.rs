@@ -1,5 +1,8 @@
 //! How far a model is from what was measured.
 
+/// Of its mean: a torque that varies by less is constant.
+const ROUNDING: f64 = 1e-12;
+
 /// Errors of a model on a log.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Errors {
@@ -91,7 +94,12 @@ impl Errors {
     pub fn nrmse_fit(&self) -> Vec<Option<f64>> {
         let pairs = self.rmse.iter().zip(&self.spread);
         pairs
-            .map(|(rmse, spread)| (*spread > 0.0).then(|| 100.0 * (1.0 - rmse / spread)))
+            .zip(&self.level)
+            .map(|((rmse, spread), level)| {
+                // What rounding makes of a constant is no spread.
+                let is_constant = *spread <= ROUNDING * level.abs();
+                (!is_constant).then(|| 100.0 * (1.0 - rmse / spread))
+            })
             .collect()
     }
 }

@@ -30,6 +30,10 @@ const SHARES: [f64; 2] = [0.005, 0.1];
 /// Of a log: a joint that may stand for more of it is held by its friction.
 const HELD: f64 = 0.85;
 
+/// So is one that may stand for more than the first and is near a turn for more than the second: a controller that parks a joint against its
+/// friction has it stick, creep and slip by thousandths of a radian all along.
+const PARKED: [f64; 2] = [0.5, 0.9];
+
 /// A rest is longer than this, s, and so many times as long as the usual stop of the joint: it has no part in a motion, as the waiting before
 /// and behind one, or a joint that waits for the others.
 const REST: f64 = 1.0;
@@ -100,7 +104,7 @@ impl Standing {
         let reach = whole_steps((SPREAD * log.shared.border() as f64).ceil());
         let mut turns = motion.near_turns(reach);
         let mut held = vec![false; turns.len()];
-        if motion.standing() > HELD {
+        if motion.is_held(&turns) {
             std::mem::swap(&mut turns, &mut held);
         } else {
             for rest in motion.rests(&turns, reach, log.rate_hz) {
@@ -229,9 +233,12 @@ impl<'a> Motion<'a> {
         }
     }
 
-    /// The share of its samples at which it may stand.
-    fn standing(&self) -> f64 {
-        self.standing_in(0..self.wide.len())
+    /// Whether its friction holds it nearly all the time, with the samples that its turns reach.
+    fn is_held(&self, near: &[bool]) -> bool {
+        let standing = self.standing_in(0..self.wide.len());
+        let reached = near.iter().filter(|near| **near).count();
+        let reached = reached as f64 / near.len().max(1) as f64;
+        standing > HELD || (standing > PARKED[0] && reached > PARKED[1])
     }
 
     fn standing_in(&self, samples: Range<usize>) -> f64 {
@@ -329,6 +336,36 @@ mod tests {
             .iter()
             .map(|rest| (seconds(rest.start), seconds(rest.end)))
             .collect()
+    }
+
+    /// Whether a joint is held that moves so.
+    fn is_held(velocity: impl Fn(u32) -> f64) -> bool {
+        let dq: Vec<f64> = (0..2000_u32).map(velocity).collect();
+        let motion = Motion {
+            slow: standing(&dq, &dq),
+            wide: &dq,
+        };
+        motion.is_held(&motion.near_turns(REACH))
+    }
+
+    #[test]
+    fn a_joint_that_its_controller_parks_is_held() {
+        let seconds = |k: u32| f64::from(k) / RATE;
+        let swing = |k| (2.0 * seconds(k)).sin();
+        assert!(!is_held(swing));
+        // It slips for three samples of ten, each time by another velocity.
+        let slips = |k: u32| {
+            let is_slip = k % 10 < 3;
+            if is_slip {
+                1e-3 * (1.7 * seconds(k)).sin()
+            } else {
+                0.0
+            }
+        };
+        assert!(is_held(slips));
+        // Half of the time at rest, and the rest of it in fast motion, is none that is held.
+        let stops = |k: u32| if k % 200 < 100 { swing(k) } else { 0.0 };
+        assert!(!is_held(stops));
     }
 
     #[test]

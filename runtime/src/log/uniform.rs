@@ -6,8 +6,8 @@ use crate::signal::resample;
 /// Time stamps within this share of a step of a uniform grid are uniform: rounding in the file is not jitter.
 const UNIFORM_SHARE: f64 = 0.01;
 
-/// Refuses time that does not rise, but for rows that are there again, or has long gaps, fills short ones, makes one sample of those that nearly coincide, and moves all channels
-/// onto a uniform grid where they are not on one.
+/// Refuses time that does not rise, but for rows that are there again, or has long gaps, fills short ones, makes one sample of those that nearly
+/// coincide, and moves all channels onto a uniform grid where they are not on one.
 pub(super) fn make_uniform(
     log: &mut Log,
     lines: Option<&[u64]>,
@@ -16,15 +16,18 @@ pub(super) fn make_uniform(
     let time = &log.time;
     let place = |sample: usize| log.place(sample, lines);
     let steps: Vec<f64> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // Rows that are there again are no steps.
+    let rising: Vec<f64> = steps.iter().copied().filter(|step| *step > 0.0).collect();
     let falls = |k: &usize| steps[*k] < 0.0 || steps[*k] == 0.0 && !close::is_again(log, *k + 1);
-    if let Some(k) = (0..steps.len()).find(falls) {
+    let stands = rising.is_empty().then_some(0);
+    if let Some(k) = (0..steps.len()).find(falls).or(stands) {
         return Err(LogError::TimeOrder {
             place: place(k + 1),
             time: time[k + 1],
             previous: time[k],
         });
     }
-    let median = median(&steps);
+    let median = median(&rising);
     let logged = log.time.len();
     let lines = close::merge(log, lines, median);
     let lines = gaps::fill(log, lines.as_deref(), lost, median)?;

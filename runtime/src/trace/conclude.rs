@@ -8,6 +8,11 @@ use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdi
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
 
+/// The right law leaves next to nothing of a joint's structure: a name is doubtful where more than this share of it is left on its joint, if
+/// that is more than what the filters of the motion leave, of the error's power.
+const LEFT_OF_LAW: f64 = 0.15;
+const LEFT_BY_FILTERS: f64 = 0.06;
+
 /// What is told of the last model beside what it is made of.
 pub(super) struct Told {
     /// Deviations of the accepted effects' parameters.
@@ -166,11 +171,17 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         .clone()
         .filter(|&j| after[j].is_material() && after[j].power > LEFT_SHARE * before[j].power)
         .collect();
+    let is_doubtful = |j: &usize| {
+        laws(*j) > 0
+            && after[*j].share > LEFT_BY_FILTERS
+            && after[*j].power > LEFT_OF_LAW * before[*j].power
+    };
     let settled = joints
         .clone()
         .filter(|j| laws(*j) > 0 && !left.contains(j))
         .count();
     let one_law_each = joints.clone().all(|j| laws(j) <= 1);
-    left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
+    joints.clone().any(|joint| is_doubtful(&joint))
+        || left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
         || (!left.is_empty() && left.len() >= settled)
 }

@@ -37,6 +37,11 @@ impl Search<'_> {
     ) -> Option<Accepted<'a>> {
         done(0.0);
         let mut judged = self.judged(state, grids, done);
+        for judged in &mut judged {
+            if judged.passes() && !self.is_told(state, judged) {
+                judged.refusals.push(Refusal::Undetermined);
+            }
+        }
         let round = state.accepted.len();
         told.extend(judged.iter().map(|judged| judged.told(round)));
         judged.retain(Judged::passes);

@@ -2,8 +2,12 @@
 
 use crate::columns::{Candidate, Unknown};
 
+use super::gate::Judged;
 use super::search::{Accepted, Search, State};
 use super::slopes::slopes;
+
+/// Deviations that a parameter is told by.
+const TOLD: f64 = 2.0;
 
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
@@ -38,6 +42,29 @@ impl Search<'_> {
             linear.chain(shapes).map(|k| std[k]).collect()
         };
         state.accepted.iter().map(of_effect).collect()
+    }
+}
+
+impl Search<'_> {
+    /// Whether the logs tell any of a law's parameters, or at least that it is not zero, with its shapes open. Where shapes and parameters can
+    /// be traded for each other all along, the law fits as anything with so many parameters does.
+    pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
+        let trial = &judged.trial;
+        if trial.shapes.is_empty() || judged.changed.is_some() {
+            return true;
+        }
+        let mut stack = state.stack.clone();
+        let first = stack.unknowns.len();
+        stack.append(trial.candidate.unknowns(), &trial.entries);
+        let Ok(solution) = self.identify.solve_stack(&stack) else {
+            return true;
+        };
+        let gain = &solution.estimate[first..];
+        let slopes = slopes(trial.candidate, &trial.shapes, gain, &self.prepared);
+        stack.append(&unknowns(trial.candidate), &slopes);
+        let std = self.identify.beside_slopes(&stack, &solution);
+        let mut parameters = gain.iter().zip(&std[first..]);
+        parameters.any(|(value, std)| std.is_some_and(|std| value.abs() > TOLD * std))
     }
 }
 

@@ -75,6 +75,8 @@ pub enum Refusal {
     Noise,
     /// It is a law of the part of the motion's period, and leaves of what comes back in every period.
     ComesBack,
+    /// None of its parameters stands out of its deviation, with its shapes open: one is traded for another.
+    Undetermined,
     /// It lowers errors where joints turn alone, whose dry friction holds them there by what no law of the model says.
     AtTurns,
 }
@@ -98,6 +100,7 @@ impl Refusal {
             Self::Unsolved => "unsolved",
             Self::Noise => "noise",
             Self::ComesBack => "comes-back",
+            Self::Undetermined => "undetermined",
             Self::AtTurns => "at-turns",
         }
     }
@@ -115,6 +118,7 @@ impl fmt::Display for Refusal {
             Self::Unsolved => write!(f, "no solution in its ranges"),
             Self::Noise => write!(f, "noise of the torque itself"),
             Self::ComesBack => write!(f, "leaves what comes back"),
+            Self::Undetermined => write!(f, "no parameter is told"),
             Self::AtTurns => write!(f, "only where joints turn"),
         }
     }
@@ -204,7 +208,10 @@ pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
         let joints = tried.joints.iter();
         joints.map(percent).fold(f64::NEG_INFINITY, f64::max)
     };
-    let is_of_law = |refusal: &Refusal| matches!(refusal, Refusal::EndOfRange | Refusal::Sign);
+    let is_of_law = |refusal: &Refusal| {
+        use Refusal::{EndOfRange, Sign, Undetermined};
+        matches!(refusal, EndOfRange | Sign | Undetermined)
+    };
     let doubted = tried.iter().filter(|tried| {
         tried.round == last
             && !tried.refusals.is_empty()

@@ -29,5 +29,6 @@ robot EveryEffect {
         torque_gain on turntable;
         gravity_compensation_spring(apart = 1, q0 = 0.4) on shoulder;
         rokae(eps = 0.05) on turntable;
+        rokae_continuous(eps = 0.05) on shoulder;
     }
 }

@@ -38,7 +38,7 @@ pub use recording::{Hold, Recording};
 pub use search::{Ending, Iterate, Search};
 
 use estimate::{comparison, result};
-use parts::Parts;
+use parts::{Part, Parts};
 use problem::{Place, Problem};
 use run::Asked;
 use search::End;
@@ -143,19 +143,24 @@ impl OutputError {
         };
         let mut rival = None;
         // A search that has not come to its end would only be given more time.
-        if part.found.1 == search::Ending::Converged && self.is_hold_open(recordings) {
+        let has_ended = part.found.1 == search::Ending::Converged;
+        let other_hold = self.other_hold(recordings).filter(|_| has_ended);
+        if let Some(end) = other_hold {
             let window = part.window;
-            let other = parts.search(
-                problem(window, Hold::Sample)?,
-                window,
-                &part.place.values,
-                Some(&part),
-                End::Fine,
-            );
+            let mut other = |from: &Part<'_, P>, end: End| {
+                let (problem, values) = (problem(window, Hold::Sample)?, &from.place.values);
+                parts.search(problem, window, values, Some(from), end)
+            };
+            let is_better = |other: &Part<'_, P>| other.error() < part.error() - FITS_BETTER;
             // An arm that runs away was not driven so.
-            if let Ok(other) = other {
-                let is_better = other.error() < part.error() - FITS_BETTER;
-                let (chosen, left) = if is_better {
+            let found = match (other(&part, end), end) {
+                (Ok(rough), End::Rough) => is_better(&rough)
+                    .then(|| other(&rough, End::Fine).ok())
+                    .flatten(),
+                (found, _) => found.ok(),
+            };
+            if let Some(other) = found {
+                let (chosen, left) = if is_better(&other) {
                     (other, part)
                 } else {
                     (part, other)

@@ -7,9 +7,9 @@ use super::{Iterate, OutputError, OutputErrorError, Recording};
 use crate::simulate::Adjustable;
 use crate::simulate::SimulateError;
 
-/// Half the change of torque from sample to sample, over the torque, roots of mean squares: below, it does not matter how torque goes between
-/// samples.
-const SMOOTH: f64 = 0.01;
+/// Half the change of torque from sample to sample, over the torque, roots of mean squares: below the first it does not matter how torque goes
+/// between samples, below the second only where errors are as small.
+const SMOOTH: [f64; 2] = [5e-4, 0.01];
 
 /// What the parts of a search share.
 pub(super) struct Parts<'s> {
@@ -120,15 +120,22 @@ impl<P: Adjustable + Clone + Sync> Problem<'_, P> {
 }
 
 impl OutputError {
-    /// Whether errors are to say how torque goes between samples: nobody has said it, and it matters.
-    pub(super) fn is_hold_open(&self, recordings: &[Recording]) -> bool {
+    /// How far the other way that torque may go between samples is to be searched for errors to say which it is; not at all where somebody has
+    /// said it, or where it does not matter.
+    pub(super) fn other_hold(&self, recordings: &[Recording]) -> Option<End> {
         let torques = || recordings.iter().flat_map(|recording| &recording.torque);
         let power = |values: &mut dyn Iterator<Item = f64>| values.map(|x| x * x).sum::<f64>();
         let level: f64 = torques().map(|tau| power(&mut tau.iter().copied())).sum();
         let steps: f64 = torques()
             .map(|tau| power(&mut tau.windows(2).map(|pair| 0.5 * (pair[1] - pair[0]))))
             .sum();
-        self.hold.is_none() && self.law.is_none() && steps > SMOOTH.powi(2) * level
+        let is_open = self.hold.is_none() && self.law.is_none();
+        let [may_matter, matters] = SMOOTH.map(|share| is_open && steps > share.powi(2) * level);
+        match (may_matter, matters) {
+            (false, _) => None,
+            (true, false) => Some(End::Rough),
+            (true, true) => Some(End::Fine),
+        }
     }
 }
 

@@ -74,7 +74,13 @@ fn names() -> Vec<String> {
 
 /// A log of it under torques that are held, which turns and sticks.
 fn log(seconds: f64) -> Log {
-    let push = |t: f64| 4.0 * (2.3 * t).sin() + 2.5 * (5.1 * t + 0.4).cos();
+    pushed_by(seconds, |t| {
+        4.0 * (2.3 * t).sin() + 2.5 * (5.1 * t + 0.4).cos()
+    })
+}
+
+/// That under a torque of one's own.
+fn pushed_by(seconds: f64, push: impl Fn(f64) -> f64) -> Log {
     let mut block =
         Integrator::new(Block(TRUTH), &[0.2], &[0.5], Tolerances::default()).expect("sound");
     let (mut time, mut q, mut tau) = (Vec::new(), Vec::new(), Vec::new());
@@ -158,6 +164,21 @@ fn dry_friction_is_found_through_turns_and_rests() {
         let rmse = found.fit.position[0].rmse;
         assert!(rmse < 1e-6, "{rmse}");
     }
+}
+
+#[test]
+fn errors_say_how_torque_goes_between_samples_where_it_hardly_changes() {
+    // By 0.8 % from sample to sample.
+    let slow = pushed_by(12.0, |t| 6.0 * (0.8 * t).sin());
+    let settings = OutputError { hold: None, ..HELD };
+    let found = fit(&settings, &slow);
+    assert_eq!(found.hold, Some(Hold::Sample));
+    for (value, truth) in found.values.iter().zip(TRUTH).take(3) {
+        assert!((value - truth).abs() < 1e-4 * truth, "{:?}", found.values);
+    }
+    let rival = found.rival_hold.expect("the other way was tried");
+    assert_eq!(rival.hold, Hold::Mean);
+    assert!(rival.worse > 1.0, "{}", rival.worse);
 }
 
 #[test]

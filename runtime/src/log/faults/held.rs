@@ -18,6 +18,9 @@ pub(super) const RESOLVED: f64 = 4.0;
 /// Share of the typical step from which on a channel moves.
 pub(super) const MOVES: f64 = 0.2;
 
+/// Of a log: where a torque stands for more of it in all, it stands by what drives it.
+const RARE: f64 = 0.1;
+
 /// How many holds that chance makes of a torque in coarse steps are told in a log, at most.
 const BY_CHANCE: f64 = 0.01;
 
@@ -29,13 +32,48 @@ pub(super) fn of_position(values: &[f64]) -> Vec<Range<usize>> {
 /// Ranges of samples of a torque that repeat the one before them while the joint's position moves on.
 pub(super) fn of_torque(values: &[f64], position: &[f64]) -> Vec<Range<usize>> {
     let steps = Steps::of(values);
-    let mut found = find(values, &steps, FEWEST.max(by_chance(&steps.sizes)));
+    let fewest = FEWEST.max(by_chance(&steps.sizes));
+    let mut found = find(values, &steps, fewest);
+    found.extend(frozen(values, &steps, fewest));
+    found.sort_by_key(|range| range.start);
+    found.dedup();
     let travels = Steps::of(position);
     found.retain(|range| {
         let way = (position[range.end] - position[range.start - 1]).abs();
         let usual = MOVES * travels.typical * range.len() as f64;
         way > usual.max(RESOLVED * travels.quantum)
     });
+    found
+}
+
+/// Ranges that repeat the sample before them more often than chance does, amid samples that change by much more than the sensor resolves: noise
+/// does not stand still, wherever the channel is behind them. None where it stands so for much of the log, as a torque in stairs does.
+fn frozen(values: &[f64], steps: &Steps, fewest: usize) -> Vec<Range<usize>> {
+    let sizes = &steps.sizes;
+    let least = (MOVES * steps.typical).max(RESOLVED * steps.quantum);
+    let mut found = Vec::new();
+    let mut start = 0;
+    for run in sizes.chunk_by(|a, b| (*a == 0.0) == (*b == 0.0)) {
+        let still = start..start + run.len();
+        start = still.end;
+        if run[0] > 0.0
+            || run.len() < fewest
+            || still.start < NEAR
+            || still.end + NEAR > sizes.len()
+        {
+            continue;
+        }
+        let before = mean(&sizes[still.start - NEAR..still.start]);
+        let behind = mean(&sizes[still.end..still.end + NEAR]);
+        let value = values[still.start];
+        if before.min(behind) > least && (value == 0.0 || !steps.is_limit(value)) {
+            found.push(still.start + 1..still.end + 1);
+        }
+    }
+    let all: usize = found.iter().map(ExactSizeIterator::len).sum();
+    if all as f64 > RARE * values.len() as f64 {
+        found.clear();
+    }
     found
 }
 

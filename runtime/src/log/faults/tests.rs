@@ -243,6 +243,21 @@ fn coarse_torque_is_neither_held_nor_clipped() {
 }
 
 #[test]
+fn torque_that_stands_amid_its_noise_is_found_wherever_it_is_behind() {
+    for (from, samples, is_zero) in [(1500, 20, false), (1600, 100, false), (1700, 60, true)] {
+        let mut log = clean(8);
+        log.dq.clear();
+        let value = if is_zero { 0.0 } else { log.tau[0][from - 1] };
+        log.tau[0][from..from + samples].fill(value);
+        let faults = log.mended().faults;
+        let [Fault::Held { channel, at } | Fault::Dropouts { channel, at }] = &faults[..] else {
+            panic!("{samples}: {faults:?}");
+        };
+        assert_eq!((channel.as_str(), at.times), ("tau1", 1), "{samples}");
+    }
+}
+
+#[test]
 fn many_spikes_are_found_as_few_are() {
     for every in [400, 100, 40, 20, 11] {
         let mut log = clean(6);

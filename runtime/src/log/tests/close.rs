@@ -96,6 +96,12 @@ fn a_row_that_is_there_twice_counts_once() {
         "{:?}",
         twice.report
     );
+    let all: Vec<String> = rows
+        .iter()
+        .flat_map(|row| [row.clone(), row.clone()])
+        .collect();
+    let all = read(&text("time,q1,tau1", &all), 1).expect("each is there twice");
+    assert_eq!((&all.time, &all.tau), (&once.time, &once.tau));
     rows[50] = "0.098,0.5,7".to_owned();
     let error = read(&text("time,q1,tau1", &rows), 1).expect_err("which of them is it?");
     assert!(
