@@ -8,10 +8,12 @@ use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdi
 /// Structure is accounted for where less than this share of it is left.
 const LEFT_SHARE: f64 = 0.3;
 
-/// The right law leaves next to nothing of a joint's structure: a name is doubtful where more than this share of it is left on its joint, if
-/// that is more than what the filters of the motion leave, of the error's power.
+/// The right law leaves next to nothing of a joint's structure: a name is doubtful where more than the first share of it is left on its joint,
+/// if that is more than the second share of the error's power, as what the filters of the motion leave is not, and if most of the error
+/// stays, of whose power the findings take less than the third.
 const LEFT_OF_LAW: f64 = 0.15;
 const LEFT_BY_FILTERS: f64 = 0.06;
+const LITTLE: f64 = 1.0 / 3.0;
 
 /// What is told of the last model beside what it is made of.
 pub(super) struct Told {
@@ -175,6 +177,7 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         laws(*j) > 0
             && after[*j].share > LEFT_BY_FILTERS
             && after[*j].power > LEFT_OF_LAW * before[*j].power
+            && after[*j].total() > (1.0 - LITTLE) * before[*j].total()
     };
     let settled = joints
         .clone()
