@@ -9,11 +9,11 @@ use super::verdict::{Alternative, Finding, FoundParameter, Outcome, Tried, Verdi
 const LEFT_SHARE: f64 = 0.3;
 
 /// The right law leaves next to nothing of a joint's structure: a name is doubtful where more than the first share of it is left on its joint,
-/// if that is more than the second share of the error's power, as what the filters of the motion leave is not, and if most of the error
-/// stays, of whose power the findings take less than the third.
+/// if that is more than the second share of the error's power, as what the filters of the motion leave is not, and if more than the third
+/// share of the error that was not fitted stays.
 const LEFT_OF_LAW: f64 = 0.15;
 const LEFT_BY_FILTERS: f64 = 0.06;
-const LITTLE: f64 = 1.0 / 3.0;
+const STAYS: f64 = 0.5;
 
 /// What is told of the last model beside what it is made of.
 pub(super) struct Told {
@@ -164,9 +164,15 @@ fn alternatives(state: &State) -> Vec<Alternative> {
 /// joint, and more of the joints on which something was missing are settled than not. Where names pile up on a joint, or
 /// most of the structure is elsewhere, the names are those of something else.
 fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
-    let laws = |joint: usize| {
-        let acts = |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
-        state.accepted.iter().filter(acts).count()
+    let acting = |joint: usize| {
+        let acts =
+            move |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
+        state.accepted.iter().filter(acts)
+    };
+    let laws = |joint: usize| acting(joint).count();
+    let stays = |joint: usize| -> f64 {
+        let percent = acting(joint).map(|effect| effect.evidence.held_out_percent[joint]);
+        percent.map(|percent| 1.0 - percent / 100.0).product()
     };
     let joints = 0..after.len();
     let left: Vec<usize> = joints
@@ -177,7 +183,7 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         laws(*j) > 0
             && after[*j].share > LEFT_BY_FILTERS
             && after[*j].power > LEFT_OF_LAW * before[*j].power
-            && after[*j].total() > (1.0 - LITTLE) * before[*j].total()
+            && stays(*j) > STAYS
     };
     let settled = joints
         .clone()

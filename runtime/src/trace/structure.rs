@@ -57,15 +57,6 @@ impl Structure {
         self.share > MATERIAL_SHARE
     }
 
-    /// Power of the raw residual; 0 where there is no structure in it.
-    pub(super) fn total(&self) -> f64 {
-        if self.share > 0.0 {
-            self.power / self.share
-        } else {
-            0.0
-        }
-    }
-
     /// No more of it than this power.
     pub(super) fn limit(&mut self, most: f64) {
         if most < self.power {
