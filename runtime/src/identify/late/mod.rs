@@ -265,7 +265,9 @@ impl Identify {
                 *delay += step.clamp(-MOST, MOST);
             }
             left = left.min(logarithm(&found.residuals));
-            let is_seen = |joint: &usize| delays[*joint].abs() > DEVIATIONS * found.std[*joint];
+            let is_seen = |joint: &usize| {
+                rows.moves(*joint) && delays[*joint].abs() > DEVIATIONS * found.std[*joint]
+            };
             let of = |is: fn(f64, f64) -> bool| -> Vec<usize> {
                 let seen = (0..dof).filter(is_seen);
                 seen.filter(|joint| is(delays[*joint], period)).collect()

@@ -39,9 +39,8 @@ impl Identify {
         let period = longest_period(rows.logs);
         let before = self.solve_stack(&rows.stack).ok()?;
         let before = lengths(&rows.stack, &before.estimate);
-        // A joint that its friction holds for most of the time says nothing of the time of its position.
-        let moves = |joint: &usize| 2 * rows.stack.held[*joint].len() < rows.stack.samples();
-        let delays = (0..rows.arm.dof()).filter(moves).filter_map(|joint| {
+        let moving = (0..rows.arm.dof()).filter(|joint| rows.moves(*joint));
+        let delays = moving.filter_map(|joint| {
             let found = self.moved_back(rows, joint, at)?;
             let left = logarithm(&found.residuals);
             let delay = Delay {

@@ -62,6 +62,12 @@ impl<'a> Rows<'a> {
         unknown.map(move |joint| (joint, first + joint))
     }
 
+    /// Whether a joint says something of the time of its channels: its friction holds it for less than half of the time.
+    pub fn moves(&self, joint: usize) -> bool {
+        let held = self.stack.held.get(joint).map_or(0, Vec::len);
+        2 * held < self.stack.samples()
+    }
+
     /// Rows at turns of joints that stick there.
     pub fn stuck_at(&self, sticky: &[usize]) -> Vec<Vec<usize>> {
         let of = |joint| {

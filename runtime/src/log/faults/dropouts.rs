@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Steps;
-use super::held::{JUMP, MOVES, NEAR, RESOLVED, by_chance, mean};
+use super::held::{JUMP, MOVES, NEAR, RESOLVED, by_chance, mean, moves_on};
 
 /// Fewest samples of a dropout: shorter ones are spikes.
 const FEWEST: usize = 4;
@@ -38,15 +38,6 @@ pub(super) fn of_torque(values: &[f64], position: &[f64], rate_hz: f64) -> Vec<R
         is_off || moves_on(position, &travels, range)
     });
     found
-}
-
-/// Whether a joint moves within samples, wherever it is behind them.
-fn moves_on(position: &[f64], travels: &Steps, range: &Range<usize>) -> bool {
-    let within = &position[range.start - 1..=range.end];
-    let high = within.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let low = within.iter().copied().fold(f64::INFINITY, f64::min);
-    let usual = MOVES * travels.typical * range.len() as f64;
-    high - low > usual.max(RESOLVED * travels.quantum)
 }
 
 /// Samples that stand still between two jumps.

@@ -38,16 +38,22 @@ pub(super) fn of_torque(values: &[f64], position: &[f64]) -> Vec<Range<usize>> {
     found.sort_by_key(|range| range.start);
     found.dedup();
     let travels = Steps::of(position);
-    found.retain(|range| {
-        let way = (position[range.end] - position[range.start - 1]).abs();
-        let usual = MOVES * travels.typical * range.len() as f64;
-        way > usual.max(RESOLVED * travels.quantum)
-    });
+    found.retain(|range| moves_on(position, &travels, range));
     found
 }
 
-/// Ranges that repeat the sample before them more often than chance does, amid samples that change by much more than the sensor resolves: noise
-/// does not stand still, wherever the channel is behind them. None where it stands so for much of the log, as a torque in stairs does.
+/// Whether a joint moves within samples, wherever it is behind them.
+pub(super) fn moves_on(position: &[f64], travels: &Steps, range: &Range<usize>) -> bool {
+    let within = &position[range.start - 1..=range.end];
+    let high = within.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let low = within.iter().copied().fold(f64::INFINITY, f64::min);
+    let usual = MOVES * travels.typical * range.len() as f64;
+    high - low > usual.max(RESOLVED * travels.quantum)
+}
+
+/// Ranges that repeat the sample before them more often than chance does, amid samples that change by much more than the sensor resolves, and on
+/// either side by more than that: noise does not stand still, wherever the channel is behind them. None where it stands so for much of the
+/// log, as a torque in stairs does.
 fn frozen(values: &[f64], steps: &Steps, fewest: usize) -> Vec<Range<usize>> {
     let sizes = &steps.sizes;
     let least = (MOVES * steps.typical).max(RESOLVED * steps.quantum);
@@ -66,7 +72,8 @@ fn frozen(values: &[f64], steps: &Steps, fewest: usize) -> Vec<Range<usize>> {
         let before = mean(&sizes[still.start - NEAR..still.start]);
         let behind = mean(&sizes[still.end..still.end + NEAR]);
         let value = values[still.start];
-        if before.min(behind) > least && (value == 0.0 || !steps.is_limit(value)) {
+        let is_amid = before.midpoint(behind) > least && before.min(behind) > steps.quantum;
+        if is_amid && (value == 0.0 || !steps.is_limit(value)) {
             found.push(still.start + 1..still.end + 1);
         }
     }
