@@ -59,6 +59,13 @@ fn a_clean_arm_is_left_alone_and_a_worn_one_is_explained() {
         let value = parameter["value"].as_f64().expect("a number");
         assert!((value / truth - 1.0).abs() < 0.05, "{parameter}");
     }
+    // Bristles explain as much with five parameters, none of which the log tells.
+    let tried = worn["tried"].as_array().expect("what was tried");
+    let mut bristles = tried.iter().filter(|tried| {
+        let refused = tried["refused"].as_array();
+        tried["kind"] == "lugre-presliding" && refused.is_some_and(|all| *all == ["undetermined"])
+    });
+    assert!(bristles.next().is_some(), "{tried:#?}");
     let (before, after) = (
         numbers(worn, "relative_percent_before"),
         numbers(worn, "relative_percent_after"),

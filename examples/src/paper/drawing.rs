@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use plotters::coord::ranged1d::ValueFormatter;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
@@ -78,7 +79,7 @@ impl Figure {
             }
             root.present().expect(DRAWN);
         }
-        // As large as it is meant, its places as they are.
+        // The page has it in pixels; inside, places stay as fine as they are drawn.
         let [fine, own] = [FINE, 1].map(|fine| {
             let (width, height) = (size.0 * fine / FINE, size.1 * fine / FINE);
             format!(r#"width="{width}" height="{height}""#)
@@ -97,14 +98,11 @@ impl Figure {
             .expect(DRAWN);
         let bars = self.series.iter().filter(|one| one.mark == Mark::Bars);
         let bars: Vec<&Series> = bars.collect();
-        // Bars stand at numbers, and nothing between them has one.
-        let tick = |x: &f64| {
-            let is_place = bars.is_empty() || x.fract().abs() < 1e-9;
-            if is_place {
-                format!("{x}")
-            } else {
-                String::new()
-            }
+        // Bars are counted, and nothing between them has a number.
+        let tick = |x: &f64| match (bars.is_empty(), x.fract().abs() < 1e-9) {
+            (true, _) => RangedCoordf64::format(x),
+            (false, true) => format!("{x:.0}"),
+            (false, false) => String::new(),
         };
         chart
             .configure_mesh()

@@ -179,18 +179,40 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         .clone()
         .filter(|&j| after[j].is_material() && after[j].power > LEFT_SHARE * before[j].power)
         .collect();
-    let is_doubtful = |j: &usize| {
-        laws(*j) > 0
-            && after[*j].share > LEFT_BY_FILTERS
-            && after[*j].power > LEFT_OF_LAW * before[*j].power
-            && stays(*j) > STAYS
-    };
     let settled = joints
         .clone()
         .filter(|j| laws(*j) > 0 && !left.contains(j))
         .count();
     let one_law_each = joints.clone().all(|j| laws(j) <= 1);
-    joints.clone().any(|joint| is_doubtful(&joint))
+    let is_doubtful = |j: usize| laws(j) > 0 && is_another_law(&before[j], &after[j], stays(j));
+    joints.clone().any(is_doubtful)
         || left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
         || (!left.is_empty() && left.len() >= settled)
+}
+
+/// Whether a joint's findings leave what the right law would not: structure, while most of the held-out error `stays`, a share of it.
+fn is_another_law(before: &Structure, after: &Structure, stays: f64) -> bool {
+    after.share > LEFT_BY_FILTERS && after.power > LEFT_OF_LAW * before.power && stays > STAYS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_that_leaves_structure_and_most_of_the_error_is_another_one() {
+        let structure = |power: f64, share: f64| Structure {
+            power,
+            share,
+            ratio: 2.0,
+        };
+        let before = structure(1.0, 0.3);
+        assert!(is_another_law(&before, &structure(0.4, 0.1), 0.6));
+        // It takes most of the error, on an arm that has something else besides.
+        assert!(!is_another_law(&before, &structure(0.4, 0.1), 0.4));
+        // Filters leave as much of any law.
+        assert!(!is_another_law(&before, &structure(0.4, 0.05), 0.6));
+        // Nearly all that there was is gone.
+        assert!(!is_another_law(&before, &structure(0.1, 0.1), 0.6));
+    }
 }

@@ -143,9 +143,9 @@ impl OutputError {
         };
         let mut rival = None;
         // A search that has not come to its end would only be given more time.
-        let has_ended = part.found.1 == search::Ending::Converged;
-        let other_hold = self.other_hold(recordings).filter(|_| has_ended);
-        if let Some(end) = other_hold {
+        if part.found.1 == search::Ending::Converged
+            && let Some(end) = self.other_hold(recordings)
+        {
             let window = part.window;
             let mut other = |from: &Part<'_, P>, end: End| {
                 let (problem, values) = (problem(window, Hold::Sample)?, &from.place.values);

@@ -8,7 +8,7 @@ use crate::simulate::Adjustable;
 use crate::simulate::SimulateError;
 
 /// Half the change of torque from sample to sample, over the torque, roots of mean squares: below the first it does not matter how torque goes
-/// between samples, below the second only where errors are as small.
+/// between samples; below the second a rough search has to say first that it does.
 const SMOOTH: [f64; 2] = [5e-4, 0.01];
 
 /// What the parts of a search share.
