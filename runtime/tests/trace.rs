@@ -4,6 +4,7 @@ mod plant;
 
 use plant::{Pendulums, Plant, column, sign};
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use robot_model::log::Log;
 use robot_model::motion::{Kinematics, Motion};
 use robot_model::trace::{Outcome, Trace, Verdict};
 
@@ -101,11 +102,15 @@ impl Candidate for Law {
 }
 
 fn trace(plant: &Plant) -> Verdict {
+    traced(&[plant.log()])
+}
+
+fn traced(logs: &[Log]) -> Verdict {
     let library = Law::library();
     let candidates = library.iter().map(|law| law as &dyn Candidate).collect();
     Trace::new(candidates)
-        .run(&Pendulums::new(), &[plant.log()], &mut |_| ())
-        .expect("the log is sound")
+        .run(&Pendulums::new(), logs, &mut |_| ())
+        .expect("the logs are sound")
 }
 
 fn names(verdict: &Verdict) -> Vec<(&str, usize)> {
@@ -265,4 +270,34 @@ fn what_comes_back_above_the_band_is_missing_all_the_same() {
     };
     assert_eq!(exceeded(&verdict), [true, false]);
     assert_eq!(exceeded(&traced(|_, _, _| 0.0)), [false, false]);
+}
+
+/// A log in which a brake holds the second joint, with a torque that is noise.
+fn parked(plant: &Plant) -> Log {
+    let mut log = plant.log();
+    log.q[1].fill(0.8);
+    log
+}
+
+#[test]
+fn a_joint_that_a_brake_holds_says_nothing_of_the_others() {
+    let plant = Plant {
+        extra: |j, _, v| if j == 0 { 0.6 * v[0] * v[0].abs() } else { 0.0 },
+        ..Plant::default()
+    };
+    let verdict = traced(&[parked(&plant)]);
+    assert_eq!(names(&verdict), [("quadratic-viscous", 1)], "{verdict:#?}");
+}
+
+#[test]
+fn rows_that_a_fit_leaves_out_are_none_of_a_law_either() {
+    let plant = Plant {
+        extra: |j, q, _| if j == 1 { 1.5 * q[1] } else { 0.0 },
+        ..Plant::default()
+    };
+    let other = Plant { seed: 2, ..plant };
+    let verdict = traced(&[parked(&plant), other.log()]);
+    assert_eq!(names(&verdict), [("joint-spring", 2)], "{verdict:#?}");
+    let value = verdict.findings[0].parameters[0].value;
+    assert!((value - 1.5).abs() < 0.1, "{value}");
 }

@@ -35,6 +35,7 @@ mod instruments;
 mod judged;
 mod late;
 mod least_squares;
+pub(crate) mod left_out;
 mod logs;
 mod method;
 mod motion;
@@ -76,7 +77,7 @@ pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
-pub use table::{is_shape_told, relative_deviation};
+pub use table::{is_shape_told, relative_deviation, table_value};
 pub(crate) use turns::{away as away_from_turns, leave_out as leave_out_turns};
 
 use crate::columns::{Arm, Nominal};

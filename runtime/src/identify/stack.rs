@@ -64,6 +64,8 @@ pub struct Stack {
     pub turns: Vec<Vec<usize>>,
     /// Rows of each joint that are left out because its torque stands at a limit; no joints where none were looked for.
     pub clipped: Vec<Vec<usize>>,
+    /// Rows of each joint that are left out because the log says nothing of it: it stands still, or its torque does.
+    pub silent: Vec<Vec<usize>>,
     /// Rows of each joint that are left out because dry friction holds it nearly all the time; no joints where none were looked for.
     pub held: Vec<Vec<usize>>,
     /// Of each joint a factor of what noise of positions makes of the columns; no joints where none was looked for.
@@ -139,6 +141,7 @@ impl Stack {
         let mut stack = Self {
             unknowns: arm.unknowns().to_vec(),
             joints: vec![JointRows::default(); arm.dof()],
+            silent: vec![Vec::new(); arm.dof()],
             ..Self::default()
         };
         let mut filtered = Vec::new();
@@ -186,6 +189,7 @@ impl Stack {
         for ((start, joints), end) in silent.into_iter().zip(ends) {
             for joint in joints {
                 stack.joints[joint].clear(start..end);
+                stack.silent[joint].extend(start..end);
             }
         }
         stack
@@ -250,6 +254,17 @@ impl Stack {
             joints: joints.collect(),
             turns: turns.collect(),
             ..Self::default()
+        }
+    }
+
+    /// Makes rows of columns zero that the fit leaves out.
+    pub(crate) fn clear_left_out(&self, entries: &mut [Entry]) {
+        for rows in [&self.silent, &self.clipped, &self.held] {
+            for entry in &mut *entries {
+                for &row in rows.get(entry.joint).into_iter().flatten() {
+                    entry.values[row] = 0.0;
+                }
+            }
         }
     }
 

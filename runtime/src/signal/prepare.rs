@@ -133,6 +133,11 @@ pub struct Prepared {
 }
 
 impl Prepared {
+    /// Rate of the rows of a fit, Hz.
+    pub(crate) fn filtered_hz(&self) -> f64 {
+        self.rate_hz / self.shared.stride() as f64
+    }
+
     /// Whether a sample of the motion, or one between two, is made up or next to what is.
     pub(crate) fn is_in_hole(&self, sample: f64) -> bool {
         self.shared.is_in_hole(sample)

@@ -186,11 +186,13 @@ impl Baseline<'_> {
             100.0 * (1.0 - (after / before.max(f64::MIN_POSITIVE)).sqrt())
         };
         let folds = held_out.errors.len();
+        // A joint that stands all along, as one with its brake on does, has no error and says nothing.
+        let judges = |joint: &usize| self.held_out.mean(*joint) > 0.0;
         let better = |fold: usize| {
             let weighted = |errors: &[f64]| {
-                touched
-                    .iter()
-                    .map(|j| errors[*j] / self.held_out.mean(*j))
+                let joints = touched.iter().copied().filter(judges);
+                joints
+                    .map(|j| errors[j] / self.held_out.mean(j))
                     .sum::<f64>()
             };
             weighted(&held_out.errors[fold]) < weighted(&self.held_out.errors[fold])
@@ -200,6 +202,7 @@ impl Baseline<'_> {
             .map(|j| percent(raw_power[j], raw_before[j]))
             .collect();
         let merit = (0..dof)
+            .filter(judges)
             .map(|j| 0.5 * (self.held_out.mean(j) / held_out.mean(j).max(f64::MIN_POSITIVE)).ln())
             .sum::<f64>();
         let is_material = touched.iter().any(|j| raw_percent[*j] >= MATERIAL_PERCENT);

@@ -12,6 +12,7 @@ use crate::motion::{Kinematics, Motion};
 use crate::signal::Prepared;
 
 use super::projected::Projected;
+use super::rows::Rows;
 use super::score::Present;
 use super::trial::{Trial, points, project};
 
@@ -27,7 +28,7 @@ pub(super) enum Grid<'a> {
 }
 
 impl<'a> Grid<'a> {
-    pub(super) fn new(candidate: &'a dyn Candidate, logs: &[Prepared]) -> Self {
+    pub(super) fn new(candidate: &'a dyn Candidate, rows: Rows) -> Self {
         let points = points(candidate);
         if points.len() > MOST_FORMED {
             return Self::Screened(candidate);
@@ -35,7 +36,7 @@ impl<'a> Grid<'a> {
         let formed = points.into_iter();
         Self::Formed(
             formed
-                .map(|shapes| Trial::new(candidate, shapes, logs))
+                .map(|shapes| Trial::new(candidate, shapes, rows))
                 .collect(),
         )
     }
@@ -52,8 +53,13 @@ impl<'a> Grid<'a> {
         }
     }
 
-    /// Its points' columns, as rows of the fit.
-    pub(super) fn each(&self, rows: &[Motion], see: &mut dyn FnMut(&dyn Candidate, &[Entry])) {
+    /// Its points' columns, as rows of the fit; `motions` are those of the rows.
+    pub(super) fn each(
+        &self,
+        present: &Present,
+        motions: &[Motion],
+        see: &mut dyn FnMut(&dyn Candidate, &[Entry]),
+    ) {
         match self {
             Self::Formed(trials) => {
                 for trial in trials {
@@ -62,7 +68,7 @@ impl<'a> Grid<'a> {
             }
             Self::Screened(candidate) => {
                 for shapes in points(*candidate) {
-                    see(*candidate, &over(*candidate, rows, &shapes));
+                    see(*candidate, &over(*candidate, motions, &shapes, present));
                 }
             }
         }
@@ -73,8 +79,8 @@ impl<'a> Grid<'a> {
     pub(super) fn best(
         &self,
         present: &Present,
-        logs: &[Prepared],
-        rows: &[Motion],
+        rows: Rows,
+        motions: &[Motion],
     ) -> Option<(f64, Trial<'a>)> {
         match self {
             Self::Formed(trials) => {
@@ -86,8 +92,8 @@ impl<'a> Grid<'a> {
                 Some((explained.admissible, trial.clone()))
             }
             Self::Screened(candidate) => {
-                let shapes = screened(*candidate, present, rows)?;
-                let trial = Trial::new(*candidate, shapes, logs);
+                let shapes = screened(*candidate, present, motions)?;
+                let trial = Trial::new(*candidate, shapes, rows);
                 let projected = trial.project(present)?;
                 Some((Explained::new(*candidate, &projected).admissible, trial))
             }
@@ -120,7 +126,7 @@ impl Explained {
 }
 
 /// The best point of a large grid, on all cores.
-fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Option<Vec<f64>> {
+fn screened(candidate: &dyn Candidate, present: &Present, motions: &[Motion]) -> Option<Vec<f64>> {
     let points = points(candidate);
     let next = AtomicUsize::new(0);
     let best: Mutex<Option<(Explained, usize)>> = Mutex::new(None);
@@ -130,7 +136,7 @@ fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Op
             let Some(shapes) = points.get(number) else {
                 return;
             };
-            let entries = over(candidate, rows, shapes);
+            let entries = over(candidate, motions, shapes, present);
             let Some(projected) = project(candidate, &entries, present) else {
                 continue;
             };
@@ -156,8 +162,13 @@ fn screened(candidate: &dyn Candidate, present: &Present, rows: &[Motion]) -> Op
     Some(points[number].clone())
 }
 
-/// A candidate's columns over several motions, one after the other.
-fn over(candidate: &dyn Candidate, motions: &[Motion], shapes: &[f64]) -> Vec<Entry> {
+/// A candidate's columns over several motions, one after the other, where the fit has rows.
+fn over(
+    candidate: &dyn Candidate,
+    motions: &[Motion],
+    shapes: &[f64],
+    present: &Present,
+) -> Vec<Entry> {
     let mut all: Vec<Entry> = Vec::new();
     for motion in motions {
         let entries = candidate.entries(motion, shapes);
@@ -169,6 +180,7 @@ fn over(candidate: &dyn Candidate, motions: &[Motion], shapes: &[f64]) -> Vec<En
             }
         }
     }
+    present.stack.clear_left_out(&mut all);
     all
 }
 

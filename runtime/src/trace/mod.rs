@@ -50,6 +50,7 @@ mod raw;
 mod refine;
 mod residual;
 mod round;
+mod rows;
 mod score;
 mod search;
 mod slopes;

@@ -42,12 +42,12 @@ const CHUNK: usize = 512;
 const LEAST_VARIANCE: f64 = 1e-9;
 
 /// The number of tests, between 1 and that of points: twice `M`, where in 5 % of draws some point has a score as improbable as 5 % / M.
-pub(super) fn tests(present: &Present, grids: &[Grid], rows: &[Motion]) -> f64 {
+pub(super) fn tests(present: &Present, grids: &[Grid], motions: &[Motion]) -> f64 {
     let blocks = present.equal_blocks(BLOCK_S, BLOCKS);
     let with_residual = present.block_products(&blocks);
     let points = threads::map(grids, |grid| {
         let mut points: Vec<Directions> = Vec::new();
-        grid.each(rows, &mut |candidate, entries| {
+        grid.each(present, motions, &mut |candidate, entries| {
             let found = scores(present, &blocks, &with_residual, candidate, entries);
             points.extend(found.map(|scores| whitened(&scores)));
         });

@@ -7,6 +7,7 @@ use crate::columns::Entry;
 use crate::signal::Prepared;
 
 use super::projected::Projected;
+use super::residual::{clear, left_out};
 use super::search::{Search, State};
 use super::trial::Trial;
 
@@ -16,6 +17,8 @@ pub(super) struct Raw<'a> {
     columns: Vec<Vec<Entry>>,
     /// `[log][joint][sample]`
     residuals: Vec<Vec<Vec<f64>>>,
+    /// Which samples say nothing, `[log][joint][sample]`.
+    left_out: Vec<Vec<Vec<bool>>>,
     /// Mean square per joint of what decimation took off the torque.
     beyond: Vec<f64>,
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
@@ -46,6 +49,11 @@ impl Search<'_> {
                 .iter()
                 .map(|log| self.raw_residuals(state, log))
                 .collect(),
+            left_out: self
+                .prepared
+                .iter()
+                .map(|log| left_out(self.arm, log))
+                .collect(),
             beyond: Vec::new(),
             noise_power: Vec::new(),
         };
@@ -68,7 +76,8 @@ impl Raw<'_> {
         }
         let change = projected.change();
         let mut left = self.residuals.clone();
-        for ((log, columns), left) in self.logs.iter().zip(&self.columns).zip(&mut left) {
+        let logs = self.logs.iter().zip(&self.columns).zip(&self.left_out);
+        for (((log, columns), left_out), left) in logs.zip(&mut left) {
             let border = log.shared.border();
             let mut add = |entry: &Entry, factor: f64| {
                 if factor != 0.0 {
@@ -86,6 +95,7 @@ impl Raw<'_> {
             for entry in columns {
                 add(entry, change[entry.column]);
             }
+            clear(left, left_out);
         }
         self.above(&left, filtered)
     }

@@ -4,10 +4,9 @@ use std::convert::Infallible;
 
 use crate::columns::Entry;
 use crate::identify::{golden, is_of_decades, moved, neighbors};
-use crate::signal::Prepared;
 
+use super::rows::Rows;
 use super::score::Present;
-use super::slopes::slopes;
 use super::trial::{Trial, presence};
 
 /// How much less a candidate may explain with a shape that hardly changes anything.
@@ -21,7 +20,7 @@ const LEAST_GAIN: f64 = 1e-5;
 impl Trial<'_> {
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` all of them
     /// together from there on.
-    pub(super) fn refined(&self, present: &Present, logs: &[Prepared], finely: bool) -> Self {
+    pub(super) fn refined(&self, present: &Present, rows: Rows, finely: bool) -> Self {
         let mut best = self.clone();
         let drop = |trial: &Self| {
             let projected = trial.project(present);
@@ -32,7 +31,7 @@ impl Trial<'_> {
             let at = |value: f64| {
                 let mut shapes = best.shapes.clone();
                 shapes[number] = value;
-                Self::new(self.candidate, shapes, logs)
+                Self::new(self.candidate, shapes, rows)
             };
             let (low, high) = neighbors(grid, self.shapes[number]);
             let Ok(value) = golden(low, high, &mut |value| {
@@ -44,14 +43,14 @@ impl Trial<'_> {
             }
         }
         if finely && !best.shapes.is_empty() {
-            best = best.together(present, &drop, logs);
+            best = best.together(present, &drop, rows);
         }
-        let mut best = best.away_from_ends(&drop, logs);
+        let mut best = best.away_from_ends(&drop, rows);
         if best.shapes.len() > 1 {
-            best.presence = presence(best.candidate, &best.shapes, logs);
+            best.presence = presence(best.candidate, &best.shapes, rows.logs);
             let numbers = 0..best.shapes.len();
             best.is_felt = numbers
-                .map(|number| best.feels(number, &drop, logs))
+                .map(|number| best.feels(number, &drop, rows))
                 .collect();
         }
         best
@@ -59,19 +58,14 @@ impl Trial<'_> {
 
     /// Moves all shapes along the slopes of the torque (Gauss and Newton) as long as that explains more: width and sharpness of a loop are
     /// not found one after the other.
-    fn together(
-        mut self,
-        present: &Present,
-        drop: &dyn Fn(&Self) -> f64,
-        logs: &[Prepared],
-    ) -> Self {
+    fn together(mut self, present: &Present, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
         let mut explained = drop(&self);
         for _ in 0..STEPS {
-            let Some(step) = self.step(present, logs) else {
+            let Some(step) = self.step(present, rows) else {
                 break;
             };
             let shares = HALVES.iter().map(|share| {
-                let next = self.moved(&step, *share, logs);
+                let next = self.moved(&step, *share, rows);
                 (drop(&next), next)
             });
             let least = (1.0 + LEAST_GAIN) * explained;
@@ -84,10 +78,10 @@ impl Trial<'_> {
     }
 
     /// Where least squares with slopes for columns moves the shapes.
-    fn step(&self, present: &Present, logs: &[Prepared]) -> Option<Vec<f64>> {
+    fn step(&self, present: &Present, rows: Rows) -> Option<Vec<f64>> {
         let count = self.count();
         let gain = self.project(present)?.gain;
-        let slopes = slopes(self.candidate, &self.shapes, &gain, logs);
+        let slopes = rows.slopes(self.candidate, &self.shapes, &gain);
         let slopes = slopes.into_iter().map(|slope| Entry {
             column: count + slope.column,
             ..slope
@@ -98,14 +92,14 @@ impl Trial<'_> {
     }
 
     /// With shapes a share of a step further, inside their ranges.
-    fn moved(&self, step: &[f64], share: f64, logs: &[Prepared]) -> Self {
+    fn moved(&self, step: &[f64], share: f64, rows: Rows) -> Self {
         let shapes = self.candidate.shapes().iter().zip(&self.shapes).zip(step);
         let shapes = shapes.map(|((shape, value), step)| moved(&shape.grid, *value, share * step));
-        Self::new(self.candidate, shapes.collect(), logs)
+        Self::new(self.candidate, shapes.collect(), rows)
     }
 
     /// Whether the candidate explains less with a shape that is one step of its grid lower or higher.
-    fn feels(&self, number: usize, drop: &dyn Fn(&Self) -> f64, logs: &[Prepared]) -> bool {
+    fn feels(&self, number: usize, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> bool {
         let grid = &self.candidate.shapes()[number].grid;
         let (first, last, value) = (grid[0], grid[grid.len() - 1], self.shapes[number]);
         let (low, high) = neighbors(grid, value);
@@ -118,12 +112,12 @@ impl Trial<'_> {
         steps.into_iter().all(|step| {
             let mut shapes = self.shapes.clone();
             shapes[number] = step.clamp(first, last);
-            drop(&Self::new(self.candidate, shapes, logs)) < least
+            drop(&Self::new(self.candidate, shapes, rows)) < least
         })
     }
 
     /// A shape of which hardly anything changes near the end of its range is at no end: it takes the next value of its grid.
-    fn away_from_ends(mut self, drop: &dyn Fn(&Self) -> f64, logs: &[Prepared]) -> Self {
+    fn away_from_ends(mut self, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
         for number in 0..self.shapes.len() {
             if self.is_within(number) {
                 continue;
@@ -136,7 +130,7 @@ impl Trial<'_> {
             };
             let mut shapes = self.shapes.clone();
             shapes[number] = inner;
-            let inside = Self::new(self.candidate, shapes, logs);
+            let inside = Self::new(self.candidate, shapes, rows);
             if drop(&inside) >= (1.0 - HARDLY) * drop(&self) {
                 self = inside;
             }

@@ -1,8 +1,9 @@
 //! What the present model leaves of the raw torque, at the full rate of the motion.
 
 use crate::columns::Arm;
-use crate::identify::torque_of;
+use crate::identify::{Segment, left_out, torque_of};
 use crate::signal::Prepared;
+use crate::signal::resample::whole_steps;
 
 use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
@@ -44,9 +45,9 @@ impl Search<'_> {
             .zip(&self.prepared)
             .zip(&self.periods);
         let power = logs.map(|((segment, log), period)| {
-            let rows = &residual[segment.start..segment.start + segment.time.len()];
-            let rate_hz = log.rate_hz / log.shared.stride() as f64;
-            let power = |period: &f64| structure::repeated_power(rows, period * rate_hz);
+            let rate_hz = log.filtered_hz();
+            let rows = evenly(segment, residual, rate_hz);
+            let power = |period: &f64| structure::repeated_power(&rows, period * rate_hz);
             rows.len() as f64 * period.as_ref().map_or(0.0, power)
         });
         power.sum::<f64>() / residual.len().max(1) as f64
@@ -68,9 +69,8 @@ impl Search<'_> {
                 .map(|(((residuals, log), period), segment)| RawResidual {
                     values: &residuals[j],
                     beyond: self.beyond(log, j),
-                    filtered: &state.residuals[j]
-                        [segment.start..segment.start + segment.time.len()],
-                    filtered_hz: log.rate_hz / log.shared.stride() as f64,
+                    filtered: evenly(segment, &state.residuals[j], log.filtered_hz()),
+                    filtered_hz: log.filtered_hz(),
                     rate_hz: log.rate_hz,
                     shared_hz: self.shared_hz,
                     period: *period,
@@ -82,8 +82,40 @@ impl Search<'_> {
     }
 }
 
+/// A log's rows of a series, one for each step of its decimated time: zero where a hole has none.
+fn evenly(segment: &Segment, series: &[f64], rate_hz: f64) -> Vec<f64> {
+    let (Some(first), Some(last)) = (segment.time.first(), segment.time.last()) else {
+        return Vec::new();
+    };
+    let place = |time: f64| whole_steps(((time - first) * rate_hz).round());
+    let mut even = vec![0.0; place(*last) + 1];
+    for (time, value) in segment.time.iter().zip(&series[segment.start..]) {
+        even[place(*time)] = *value;
+    }
+    even
+}
+
+/// Which samples of a log's raw residuals say nothing, `[joint][sample]`.
+pub(super) fn left_out(arm: &dyn Arm, log: &Prepared) -> Vec<Vec<bool>> {
+    let joints = (0..arm.dof()).map(|joint| {
+        let mut all = left_out::samples(arm, log, joint);
+        let border = log.shared.border().min(all.len());
+        all.split_off(border)
+    });
+    joints.collect()
+}
+
+/// Makes such samples zero, as rows of the fit are there.
+pub(super) fn clear(residuals: &mut [Vec<f64>], left_out: &[Vec<bool>]) {
+    for (residuals, left_out) in residuals.iter_mut().zip(left_out) {
+        for (residual, _) in residuals.iter_mut().zip(left_out).filter(|(_, out)| **out) {
+            *residual = 0.0;
+        }
+    }
+}
+
 /// Raw torque less that of an arm at an estimate, whose last numbers are those of accepted effects: `[joint][sample]` of one log, both
-/// ends cut.
+/// ends cut; zero where samples say nothing.
 pub(super) fn raw_residuals(
     arm: &dyn Arm,
     shapes: &[f64],
@@ -105,7 +137,7 @@ pub(super) fn raw_residuals(
     }
     let known = arm.known_torque(&log.motion, shapes);
     let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
-    (0..dof)
+    let mut residuals: Vec<Vec<f64>> = (0..dof)
         .map(|j| {
             let gain = arm.actuator_gain()[j];
             inner
@@ -113,5 +145,7 @@ pub(super) fn raw_residuals(
                 .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
                 .collect()
         })
-        .collect()
+        .collect();
+    clear(&mut residuals, &left_out(arm, log));
+    residuals
 }

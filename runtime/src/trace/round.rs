@@ -9,6 +9,7 @@ use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
 use super::gram::Gram;
 use super::grid::{self, Grid};
 use super::multiplicity;
+use super::rows::Rows;
 use super::score::Present;
 use super::search::{Accepted, Search, State, is_of_phase};
 use super::trial::Trial;
@@ -70,16 +71,17 @@ impl Search<'_> {
         grids: &[Grid<'a>],
         done: &mut dyn FnMut(f64),
     ) -> Vec<Judged<'a>> {
-        let rows: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
+        let motions: Vec<Motion> = self.prepared.iter().map(grid::rows).collect();
+        let rows = Rows::new(&self.prepared, &state.stack);
         let tests = self.tests.get_or_init(|| {
             let (stack, sigma) = (&state.stack, &state.solution.sigma);
             let present = Present::new(stack, &Gram::new(stack, &[]), sigma, &state.residuals);
-            multiplicity::tests(&present, grids, &rows)
+            multiplicity::tests(&present, grids, &motions)
         });
         let baseline = self.baseline(state, *tests, &self.folds);
         let mut best: Vec<(f64, Trial)> = grids
             .iter()
-            .filter_map(|grid| grid.best(&baseline.present, &self.prepared, &rows))
+            .filter_map(|grid| grid.best(&baseline.present, rows, &motions))
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
         let mut changes = 0;
@@ -91,7 +93,7 @@ impl Search<'_> {
                 if place > 0 {
                     done(place as f64 / count as f64);
                 }
-                let trial = trial.refined(&baseline.present, &self.prepared, place < FINELY);
+                let trial = trial.refined(&baseline.present, rows, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
                 let mut judged = if is_of_phase(trial.candidate) {
                     let baseline = self.baseline(state, *tests, self.folds_of(trial.candidate));

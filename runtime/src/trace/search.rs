@@ -15,6 +15,7 @@ use super::away::Looks;
 use super::conclude::{Told, changed, verdict};
 use super::folds::{self, Fold};
 use super::grid::Grid;
+use super::rows::Rows;
 use super::stage::Stage;
 use super::structure::Structure;
 use super::trial::Trial;
@@ -330,7 +331,7 @@ impl Search<'_> {
     /// Trials of one candidate. A change that cannot be solved for at its neutral shapes is no candidate.
     fn grid<'a>(&self, state: &State, candidate: &'a dyn Candidate) -> Grid<'a> {
         let Some(change) = candidate.change() else {
-            return Grid::new(candidate, &self.prepared);
+            return Grid::new(candidate, Rows::new(&self.prepared, &state.stack));
         };
         let first = self.first_order(state, change).into_iter();
         let trials = first.map(|entries| Trial::first_order(candidate, entries));
@@ -368,7 +369,7 @@ impl Search<'_> {
                 effect.trial = Trial::new(
                     effect.trial.candidate,
                     effect.trial.shapes.clone(),
-                    &self.prepared,
+                    Rows::new(&self.prepared, &stack),
                 );
             }
             stack.append(effect.trial.candidate.unknowns(), &effect.trial.entries);

@@ -72,7 +72,7 @@ pub(super) struct RawResidual<'a> {
     /// Mean square of what decimation took off it.
     pub(super) beyond: f64,
     /// The same residual, filtered and decimated.
-    pub(super) filtered: &'a [f64],
+    pub(super) filtered: Vec<f64>,
     /// Rate of the decimated samples.
     pub(super) filtered_hz: f64,
     pub(super) rate_hz: f64,
@@ -109,7 +109,7 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
             0.0
         };
         let periodic = log.period.map_or(0.0, |period| {
-            repeated_power(log.filtered, period * log.filtered_hz)
+            repeated_power(&log.filtered, period * log.filtered_hz)
         });
         found.power += weight * above.max(periodic);
         found.ratio = found.ratio.max(ratio);
@@ -243,7 +243,7 @@ mod tests {
             of(&[RawResidual {
                 values,
                 beyond: 0.0,
-                filtered: values,
+                filtered: values.to_vec(),
                 filtered_hz: HZ,
                 rate_hz: HZ,
                 shared_hz: 10.0,

@@ -3,8 +3,8 @@
 use crate::columns::{Candidate, Unknown};
 
 use super::gate::Judged;
+use super::rows::Rows;
 use super::search::{Accepted, Search, State};
-use super::slopes::slopes;
 
 /// Deviations that a parameter is told by.
 const TOLD: f64 = 2.0;
@@ -20,12 +20,13 @@ impl Search<'_> {
         let linear = state.stack.unknowns.len();
         let mut first = linear - effects().map(|effect| effect.trial.count()).sum::<usize>();
         let mut stack = state.stack.clone();
+        let rows = Rows::new(&self.prepared, &state.stack);
         let mut places = Vec::new();
         for effect in effects() {
             let count = effect.trial.count();
             let gain = &state.solution.estimate[first..first + count];
             let trial = &effect.trial;
-            let slopes = slopes(trial.candidate, &trial.shapes, gain, &self.prepared);
+            let slopes = rows.slopes(trial.candidate, &trial.shapes, gain);
             let unknowns = unknowns(trial.candidate);
             let shapes = stack.unknowns.len();
             places.push((first..first + count, shapes..shapes + unknowns.len()));
@@ -60,7 +61,8 @@ impl Search<'_> {
             return true;
         };
         let gain = &solution.estimate[first..];
-        let slopes = slopes(trial.candidate, &trial.shapes, gain, &self.prepared);
+        let rows = Rows::new(&self.prepared, &state.stack);
+        let slopes = rows.slopes(trial.candidate, &trial.shapes, gain);
         stack.append(&unknowns(trial.candidate), &slopes);
         let std = self.identify.beside_slopes(&stack, &solution);
         let mut parameters = gain.iter().zip(&std[first..]);

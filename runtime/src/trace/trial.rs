@@ -1,10 +1,11 @@
 //! A candidate at given shapes, its columns filtered like the model's.
 
 use crate::columns::{Candidate, Entry};
-use crate::identify::{filtered_columns, is_of_decades};
+use crate::identify::is_of_decades;
 use crate::signal::Prepared;
 
 use super::projected::Projected;
+use super::rows::Rows;
 use super::score::Present;
 use super::search::is_of_phase;
 
@@ -107,8 +108,8 @@ fn is_rare(entries: &[Entry]) -> bool {
 }
 
 impl<'a> Trial<'a> {
-    pub(super) fn new(candidate: &'a dyn Candidate, shapes: Vec<f64>, logs: &[Prepared]) -> Self {
-        let entries = filtered_columns(candidate, logs, &shapes);
+    pub(super) fn new(candidate: &'a dyn Candidate, shapes: Vec<f64>, rows: Rows) -> Self {
+        let entries = rows.columns(candidate, &shapes);
         Self {
             candidate,
             shapes,

@@ -216,6 +216,7 @@ impl Search<'_> {
                 values,
             });
             let mut entries: Vec<Entry> = entries.collect();
+            stack.clear_left_out(&mut entries);
             if let Some(away) = away {
                 away.clear(&mut entries);
             }
