@@ -23,7 +23,7 @@ const SPEEDS: usize = 100;
 const BISECTIONS: usize = 10;
 
 /// Share of the largest speeds that is slower than all thresholds of laws: what friction takes of a joint that creeps.
-const CREEP: f64 = 1e-6;
+pub(super) const CREEP: f64 = 1e-6;
 
 /// Largest speed of a joint whose spec says none, rad/s or m/s.
 const FAST: [f64; 2] = [std::f64::consts::PI, 1.0];
@@ -140,12 +140,15 @@ impl<'a> Effects<'a> {
 
     /// By how much effects hold a joint that creeps alone, N m or N: half of what they change by where it turns round.
     pub(super) fn hold(&self, joint: usize, fastest: &[f64]) -> f64 {
-        let torque = |way: f64| {
-            let mut speeds = vec![0.0; fastest.len()];
-            speeds[joint] = way * CREEP * fastest[joint];
-            self.torque(&speeds, &vec![0.0; fastest.len()], 0.0)[joint]
-        };
+        let torque = |way: f64| self.alone(joint, way * CREEP * fastest[joint], fastest.len());
         0.5 * (torque(1.0) - torque(-1.0))
+    }
+
+    /// Torque of the effects on a joint that moves alone, of so many.
+    pub(super) fn alone(&self, joint: usize, speed: f64, joints: usize) -> f64 {
+        let mut speeds = vec![0.0; joints];
+        speeds[joint] = speed;
+        self.torque(&speeds, &vec![0.0; joints], 0.0)[joint]
     }
 
     /// Where effects give energy along a direction, at a pose and a time.

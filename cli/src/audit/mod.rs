@@ -4,6 +4,7 @@ mod bodies;
 mod drives;
 mod friction;
 mod inertia;
+mod jumps;
 mod memory;
 
 use std::collections::BTreeMap;
@@ -47,7 +48,7 @@ struct Report<'a> {
 /// One question, and what speaks against it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
-    /// `bodies`, `signs`, `inertia`, `friction`, `memory`, `drives`, `rank`.
+    /// `bodies`, `signs`, `inertia`, `friction`, `jumps`, `memory`, `drives`, `rank`.
     pub name: &'static str,
     /// None where it was not decided.
     pub passed: Option<bool>,
@@ -63,7 +64,7 @@ pub struct Check {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Quantity {
     /// `mass`, `least_second_moment`, `nearest` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
-    /// (friction); `work` (memory); `friction`, `largest_torque` (drives); `base_parameters`, `parameters` (rank).
+    /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `largest_torque` (drives); `base_parameters`, `parameters` (rank).
     pub what: &'static str,
     /// The link, joint or parameter that it is of; none where it is of the whole arm.
     pub of: Option<String>,
@@ -116,6 +117,7 @@ fn checks(compiled: &Compiled, values: &Values) -> Vec<Check> {
         Some(signs(compiled, values)),
         Some(inertia::check(compiled, &values.parameters, &values.shapes)),
         Some(friction::check(compiled, values)),
+        Some(jumps::check(compiled, values)),
         memory::check(compiled, values),
         drives::check(compiled, values),
         Some(rank(compiled)),

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::friction_curve::{Bristles, Fall, Value};
+use robot_model::identify::table_value;
 
 use super::report::{Found, Parameter};
 use crate::output::counted;
@@ -171,17 +172,18 @@ impl Found<'_> {
         for point in &curve.points {
             let _ = writeln!(
                 text,
-                "{:>14.5} {:>14.5} {:>10.5} {:>10.5} {:>9.2}",
-                point.speed,
-                point.torque.value,
-                point.torque.std,
-                law.torque(point.speed),
+                "{:>14} {:>14} {:>10} {:>10} {:>9.2}",
+                table_value(point.speed),
+                table_value(point.torque.value),
+                table_value(point.torque.std),
+                table_value(law.torque(point.speed)),
                 point.seconds
             );
         }
         text.push('\n');
         let mut row = |name: &str, Value { value, std }: Value, unit: &str| {
-            let _ = writeln!(text, "{name:<34} {value:>12.5} +- {std:<10.5} {unit}");
+            let [value, std] = [value, std].map(table_value);
+            let _ = writeln!(text, "{name:<34} {value:>12} +- {std:<10} {unit}");
         };
         row("Coulomb torque F_c", law.coulomb, torque);
         row(

@@ -6,16 +6,14 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use robot_model::columns::Candidate;
 use robot_model::log::Log;
-use robot_model::simulate::{Instant, Jumps, Plant as _};
 use robot_model::trace::{Outcome, Trace};
-use robot_model_cli::interpreted::InterpretedPlant;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::base::shape_values;
 use robot_model_codegen::expr::Symbol;
 
 use super::plant::friction;
-use super::truth::{EPS, FRICTION};
-use crate::paper::{Error, compiled, interpreted, normal};
+use super::truth::FRICTION;
+use crate::paper::{Audited, Error, compiled, interpreted, normal};
 
 /// One joint with the law as printed.
 pub const PRINTED: &str = include_str!("law.robot");
@@ -24,16 +22,18 @@ pub const CONTINUOUS: &str = include_str!("continuous.robot");
 /// What stands for the joint's effect in [`PRINTED`].
 const DECLARED: &str = "rokae(eps = 0.01) on j;";
 
-/// Base parameters of a joint of one of these specs with the friction of joint `k` of the arm, whatever its effect is called.
+/// Standard parameter of a joint of one of these specs with the friction of joint `k` of the arm, whatever its effect is called.
+fn value(name: &str, k: usize) -> f64 {
+    let end = name.rsplit('.').next().unwrap_or_default();
+    let mut rows = FRICTION.by_name().into_iter().chain([("izz", [1.0; 6])]);
+    let row = rows.find(|(name, _)| *name == end);
+    row.map_or(0.0, |(_, row)| row[k])
+}
+
+/// Base parameters of such a joint.
 fn values(compiled: &Compiled, k: usize) -> Vec<f64> {
-    let value = |name: &str| {
-        let end = name.rsplit('.').next().unwrap_or_default();
-        let mut rows = FRICTION.by_name().into_iter().chain([("izz", [1.0; 6])]);
-        let row = rows.find(|(name, _)| *name == end);
-        row.map_or(0.0, |(_, row)| row[k])
-    };
     let standard = compiled.standard.iter();
-    let standard: Vec<f64> = standard.map(|p| value(&p.name)).collect();
+    let standard: Vec<f64> = standard.map(|p| value(&p.name, k)).collect();
     compiled.base.beta(&standard)
 }
 
@@ -87,36 +87,19 @@ pub fn peak(k: usize) -> Result<f64, Error> {
     Ok(most.unwrap_or_default())
 }
 
-/// By how much the torque of joint `k` jumps at `eps`, N m: the jumps that the compiler has found for the simulator.
+/// By how much `audit` finds the friction of joint `k` to jump, N m, and at what speed, rad/s; nothing where it finds no jump.
 ///
 /// # Errors
-/// What the language or the compiler says of the spec.
-pub fn jump(spec: &str, k: usize) -> Result<f64, Error> {
+/// What the language says of the spec, or `audit` of the values.
+pub fn jump(spec: &str, k: usize) -> Result<Option<[f64; 2]>, Error> {
     let compiled = compiled("law.robot", spec)?;
-    let (beta, shapes) = (values(&compiled, k), shape_values(&compiled.model));
-    let mut plant = InterpretedPlant::new(compiled, &beta, &shapes)?;
-    let mut arguments = vec![0.0; plant.switches()];
-    let mut at = Instant {
-        time: 0.0,
-        q: &[0.0],
-        dq: &[EPS],
-        ddq: &[0.0],
-        memory: &[],
-        switches: &[],
-        torque: &[0.0],
-        inputs: &[],
-    };
-    plant.arguments(&at, &mut arguments);
-    let is_here = |g: &f64| g.abs() < 1e-9;
-    let switches: Vec<f64> = arguments
-        .iter()
-        .map(|g| if is_here(g) { 0.0 } else { g.signum() })
-        .collect();
-    at.switches = &switches;
-    let mut jumps = Jumps::zeros(&plant);
-    plant.jumps(&at, &mut jumps);
-    let here = (0..arguments.len()).filter(|&s| is_here(&arguments[s]));
-    Ok(here.map(|s| 2.0 * jumps.halves[(0, s)].abs()).sum())
+    let standard = compiled.standard.iter();
+    let values = standard.map(|p| (p.name.clone(), value(&p.name, k)));
+    let audited = Audited::of(&compiled, &values.collect())?;
+    let quantity = |what| audited.check("jumps")?.quantity(what, Some("j"));
+    Ok(quantity("jump")
+        .zip(quantity("at"))
+        .map(|(by, at)| [by, at]))
 }
 
 /// Whether the friction of a spec with one joint reads where the joint is.

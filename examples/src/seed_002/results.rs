@@ -24,7 +24,7 @@ pub struct Results {
     /// Of the law, N m: the largest difference of the compiled one; its jump at `eps` joint by joint, as printed and repaired.
     pub law_difference: f64,
     /// Jumps, `[printed, continuous]`.
-    pub jumps: [[f64; 6]; 2],
+    pub jumps: [[Option<[f64; 2]>; 6]; 2],
     /// Speeds at which friction begins to fall, rad/s.
     pub peaks: [f64; 6],
     /// What the tracer misses where friction falls at low speeds, with the printed law, and with `stribeck` beside it.

@@ -57,7 +57,9 @@ fn friction(results: &Results) -> Table {
         "Friction of Table I, joint by joint",
         ["", "1", "2", "3", "4", "5", "6"],
     );
-    table.push(cells("jump at 0.01 rad/s, N m", &results.jumps[0]));
+    let jumps = results.jumps[0].map(|jump| jump.unwrap_or([f64::NAN; 2]));
+    table.push(cells("jumps by, N m", &jumps.map(|[by, _]| by)));
+    table.push(cells("jumps at, rad/s", &jumps.map(|[_, at]| at)));
     table.push(cells("falls from, rad/s", &results.peaks));
     let drives: Vec<f64> = (0..6)
         .map(|k| results.drives_from(1, k).unwrap_or(f64::NAN))

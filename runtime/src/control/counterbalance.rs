@@ -100,12 +100,13 @@ fn needed(moment: f64, gravity: f64, factor: f64) -> Result<f64, ControlError> {
     number(moment, what, moment.is_finite())?;
     let needed = moment / (gravity * factor);
     if needed < 0.0 {
-        return Err(ControlError::NegativeWeight {
-            moment,
-            lever: factor,
-        });
+        return Err(ControlError::NegativeWeight { moment });
     }
-    let what = ("counterweight", "", "a lever or mass within reach");
+    let what = (
+        "lever or mass of a counterweight",
+        "",
+        "more gravity, or more of the other of the two",
+    );
     number(needed, what, needed.is_finite())?;
     Ok(needed)
 }

@@ -65,7 +65,7 @@ pub struct Dissection<const D: usize, const S: usize> {
 }
 
 impl<const D: usize, const S: usize> Dissection<D, S> {
-    /// Takes the torque of a state apart. Four regressors: not for every cycle of a controller.
+    /// Takes the torque of a state apart. Three regressors: not for every cycle of a controller.
     ///
     /// # Examples
     #[cfg_attr(feature = "derive", doc = "```")]

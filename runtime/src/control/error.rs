@@ -67,8 +67,6 @@ pub enum ControlError {
     NegativeWeight {
         /// What is to be balanced, N m.
         moment: f64,
-        /// The lever that was given, m.
-        lever: f64,
     },
 }
 
@@ -108,10 +106,10 @@ impl fmt::Display for ControlError {
                 f,
                 "parameter `{parameter}` is {value}, outside of its range from {lower} to {upper}; give a range with that value in it"
             ),
-            Self::NegativeWeight { moment, lever } => write!(
+            Self::NegativeWeight { moment } => write!(
                 f,
-                "a moment of {moment} N m has no counterweight at {lever} m, its mass would be negative; put the weight on the \
-                 other side of the axis, and give the moment with the other sign"
+                "a moment of {moment} N m has no counterweight on this side of the axis; put it on the other one, and give the moment with \
+                 the other sign"
             ),
         }
     }

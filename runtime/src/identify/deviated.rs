@@ -38,7 +38,8 @@ impl Identify {
     ) -> Solved {
         let linear = solution.estimate.len();
         let is_rough = self.beyond < Beyond::Deviations;
-        if shapes.is_empty() || is_rough {
+        // Values that are given are no estimates.
+        if shapes.is_empty() || self.shapes.is_some() || is_rough {
             if !is_rough {
                 solution.std = self.deviations(&stack, &solution);
             }

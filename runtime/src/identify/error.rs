@@ -20,6 +20,18 @@ pub enum IdentifyError {
         /// Joints of the arm.
         arm: usize,
     },
+    /// Speeds at which joints of a log creep are not one a joint.
+    #[error(
+        "{source_name}: {found} speeds at which joints creep where they turn, for {arm} joints; give `with_turn_speeds` one a joint"
+    )]
+    TurnSpeeds {
+        /// Name of the log.
+        source_name: String,
+        /// How many speeds the log has.
+        found: usize,
+        /// Joints of the arm.
+        arm: usize,
+    },
     /// A log lacks a channel that a declared effect reads.
     #[error(
         "{source_name}: the log has no column `{channel}`, which a declared effect of the spec reads; {}, or take the effect out of the spec",

@@ -42,6 +42,14 @@ pub(crate) fn check_logs(arm: &dyn Arm, logs: &[Log]) -> Result<(), IdentifyErro
                 arm: arm.dof(),
             });
         }
+        let speeds = log.turn_speeds.len();
+        if speeds != 0 && speeds != arm.dof() {
+            return Err(IdentifyError::TurnSpeeds {
+                source_name: log.source.clone(),
+                found: speeds,
+                arm: arm.dof(),
+            });
+        }
         if let Some(channel) = missing_input(arm.inputs(), log) {
             return Err(IdentifyError::NoChannel {
                 source_name: log.source.clone(),

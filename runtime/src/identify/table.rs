@@ -112,6 +112,26 @@ pub fn relative_deviation(value: f64, std: f64) -> String {
     }
 }
 
+/// A value, as tables have it: five decimals, or four behind the first digit of one that these would hide.
+///
+/// # Examples
+/// ```
+/// use robot_model::identify::table_value;
+///
+/// assert_eq!(table_value(-2.0), "-2.00000");
+/// assert_eq!(table_value(0.000_037_2), "3.7200e-5");
+/// assert_eq!(table_value(0.0), "0.00000");
+/// ```
+#[must_use]
+pub fn table_value(value: f64) -> String {
+    const SMALL: f64 = 1e-3;
+    if value != 0.0 && value.abs() < SMALL {
+        format!("{value:.4e}")
+    } else {
+        format!("{value:.5}")
+    }
+}
+
 impl Estimate {
     fn tell_parameters(&self, f: &mut fmt::Formatter<'_>, width: usize) -> fmt::Result {
         let interval = self
@@ -131,20 +151,28 @@ impl Estimate {
             if self.is_held(&p.name) {
                 write!(
                     f,
-                    "{:width$}  {:>12.5}  {:>10}  {:>7}",
-                    p.name, p.value, "-", "-"
+                    "{:width$}  {:>12}  {:>10}  {:>7}",
+                    p.name,
+                    table_value(p.value),
+                    "-",
+                    "-"
                 )?;
             } else {
                 let relative = relative_deviation(p.value, p.std);
                 write!(
                     f,
-                    "{:width$}  {:>12.5}  {:>10.2e}  {relative:>7}",
-                    p.name, p.value, p.std
+                    "{:width$}  {:>12}  {:>10.2e}  {relative:>7}",
+                    p.name,
+                    table_value(p.value),
+                    p.std
                 )?;
             }
             let intervals = self.bootstrap.as_ref().map(|found| &found.intervals);
             match intervals.and_then(|intervals| intervals[k]) {
-                Some([low, high]) => writeln!(f, "  {low:>10.5} .. {high:<10.5}")?,
+                Some([low, high]) => {
+                    let [low, high] = [low, high].map(table_value);
+                    writeln!(f, "  {low:>10} .. {high:<10}")?;
+                }
                 None => writeln!(f)?,
             }
         }
@@ -153,15 +181,16 @@ impl Estimate {
 
     fn tell_shapes(&self, f: &mut fmt::Formatter<'_>, width: usize) -> fmt::Result {
         for ((name, value), std) in self.shapes.iter().zip(&self.shape_std) {
+            let said = table_value(*value);
             match std {
                 Some(std) => {
                     let relative = relative_deviation(*value, *std);
                     writeln!(
                         f,
-                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7}  (shape)"
+                        "{name:width$}  {said:>12}  {std:>10.2e}  {relative:>7}  (shape)"
                     )?;
                 }
-                None => writeln!(f, "{name:width$}  {value:>12.5}  (shape)")?,
+                None => writeln!(f, "{name:width$}  {said:>12}  (shape)")?,
             }
         }
         Ok(())
@@ -249,8 +278,10 @@ impl Estimate {
             let relative = relative_deviation(p.value, p.std);
             writeln!(
                 f,
-                "  {:width$}  {:>12.5}  {:>10.2e}  {relative:>7}",
-                p.name, p.value, p.std
+                "  {:width$}  {:>12}  {:>10.2e}  {relative:>7}",
+                p.name,
+                table_value(p.value),
+                p.std
             )?;
         }
         tell_sums(f, &essential.combinations)?;
@@ -278,8 +309,8 @@ fn both_told(joint: &str, one: f64, other: f64) -> String {
 
 fn tell_sums(f: &mut fmt::Formatter<'_>, sums: &[Combination]) -> fmt::Result {
     for sum in sums {
-        let (value, std) = (sum.value, sum.std);
-        writeln!(f, "  {sum} = {value:.5} +- {std:.2e}")?;
+        let (value, std) = (table_value(sum.value), sum.std);
+        writeln!(f, "  {sum} = {value} +- {std:.2e}")?;
     }
     Ok(())
 }

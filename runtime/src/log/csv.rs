@@ -128,13 +128,16 @@ impl Rows for CsvRows<'_> {
             let mut lost = None;
             for (k, (field, name)) in record.iter().zip(&self.names).enumerate() {
                 let value = number(source, line, name, field);
+                let is_missing = matches!(&value, Err(error) if is_missing(field, error));
                 if self.is_at_first && !table.is_needed[k] {
-                    table.is_number[k] = value.is_ok();
+                    table.is_number[k] = value.is_ok() || is_missing;
                 }
                 row.push(match value {
                     _ if !table.is_number[k] => f64::NAN,
                     Ok(value) => value,
-                    Err(error) if is_missing(field, &error) => {
+                    // What is logged now and then does not cost the rows between.
+                    Err(_) if is_missing && !table.is_needed[k] => f64::NAN,
+                    Err(error) if is_missing => {
                         lost.get_or_insert(error);
                         f64::NAN
                     }

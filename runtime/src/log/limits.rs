@@ -19,7 +19,7 @@ pub(super) const MOST_COLUMNS: usize = 10_000;
 pub(super) const LONGEST_ROW: u64 = 100 * MOST_COLUMNS as u64;
 
 /// Numbers in memory at a time, 2 GiB of them. A log of fifty columns at 1 kHz comes to that in an hour and a half.
-pub(super) const MOST_NUMBERS: usize = 1 << 28;
+pub(crate) const MOST_NUMBERS: usize = 1 << 28;
 
 /// The longest unit of time in which a rate would be one of an arm.
 fn unit(rate_hz: f64) -> Option<&'static str> {

@@ -20,6 +20,7 @@ mod parquet;
 mod phase;
 mod pieces;
 mod rows;
+mod sparse;
 mod turns;
 mod uniform;
 mod words;
@@ -38,8 +39,10 @@ pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
 
 use header::{Header, Place};
-use limits::{MOST_NUMBERS, too_large};
+pub(crate) use limits::MOST_NUMBERS;
+use limits::too_large;
 use rows::{Lost, Rows, Table};
+use sparse::fill;
 
 /// One measured run of an arm, in SI units, on a uniform time grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -196,6 +199,16 @@ impl Log {
 
     fn from_table(source: String, table: Table, header: &Header) -> Result<Self, LogError> {
         let mut columns = table.columns;
+        let is_there = |place: &Place| {
+            let values = &columns[place.column];
+            table.is_number[place.column] && values.iter().any(|value| value.is_finite())
+        };
+        let (numbers, words): (Vec<_>, Vec<_>) =
+            header.extra.iter().partition(|(_, place)| is_there(place));
+        let sparse = numbers
+            .iter()
+            .filter(|(_, place)| fill(&mut columns[place.column]));
+        let sparse: Vec<String> = sparse.map(|(name, _)| name.clone()).collect();
         let mut take = |place: &Place| {
             let mut values = std::mem::take(&mut columns[place.column]);
             for value in &mut values {
@@ -203,10 +216,6 @@ impl Log {
             }
             values
         };
-        let (numbers, words): (Vec<_>, Vec<_>) = header
-            .extra
-            .iter()
-            .partition(|(_, place)| table.is_number[place.column]);
         let lost = table.lost.few(table.lines.len())?;
         let mut report = Vec::new();
         if let Some((rows, first)) = lost {
@@ -219,6 +228,9 @@ impl Log {
         if !words.is_empty() {
             let names = words.into_iter().map(|(name, _)| name.clone()).collect();
             report.push(Note::NoNumbers { names });
+        }
+        if !sparse.is_empty() {
+            report.push(Note::Sparse { names: sparse });
         }
         let log = Self {
             time: take(&header.time),

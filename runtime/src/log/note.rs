@@ -19,6 +19,11 @@ pub enum Note {
         /// Their names.
         names: Vec<String>,
     },
+    /// Columns, other than those of the motion, that have no number in some rows: straight lines join those that they have.
+    Sparse {
+        /// Their names.
+        names: Vec<String>,
+    },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
     /// Rows that hold no finite number somewhere: they count as missing.
@@ -64,6 +69,11 @@ impl fmt::Display for Note {
             Self::NoNumbers { names } => write!(
                 f,
                 "columns that hold no numbers are left out: {}",
+                list(names)
+            ),
+            Self::Sparse { names } => write!(
+                f,
+                "columns that have a number in some rows only are joined by straight lines: {}",
                 list(names)
             ),
             Self::StandardColumns => write!(

@@ -122,12 +122,11 @@ impl ParquetRows {
         let mut bad: Vec<Option<usize>> = vec![None; count];
         for (k, column) in group.iter().enumerate() {
             let values = column.as_deref();
-            let has_first =
-                values.is_some_and(|values| values.first().is_some_and(|v| v.is_finite()));
             if self.rows == 0 && !table.is_needed[k] {
-                table.is_number[k] = has_first;
+                table.is_number[k] = values.is_some();
             }
-            if !table.is_number[k] {
+            // What is logged now and then does not cost the rows between.
+            if !table.is_number[k] || (!table.is_needed[k] && values.is_some()) {
                 continue;
             }
             let Some(values) = values else {

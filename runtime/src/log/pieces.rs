@@ -165,6 +165,7 @@ impl Iterator for Pieces<'_> {
             self.samples
         };
         if count == 0 {
+            self.is_over = true;
             let source = self.source.clone();
             return Some(Log::from_table(
                 source,
@@ -179,6 +180,8 @@ impl Iterator for Pieces<'_> {
         let overlap = whole_steps((self.overlap * rate_hz).ceil()).min(count / 2);
         let table = self.table.split(count, overlap);
         let source = self.source.clone();
-        Some(Log::from_table(source, table, &self.header))
+        let piece = Log::from_table(source, table, &self.header);
+        self.is_over |= piece.is_err();
+        Some(piece)
     }
 }

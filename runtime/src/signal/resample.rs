@@ -14,7 +14,10 @@ pub fn grid(start: f64, step: f64, count: usize) -> Vec<f64> {
 /// Values at rising times `at` of the curve through `values` at rising times `time`.
 ///
 /// Cubic Hermite interpolation; the slope at a sample is that of the parabola through it and its neighbors, so parabolas come
-/// out exactly. Outside the samples the end pieces are continued. Needs at least three samples.
+/// out exactly. Outside the samples the end pieces are continued.
+///
+/// # Panics
+/// Where there are fewer than three samples, or not as many values.
 ///
 /// # Examples
 /// ```
@@ -24,6 +27,10 @@ pub fn grid(start: f64, step: f64, count: usize) -> Vec<f64> {
 /// ```
 #[must_use]
 pub fn cubic(time: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
+    assert!(
+        time.len() >= 3 && values.len() == time.len(),
+        "a curve through samples wants three or more, each with a value"
+    );
     let last = time.len() - 1;
     let secant = |k: usize| (values[k + 1] - values[k]) / (time[k + 1] - time[k]);
     let slope = |k: usize| {

@@ -1,7 +1,7 @@
 //! What decides the torque, once a sample.
 
 use super::error::SimulateError;
-use super::trajectory::Desired;
+use super::trajectory::{Desired, check_time};
 use crate::control;
 
 /// What a controller knows of the arm.
@@ -210,7 +210,8 @@ impl<M: InverseDynamics> Controller for ComputedTorque<M> {
     }
 }
 
-/// Torques that are given, whatever the arm does: linear between samples, as in the middle of each period, and held at both ends.
+/// Torques that are given, whatever the arm does: linear between samples, as in the middle of each period. Time counts from the first of
+/// them, and the last one is held.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Torques {
     time: Vec<f64>,
@@ -239,13 +240,7 @@ impl Torques {
                 value: 0.0,
             });
         }
-        if let Some(pair) = time.windows(2).find(|pair| pair[1] <= pair[0]) {
-            return Err(SimulateError::Setting {
-                what: "the time of each torque sample",
-                range: "later than that of the sample before",
-                value: pair[1],
-            });
-        }
+        check_time("the time of each torque sample", &time)?;
         if let Some(column) = torque.iter().find(|column| column.len() != time.len()) {
             return Err(SimulateError::Size {
                 what: "a column of torques",
@@ -262,14 +257,12 @@ impl Controller for Torques {
         let time = self.time[0] + measured.time + 0.5 * measured.period;
         let after = self.time.partition_point(|&sample| sample <= time);
         for (torque, column) in torque.iter_mut().zip(&self.torque) {
-            *torque = match (after.checked_sub(1), column.get(after)) {
-                (None, _) => column[0],
-                (Some(k), None) => column[k],
-                (Some(k), Some(next)) => {
-                    let share = (time - self.time[k]) / (self.time[after] - self.time[k]);
-                    column[k] + share * (next - column[k])
-                }
-            };
+            // Not before the first one.
+            let k = after.saturating_sub(1);
+            *torque = column.get(after).map_or(column[k], |next| {
+                let share = (time - self.time[k]) / (self.time[after] - self.time[k]);
+                column[k] + share * (next - column[k])
+            });
         }
     }
 }

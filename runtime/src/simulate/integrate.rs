@@ -275,9 +275,7 @@ impl<P: Plant> Integrator<P> {
     /// # Ok::<(), robot_model::simulate::SimulateError>(())
     /// ```
     pub fn drive(&mut self, mut drive: Drive) {
-        if drive.torque.len() == self.moving.plant.joints() {
-            drive.torque.resize(self.moving.plant.dof(), 0.0);
-        }
+        drive.torque.resize(self.moving.plant.dof(), 0.0);
         self.moving.drive = drive;
     }
 
@@ -301,7 +299,7 @@ impl<P: Plant> Integrator<P> {
     /// Moves on to `end`, s, under a torque that is held.
     ///
     /// # Errors
-    /// [`SimulateError`] says where the motion has no continuation.
+    /// [`SimulateError`] says where the motion has no continuation; [`SimulateError::Setting`] of an end that is before the present time.
     ///
     /// # Examples
     /// ```
@@ -339,6 +337,13 @@ impl<P: Plant> Integrator<P> {
     }
 
     fn go(&mut self, end: f64, watch: &mut impl Watch<P>) -> Result<(), SimulateError> {
+        if end.is_nan() || end < self.time {
+            return Err(SimulateError::Setting {
+                what: "the time to advance to",
+                range: "the present one or a later one",
+                value: end,
+            });
+        }
         self.moving.settle(self.time, &mut self.x)?;
         let mut start = None;
         // What is less than a rounding of time is no time.

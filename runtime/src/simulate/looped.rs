@@ -9,7 +9,7 @@ use super::motion::Drive;
 use super::noise::{Noise, Sensors};
 use super::plant::{Instant, Plant};
 use super::trajectory::Trajectory;
-use crate::log::Channel;
+use crate::log::{Channel, MOST_NUMBERS};
 use crate::signal::resample::whole_steps;
 
 /// What most settings may be.
@@ -78,6 +78,11 @@ impl Default for Loop {
     }
 }
 
+/// Whether a torque can be logged by it.
+fn is_gain(gain: f64) -> bool {
+    gain.is_finite() && gain != 0.0
+}
+
 impl Loop {
     fn check(&self, dof: usize, trajectory: &Trajectory) -> Result<(), SimulateError> {
         let settings = [
@@ -99,6 +104,28 @@ impl Loop {
             if !(value > 0.0 && value <= most) {
                 return Err(SimulateError::Setting { what, range, value });
             }
+        }
+        let numbers = self.duration * self.log_rate * dof as f64;
+        if numbers > MOST_NUMBERS as f64 {
+            return Err(SimulateError::Setting {
+                what: "the number of samples of all joints in the log",
+                range: "2.6e8 or less",
+                value: numbers,
+            });
+        }
+        if !self.torque_delay.is_finite() {
+            return Err(SimulateError::Setting {
+                what: "the delay of the logged torque",
+                range: "a finite number",
+                value: self.torque_delay,
+            });
+        }
+        if let Some(gain) = self.actuator_gain.iter().find(|gain| !is_gain(**gain)) {
+            return Err(SimulateError::Setting {
+                what: "the gain of each actuator",
+                range: "a finite number other than zero",
+                value: *gain,
+            });
         }
         let sensors = &self.sensors;
         let none_negative = [

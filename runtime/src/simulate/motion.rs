@@ -7,6 +7,8 @@ mod contacts;
 mod newton;
 mod parameters;
 
+use std::iter::repeat;
+
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use super::error::SimulateError;
@@ -29,11 +31,11 @@ pub(super) enum Side {
 /// What comes from outside: torque that is held, inputs that change linearly.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drive {
-    /// Torque of the motors, N m or N.
+    /// Torque of the motors, N m or N; those that are missing have none.
     pub torque: Vec<f64>,
     /// Inputs at [`Self::since`].
     pub inputs: Vec<f64>,
-    /// Their rates, 1/s.
+    /// Their rates, 1/s; those that are missing are zero.
     pub input_rates: Vec<f64>,
     /// When the inputs have their values, s.
     pub since: f64,
@@ -41,7 +43,8 @@ pub struct Drive {
 
 impl Drive {
     fn inputs_at(&self, time: f64) -> Vec<f64> {
-        let inputs = self.inputs.iter().zip(&self.input_rates);
+        let rates = self.input_rates.iter().copied().chain(repeat(0.0));
+        let inputs = self.inputs.iter().zip(rates);
         inputs
             .map(|(x, rate)| x + rate * (time - self.since))
             .collect()
@@ -212,7 +215,7 @@ impl<P: Plant> Moving<P> {
     /// The first entry of a state that is no number.
     pub fn unbounded(&self, time: f64, x: &DVector<f64>) -> Option<SimulateError> {
         /// Nothing that an arm does is as large: no position and no velocity, no state of an effect.
-        const MOST: [f64; 2] = [1e5, 1e9];
+        const MOST: [f64; 2] = [1e6, 1e9];
         let dof = self.plant.dof();
         let most = |k: usize| MOST[usize::from(k >= 2 * dof)];
         let k = (0..x.len()).find(|&k| x[k].is_nan() || x[k].abs() > most(k))?;
@@ -281,7 +284,7 @@ impl<P: Plant> Moving<P> {
             bordered,
             rates_by_acceleration: slopes.rates_by_acceleration,
         };
-        let Ok(mut jacobian) = self.by_unknowns(&linear, &torque, &rates) else {
+        let Ok(mut jacobian) = self.by_unknowns(time, &linear, &torque, &rates) else {
             return Err(self.no_solution(time, x));
         };
         for joint in 0..dof {
@@ -294,6 +297,7 @@ impl<P: Plant> Moving<P> {
     /// Slopes of `dx/dt` by unknowns, where with accelerations held those of torque left over and of states' rates are these.
     pub fn by_unknowns(
         &self,
+        time: f64,
         linear: &Linear,
         torque: &DMatrix<f64>,
         rates: &DMatrix<f64>,
@@ -303,7 +307,7 @@ impl<P: Plant> Moving<P> {
         let mut right = DMatrix::zeros(dof + held.len(), count);
         right.rows_mut(0, dof).copy_from(torque);
         if !linear.bordered.solve_mut(&mut right) {
-            return Err(SimulateError::NoInertia { time: 0.0 });
+            return Err(SimulateError::NoInertia { time });
         }
         for joint in self.standing() {
             right.row_mut(joint).fill(0.0);

@@ -157,7 +157,7 @@ impl Tangent {
         driven += &self.drive;
         let mut rates = self.slopes.rates.clone();
         rates.resize_horizontally_mut(unknowns, 0.0);
-        let by_unknowns = moving.by_unknowns(&linear, &torque, &rates)?;
+        let by_unknowns = moving.by_unknowns(time, &linear, &torque, &rates)?;
         let rate = DMatrix::from_column_slice(x.len(), 1, linear.rate.as_slice());
         Ok([rate, linear.jacobian, by_unknowns])
     }

@@ -74,12 +74,18 @@ impl Trajectory {
                 value: time.len() as f64,
             });
         }
-        if let Some(pair) = time.windows(2).find(|pair| pair[1] <= pair[0]) {
-            return Err(SimulateError::Setting {
-                what: "the time of each sample of a trajectory",
-                range: "later than that of the sample before",
-                value: pair[1],
-            });
+        check_time("the time of each sample of a trajectory", &time)?;
+        for (what, columns) in [
+            ("velocities of the trajectory", &dq),
+            ("accelerations of the trajectory", &ddq),
+        ] {
+            if !columns.is_empty() && columns.len() != q.len() {
+                return Err(SimulateError::Size {
+                    what,
+                    found: columns.len(),
+                    expected: q.len(),
+                });
+            }
         }
         let channels = extra.iter().map(|channel| &channel.values);
         for column in q.iter().chain(&dq).chain(&ddq).chain(channels) {
@@ -88,6 +94,13 @@ impl Trajectory {
                     what: "a column of the trajectory",
                     found: column.len(),
                     expected: time.len(),
+                });
+            }
+            if let Some(value) = column.iter().find(|value| !value.is_finite()) {
+                return Err(SimulateError::Setting {
+                    what: "each value of a trajectory",
+                    range: "a finite number",
+                    value: *value,
                 });
             }
         }
@@ -283,6 +296,23 @@ fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
         right[k] = (right[k] - upper[k] * right[k + 1]) / diagonal[k];
     }
     right
+}
+
+/// That time rises, by numbers.
+pub(super) fn check_time(what: &'static str, time: &[f64]) -> Result<(), SimulateError> {
+    let first = time.iter().take(1).filter(|time| !time.is_finite());
+    let later = time.windows(2).filter(|pair| {
+        let rises = pair[1] > pair[0] && pair[1].is_finite();
+        !rises
+    });
+    match first.chain(later.map(|pair| &pair[1])).next() {
+        None => Ok(()),
+        Some(value) => Err(SimulateError::Setting {
+            what,
+            range: "a number, and later than that of the sample before",
+            value: *value,
+        }),
+    }
 }
 
 #[cfg(test)]

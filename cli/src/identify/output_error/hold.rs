@@ -1,6 +1,7 @@
 //! Whether logs tell how torque goes between samples, where that changes what is found.
 
 use robot_model::identify::output_error::{Hold, OutputEstimate};
+use robot_model::identify::table_value;
 
 /// By which share errors are larger in the other way, at most, where logs do not settle it.
 const UNSETTLED: f64 = 0.1;
@@ -19,8 +20,9 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
     let moved = all.filter(|((_, (value, other)), std)| {
         std.is_some_and(|std| (*value - *other).abs() > APART * std)
     });
-    let moved =
-        moved.map(|((name, (value, other)), _)| format!("{name} {other:.5} for {value:.5}"));
+    let moved = moved.map(|((name, (value, other)), _)| {
+        format!("{name} {} for {}", table_value(*other), table_value(*value))
+    });
     let moved: Vec<String> = moved.collect();
     let [chosen, option] = match rival.hold {
         Hold::Sample => ["taken as its mean between samples", "sample"],

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use robot_model::identify::output_error::{Comparison, Distance, Ending, Hold, OutputEstimate};
-use robot_model::identify::relative_deviation;
+use robot_model::identify::{relative_deviation, table_value};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Body;
@@ -213,13 +213,14 @@ impl OutputReport<'_> {
         let values = self.names.iter().zip(found.values.iter().zip(&found.std));
         for (k, (name, (value, std))) in values.enumerate() {
             let shape = if k < base { "" } else { "  (shape)" };
+            let said = table_value(*value);
             match std {
-                None if self.has_value(k) => writeln!(text, "{name:width$}  {value:>12.5}{shape}")?,
+                None if self.has_value(k) => writeln!(text, "{name:width$}  {said:>12}{shape}")?,
                 Some(std) => {
                     let relative = relative_deviation(*value, *std);
                     writeln!(
                         text,
-                        "{name:width$}  {value:>12.5}  {std:>10.2e}  {relative:>7}{shape}"
+                        "{name:width$}  {said:>12}  {std:>10.2e}  {relative:>7}{shape}"
                     )?;
                 }
                 None => writeln!(text, "{name:width$}  {:>12}{shape}", "not separable")?,
@@ -262,15 +263,15 @@ impl OutputReport<'_> {
             writeln!(text, "{direction}")?;
         }
         for ratio in &found.ratios {
-            let (name, over, value) = (&ratio.name, &ratio.reference, ratio.value);
+            let (name, over, value) = (&ratio.name, &ratio.reference, table_value(ratio.value));
             let std = ratio
                 .std
                 .map_or(String::new(), |std| format!(" +- {std:.2e}"));
-            writeln!(text, "  {name} / {over} = {value:.5}{std}")?;
+            writeln!(text, "  {name} / {over} = {value}{std}")?;
         }
         for sum in &found.combinations {
-            let (value, std) = (sum.value, sum.std);
-            writeln!(text, "  {sum} = {value:.5} +- {std:.2e}")?;
+            let (value, std) = (table_value(sum.value), sum.std);
+            writeln!(text, "  {sum} = {value} +- {std:.2e}")?;
         }
         if let Some(frail) = &found.frail {
             writeln!(text, "{}", hanging(frail))?;
@@ -336,7 +337,7 @@ impl OutputReport<'_> {
             )?;
             let values = iterate.values.iter().zip(&widths).filter(|_| has_values);
             for (value, width) in values {
-                write!(text, "  {value:>width$.5}")?;
+                write!(text, "  {:>width$}", table_value(*value))?;
             }
         }
         writeln!(text)

@@ -79,6 +79,36 @@ pub(super) struct Reduced {
     pub r: DMatrix<f64>,
     pub z: DVector<f64>,
     pub starts: Vec<Start>,
+    /// `R_w' z_w` of each window.
+    scores: Vec<DVector<f64>>,
+}
+
+/// Fewer windows do not say how errors are alike.
+const ENOUGH: usize = 8;
+
+impl Reduced {
+    /// How many samples are worth one where white ones have this root of mean square: what scores of windows are beside those of white errors,
+    /// `sum_w |R^-T s_w|^2 / (p sigma^2)`, one at least. Errors of simulations are slow.
+    pub fn worth(&self, sigma: f64) -> f64 {
+        let unknowns = self.r.ncols();
+        if self.scores.len() < ENOUGH || unknowns == 0 {
+            return 1.0;
+        }
+        let upper = self.r.transpose();
+        let mut sum = 0.0;
+        for score in &self.scores {
+            match upper.solve_lower_triangular(score) {
+                Some(white) => sum += white.norm_squared(),
+                None => return 1.0,
+            }
+        }
+        let worth = sum / (unknowns as f64 * sigma.powi(2));
+        if worth.is_finite() {
+            worth.max(1.0)
+        } else {
+            1.0
+        }
+    }
 }
 
 /// The upper triangle of a QR factorization, with rows of zeros where there were too few.
@@ -122,6 +152,7 @@ impl Equations {
         let unknowns = self.unknowns;
         let mut stacked = DMatrix::zeros(0, unknowns + 1);
         let mut starts = Vec::new();
+        let mut scores = Vec::new();
         for window in &self.windows {
             let s = window.moving.len();
             let size = window.rows.nrows();
@@ -138,6 +169,8 @@ impl Equations {
                 moving: window.moving.clone(),
             });
             let own = all.view((s, s), (unknowns + 1, unknowns + 1));
+            let (r, z) = (own.columns(0, unknowns), own.column(unknowns));
+            scores.push(r.rows(0, unknowns).tr_mul(&z.rows(0, unknowns)));
             let before = stacked.nrows();
             stacked = stacked.resize_vertically(before + unknowns + 1, 0.0);
             stacked.rows_mut(before, unknowns + 1).copy_from(&own);
@@ -151,6 +184,7 @@ impl Equations {
                 .column(0)
                 .into_owned(),
             starts,
+            scores,
         }
     }
 

@@ -297,8 +297,8 @@ fn decomposed(r: &DMatrix<f64>, lengths: &DVector<f64>) -> Option<(DVector<f64>,
             column.fill(0.0);
         }
     }
-    // What is no number would be turned for ever.
-    if !scaled.iter().all(|x| x.is_finite()) {
+    // Where all parameters are on bounds there is nothing to decompose; what is no number would be turned for ever.
+    if scaled.is_empty() || !scaled.iter().all(|x| x.is_finite()) {
         return None;
     }
     let svd = scaled.svd(false, true);

@@ -42,7 +42,7 @@ use parts::{Part, Parts};
 use problem::{Place, Problem};
 use run::Asked;
 use search::End;
-use window::Window;
+use window::{Pace, Window};
 
 /// By how much the sum of the logarithms of errors has to be less where torque is held between samples, for that to be told from means.
 const FITS_BETTER: f64 = 1e-3;
@@ -110,29 +110,33 @@ impl OutputError {
         plant.prepare();
         let mut parts = Parts::new(self, start.len(), plant.joints(), progress);
         let hold = self.hold.unwrap_or_default();
-        let problem = |window, hold| self.problem(plant.clone(), recordings, window, hold);
+        let problem = |window, pace| self.problem(plant.clone(), recordings, (window, pace), hold);
         // From a start that is far away a short motion leads back sooner than a long one.
         let first = match self.first_window() {
-            Some(first) => match problem(Some(first), hold) {
+            Some(first) => match problem(Some(first), Pace::Coarse) {
                 Err(OutputErrorError::Short { .. }) => None,
                 problem => Some(parts.search(problem?, Some(first), start, None, End::Rough)?),
             },
             None => None,
         };
+        let coarse = problem(self.window, Pace::Coarse)?;
         let values = first.as_ref().map_or(start, |part| &part.place.values);
-        let whole = parts.search(
-            problem(self.window, hold)?,
-            self.window,
-            values,
-            first.as_ref(),
-            End::Fine,
-        );
+        let near = if coarse.is_coarse() {
+            let found = parts.search(coarse, self.window, values, first.as_ref(), End::Rough);
+            found.ok()
+        } else {
+            None
+        };
+        let before = near.as_ref().or(first.as_ref());
+        let values = before.map_or(start, |part| &part.place.values);
+        let whole = problem(self.window, Pace::Sample)?;
+        let whole = parts.search(whole, self.window, values, before, End::Fine);
         let mut part = match (whole, first) {
             // The arm runs away along the longer motion; the shorter ones have told what they could.
             (Err(_), Some(first)) => {
                 let (window, values) = (first.window, &first.place.values);
                 parts.search(
-                    problem(window, hold)?,
+                    problem(window, Pace::Sample)?,
                     window,
                     values,
                     Some(&first),
@@ -148,8 +152,9 @@ impl OutputError {
         {
             let window = part.window;
             let mut other = |from: &Part<'_, P>, end: End| {
-                let (problem, values) = (problem(window, Hold::Sample)?, &from.place.values);
-                parts.search(problem, window, values, Some(from), end)
+                let cut = (window, Pace::Sample);
+                let problem = self.problem(plant.clone(), recordings, cut, Hold::Sample)?;
+                parts.search(problem, window, &from.place.values, Some(from), end)
             };
             let is_better = |other: &Part<'_, P>| other.error() < part.error() - FITS_BETTER;
             // An arm that runs away was not driven so.
@@ -198,21 +203,29 @@ impl OutputError {
         values: &[f64],
         recordings: &[Recording],
     ) -> Result<Comparison, OutputErrorError> {
+        self.check_settings(plant)?;
+        if values.len() != plant.parameters() {
+            return Err(OutputErrorError::Size {
+                what: "values of parameters",
+                found: values.len(),
+                expected: plant.parameters(),
+            });
+        }
         self.check_starts(plant, recordings)?;
         let bounds: Vec<[f64; 2]> = values.iter().map(|&value| [value, value]).collect();
         let hold = self.hold.unwrap_or_default();
-        let near = |window, before: Option<&(Problem<'_, P>, Place)>| {
-            let mut problem = self.problem(plant.clone(), recordings, window, hold)?;
+        let near = |cut, before: Option<&(Problem<'_, P>, Place)>| {
+            let mut problem = self.problem(plant.clone(), recordings, cut, hold)?;
             let mut place = problem.place(values);
             if let Some((shorter, known)) = before {
                 problem.start_as(&mut place, shorter, known);
             }
-            let found = problem.run(&place, Asked::Motion).and_then(|runs| {
+            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
                 search::search(
                     self.search,
                     &mut problem,
                     &mut place,
-                    &runs,
+                    runs,
                     &bounds,
                     &mut Vec::new(),
                     &mut |_| (),
@@ -229,8 +242,9 @@ impl OutputError {
         // Starts that are a little off run away along the whole window, and are found along a part of it.
         let first = self
             .first_window()
-            .and_then(|first| near(Some(first), None).ok());
-        let ((problem, _), runs) = near(self.window, first.as_ref().map(|(first, _)| first))?;
+            .and_then(|first| near((Some(first), Pace::Coarse), None).ok());
+        let cut = (self.window, Pace::Sample);
+        let ((problem, _), runs) = near(cut, first.as_ref().map(|(first, _)| first))?;
         Ok(comparison(&problem.windows, &runs, self.law.is_some()))
     }
 
@@ -246,9 +260,15 @@ impl OutputError {
         &'a self,
         plant: P,
         recordings: &'a [Recording],
-        window: Option<f64>,
+        (window, pace): (Option<f64>, Pace),
         hold: Hold,
     ) -> Result<Problem<'a, P>, OutputErrorError> {
+        // A controller acts at each sample.
+        let pace = if self.law.is_some() {
+            Pace::Sample
+        } else {
+            pace
+        };
         let windows = recordings.iter().map(|recording| {
             if recording.torque.len() != plant.joints() {
                 return Err(OutputErrorError::Size {
@@ -257,7 +277,7 @@ impl OutputError {
                     expected: plant.joints(),
                 });
             }
-            Window::cut(recording, window, self.law.as_ref())
+            Window::cut(recording, window, self.law.as_ref(), pace)
         });
         let windows: Vec<Vec<Window>> = windows.collect::<Result<_, _>>()?;
         Ok(Problem {
@@ -300,13 +320,8 @@ impl OutputError {
         }
     }
 
-    fn check(
-        &self,
-        plant: &impl Adjustable,
-        names: &[String],
-        start: &[f64],
-    ) -> Result<(), OutputErrorError> {
-        let expected = plant.parameters();
+    /// Windows and controller.
+    fn check_settings(&self, plant: &impl Adjustable) -> Result<(), OutputErrorError> {
         if let Some(seconds) = self.window {
             if seconds.is_nan() || seconds <= 0.0 {
                 return Err(OutputErrorError::Short { seconds });
@@ -315,14 +330,30 @@ impl OutputError {
                 return Err(OutputErrorError::WindowedLaw);
             }
         }
+        match self.law.as_ref().map(|law| law.joints.len()) {
+            Some(found) if found != plant.joints() => Err(OutputErrorError::Size {
+                what: "joints of the controller",
+                found,
+                expected: plant.joints(),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn check(
+        &self,
+        plant: &impl Adjustable,
+        names: &[String],
+        start: &[f64],
+    ) -> Result<(), OutputErrorError> {
+        self.check_settings(plant)?;
+        let expected = plant.parameters();
         let sizes = [
             ("names of parameters", names.len(), expected),
             ("values to start from", start.len(), expected),
         ];
         let bounds = (!self.bounds.is_empty()).then_some(("bounds", self.bounds.len(), expected));
-        let law = self.law.as_ref();
-        let law = law.map(|law| ("joints of the controller", law.joints.len(), plant.joints()));
-        for (what, found, expected) in sizes.into_iter().chain(bounds).chain(law) {
+        for (what, found, expected) in sizes.into_iter().chain(bounds) {
             if found != expected {
                 return Err(OutputErrorError::Size {
                     what,

@@ -11,6 +11,11 @@ use crate::simulate::SimulateError;
 /// between samples; below the second a rough search has to say first that it does.
 const SMOOTH: [f64; 2] = [5e-4, 0.01];
 
+/// Rounds of a part at most, and how many times more than those of another joint errors may be of what they were weighed by for one to be
+/// enough.
+const ROUNDS: usize = 2;
+const SETTLED: f64 = 1.2;
+
 /// What the parts of a search share.
 pub(super) struct Parts<'s> {
     search: search::Search,
@@ -65,23 +70,24 @@ impl<'s> Parts<'s> {
             problem.start_as(&mut place, &before.problem, &before.place);
         }
         let weighed = self.scale.len() > 1;
-        let mut last = None;
-        // The first round tells what joints are weighed by in the second.
-        let rounds: &[End] = if weighed { &[End::Rough, end] } else { &[end] };
-        for &end in rounds {
-            problem.end = end;
+        let mut round = 0;
+        let found = loop {
+            round += 1;
+            // Without a part before, a first round tells what joints are weighed by in the second.
+            let is_first = weighed && before.is_none() && round == 1;
+            problem.end = if is_first { End::Rough } else { end };
             problem.scale.clone_from(&self.scale);
-            let runs = problem.run(&place, Asked::Motion);
-            let runs = runs.map_err(|error| no_start(&problem, error))?;
-            let found = search::search(
-                self.search,
-                &mut problem,
-                &mut place,
-                &runs,
-                &self.bounds,
-                &mut self.iterates,
-                self.progress,
-            );
+            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
+                search::search(
+                    self.search,
+                    &mut problem,
+                    &mut place,
+                    runs,
+                    &self.bounds,
+                    &mut self.iterates,
+                    self.progress,
+                )
+            });
             let found = found.map_err(|error| no_start(&problem, error))?;
             if let (Some(below), Some(Iterate { stage: 0, cost, .. })) =
                 (self.below, self.iterates.last())
@@ -89,12 +95,16 @@ impl<'s> Parts<'s> {
             {
                 return Err(OutputErrorError::NotDeeper { cost: *cost, below });
             }
-            if weighed {
-                self.scale = problem.scales(&found.0);
+            if !weighed {
+                break found;
             }
-            last = Some(found);
-        }
-        let found = last.expect("there is at least one round");
+            let scale = problem.scales(&found.0);
+            let is_settled = before.is_some() && are_near(&scale, &self.scale);
+            self.scale = scale;
+            if is_settled || round == ROUNDS {
+                break found;
+            }
+        };
         Ok(Part {
             problem,
             place,
@@ -137,6 +147,16 @@ impl OutputError {
             (true, true) => Some(End::Fine),
         }
     }
+}
+
+/// Whether errors are in the proportions that joints were weighed by.
+fn are_near(errors: &[f64], weighed: &[f64]) -> bool {
+    let pairs = errors.iter().zip(weighed);
+    let times = pairs.map(|(error, weighed)| error / weighed);
+    let (least, most) = times.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), x| {
+        (least.min(x), most.max(x))
+    });
+    most <= SETTLED * least
 }
 
 fn no_start<P>(

@@ -46,6 +46,11 @@ impl<P: Adjustable + Clone + Sync> Problem<'_, P> {
             .collect()
     }
 
+    /// Whether simulations are looked at at some of the samples only.
+    pub fn is_coarse(&self) -> bool {
+        self.windows.iter().any(Window::is_coarse)
+    }
+
     /// These parameters, and starts as logs have them.
     pub fn place(&mut self, values: &[f64]) -> Place {
         self.plant.adjust(values);

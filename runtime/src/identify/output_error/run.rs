@@ -81,9 +81,9 @@ impl Window<'_> {
         hold: Hold,
         asked: Asked,
     ) -> Result<Run, SimulateError> {
-        let time = &self.recording.log.time[self.samples.clone()];
+        let time = |station: usize| self.recording.log.time[self.sample(station)];
         let (mut arm, mut tangent) = self.stand(plant, start, asked)?;
-        let (joints, count) = (plant.joints(), time.len());
+        let (joints, count) = (plant.joints(), self.stations.len());
         let columns = tangent.as_ref().map_or(0, |tangent| tangent.state.ncols());
         let mut run = Run {
             q: vec![Vec::with_capacity(count); joints],
@@ -117,9 +117,8 @@ impl Window<'_> {
             if k + 1 == count {
                 break;
             }
-            let (now, next) = (time[k], time[k + 1]);
-            let sample = self.samples.start + k;
-            let (inputs, after) = (self.inputs_at(sample), self.inputs_at(sample + 1));
+            let (now, next) = (time(k), time(k + 1));
+            let [inputs, after] = [k, k + 1].map(|k| self.inputs_at(self.sample(k)));
             let rates = inputs
                 .iter()
                 .zip(after)
@@ -138,13 +137,23 @@ impl Window<'_> {
         Ok(run)
     }
 
-    /// The torque that the log has behind a sample.
+    /// The torque that the log has behind a station, to the next one in the mean.
     fn logged(&self, joint: usize, k: usize, hold: Hold) -> f64 {
         let torque = &self.recording.torque[joint];
-        let sample = self.samples.start + k;
-        self.driven(joint, k).unwrap_or_else(|| match hold {
-            Hold::Sample => torque[sample],
-            Hold::Mean => 0.5 * (torque[sample] + torque[(sample + 1).min(torque.len() - 1)]),
+        let first = self.sample(k);
+        let behind = self
+            .stations
+            .get(k + 1)
+            .map_or(1, |next| next - self.stations[k]);
+        let last = (first + behind).min(torque.len() - 1);
+        // Half of what the sum of the means has more at its end than at its start.
+        let shift = match hold {
+            Hold::Sample => 0.0,
+            Hold::Mean => 0.5 * (torque[last] - torque[first]),
+        };
+        self.driven(joint, k).unwrap_or_else(|| {
+            let held: f64 = torque[first..first + behind].iter().sum();
+            (held + shift) / behind as f64
         })
     }
 
@@ -158,14 +167,13 @@ impl Window<'_> {
         k: usize,
     ) -> f64 {
         let taps = &self.taps[joint];
-        let channel =
-            |tap: usize, k: usize| taps[tap].map_or(0.0, |values| values[self.samples.start + k]);
+        let channel = |tap: usize, k: usize| taps[tap].map_or(0.0, |values| values[self.sample(k)]);
         let (torque, is_cut) = law.torque(k, &run.q[joint], &run.torque[joint], channel);
         if let (Some(slopes), false) = (&run.slopes, is_cut) {
             let drives = &mut drives[joint];
             let mut drive = DMatrix::zeros(1, slopes.ncols());
             for (i, weight) in law.position.iter().enumerate() {
-                let row = joint * self.samples.len() + k.saturating_sub(i);
+                let row = joint * self.stations.len() + k.saturating_sub(i);
                 drive += slopes.row(row) * *weight;
             }
             for (i, weight) in law.torque.iter().enumerate().take(k) {
@@ -179,8 +187,7 @@ impl Window<'_> {
 
 /// How near a simulation has to stay to its log to say anything of it.
 struct Near<'a> {
-    /// Measured positions of each joint.
-    measured: Vec<&'a [f64]>,
+    window: &'a Window<'a>,
     /// How far each may be from them.
     far: Vec<f64>,
     /// By what each parameter and start is measured: all of it.
@@ -188,11 +195,11 @@ struct Near<'a> {
 }
 
 impl<'a> Near<'a> {
-    fn of(window: &Window<'a>, plant: &impl Adjustable, starts: usize) -> Self {
+    fn of(window: &'a Window<'_>, plant: &impl Adjustable, starts: usize) -> Self {
         let q = &window.recording.log.q;
         let values = plant.values().into_iter().map(|x| x.abs().max(1e-6));
         Self {
-            measured: q.iter().map(|q| &q[window.samples.clone()]).collect(),
+            window,
             far: q.iter().map(|q| FAR * (1.0 + range(q))).collect(),
             whole: values.chain(vec![1.0; starts]).collect(),
         }
@@ -205,8 +212,9 @@ impl<'a> Near<'a> {
         k: usize,
     ) -> Result<(), SimulateError> {
         let time = arm.time();
-        for (joint, measured) in self.measured.iter().enumerate() {
-            let away = (arm.q()[joint] - measured[k]).abs();
+        let sample = self.window.sample(k);
+        for (joint, measured) in self.window.recording.log.q.iter().enumerate() {
+            let away = (arm.q()[joint] - measured[sample]).abs();
             if away.is_nan() || away > self.far[joint] {
                 let joint = joint + 1;
                 return Err(SimulateError::Unbounded { time, joint });

@@ -25,10 +25,10 @@ pub(super) const MOST: usize = 100;
 const STILL: f64 = 1e-10;
 const NO_STEP: f64 = 1e-9;
 
-/// Of deviations, as white noise with the size of the errors makes them: shorter steps of the parameters are none, where twice in a row they
-/// lower the cost by less than this share, or once where exact slopes foretell no more. A cost with turns of dry friction in it has edges
-/// along which a search creeps for ever.
-const WITHIN_NOISE: f64 = 0.01;
+/// Of deviations, as noise with the size of the errors makes them that is alike as these are: shorter steps of the parameters are none, where
+/// twice in a row they lower the cost by less than this share times the samples that are worth one, or once where exact slopes foretell no
+/// more. A cost with turns of dry friction in it has edges along which a search creeps for ever.
+const WITHIN_NOISE: f64 = 0.05;
 const LITTLE: f64 = 1e-5;
 const IN_A_ROW: usize = 2;
 
@@ -93,12 +93,12 @@ pub enum Ending {
 /// Runs with slopes, and how the search that led there ended.
 pub(super) type Found = (Vec<Run>, Ending);
 
-/// Moves a place to where the cost is least, from runs of it without slopes on.
+/// Moves a place to where the cost is least, from runs of it with slopes on.
 pub(super) fn search<P: Adjustable + Clone + Sync>(
     search: Search,
     problem: &mut Problem<'_, P>,
     place: &mut Place,
-    runs: &[Run],
+    best: Vec<Run>,
     bounds: &[[f64; 2]],
     iterates: &mut Vec<Iterate>,
     progress: &mut dyn FnMut(&Iterate),
@@ -106,22 +106,21 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     let last = iterates.last();
     let (simulations, stage) =
         last.map_or((0, 0), |iterate| (iterate.simulations, iterate.stage + 1));
-    let best = problem.run(place, Asked::Slopes)?;
     let mut way = Way {
         search,
         bounds,
         stage,
         // The given runs are one of them.
-        simulations: simulations + 2,
+        simulations: simulations + 1,
         iterations: problem.most,
-        cost: problem.cost(runs),
+        cost: problem.cost(&best),
         best,
         scale: DVector::zeros(place.values.len()),
         control: None,
         iterates,
         progress,
     };
-    let ending = way.down(problem, place, Slopes::COARSE);
+    let mut ending = way.down(problem, place, Slopes::COARSE);
     if problem.end == End::Fine {
         way.simulations += 1;
         // Where these run away those of the search have to do.
@@ -129,7 +128,9 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
             way.best = best;
             if ending == Ending::Converged {
                 way.control = None;
-                way.down(problem, place, Slopes::EXACT);
+                // Enough to be asked once whether there is anything left to do.
+                way.iterations = way.iterations.max(1);
+                ending = way.down(problem, place, Slopes::EXACT);
             }
         }
     }
@@ -210,9 +211,10 @@ impl Way<'_> {
             self.note(place);
             let cost = self.cost;
             let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
+            let worth = reduced.worth(noise);
             let is_little = |gain: f64, step: &Step| {
-                gain <= LITTLE * cost
-                    && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * noise
+                gain <= LITTLE * worth * cost
+                    && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * worth.sqrt() * noise
             };
             if slopes.is_content {
                 let step = self.room(place).damped(&equations, LEAST);

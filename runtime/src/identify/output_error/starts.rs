@@ -4,6 +4,7 @@
 //! steps from each of several starts tell which valley is the deepest.
 
 use super::run::Asked;
+use super::window::Pace;
 use super::{Iterate, OutputError, OutputErrorError, Recording, search};
 use crate::simulate::Adjustable;
 
@@ -56,23 +57,23 @@ impl OutputError {
                 continue;
             }
             let (window, hold) = (self.first_window(), self.hold.unwrap_or_default());
-            let mut problem = match self.problem(plant.clone(), recordings, window, hold) {
-                Err(OutputErrorError::Short { .. }) => {
-                    self.problem(plant.clone(), recordings, self.window, hold)?
-                }
+            let problem =
+                |window| self.problem(plant.clone(), recordings, (window, Pace::Coarse), hold);
+            let mut problem = match problem(window) {
+                Err(OutputErrorError::Short { .. }) => problem(self.window)?,
                 problem => problem?,
             };
             problem.most = STEPS;
             let mut place = problem.place(start);
             let bounds = self.bounds_of(start.len());
             let mut iterates = Vec::new();
-            let found = problem.run(&place, Asked::Motion).and_then(|runs| {
+            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
                 problem.scale = problem.scales(&runs);
                 search::search(
                     self.search,
                     &mut problem,
                     &mut place,
-                    &runs,
+                    runs,
                     &bounds,
                     &mut iterates,
                     progress,

@@ -15,12 +15,44 @@ use crate::simulate::{Instant, Plant};
 /// Samples from which an initial velocity is guessed, and fewest that a window has.
 const GUESS: usize = 21;
 
+/// At how many samples simulations are looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pace {
+    /// At each of them.
+    Sample,
+    /// As many as a search needs to come near: torque between two stations is the mean of what is logged there, whose impulse is the same.
+    Coarse,
+}
+
+/// Seconds between two coarse stations at most, and fewest of them in a window.
+const STATION: f64 = 0.01;
+const FEWEST: usize = 20;
+
+impl Pace {
+    /// Samples from one station to the next, in a window of so many that are so many seconds apart.
+    fn stride(self, samples: usize, step: f64) -> usize {
+        match self {
+            Self::Sample => 1,
+            Self::Coarse => whole_steps(STATION / step).min(samples / FEWEST).max(1),
+        }
+    }
+
+    /// From the first sample to the last one.
+    fn stations(self, samples: usize, step: f64) -> Vec<usize> {
+        let last = samples - 1;
+        let inner = (0..last).step_by(self.stride(samples, step));
+        inner.chain([last]).collect()
+    }
+}
+
 /// Some samples of a recording, with a start that is fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Window<'a> {
     pub(super) recording: &'a Recording,
     pub(super) samples: Range<usize>,
-    /// Samples that count, from the start of the window.
+    /// Samples where the simulation is looked at, from the start of the window: all of them, or some to search with.
+    pub(super) stations: Vec<usize>,
+    /// Places among the stations of those that count.
     counted: Vec<usize>,
     /// Values of the controller's taps, `[joint][tap]`; none of a channel that may be missing.
     pub(super) taps: Vec<Vec<Option<&'a [f64]>>>,
@@ -73,6 +105,7 @@ impl<'a> Window<'a> {
         recording: &'a Recording,
         seconds: Option<f64>,
         law: Option<&Law>,
+        pace: Pace,
     ) -> Result<Vec<Self>, OutputErrorError> {
         let log = &recording.log;
         let taps = |joint: &JointLaw| -> Result<Vec<_>, OutputErrorError> {
@@ -114,14 +147,14 @@ impl<'a> Window<'a> {
                 let time = log.time[k] - log.time[0];
                 log.holes.iter().any(|hole| hole.contains(&time))
             };
+            let stations = pace.stations(samples.len(), step);
+            let places = stations.iter().enumerate();
+            let counted = places.filter(|(_, k)| !is_hole(samples.start + **k));
             Self {
-                counted: samples
-                    .clone()
-                    .filter(|&k| !is_hole(k))
-                    .map(|k| k - samples.start)
-                    .collect(),
+                counted: counted.map(|(place, _)| place).collect(),
                 recording,
                 samples,
+                stations,
                 taps: taps.clone(),
                 driven: None,
             }
@@ -204,11 +237,19 @@ impl<'a> Window<'a> {
         self.pairs(&self.recording.torque[joint], &run.torque[joint])
     }
 
+    pub fn is_coarse(&self) -> bool {
+        self.stations.len() < self.samples.len()
+    }
+
+    /// The sample of the log at a station.
+    pub(super) fn sample(&self, station: usize) -> usize {
+        self.samples.start + self.stations[station]
+    }
+
     fn pairs(&self, measured: &[f64], simulated: &[f64]) -> Vec<(f64, f64)> {
-        let first = self.samples.start;
         let counted = self.counted.iter();
         counted
-            .map(|&k| (measured[first + k], simulated[k]))
+            .map(|&k| (measured[self.sample(k)], simulated[k]))
             .collect()
     }
 
@@ -235,7 +276,7 @@ impl<'a> Window<'a> {
 
     /// Equations of a run with slopes.
     pub fn rows(&self, run: &Run, scale: &[f64]) -> Rows {
-        let (n, count, all) = (scale.len(), self.counted.len(), self.samples.len());
+        let (n, count, all) = (scale.len(), self.counted.len(), self.stations.len());
         let none = DMatrix::zeros(n * all, 0);
         let slopes = run.slopes.as_ref().unwrap_or(&none);
         let starts = run.starts;

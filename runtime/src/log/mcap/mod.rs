@@ -248,7 +248,6 @@ impl Rows for McapRows {
             match self.sound_row(&message, &table.is_needed) {
                 Ok(row) => {
                     for (column, value) in row.into_iter().enumerate() {
-                        table.is_number[column] &= value.is_finite();
                         table.columns[column].push(value);
                     }
                     table.lines.push(self.count);

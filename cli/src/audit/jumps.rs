@@ -1,0 +1,120 @@
+//! Whether friction jumps at a speed that is not zero: between two speeds that close in on each other what the effects' torque changes by
+//! goes to nothing, unless it jumps there.
+
+use robot_model_codegen::Compiled;
+
+use super::friction::{CREEP, Effects, fastest};
+use super::{Check, Finding, Quantity};
+use crate::parameters::Values;
+use crate::units::Units;
+
+/// Intervals of speeds, each by one factor wider than the one before, and how often one is halved.
+const INTERVALS: i32 = 24;
+const HALVINGS: usize = 44;
+
+/// Of the joint's largest torque of effects: what is less is rounding, or a steep curve.
+const NOTHING: f64 = 1e-6;
+
+pub(super) fn check(compiled: &Compiled, values: &Values) -> Check {
+    let effects = Effects::new(compiled, values);
+    let fastest = fastest(compiled);
+    let mut findings = Vec::new();
+    for (joint, declared) in compiled.model.joints.iter().enumerate() {
+        let torque = |speed: f64| effects.alone(joint, speed, fastest.len());
+        let units = Units::of(declared.kind);
+        for way in [1.0, -1.0] {
+            let found = jumps(&torque, way * fastest[joint]);
+            findings.extend(
+                found
+                    .into_iter()
+                    .map(|jump| jump.said(&declared.name, &units)),
+            );
+        }
+    }
+    let scope = "effects over the speed of each joint alone, away from rest".to_owned();
+    Check::new("jumps", scope, findings)
+}
+
+/// A jump of a torque where a joint becomes faster.
+struct Jump {
+    speed: f64,
+    by: f64,
+}
+
+impl Jump {
+    fn said(&self, joint: &str, units: &Units) -> Finding {
+        let Self { speed, by } = *self;
+        let (torque, velocity) = (units.torque, units.velocity);
+        let said = format!(
+            "effects of joint `{joint}` jump by {by:.3e} {torque} at {speed:.4} {velocity}: what compensates for them kicks there"
+        );
+        let own = [
+            Quantity::of("jump", joint, by, torque),
+            Quantity::of("at", joint, speed, velocity),
+        ];
+        (said, own.to_vec())
+    }
+}
+
+/// Those of a torque over the speed up to the fastest, at most one an interval.
+fn jumps(torque: &impl Fn(f64) -> f64, fastest: f64) -> Vec<Jump> {
+    let speed = |k: i32| fastest * CREEP.powf(f64::from(INTERVALS - k) / f64::from(INTERVALS));
+    let ends: Vec<(f64, f64)> = (0..=INTERVALS)
+        .map(|k| (speed(k), torque(speed(k))))
+        .collect();
+    let size = ends.iter().fold(0.0_f64, |size, (_, f)| size.max(f.abs()));
+    let nothing = NOTHING * size;
+    let pairs = ends.windows(2);
+    let found = pairs.filter_map(|pair| {
+        let (mut low, mut high) = (pair[0], pair[1]);
+        for _ in 0..HALVINGS {
+            if (high.1 - low.1).abs() <= nothing {
+                return None;
+            }
+            let middle = f64::midpoint(low.0, high.0);
+            let middle = (middle, torque(middle));
+            // Into the half that changes more.
+            if (middle.1 - low.1).abs() > (high.1 - middle.1).abs() {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let by = high.1 - low.1;
+        (by.abs() > nothing).then_some(Jump { speed: high.0, by })
+    });
+    found.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_is_told_from_a_steep_slope() {
+        let law = |v: f64| {
+            let jump = if v.abs() > 0.01 {
+                0.2 * v.signum()
+            } else {
+                0.0
+            };
+            (v / 1e-4).tanh() + 0.5 * v + jump
+        };
+        for way in [3.0, -3.0] {
+            let found = jumps(&law, way);
+            assert_eq!(found.len(), 1);
+            assert!(
+                (found[0].speed.abs() - 0.01).abs() < 1e-9,
+                "{}",
+                found[0].speed
+            );
+            assert!(
+                (found[0].by - 0.2 * way.signum()).abs() < 1e-9,
+                "{}",
+                found[0].by
+            );
+        }
+        assert!(jumps(&|v: f64| (v / 1e-4).tanh() + 0.5 * v, 3.0).is_empty());
+        assert!(jumps(&|_| 0.0, 3.0).is_empty());
+    }
+}
