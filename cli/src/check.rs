@@ -39,7 +39,7 @@ fn summary(compiled: &Compiled) -> String {
     let width = model
         .joints
         .iter()
-        .map(|joint| joint.name.len())
+        .map(|joint| joint.name.chars().count())
         .max()
         .unwrap_or(0);
     for (index, joint) in model.joints.iter().enumerate() {
@@ -60,6 +60,16 @@ fn summary(compiled: &Compiled) -> String {
             effects.join(", ")
         );
         writeln!(text, "{}", line.trim_end()).expect("a string takes all");
+    }
+    let of_arm = model
+        .effects
+        .iter()
+        .filter(|effect| effect.joints.is_empty());
+    let of_arm: Vec<&str> = of_arm
+        .map(|effect| effect.definition.name.as_str())
+        .collect();
+    if !of_arm.is_empty() {
+        writeln!(text, "  the arm as a whole: {}", of_arm.join(", ")).expect("a string takes all");
     }
     text
 }

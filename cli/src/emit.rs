@@ -1,6 +1,7 @@
 //! `robot-model emit`: an arm's equations as source code.
 
 use std::ffi::OsStr;
+use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ use robot_model_codegen::emit::c::{Prefix, PrefixError};
 use robot_model_codegen::emit::{self, Extent};
 
 use crate::Error;
-use crate::output::{self, Files};
+use crate::output::{self, Files, OutFile};
 use crate::parameters;
 use crate::spec::compile_instantaneous;
 
@@ -195,11 +196,15 @@ impl Emit {
             refuse_what_others_wrote(&path)?;
             claimed.push((file, text, path));
         }
-        for (file, text, path) in claimed {
-            file.commit(text.as_bytes())?;
-            output::print(&format!("{}\n", path.display()))?;
+        let mut told = String::new();
+        for (_, _, path) in &claimed {
+            writeln!(told, "{}", path.display()).expect("a string takes all");
         }
-        Ok(())
+        let files = claimed
+            .into_iter()
+            .map(|(file, text, _)| (file, text.as_bytes()));
+        OutFile::commit_all(files.collect())?;
+        output::print(&told)
     }
 }
 

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, ImportError, ImportOptions, Inertials, import};
 
 use crate::Error;
-use crate::output::Files;
+use crate::output::{self, Files};
 use crate::spec::read_text;
 
 /// Turn a URDF into a spec.
@@ -82,12 +82,12 @@ impl Import {
         let imported = import(&urdf, &options).map_err(|error| self.refused(error))?;
         if self.gravity.is_none() {
             let [x, y, z] = ASSUMED_GRAVITY;
-            eprintln!(
+            output::say(&format!(
                 "note: gravity is taken to be [{x}, {y}, {z}] m/s^2 in the frame of the base: a URDF does not say it (--gravity X,Y,Z)"
-            );
+            ));
         }
         for warning in &imported.warnings {
-            eprintln!("warning: {warning}");
+            output::say(&format!("warning: {warning}"));
         }
         file.commit(imported.spec.as_bytes())
     }

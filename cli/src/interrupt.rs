@@ -43,26 +43,33 @@ pub(crate) fn whole<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// An empty folder that was made for what is to come; it goes away where that does not come.
+/// An empty folder that was made for what is to come, with those around it that were missing, the innermost first; they go away where that
+/// does not come.
 #[derive(Debug)]
-pub(crate) struct MadeFolder(PathBuf);
+pub(crate) struct MadeFolder(Vec<PathBuf>);
 
 impl MadeFolder {
     /// Makes it.
     pub(crate) fn make(path: &Path) -> std::io::Result<Self> {
         let mut unfinished = unfinished();
-        fs::create_dir(path)?;
-        unfinished.push(path.to_owned());
-        Ok(Self(path.to_owned()))
+        let missing = path
+            .ancestors()
+            .take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists());
+        let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
+        fs::create_dir_all(path)?;
+        unfinished.extend(missing.iter().rev().cloned());
+        Ok(Self(missing))
     }
 }
 
 impl Drop for MadeFolder {
     fn drop(&mut self) {
         let mut unfinished = unfinished();
-        unfinished.retain(|path| *path != self.0);
-        // It stays where something is in it.
-        let _ = fs::remove_dir(&self.0);
+        unfinished.retain(|path| !self.0.contains(path));
+        for folder in &self.0 {
+            // It stays where something is in it.
+            let _ = fs::remove_dir(folder);
+        }
     }
 }
 

@@ -29,6 +29,11 @@ pub(crate) struct LogSettings {
 }
 
 impl LogSettings {
+    /// Whether a file was asked for.
+    pub(crate) fn is_given(&self) -> bool {
+        self.file.is_some()
+    }
+
     /// The file that holds for a log.
     pub(crate) fn of(&self, log: &Path) -> Option<PathBuf> {
         self.file.clone().or_else(|| {

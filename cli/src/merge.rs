@@ -100,6 +100,12 @@ impl Merge {
 
     pub(crate) fn run(&self) -> Result<(), Error> {
         let identify = self.identify()?;
+        if self.validate.is_none() && self.log_settings.is_given() {
+            return Err(Error::Argument(
+                "`--log-settings` is of the log of `--validate`; factors are read as they are"
+                    .to_owned(),
+            ));
+        }
         let inputs = std::iter::once(&self.spec)
             .chain(&self.factors)
             .chain(&self.validate);

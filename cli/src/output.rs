@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 
 use serde::Serialize;
+use tempfile::NamedTempFile;
 
 use crate::{Error, interrupt};
 
@@ -187,15 +188,40 @@ impl OutFile {
 
     /// Puts the content in place.
     pub(crate) fn commit(self, content: &[u8]) -> Result<(), Error> {
-        interrupt::whole(|| self.put(content))
+        Self::commit_all(vec![(self, content)])
     }
 
-    fn put(self, content: &[u8]) -> Result<(), Error> {
+    /// Puts the contents of several files in place, once all of them are written.
+    pub(crate) fn commit_all(files: Vec<(Self, &[u8])>) -> Result<(), Error> {
+        interrupt::whole(|| {
+            let written = files.into_iter().map(|(file, content)| {
+                let temporary = file.write(content)?;
+                Ok((file, temporary))
+            });
+            let written = written.collect::<Result<Vec<_>, Error>>()?;
+            written
+                .into_iter()
+                .try_for_each(|(file, temporary)| file.put(temporary))
+        })
+    }
+
+    /// The content in a file without its name, with the permissions of what it takes the place of.
+    fn write(&self, content: &[u8]) -> Result<NamedTempFile, Error> {
         let failed = |error: &io::Error| refused(&self.path, &reason(error));
         let mut file = builder()
             .tempfile_in(folder_of(&self.target))
             .map_err(|error| failed(&error))?;
         file.write_all(content).map_err(|error| failed(&error))?;
+        if let Ok(about) = fs::metadata(&self.target) {
+            file.as_file()
+                .set_permissions(about.permissions())
+                .map_err(|error| failed(&error))?;
+        }
+        Ok(file)
+    }
+
+    fn put(self, file: NamedTempFile) -> Result<(), Error> {
+        let failed = |error: &io::Error| refused(&self.path, &reason(error));
         let persisted = if self.is_new {
             file.persist_noclobber(&self.target)
         } else {

@@ -273,6 +273,8 @@ impl Energies {
             Some(value.powi(exponent))
         });
         match values.product::<Option<f64>>() {
+            // Of numbers that no parameter has, as over one that is zero, nothing is known.
+            Some(value) if !value.is_finite() => Status::Unknown,
             Some(value) => Status::Nominal(value),
             None => Status::Unknown,
         }

@@ -54,6 +54,7 @@ robots! {
     emps "emps" Emps;
     every_effect "every_effect" EveryEffect;
     fixed_arm "fixed_arm" FixedArm;
+    greek "greek" Greek;
     known_springs "known_springs" KnownSprings;
     lone_slide "lone_slide" LoneSlide;
     lugre_link "lugre_link" LugreLink;

@@ -69,6 +69,13 @@ impl InterpretedArm {
 /// A law with more linear parameters than this is a model of its own, not what another model lacks.
 const MOST_UNKNOWNS: usize = 3;
 
+/// Whether an effect is one that other models may lack.
+#[must_use]
+pub fn is_tried(definition: &EffectDefinition) -> bool {
+    let mut acts = definition.acts.iter();
+    definition.linear.len() <= MOST_UNKNOWNS || acts.any(|act| matches!(act, Act::Body { .. }))
+}
+
 /// Whether a residual may be traced to an effect: where it is a torque that is added, or a force on a link, not where it changes the
 /// rigid body or the log, and not to a sum of effects that are tried one by one. Forces are tried where links stand where their joints
 /// say.
@@ -77,7 +84,7 @@ fn may_be_tried(definition: &EffectDefinition, model: &Model) -> bool {
     let is_force = acts.all(|act| matches!(act, Act::Force { .. }));
     let mut declared = model.effects.iter();
     let stands = declared.all(|effect| effect.definition.acts.is_empty());
-    definition.linear.len() <= MOST_UNKNOWNS
+    is_tried(definition)
         && (definition.acts.is_empty() || (is_force && stands && model.chain().is_some()))
 }
 

@@ -28,7 +28,7 @@ mod states;
 mod undeclared;
 
 pub use body::InterpretedBody;
-pub use candidate::InterpretedCandidate;
+pub use candidate::{InterpretedCandidate, is_tried};
 pub use change::InterpretedChange;
 pub(crate) use change::is_delaying;
 pub use constants::Constants;

@@ -50,22 +50,12 @@ pub(crate) struct Simulate {
     /// Torques to apply in place of a controller, CSV: `time,tau1..taun`, joint torques in N m or N.
     #[arg(long, value_name = "FILE.csv", conflicts_with = "controller")]
     torque: Option<PathBuf>,
-    /// Natural frequency of the controller's error, rad/s.
-    #[arg(
-        long,
-        value_name = "W",
-        allow_negative_numbers = true,
-        default_value_t = 60.0
-    )]
-    frequency: f64,
-    /// Damping of the controller's error.
-    #[arg(
-        long,
-        value_name = "D",
-        allow_negative_numbers = true,
-        default_value_t = 1.0
-    )]
-    damping: f64,
+    /// Natural frequency of the controller's error, rad/s; 60 without it.
+    #[arg(long, value_name = "W", allow_negative_numbers = true)]
+    frequency: Option<f64>,
+    /// Damping of the controller's error, 1 for critical, which it is without it.
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    damping: Option<f64>,
     /// The controller's own parameter values; without it those of the arm.
     #[arg(long, value_name = "FILE.json")]
     control_parameters: Option<PathBuf>,
@@ -173,6 +163,15 @@ impl Simulate {
                  another controller has none"
                     .to_owned(),
             ));
+        }
+        let has_gains = self.torque.is_none() && self.controller != ControllerArgument::None;
+        let gains = [("--frequency", self.frequency), ("--damping", self.damping)];
+        if let (false, Some((option, _))) =
+            (has_gains, gains.iter().find(|(_, gain)| gain.is_some()))
+        {
+            return Err(Error::Argument(format!(
+                "`{option}` is of `--controller pd` and `computed-torque`; nothing else here has gains"
+            )));
         }
 
         let progress = Progress::new();
@@ -290,7 +289,11 @@ impl Simulate {
     ) -> Result<Box<dyn Controller>, Error> {
         let argument =
             |error: robot_model::simulate::SimulateError| Error::Argument(error.to_string());
-        let gains = || Gains::new(self.frequency, self.damping).map_err(argument);
+        let gains = || {
+            let (frequency, damping) =
+                (self.frequency.unwrap_or(60.0), self.damping.unwrap_or(1.0));
+            Gains::new(frequency, damping).map_err(argument)
+        };
         if let Some(path) = &self.torque {
             let torques: Torques = table::torques(path, compiled.dof())?;
             return Ok(Box::new(torques));

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_model::columns::Arm;
-use robot_model::log::Log;
+use robot_model::log::{Columns, Log, Note};
 
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
@@ -46,7 +46,7 @@ pub(crate) struct TraceArguments {
     #[arg(long, value_name = "OUT.robot")]
     amend: Option<PathBuf>,
     /// Write the amended model's torque on the validation log, `time,tau1..taun`, in the units of that log's torque
-    /// channels: divided by each joint's `actuator_gain`.
+    /// channels: divided by each joint's `actuator_gain` and by what a one of its column is worth.
     #[arg(long, value_name = "OUT.csv", requires = "validate")]
     predict: Option<PathBuf>,
     /// Write the result as JSON.
@@ -85,14 +85,17 @@ impl TraceArguments {
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
         let page = report.as_ref().map(|_| page::page(&name, &closed, &text));
         let page = page.transpose()?;
-        drop(progress);
-
         // All contents are ready before the first file appears.
         let prediction = closed
             .unseen
             .as_ref()
-            .map(|log| prediction(&closed, log))
+            .zip(self.validate.as_deref())
+            .map(|(log, path)| {
+                let columns = settings.columns(path, &model, &progress)?;
+                prediction(&closed, log, &columns)
+            })
             .transpose()?;
+        drop(progress);
         let spec = if closed.changed.is_some() {
             "the spec with the effects declared"
         } else {
@@ -124,12 +127,15 @@ impl TraceArguments {
 }
 
 /// `time,tau1..taun` of the last model on a log, in the units of the log's torque channels.
-fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
+fn prediction(closed: &Loop, log: &Log, columns: &Columns) -> Result<String, Error> {
     let after = closed.after();
     let mut torque = after.estimate.predict(&after.arm, log)?;
-    for (values, gain) in torque.iter_mut().zip(after.arm.actuator_gain()) {
+    let is_standard = log.report.contains(&Note::StandardColumns);
+    let gains = after.arm.actuator_gain().iter().zip(&columns.tau);
+    for (values, (gain, column)) in torque.iter_mut().zip(gains) {
+        let unit = if is_standard { 1.0 } else { column.unit };
         for value in values {
-            *value /= gain;
+            *value /= gain * unit;
         }
     }
     let mut text = String::from("time");
@@ -137,10 +143,10 @@ fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
         write!(text, ",tau{joint}").expect("a string takes all");
     }
     for (sample, time) in log.time.iter().enumerate() {
-        // Nanoseconds and millionths of a torque unit: more is noise.
+        // Nanoseconds, and more digits than any torque has.
         write!(text, "\n{time:.9}").expect("a string takes all");
         for values in &torque {
-            write!(text, ",{:.6}", values[sample]).expect("a string takes all");
+            write!(text, ",{:.8e}", values[sample]).expect("a string takes all");
         }
     }
     text.push('\n');

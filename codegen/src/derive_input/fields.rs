@@ -84,8 +84,12 @@ impl<'a> Robot<'a> {
                     }
                     None => settings.push(entry),
                 },
-                Some((name, "file")) => file = Some(name),
-                Some((name, _)) => effects = Some(name),
+                Some((name, "file")) if file.is_none() => file = Some(name),
+                Some((name, "effects")) if effects.is_none() => effects = Some(name),
+                Some((name, key)) => errors.mistake(
+                    name.span,
+                    format!("`{key}` is given twice: take one of them away"),
+                ),
             }
         }
         for name in ["joint", "inertial", "effects", "on"] {

@@ -134,7 +134,11 @@ pub fn snake_case(name: &str) -> String {
 /// `viscous_friction` is `ViscousFriction`.
 pub fn type_name(effect: &str) -> String {
     let words = effect.split('_').filter(|word| !word.is_empty());
-    let camel = words.map(|word| word[..1].to_ascii_uppercase() + &word[1..]);
+    let camel = words.flat_map(|word| {
+        let mut letters = word.chars();
+        let first = letters.next().map(|first| first.to_ascii_uppercase());
+        first.into_iter().chain(letters)
+    });
     camel.collect()
 }
 

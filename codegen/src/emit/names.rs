@@ -9,7 +9,7 @@ const LONGEST_NAME: usize = 30;
 /// Products of more factors are numbered.
 const MOST_FACTORS: usize = 3;
 /// What a function body names besides its temporaries.
-const RESERVED: [&str; 25] = [
+const RESERVED: [&str; 34] = [
     "q",
     "dq",
     "ddq",
@@ -36,6 +36,16 @@ const RESERVED: [&str; 25] = [
     "positions",
     "poses",
     "out",
+    "y",
+    // What C calls.
+    "sin",
+    "cos",
+    "exp",
+    "log",
+    "sqrt",
+    "tanh",
+    "pow",
+    "fabs",
 ];
 /// Words of C and C++ that a name of several words could be.
 const WORDS: [&str; 18] = [
@@ -190,23 +200,45 @@ fn snake_case(name: &str) -> String {
     identifier(&name)
 }
 
-/// A user's name as an identifier in snake case.
+/// A user's name as an identifier in snake case. Compilers of C need not take letters of other alphabets: these are written as their codes,
+/// so that names that differ stay so.
 pub fn identifier(name: &str) -> String {
-    let text: String = name
-        .chars()
-        .map(|c| {
-            if c.is_ascii_alphanumeric() {
-                c.to_ascii_lowercase()
-            } else {
-                '_'
+    let mut text = String::new();
+    for c in name.chars() {
+        match c {
+            c if c.is_ascii_alphanumeric() => text.push(c.to_ascii_lowercase()),
+            c if c.is_ascii() => text.push('_'),
+            c => text += &format!("u{:x}", u32::from(c)),
+        }
+    }
+    if text.chars().all(|c| c == '_') || text.starts_with(|c: char| c.is_ascii_digit()) {
+        text.insert(0, 'x');
+    }
+    if syn::parse_str::<syn::Ident>(&text).is_err() {
+        // A word of Rust.
+        text.push('_');
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{identifier, snake_case};
+
+    #[test]
+    fn any_name_becomes_an_identifier_of_both_languages() {
+        for name in [
+            "\u{3b8}1", "\u{6e29}", "_", "", "2nd", "type", "Y-axis", "__a__",
+        ] {
+            for text in [identifier(name), snake_case(name)] {
+                assert!(
+                    syn::parse_str::<syn::Ident>(&text).is_ok(),
+                    "{name}: {text}"
+                );
+                assert!(text.is_ascii() && text != "_", "{name}: {text}");
             }
-        })
-        .collect();
-    if text.starts_with(|c: char| c.is_ascii_digit())
-        || syn::parse_str::<syn::Ident>(&text).is_err()
-    {
-        format!("{text}_")
-    } else {
-        text
+        }
+        assert_eq!(identifier("\u{3b8}1"), "u3b81");
+        assert_ne!(identifier("\u{3b8}"), identifier("\u{3c6}"));
     }
 }

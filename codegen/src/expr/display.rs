@@ -133,6 +133,18 @@ impl Dag {
         terms.into_iter().map(signed).collect()
     }
 
+    /// Whether what is written of `x` ends with an exponent, behind which another one would be read otherwise.
+    pub(crate) fn has_exponent(&self, x: ExprId, style: Style) -> bool {
+        match self.node(x) {
+            Node::Mul(p, q) => p == q,
+            Node::Power(..) => true,
+            Node::Symbol(Symbol::RigidTorque(_) | Symbol::MeasuredTorque(_)) => {
+                style == Style::Latex
+            }
+            _ => false,
+        }
+    }
+
     /// The definition of `x` with other expressions by the names that `given` has for them.
     #[must_use]
     pub fn display_with(
@@ -194,7 +206,7 @@ impl Writer<'_> {
             }
             Node::Mul(p, q) => self.product(p, q, around),
             Node::Power(p, q) => {
-                let base = self.write(p, Binding::Power);
+                let base = self.base(p);
                 let exponent = self.write(q, Binding::Sum);
                 match self.style {
                     Style::Text => format!("{base}^({exponent})"),
@@ -228,15 +240,37 @@ impl Writer<'_> {
         format!("{} > 0", self.write(x, Binding::Sum))
     }
 
+    /// What an expression is a power of by squares of squares, and which.
+    fn squared(&self, x: ExprId) -> (ExprId, u32) {
+        match self.dag.node(x) {
+            Node::Mul(p, q) if p == q && (self.given)(x).is_none() => {
+                let (factor, times) = self.squared(p);
+                (factor, 2 * times)
+            }
+            _ => (x, 1),
+        }
+    }
+
+    /// What an exponent may stand behind.
+    fn base(&self, x: ExprId) -> String {
+        (self.given)(x).unwrap_or_else(|| {
+            let text = self.node(x, Binding::Power);
+            if self.dag.has_exponent(x, self.style) {
+                format!("({text})")
+            } else {
+                text
+            }
+        })
+    }
+
     fn product(&self, p: ExprId, q: ExprId, around: Binding) -> String {
         if p == q {
-            let base = self.write(p, Binding::Power);
-            return base
-                + if self.style == Style::Latex {
-                    "^{2}"
-                } else {
-                    "^2"
-                };
+            let (factor, times) = self.squared(p);
+            let (base, power) = (self.base(factor), 2 * times);
+            return match self.style {
+                Style::Text => format!("{base}^{power}"),
+                Style::Latex => format!("{base}^{{{power}}}"),
+            };
         }
         let right = self.write(q, Binding::Product);
         let text = match (self.dag.as_constant(p), self.dag.node(q)) {
@@ -301,5 +335,36 @@ pub(crate) fn number(value: f64) -> String {
         rounded.to_string()
     } else {
         format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_exponent_stands_behind_a_base() {
+        let mut dag = Dag::new();
+        let x = dag.symbol(Symbol::Q(0));
+        let mut power = x;
+        for exponent in [2, 4, 8] {
+            power = dag.mul(power, power);
+            let [text, latex] = [Style::Text, Style::Latex]
+                .map(|style| dag.display(power, &Names::default(), style));
+            assert_eq!(text, format!("q1^{exponent}"));
+            assert_eq!(latex, format!("q_{{1}}^{{{exponent}}}"));
+        }
+        // What has an exponent that is no whole number, or a superscript, is no base by itself.
+        let share = dag.constant(0.3);
+        let root = dag.power(x, share);
+        let square = dag.mul(root, root);
+        assert_eq!(
+            dag.display(square, &Names::default(), Style::Text),
+            "(q1^(0.3))^2"
+        );
+        let load = dag.symbol(Symbol::MeasuredTorque(0));
+        let square = dag.mul(load, load);
+        let latex = dag.display(square, &Names::default(), Style::Latex);
+        assert_eq!(latex, "(\\tau^{\\mathrm{measured}}_{1})^{2}");
     }
 }

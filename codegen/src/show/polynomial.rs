@@ -257,6 +257,7 @@ fn power(dag: &Dag, factor: &Factor, power: u32, names: &Names, style: Style) ->
     let text = dag.display(factor.expr, names, style);
     let text = match dag.node(factor.expr) {
         Node::Add(..) => format!("({text})"),
+        _ if power > 1 && dag.has_exponent(factor.expr, style) => format!("({text})"),
         _ => text,
     };
     match style {

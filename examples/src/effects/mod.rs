@@ -5,6 +5,7 @@ mod parting;
 
 use std::fmt::Write as _;
 
+use robot_model_cli::interpreted::is_tried;
 use robot_model_spec::model::{Act, EffectDefinition};
 use robot_model_spec::standard_effects;
 
@@ -53,7 +54,11 @@ fn title(effect: &EffectDefinition) -> String {
 
 /// What reports and JSON call it.
 fn traced(effect: &EffectDefinition) -> String {
-    effect.kind.replace('_', "-")
+    if is_tried(effect) {
+        format!("`{}`", effect.kind.replace('_', "-"))
+    } else {
+        "not tried: a sum of other laws, which are".to_owned()
+    }
 }
 
 /// What it does to the torque, in a word for a table.
@@ -82,7 +87,7 @@ fn index() -> String {
     for effect in standard_effects() {
         writeln!(
             text,
-            "| [`{0}`]({0}.md) | {1} | {2} | `{3}` |",
+            "| [`{0}`]({0}.md) | {1} | {2} | {3} |",
             effect.name,
             effect.summary(),
             means(effect),

@@ -45,7 +45,7 @@ fn declared(effect: &EffectDefinition) -> String {
     }
     writeln!(
         text,
-        "| acts as | {} |\n| in `trace` | `{}` |",
+        "| acts as | {} |\n| in `trace` | {} |",
         means(effect),
         traced(effect)
     )

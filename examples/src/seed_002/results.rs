@@ -71,8 +71,8 @@ impl Results {
 }
 
 /// Each joint's.
-fn each(of: impl Fn(usize) -> Result<f64, Error>) -> Result<[f64; 6], Error> {
-    let mut all = [0.0; 6];
+fn each<T: Copy + Default>(of: impl Fn(usize) -> Result<T, Error>) -> Result<[T; 6], Error> {
+    let mut all = [T::default(); 6];
     for (k, one) in all.iter_mut().enumerate() {
         *one = of(k)?;
     }

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::frames::{Body, Frame, frames};
 use super::xml::{comment, free_name, number, numbers, remark_lines};
 use super::{ExportError, JointNumbers, LinkNumbers, Numbers, chain};
-use crate::model::{Joint, JointKind, Link, Model, Transform};
+use crate::model::{Joint, JointKind, Model, Transform};
 
 /// Writes an MJCF model of the arm: nested bodies with their inertials, hinges and slides with their losses, rotors and springs, a motor
 /// for each joint, and a site `tip`. It has no geometries.
@@ -29,11 +29,16 @@ pub fn mjcf(model: &Model, numbers: &Numbers) -> Result<String, ExportError> {
     );
     let links = chain.links.iter().zip(&numbers.links).zip(&frames);
     let joints = model.joints.iter().zip(&numbers.joints);
-    for (depth, ((link, frame), joint)) in links.zip(joints).enumerate() {
-        body(&mut text, depth + 2, link, frame, joint);
-    }
     let names = chain.links.iter().map(|link| link.name.as_str());
     let names: Vec<&str> = names.collect();
+    for (depth, (((link, own), frame), joint)) in links.zip(joints).enumerate() {
+        // What all bodies stand on is MuJoCo's.
+        let name = match link.name.as_str() {
+            "world" => free_name("world", &names),
+            name => name.to_owned(),
+        };
+        body(&mut text, depth + 2, (&name, own), frame, joint);
+    }
     let end = 2 + chain.links.len();
     let _ = writeln!(
         text,
@@ -65,15 +70,14 @@ fn indent(depth: usize) -> String {
 fn body(
     text: &mut String,
     depth: usize,
-    (link, own): (&Link, &LinkNumbers),
+    (name, own): (&str, &LinkNumbers),
     frame: &Frame,
     (joint, acts): (&Joint, &JointNumbers),
 ) {
     let (outer, inner) = (indent(depth), indent(depth + 1));
     let _ = writeln!(
         text,
-        "{outer}<body name=\"{}\"{}>",
-        link.name,
+        "{outer}<body name=\"{name}\"{}>",
         place(&frame.origin)
     );
     let inertial = Body::new(own.inertial).seen_from(&frame.link);

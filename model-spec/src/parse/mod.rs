@@ -80,7 +80,7 @@ fn check_tokens(tokens: &TokenStream) -> syn::Result<()> {
                 }
                 open.push(group.stream().into_iter());
             }
-            Some(TokenTree::Ident(name)) if name.to_string().len() > LONGEST_NAME => {
+            Some(TokenTree::Ident(name)) if name.to_string().chars().count() > LONGEST_NAME => {
                 return Err(syn_error(
                     name.span(),
                     &format!("a name of more than {LONGEST_NAME} characters"),

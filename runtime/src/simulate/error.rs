@@ -83,3 +83,14 @@ pub enum SimulateError {
         expected: usize,
     },
 }
+
+impl SimulateError {
+    /// Of a time before the present one.
+    pub(super) fn back_to(time: f64) -> Self {
+        Self::Setting {
+            what: "the time to advance to",
+            range: "the present one or a later one",
+            value: time,
+        }
+    }
+}

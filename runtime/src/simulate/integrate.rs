@@ -3,7 +3,6 @@
 //! Between events the sides of all jumps are held, so that steps are of high order. Where a velocity comes to zero, or a joint that
 //! stands breaks away, the step ends there, to rounding, and what sticks is decided anew. Where that is too often, or a step would
 //! have to be shorter than the floor, one implicit step of the first order over impulses is taken: no step is ever shorter.
-//!
 //! In: a [`Plant`], where it is, and a [`Drive`]. Out: where it is at later times.
 
 mod events;
@@ -338,11 +337,7 @@ impl<P: Plant> Integrator<P> {
 
     fn go(&mut self, end: f64, watch: &mut impl Watch<P>) -> Result<(), SimulateError> {
         if end.is_nan() || end < self.time {
-            return Err(SimulateError::Setting {
-                what: "the time to advance to",
-                range: "the present one or a later one",
-                value: end,
-            });
+            return Err(SimulateError::back_to(end));
         }
         self.moving.settle(self.time, &mut self.x)?;
         let mut start = None;

@@ -1,6 +1,6 @@
 //! The table of identities: one rule a row, tried in order whenever a node is made.
 //!
-//! A rule changes no value by more than rounding, and never turns a finite value into an infinite one.
+//! A rule changes no value by more than rounding, as long as nothing on the way to it is beyond what a number holds.
 
 mod products;
 
@@ -8,7 +8,7 @@ mod products;
 mod tests;
 
 use super::{Dag, ExprId, Function, Node};
-use products::{collect_reordered, cosine_of_sum, pythagoras, sine_of_sum};
+use products::{collect_reordered, cosine_of_sum, differ, pythagoras, sine_of_sum};
 
 /// An identity of a node with two operands.
 pub struct Rule {
@@ -240,7 +240,7 @@ fn common_coefficient(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> {
     if !equal(c.abs(), d.abs()) || equal(c, 1.0) || equal(d, 1.0) {
         return None;
     }
-    let q = if c * d < 0.0 { dag.neg(q) } else { q };
+    let q = if differ(c, d) { dag.neg(q) } else { q };
     let sum = dag.add(p, q);
     Some(dag.multiple(c, sum))
 }
@@ -371,10 +371,7 @@ fn modulus_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<E
 
 fn recip_of_multiple(dag: &mut Dag, function: Function, x: ExprId) -> Option<ExprId> {
     let (c, rest) = dag.coefficient(x);
-    if function != Function::Recip || equal(c, 1.0) {
-        return None;
-    }
-    if !c.recip().is_normal() {
+    if function != Function::Recip || equal(c, 1.0) || !c.recip().is_normal() {
         return None;
     }
     let factor = dag.folded(c.recip());

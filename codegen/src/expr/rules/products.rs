@@ -112,9 +112,10 @@ pub(super) fn pythagoras(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId> 
     let ((f, p), (g, q)) = (pair.left[0], pair.right[0]);
     let squares =
         pair.left[0] == pair.left[1] && pair.right[0] == pair.right[1] && p == q && f != g;
-    (squares && pair.coefficients.0 * pair.coefficients.1 > 0.0).then(|| {
+    let (c, d) = pair.coefficients;
+    (squares && !differ(c, d)).then(|| {
         let one = dag.constant(1.0);
-        times_common(dag, &pair, pair.coefficients.0, one)
+        times_common(dag, &pair, c, one)
     })
 }
 
@@ -134,7 +135,7 @@ pub(super) fn cosine_of_sum(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprI
         return None;
     }
     let [a, b] = ordered(cosines);
-    let angle = if c * d < 0.0 {
+    let angle = if differ(c, d) {
         dag.add(a, b)
     } else {
         dag.sub(b, a)
@@ -157,14 +158,19 @@ pub(super) fn sine_of_sum(dag: &mut Dag, x: ExprId, y: ExprId) -> Option<ExprId>
     }
     let (c, d) = pair.coefficients;
     // c sin a cos b + d sin b cos a: the sine with the positive sign goes first.
-    let angle = if c * d > 0.0 {
+    let angle = if differ(c, d) {
+        dag.sub(a, b)
+    } else {
         let [a, b] = ordered([a, b]);
         dag.add(a, b)
-    } else {
-        dag.sub(a, b)
     };
     let sine = dag.call(Sin, angle);
     Some(times_common(dag, &pair, c, sine))
+}
+
+/// Whether signs do; a product of small numbers may have none.
+pub(super) fn differ(c: f64, d: f64) -> bool {
+    c.is_sign_negative() != d.is_sign_negative()
 }
 
 fn ordered([a, b]: [ExprId; 2]) -> [ExprId; 2] {

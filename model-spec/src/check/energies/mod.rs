@@ -184,6 +184,27 @@ fn check_names(robot: &Robot, errors: &mut Errors) {
     for name in names().filter(|name| taken().any(|word| *name == word)) {
         errors.push(reserved_name(name, taken()));
     }
+    // `dx` is how equations write the rate of `x`.
+    let rate_of = |name: &syn::Ident| {
+        let name = name.to_string();
+        let mut coordinates = energies.coordinates.iter().map(|c| c.name.to_string());
+        let rests = ["d", "dd"].map(|d| name.strip_prefix(d).map(str::to_owned));
+        coordinates.find(|coordinate| rests.iter().flatten().any(|rest| rest == coordinate))
+    };
+    for name in names() {
+        if let Some(coordinate) = rate_of(name) {
+            errors.push(
+                Diagnostic::new(
+                    name.span(),
+                    format!("`{name}` is how equations write a rate of `{coordinate}`"),
+                    "",
+                )
+                .help(format!(
+                    "give one of them another name; the rate itself is `dot({coordinate})`"
+                )),
+            );
+        }
+    }
 }
 
 fn check_present<'a>(
