@@ -65,7 +65,7 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
     // Offsets and springs give back what they take; a bent bristle slides, and has a memory to look at.
     let (code, checks, text) = audit(&arm, &sound);
     assert_eq!(code, Some(0), "{text}");
-    assert_eq!(checks.len(), 6, "{text}");
+    assert_eq!(checks.len(), 7, "{text}");
     let ranks = checks["rank"]["quantities"].as_array().expect("a list");
     let rank = |what: &str| {
         let found = ranks.iter().find(|one| one["what"] == what);
@@ -117,6 +117,39 @@ fn a_sound_arm_passes_and_an_odd_one_is_told_why() {
             "{name}: {text}"
         );
     }
+}
+
+/// A law whose viscous part begins at a speed, and the same from rest on.
+#[test]
+fn friction_that_jumps_in_motion_is_told_with_its_speed() {
+    let check = |law: &str| {
+        let spec = PENDULUM.replace(
+            "\n}\n",
+            &format!("\n    effects {{ {law}(eps = 0.02) on upper; }}\n}}\n"),
+        );
+        let of = |name: &str, value: f64| (format!("upper.{law}.{name}"), value);
+        let values = [of("fc1", 1.0), of("fc2", 1.5), of("fv1", 2.0)];
+        let values = values.into_iter().chain([of("fv2", 0.0), of("fv3", 0.0)]);
+        let (code, checks, text) = audit(&spec, &values.collect());
+        let jumps = checks["jumps"]["quantities"]
+            .as_array()
+            .expect("a list")
+            .clone();
+        (code, jumps, text)
+    };
+    let (code, jumps, text) = check("rokae");
+    assert_eq!(code, Some(1), "{text}");
+    let numbers: Vec<f64> = jumps
+        .iter()
+        .filter_map(|one| one["value"].as_f64())
+        .collect();
+    // Forward and backward, each by how much and where.
+    for (found, wanted) in numbers.iter().zip([0.04, 0.02, -0.04, -0.02]) {
+        assert!((found - wanted).abs() < 1e-9, "{text}");
+    }
+    assert_eq!(numbers.len(), 4, "{text}");
+    let (code, jumps, text) = check("rokae_continuous");
+    assert_eq!((code, jumps.len()), (Some(0), 0), "{text}");
 }
 
 /// Effects of a kind that need more than one joint, an instant, or a link.

@@ -118,7 +118,10 @@ fn the_manual_has_a_page_of_every_verb() {
     );
     assert!(
         folder
-            .refuse(&["man", "--out", "none/man1"])
+            .refuse(&["man", "--out", "file/man1"])
             .contains("cannot be made")
     );
+    // With the folders around it, as the README's command wants them.
+    folder.succeed(&["man", "--out", "share/man/man1"]);
+    assert!(folder.path("share/man/man1/robot-model.1").is_file());
 }

@@ -54,13 +54,18 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
                 .zip(&total)
                 .map(|(tau, t)| arm.actuator_gain()[joint] * tau - t)
                 .collect();
-            // What a limit took is no noise, nor what a brake holds.
-            let left_out = left_out::samples(arm, log, joint);
-            if left_out.iter().all(|is_out| *is_out) {
+            if left_out::samples(arm, log, joint)
+                .iter()
+                .all(|is_out| *is_out)
+            {
                 continue;
             }
-            for (rest, _) in rest.iter_mut().zip(left_out).filter(|(_, is)| *is) {
-                *rest = 0.0;
+            if !arm.saturated_joints().contains(&joint) {
+                // What a limit took is no noise.
+                let clipped = log.is_clipped(joint, 0).into_iter();
+                for (rest, _) in rest.iter_mut().zip(clipped).filter(|(_, is)| *is) {
+                    *rest = 0.0;
+                }
             }
             for (sum, power) in
                 modeled[joint]

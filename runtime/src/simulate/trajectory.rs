@@ -76,8 +76,8 @@ impl Trajectory {
         }
         check_time("the time of each sample of a trajectory", &time)?;
         for (what, columns) in [
-            ("velocities of the trajectory", &dq),
-            ("accelerations of the trajectory", &ddq),
+            ("dq of the trajectory", &dq),
+            ("ddq of the trajectory", &ddq),
         ] {
             if !columns.is_empty() && columns.len() != q.len() {
                 return Err(SimulateError::Size {
@@ -318,6 +318,27 @@ pub(super) fn check_time(what: &'static str, time: &[f64]) -> Result<(), Simulat
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_has_no_motion_is_refused() {
+        let time = || vec![0.0, 0.1, 0.2, 0.3];
+        let column = || vec![1.0; 4];
+        let refused = |time, q, dq| {
+            let made = Trajectory::new(time, q, dq, vec![], vec![]);
+            made.expect_err("no trajectory").to_string()
+        };
+        let two = || vec![column(), column()];
+        let size = refused(time(), two(), vec![column()]);
+        assert_eq!(size, "dq of the trajectory has 1 where the arm has 2");
+        for bad in [f64::NAN, f64::INFINITY, 0.1] {
+            let mut times = time();
+            times[2] = bad;
+            assert!(refused(times, two(), vec![]).contains("the time of each sample"));
+        }
+        let mut q = two();
+        q[1][3] = f64::NAN;
+        assert!(refused(time(), q, vec![]).contains("a finite number"));
+    }
 
     #[test]
     fn cubics_come_out_exactly() {

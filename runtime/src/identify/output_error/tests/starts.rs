@@ -37,3 +37,36 @@ fn starts_are_fitted_unless_they_are_held() {
         OutputErrorError::Size { found: 1, .. }
     ));
 }
+
+/// Where the logs would have parameters beyond their bounds all the same there is an answer, and it says so.
+#[test]
+fn all_parameters_may_be_on_bounds() {
+    let settings = OutputError {
+        bounds: vec![[1.0, 1.5], [0.7, 0.7], [1.5, 1.5], [1.0, 1.0]],
+        ..HELD
+    };
+    let recording = Recording::new(&log(4.0), &[1.0], 0.0, Vec::new());
+    let start = [1.2, 0.7, 1.5, 1.0];
+    let found = settings
+        .fit(&Block(start), &names(), &start, &[recording], &mut |_| ())
+        .expect("an answer");
+    assert!((found.values[0] - 1.5).abs() < 1e-12, "{:?}", found.values);
+    assert_eq!(found.bound, [0, 1, 2, 3]);
+    assert!(found.std.iter().all(Option::is_none));
+}
+
+#[test]
+fn a_comparison_wants_what_a_search_does() {
+    let recordings = [Recording::new(&log(4.0), &[1.0], 0.0, Vec::new())];
+    let compare = |settings: &OutputError, values: &[f64]| {
+        let compared = settings.compare(&Block(TRUTH), values, &recordings);
+        compared.expect_err("it is refused").to_string()
+    };
+    assert!(compare(&HELD, &TRUTH[..2]).contains("values of parameters"));
+    let law = Law { joints: Vec::new() };
+    let settings = OutputError {
+        law: Some(law),
+        ..HELD
+    };
+    assert!(compare(&settings, &TRUTH).contains("joints of the controller"));
+}
