@@ -301,3 +301,15 @@ fn rows_that_a_fit_leaves_out_are_none_of_a_law_either() {
     let value = verdict.findings[0].parameters[0].value;
     assert!((value - 1.5).abs() < 0.1, "{value}");
 }
+
+/// Where a motion repeats to the last digit its encoder's steps do, too, and what they make of the torque is the same in every period.
+#[test]
+fn steps_of_a_coarse_encoder_come_back_and_are_nothing() {
+    let verdict = trace(&Plant {
+        encoder: std::f64::consts::TAU / 4096.0,
+        white: 0.02,
+        ..Plant::default()
+    });
+    let floors = &verdict.noise_floor;
+    assert_eq!(verdict.outcome, Outcome::NothingMissing, "{floors:?}");
+}

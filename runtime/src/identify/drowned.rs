@@ -15,11 +15,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::least_squares::{Excited, Solution};
-use super::stack::Stack;
+use super::stack::{Stack, torque_of};
 use super::{Beyond, Identify, IdentifyError, Method, logs::update_load};
 use crate::columns::Arm;
 use crate::log::Log;
-use crate::signal::{Bands, Prepared, position_noise};
+use crate::signal::{Bands, Prepared, position_noise, prepare};
 
 /// Share of a direction's power from where on it is noise: of directions that are nothing else 0.45 to 0.95 is seen, as noise is drawn and its
 /// density is an estimate; real motions of slow arms have up to 0.3.
@@ -70,6 +70,39 @@ impl Identify {
         let again = self.solve_stack(&stack)?;
         Ok((again, shapes, stack))
     }
+}
+
+/// Mean square of each joint's raw torque that as much noise again on the positions makes of a model's, N^2 m^2 or N^2: about what the noise
+/// that they have makes. Zero where that is not known.
+pub(crate) fn torque_of_noise(
+    arm: &dyn Arm,
+    (logs, prepared, bands): (&[Log], &[Prepared], &Bands),
+    (shapes, estimate): (&[f64], &[f64]),
+) -> Result<Vec<f64>, IdentifyError> {
+    let dof = arm.dof();
+    let (mut squares, mut samples) = (vec![0.0; dof], 0);
+    for (seed, (log, prepared)) in logs.iter().zip(prepared).enumerate() {
+        let Some(noisy) = noisier(log, prepared, bands, seed as u64) else {
+            return Ok(vec![0.0; dof]);
+        };
+        let mut noisy = prepare(&noisy, bands)?.motion;
+        noisy.turn_speeds.clone_from(&prepared.motion.turn_speeds);
+        noisy.rigid_torque.clone_from(&prepared.motion.rigid_torque);
+        let [with, without] =
+            [&noisy, &prepared.motion].map(|motion| torque_of(arm, motion, shapes, estimate, dof));
+        let border = prepared.shared.border();
+        let inner = border..prepared.motion.time.len().saturating_sub(border);
+        samples += inner.len();
+        for (joint, sum) in squares.iter_mut().enumerate() {
+            let pairs = with[joint].iter().zip(&without[joint]);
+            let inner = pairs.skip(inner.start).take(inner.len());
+            *sum += inner
+                .map(|(with, without)| (with - without).powi(2))
+                .sum::<f64>();
+        }
+    }
+    let mean = |sum: f64| sum / samples.max(1) as f64;
+    Ok(squares.into_iter().map(mean).collect())
 }
 
 /// A log with as much noise again on its positions as they have; none where that is not known.

@@ -22,7 +22,7 @@ mod clipped;
 mod combination;
 mod creep;
 mod deviated;
-mod drowned;
+pub(crate) mod drowned;
 mod error;
 mod errors;
 mod essential;

@@ -28,6 +28,9 @@ const PARTS_OF_TWO: usize = 16;
 /// Where a motion repeats, a model that leaves so many times what differs from period to period lacks something that comes back.
 const BEYOND: f64 = 3.0;
 
+/// By how much more than white noise of its size the steps of an encoder may count, in power.
+const STEPS: f64 = 2.0;
+
 /// From what a floor is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
@@ -64,8 +67,8 @@ pub struct Floor {
     pub std: f64,
     /// From what it is known.
     pub from: FloorFrom,
-    /// What the model leaves of samples away from the joint's turns, root mean square, where the motion repeats; none where next to none
-    /// are.
+    /// What the model leaves of samples away from the joint's turns, beyond what noise of the positions makes, root mean square, where the
+    /// motion repeats; none where next to none are.
     pub left: Option<f64>,
 }
 
@@ -123,8 +126,10 @@ impl Search<'_> {
                 let parts = parts.into_iter().flatten();
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
                 let left = self.left_away(&raw, joint);
+                // Steps of an encoder come back with the motion, and are no torque.
+                let noise = STEPS * self.position_noise[joint];
                 return Floor {
-                    left: left.map(|left| (left + beyond[joint]).sqrt()),
+                    left: left.map(|left| (left + beyond[joint] - noise).max(0.0).sqrt()),
                     ..Floor::of_parts(&parts, FloorFrom::Periods)
                 };
             }

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::columns::{Arm, Candidate};
+use crate::identify::drowned::torque_of_noise;
 use crate::identify::{
     Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
     prepare_all, slowest_bands,
@@ -154,8 +155,11 @@ impl<'a> Trace<'a> {
         stack.silence(&solution.unexcited);
         let of_log = |log: &Prepared| period(&log.motion.wide.q, log.rate_hz);
         let periods: Vec<Option<f64>> = prepared.iter().map(of_log).collect();
+        let estimate = &solution.estimate[..];
+        let position_noise = torque_of_noise(arm, (logs, &prepared, &bands), (&shapes, estimate))?;
         let mut search = Search {
             arm,
+            position_noise,
             identify,
             shapes,
             shared_hz: bands.shared_hz,
@@ -264,6 +268,8 @@ pub(super) struct Search<'s> {
     /// Unknowns that the logs do not excite: held at zero throughout.
     unexcited: Vec<usize>,
     pub(super) prepared: Vec<Prepared>,
+    /// Mean square of each joint's raw torque that noise of the positions makes of the declared model's.
+    pub(super) position_noise: Vec<f64>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
     /// Blocks of time although motions repeat: for laws of the part of a period, of which others have to be seen.

@@ -51,7 +51,7 @@ impl Search<'_> {
     /// be traded for each other all along, the law fits as anything with so many parameters does.
     pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
         let trial = &judged.trial;
-        if trial.shapes.is_empty() || judged.changed.is_some() {
+        if judged.changed.is_some() {
             return true;
         }
         let mut stack = state.stack.clone();

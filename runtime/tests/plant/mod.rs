@@ -110,6 +110,8 @@ pub struct Plant {
     pub seed: u64,
     /// Length, s.
     pub seconds: u32,
+    /// Step of the encoders, rad.
+    pub encoder: f64,
     /// Repeat every 10 s, or never.
     pub periodic: bool,
     /// Standard deviation of white torque noise.
@@ -127,6 +129,7 @@ impl Default for Plant {
         Self {
             seed: 1,
             seconds: 30,
+            encoder: 1e-5,
             periodic: true,
             white: 0.05,
             colored: 0.0,
@@ -137,7 +140,7 @@ impl Default for Plant {
 }
 
 impl Plant {
-    /// Simulates a log at 500 Hz: five sines a joint, encoders of 1e-5 rad.
+    /// Simulates a log at 500 Hz: five sines a joint.
     pub fn log(&self) -> Log {
         let mut random = ChaCha8Rng::seed_from_u64(self.seed);
         let mut normal = move || -> f64 { StandardNormal.sample(&mut random) };
@@ -185,7 +188,7 @@ impl Plant {
                     + p[2] * v
                     + p[3] * v.signum()
                     + (self.extra)(j, positions, velocities);
-                q[j].push((x * 1e5).round() * 1e-5);
+                q[j].push((x / self.encoder).round() * self.encoder);
                 tau[j].push(torque + noise);
             }
         }
