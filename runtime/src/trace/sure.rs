@@ -51,8 +51,10 @@ impl Search<'_> {
     /// be traded for each other all along, the law fits as anything with so many parameters does.
     pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
         let trial = &judged.trial;
-        if judged.changed.is_some() {
-            return true;
+        let is_told =
+            |(value, std): (&f64, &Option<f64>)| std.is_some_and(|std| value.abs() > TOLD * std);
+        if let Some(changed) = &judged.changed {
+            return changed.shapes.iter().zip(&changed.std).any(is_told);
         }
         let mut stack = state.stack.clone();
         let first = stack.unknowns.len();
@@ -65,8 +67,7 @@ impl Search<'_> {
         let slopes = rows.slopes(trial.candidate, &trial.shapes, gain);
         stack.append(&unknowns(trial.candidate), &slopes);
         let std = self.identify.beside_slopes(&stack, &solution);
-        let mut parameters = gain.iter().zip(&std[first..]);
-        parameters.any(|(value, std)| std.is_some_and(|std| value.abs() > TOLD * std))
+        gain.iter().zip(&std[first..]).any(is_told)
     }
 }
 
