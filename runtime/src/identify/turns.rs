@@ -86,7 +86,9 @@ impl Standing {
         if motion.is_held(&turns) {
             std::mem::swap(&mut turns, &mut held);
         } else {
-            for rest in motion.rests(&turns, reach, log.rate_hz) {
+            let mut rests = motion.rests(&turns, reach, log.rate_hz);
+            rests.extend(motion.dwells(reach, log.rate_hz));
+            for rest in rests {
                 turns[rest.clone()].fill(false);
                 held[rest].fill(true);
             }

@@ -25,13 +25,10 @@ const PARKED: [f64; 2] = [0.5, 0.9];
 const REST: f64 = 1.0;
 const MUCH_LONGER: f64 = 5.0;
 
-/// So is one of more than this, s, in which the joint moves by less than this share of all its way: it dwells between two moves. One that turns
-/// slowly moves further while it may stand.
+/// A joint dwells between two moves where, for longer than this, s, it goes no further in a quarter of it than this share of all its way. One
+/// that turns slowly goes further while it may stand.
 const DWELL: f64 = 0.2;
 const UNMOVED: f64 = 2e-4;
-
-/// Of it so much at either end is braking and starting, s.
-const EDGE: f64 = 0.02;
 
 /// The largest velocity is no more than so many times what this share is below.
 const SLIPS: f64 = 3.0;
@@ -89,16 +86,30 @@ impl<'a> Motion<'a> {
             return Vec::new();
         };
         let least = (REST * rate_hz).max(MUCH_LONGER * *usual as f64);
-        let unmoved = UNMOVED * self.way(0..self.wide.len());
         stops.retain(|stop| {
             let core = core(stop);
-            let long = core.len() as f64;
-            let edge = whole_steps((EDGE * rate_hz).ceil());
-            let inner = core.start + edge..core.end.saturating_sub(edge);
-            let is_dwell = long > DWELL * rate_hz && self.way(inner) <= unmoved;
-            is_dwell || (long > least && self.standing_in(core) > HELD)
+            core.len() as f64 > least && self.standing_in(core) > HELD
         });
         stops
+    }
+
+    /// Samples of dwells between two moves, with `reach` samples around each.
+    pub fn dwells(&self, reach: usize, rate_hz: f64) -> Vec<Range<usize>> {
+        let count = self.wide.len();
+        let unmoved = UNMOVED * self.way(0..count);
+        let quarter = whole_steps((0.25 * DWELL * rate_hz).ceil()).max(1);
+        let quarters = (0..count / quarter).map(|k| k * quarter..(k + 1) * quarter);
+        let mut dwells: Vec<Range<usize>> = Vec::new();
+        for still in quarters.filter(|quarter| self.way(quarter.clone()) <= unmoved) {
+            match dwells.last_mut() {
+                Some(dwell) if dwell.end == still.start => dwell.end = still.end,
+                _ => dwells.push(still),
+            }
+        }
+        dwells.retain(|dwell| dwell.len() >= 4 * quarter);
+        let around =
+            |dwell: Range<usize>| dwell.start.saturating_sub(reach)..(dwell.end + reach).min(count);
+        dwells.into_iter().map(around).collect()
     }
 
     /// How far its positions are apart over some samples, in steps of the time between two.
@@ -218,30 +229,42 @@ mod tests {
             panic!("{framed:?}");
         };
         assert!((first - 4.0).abs() < 0.1 && (last - 16.0).abs() < 0.3);
-        // A motion that dwells each time it turns rests there, however long that is.
+        // A motion that stops for long each time it turns has no other rests.
         let dwelling = |t: f64| {
+            let phase = t.rem_euclid(4.0);
+            let way = if t.rem_euclid(8.0) < 4.0 { 1.0 } else { -1.0 };
+            if phase < 2.0 { way } else { 0.0 }
+        };
+        assert!(rests(dwelling).is_empty());
+    }
+
+    #[test]
+    fn a_joint_dwells_between_two_moves() {
+        let dwells = |velocity: &dyn Fn(f64) -> f64| -> Vec<(f64, f64)> {
+            let dq: Vec<f64> = (0..2000_u32)
+                .map(|k| velocity(f64::from(k) / RATE))
+                .collect();
+            let motion = Motion {
+                wide: &dq,
+                slow: 0.1,
+            };
+            let seconds = |k: usize| k as f64 / RATE;
+            let found = motion.dwells(REACH, RATE);
+            found
+                .iter()
+                .map(|dwell| (seconds(dwell.start), seconds(dwell.end)))
+                .collect()
+        };
+        let found = dwells(&|t| {
             let way = if t.rem_euclid(2.0) < 1.0 { 1.0 } else { -1.0 };
             if t.rem_euclid(1.0) < 0.5 { way } else { 0.0 }
-        };
-        let found = rests(dwelling);
+        });
         assert_eq!(found.len(), 20);
-        let lasts = found.iter().map(|(start, end)| end - start);
-        assert!(
-            lasts.into_iter().all(|lasts| (0.5..0.65).contains(&lasts)),
-            "{found:?}"
-        );
-        // One that turns slowly does not rest, though noise lets it stand for as long.
-        let dq: Vec<f64> = (0..2000_u32)
-            .map(|k| (0.3 * f64::from(k) / RATE).sin())
-            .collect();
-        let slowly = Motion {
-            wide: &dq,
-            slow: 0.1,
-        };
-        assert!(
-            slowly
-                .rests(&slowly.near_turns(REACH), REACH, RATE)
-                .is_empty()
-        );
+        for (k, (start, end)) in (0_u32..).zip(found) {
+            assert!((start - f64::from(k) - 0.45).abs() < 0.06, "{start}");
+            assert!((end - f64::from(k) - 1.05).abs() < 0.06, "{end}");
+        }
+        // One that turns slowly does not, though it may stand for a third of a second.
+        assert!(dwells(&|t| (0.6 * t).sin()).is_empty());
     }
 }
