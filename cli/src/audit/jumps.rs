@@ -8,9 +8,10 @@ use super::{Check, Finding, Quantity};
 use crate::parameters::Values;
 use crate::units::Units;
 
-/// Intervals of speeds, each by one factor wider than the one before, and how often one is halved.
+/// Intervals of speeds, each by one factor wider than the one before, into how many parts one is cut, and how often.
 const INTERVALS: i32 = 24;
-const HALVINGS: usize = 44;
+const PARTS: u32 = 32;
+const LEVELS: usize = 9;
 
 /// Of the joint's largest torque of effects: what is less is rounding, or a steep curve.
 const NOTHING: f64 = 1e-6;
@@ -67,21 +68,22 @@ fn jumps(torque: &impl Fn(f64) -> f64, fastest: f64) -> Vec<Jump> {
     let pairs = ends.windows(2);
     let found = pairs.filter_map(|pair| {
         let (mut low, mut high) = (pair[0], pair[1]);
-        for _ in 0..HALVINGS {
-            if (high.1 - low.1).abs() <= nothing {
+        for _ in 0..LEVELS {
+            // Into the part that changes most: a slope has its share in each, a jump is in one.
+            let at = |part: u32| low.0 + (high.0 - low.0) * f64::from(part) / f64::from(PARTS);
+            let inner = (1..PARTS).map(|part| (at(part), torque(at(part))));
+            let all: Vec<(f64, f64)> = std::iter::once(low).chain(inner).chain([high]).collect();
+            let change = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1).abs();
+            let most = all
+                .windows(2)
+                .max_by(|x, y| change(x).total_cmp(&change(y)))?;
+            if change(most) <= nothing {
                 return None;
             }
-            let middle = f64::midpoint(low.0, high.0);
-            let middle = (middle, torque(middle));
-            // Into the half that changes more.
-            if (middle.1 - low.1).abs() > (high.1 - middle.1).abs() {
-                high = middle;
-            } else {
-                low = middle;
-            }
+            (low, high) = (most[0], most[1]);
         }
         let by = high.1 - low.1;
-        (by.abs() > nothing).then_some(Jump { speed: high.0, by })
+        Some(Jump { speed: high.0, by })
     });
     found.collect()
 }
@@ -116,5 +118,16 @@ mod tests {
         }
         assert!(jumps(&|v: f64| (v / 1e-4).tanh() + 0.5 * v, 3.0).is_empty());
         assert!(jumps(&|_| 0.0, 3.0).is_empty());
+        // Behind a ramp that rises faster than it jumps.
+        let ramp = |v: f64| {
+            if v.abs() < 0.02 {
+                v / 0.02
+            } else {
+                v.signum() + 2.0 * v
+            }
+        };
+        let found = jumps(&ramp, 3.0);
+        assert_eq!(found.len(), 1);
+        assert!((found[0].by - 0.04).abs() < 1e-9, "{}", found[0].by);
     }
 }
