@@ -108,6 +108,7 @@ fn stack(arm: &InterpretedArm, motion: &Motion) -> Stack {
     }
     Stack {
         turns: Vec::new(),
+        silent: Vec::new(),
         clipped: Vec::new(),
         held: Vec::new(),
         noise: Vec::new(),

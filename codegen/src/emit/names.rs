@@ -1,6 +1,7 @@
 //! The one owner of identifiers in emitted code: a temporary is named by its meaning where it has a short one.
 
 use std::collections::HashMap;
+use std::fmt::Write;
 
 use crate::expr::{Dag, ExprId, Function, Label, Names, Node, Style, Symbol};
 
@@ -208,7 +209,7 @@ pub fn identifier(name: &str) -> String {
         match c {
             c if c.is_ascii_alphanumeric() => text.push(c.to_ascii_lowercase()),
             c if c.is_ascii() => text.push('_'),
-            c => text += &format!("u{:x}", u32::from(c)),
+            c => write!(text, "u{:x}", u32::from(c)).expect("a string takes all"),
         }
     }
     if text.chars().all(|c| c == '_') || text.starts_with(|c: char| c.is_ascii_digit()) {

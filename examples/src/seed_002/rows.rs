@@ -42,7 +42,7 @@ pub fn rows(results: &Results) -> Vec<Row> {
 fn law(results: &Results) -> Vec<Row> {
     let drives: Vec<f64> = (0..6).filter_map(|k| results.drives_from(1, k)).collect();
     let pairs = drives.iter().zip(&results.peaks);
-    let jumps = results.jumps[0].map(|jump| jump.unwrap_or_default());
+    let jumps = results.jumps[0].map(Option::unwrap_or_default);
     let is_found = drives.len() == 6 && pairs.into_iter().all(|(drives, falls)| drives > falls);
     vec![
         Row::holds(

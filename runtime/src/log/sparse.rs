@@ -34,7 +34,10 @@ mod tests {
         let none = f64::NAN;
         let mut values = [none, 1.0, none, none, 4.0, none];
         assert!(fill(&mut values));
-        assert_eq!(values, [1.0, 1.0, 2.0, 3.0, 4.0, 4.0]);
+        assert_eq!(
+            values.map(f64::to_bits),
+            [1.0, 1.0, 2.0, 3.0, 4.0, 4.0].map(f64::to_bits)
+        );
         assert!(!fill(&mut values));
     }
 }

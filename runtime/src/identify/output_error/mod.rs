@@ -220,7 +220,7 @@ impl OutputError {
             if let Some((shorter, known)) = before {
                 problem.start_as(&mut place, shorter, known);
             }
-            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
+            let found = problem.run(&place, Asked::Slopes).map(|runs| {
                 search::search(
                     self.search,
                     &mut problem,

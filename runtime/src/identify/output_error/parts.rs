@@ -77,7 +77,7 @@ impl<'s> Parts<'s> {
             let is_first = weighed && before.is_none() && round == 1;
             problem.end = if is_first { End::Rough } else { end };
             problem.scale.clone_from(&self.scale);
-            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
+            let found = problem.run(&place, Asked::Slopes).map(|runs| {
                 search::search(
                     self.search,
                     &mut problem,

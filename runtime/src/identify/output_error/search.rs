@@ -13,7 +13,7 @@ use super::equations::Equations;
 use super::identifiable::audible;
 use super::problem::{Place, Problem};
 use super::run::{Asked, Run};
-use crate::simulate::{Adjustable, SimulateError};
+use crate::simulate::Adjustable;
 use step::{LEAST, Room, Step};
 
 mod step;
@@ -102,7 +102,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     bounds: &[[f64; 2]],
     iterates: &mut Vec<Iterate>,
     progress: &mut dyn FnMut(&Iterate),
-) -> Result<Found, (usize, SimulateError)> {
+) -> Found {
     let last = iterates.last();
     let (simulations, stage) =
         last.map_or((0, 0), |iterate| (iterate.simulations, iterate.stage + 1));
@@ -136,7 +136,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     }
     way.note(place);
     problem.plant.adjust(&place.values);
-    Ok((way.best, ending))
+    (way.best, ending)
 }
 
 /// By which slopes a search goes on.

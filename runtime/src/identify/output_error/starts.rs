@@ -67,7 +67,7 @@ impl OutputError {
             let mut place = problem.place(start);
             let bounds = self.bounds_of(start.len());
             let mut iterates = Vec::new();
-            let found = problem.run(&place, Asked::Slopes).and_then(|runs| {
+            let found = problem.run(&place, Asked::Slopes).map(|runs| {
                 problem.scale = problem.scales(&runs);
                 search::search(
                     self.search,
