@@ -52,3 +52,60 @@ fn a_delay_is_told_of_a_joint_that_sticks_where_it_turns() {
         }
     }
 }
+
+/// Moves from place to place with dwells of half a second, in which dry friction holds the joint with whatever gravity leaves of its torque.
+#[test]
+fn dwells_between_two_moves_say_nothing_of_friction() {
+    let folder = Folder::new();
+    folder.write(
+        "arm.robot",
+        "robot Pendulum { gravity = [0, -9.81, 0]; convention = standard_dh; joint arm: revolute { a = 0; alpha = 0; d = 0; } \
+         effects { viscous_friction on all; coulomb_friction on all; } }",
+    );
+    folder.write(
+        "numbers.json",
+        r#"{"arm.m": 4, "arm.mx": 0.6, "arm.my": 0.05, "arm.mz": 0, "arm.ixx": 0.02, "arm.ixy": 0, "arm.ixz": 0, "arm.iyy": 0.13,
+            "arm.iyz": 0, "arm.izz": 0.14, "arm.viscous_friction.fv": 2.5, "arm.coulomb_friction.fc": 3}"#,
+    );
+    let places = [0.0, 0.9, -0.6, 1.3, 0.4, -1.1];
+    let mut motion = String::from("time,q1\n");
+    // A second of motion, and half a one of none.
+    for number in 0..20_u32 {
+        let place = |number: u32| places[number as usize % places.len()];
+        let (from, to) = (place(number), place(number + 1));
+        for k in 0..150_u32 {
+            let s = (0.01 * f64::from(k)).min(1.0);
+            let share = s.powi(3) * (10.0 - 15.0 * s + 6.0 * s * s);
+            let t = 0.01 * f64::from(150 * number + k);
+            writeln!(motion, "{t:.2},{:.9}", from + share * (to - from))
+                .expect("a string takes all");
+        }
+    }
+    folder.write("motion.csv", &motion);
+    let simulate = "simulate arm.robot --trajectory motion.csv --parameters numbers.json --out log.csv --frequency 30 \
+                    --torque-noise 0.005 --encoder-bits 17 --seed 4";
+    folder.succeed(&simulate.split_whitespace().collect::<Vec<_>>());
+    let told = folder.succeed(&["identify", "arm.robot", "log.csv", "--json", "out.json"]);
+    assert!(
+        told.contains("left out, where dry friction holds"),
+        "{told}"
+    );
+    let out = json(&folder.read("out.json"));
+    let parameters = out["parameters"].as_array().expect("a list");
+    for (name, truth) in [
+        ("arm.viscous_friction.fv", 2.5),
+        ("arm.coulomb_friction.fc", 3.0),
+    ] {
+        let found = parameters.iter().find(|one| one["name"] == name);
+        let value = found
+            .and_then(|one| one["value"].as_f64())
+            .expect("a value");
+        assert!((value / truth - 1.0).abs() < 0.01, "{name} {value}\n{told}");
+    }
+    assert!(
+        out["relative_percent"][0]
+            .as_f64()
+            .is_some_and(|share| share < 2.0),
+        "{told}"
+    );
+}
