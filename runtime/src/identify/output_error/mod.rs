@@ -40,7 +40,6 @@ pub use search::{Ending, Iterate, Search};
 use estimate::{comparison, result};
 use parts::{Part, Parts};
 use problem::{Place, Problem};
-use run::Asked;
 use search::End;
 use window::{Pace, Window};
 
@@ -220,17 +219,14 @@ impl OutputError {
             if let Some((shorter, known)) = before {
                 problem.start_as(&mut place, shorter, known);
             }
-            let found = problem.run(&place, Asked::Slopes).map(|runs| {
-                search::search(
-                    self.search,
-                    &mut problem,
-                    &mut place,
-                    runs,
-                    &bounds,
-                    &mut Vec::new(),
-                    &mut |_| (),
-                )
-            });
+            let found = search::search(
+                self.search,
+                &mut problem,
+                &mut place,
+                &bounds,
+                &mut Vec::new(),
+                &mut |_| (),
+            );
             match found {
                 Ok((runs, _)) => Ok(((problem, place), runs)),
                 Err((k, error)) => Err(OutputErrorError::Away {

@@ -1,7 +1,7 @@
 //! The parts of a search: with short windows, with those that are asked for, and with torque that goes the other way between samples.
 
 use super::problem::{Place, Problem};
-use super::run::{Asked, Run};
+use super::run::Run;
 use super::search::{self, End, Found};
 use super::{Iterate, OutputError, OutputErrorError, Recording};
 use crate::simulate::Adjustable;
@@ -77,17 +77,14 @@ impl<'s> Parts<'s> {
             let is_first = weighed && before.is_none() && round == 1;
             problem.end = if is_first { End::Rough } else { end };
             problem.scale.clone_from(&self.scale);
-            let found = problem.run(&place, Asked::Slopes).map(|runs| {
-                search::search(
-                    self.search,
-                    &mut problem,
-                    &mut place,
-                    runs,
-                    &self.bounds,
-                    &mut self.iterates,
-                    self.progress,
-                )
-            });
+            let found = search::search(
+                self.search,
+                &mut problem,
+                &mut place,
+                &self.bounds,
+                &mut self.iterates,
+                self.progress,
+            );
             let found = found.map_err(|error| no_start(&problem, error))?;
             if let (Some(below), Some(Iterate { stage: 0, cost, .. })) =
                 (self.below, self.iterates.last())

@@ -13,7 +13,7 @@ use super::equations::Equations;
 use super::identifiable::audible;
 use super::problem::{Place, Problem};
 use super::run::{Asked, Run};
-use crate::simulate::Adjustable;
+use crate::simulate::{Adjustable, SimulateError};
 use step::{LEAST, Room, Step};
 
 mod step;
@@ -93,16 +93,17 @@ pub enum Ending {
 /// Runs with slopes, and how the search that led there ended.
 pub(super) type Found = (Vec<Run>, Ending);
 
-/// Moves a place to where the cost is least, from runs of it with slopes on.
+/// Moves a place to where the cost is least, weighed as the problem is; which window could not be simulated
+/// there, and why.
 pub(super) fn search<P: Adjustable + Clone + Sync>(
     search: Search,
     problem: &mut Problem<'_, P>,
     place: &mut Place,
-    best: Vec<Run>,
     bounds: &[[f64; 2]],
     iterates: &mut Vec<Iterate>,
     progress: &mut dyn FnMut(&Iterate),
-) -> Found {
+) -> Result<Found, (usize, SimulateError)> {
+    let best = problem.run(place, Asked::Slopes)?;
     let last = iterates.last();
     let (simulations, stage) =
         last.map_or((0, 0), |iterate| (iterate.simulations, iterate.stage + 1));
@@ -110,7 +111,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
         search,
         bounds,
         stage,
-        // The given runs are one of them.
+        // That of the place is one of them.
         simulations: simulations + 1,
         iterations: problem.most,
         cost: problem.cost(&best),
@@ -136,7 +137,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
     }
     way.note(place);
     problem.plant.adjust(&place.values);
-    (way.best, ending)
+    Ok((way.best, ending))
 }
 
 /// By which slopes a search goes on.

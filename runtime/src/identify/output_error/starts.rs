@@ -67,18 +67,18 @@ impl OutputError {
             let mut place = problem.place(start);
             let bounds = self.bounds_of(start.len());
             let mut iterates = Vec::new();
-            let found = problem.run(&place, Asked::Slopes).map(|runs| {
-                problem.scale = problem.scales(&runs);
-                search::search(
-                    self.search,
-                    &mut problem,
-                    &mut place,
-                    runs,
-                    &bounds,
-                    &mut iterates,
-                    progress,
-                )
-            });
+            let Ok(runs) = problem.run(&place, Asked::Motion) else {
+                continue;
+            };
+            problem.scale = problem.scales(&runs);
+            let found = search::search(
+                self.search,
+                &mut problem,
+                &mut place,
+                &bounds,
+                &mut iterates,
+                progress,
+            );
             let Ok((runs, _)) = found else {
                 continue;
             };

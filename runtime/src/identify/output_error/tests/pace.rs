@@ -1,5 +1,6 @@
 //! At how many samples simulations are looked at.
 
+use super::super::run::Asked;
 use super::*;
 
 /// At 1 kHz, with a torque that trembles between coarse stations.
