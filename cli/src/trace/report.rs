@@ -51,6 +51,19 @@ struct WhereReport<'a> {
     terms: Vec<TermReport<'a>>,
     peak_hz: f64,
     peak_share: f64,
+    /// Where the level of the residual changes, once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step: Option<StepReport>,
+}
+
+#[derive(Serialize)]
+struct StepReport {
+    /// Which of the logs, from 1.
+    log: usize,
+    /// s since the start of that log.
+    time: f64,
+    /// N m or N.
+    size: f64,
 }
 
 #[derive(Serialize)]
@@ -259,6 +272,11 @@ fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
         terms: one.terms.iter().map(term).collect(),
         peak_hz: one.peak_hz,
         peak_share: one.peak_share,
+        step: one.step.map(|step| StepReport {
+            log: step.log + 1,
+            time: step.time,
+            size: step.size,
+        }),
     }
 }
 

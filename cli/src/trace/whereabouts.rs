@@ -1,10 +1,11 @@
 //! What the structure of a residual follows from, for people.
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Outcome, Quantity, Share, Whereabouts};
+use robot_model::trace::{Outcome, Quantity, Share, Step, Whereabouts};
 
 use crate::close_the_loop::Loop;
 use crate::output::significant;
+use crate::units::Units;
 
 /// Quantities that are told of a joint, and the least share of one, percent.
 const TOLD: usize = 3;
@@ -25,7 +26,14 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             return None;
         }
         let share = 100.0 * left.share;
-        let follows = format!("{share:.0} % of the error's power on {name} still follows the motion");
+        let steps = verdict.left.iter().filter(|one| one.joint == joint);
+        let step = steps.filter_map(|one| one.step).next();
+        let follows = match step {
+            Some(_) => "is that of a level which changes",
+            None => "still follows the motion",
+        };
+        let follows = format!("{share:.0} % of the error's power on {name} {follows}");
+        let step = step.map(|step| stepped(closed, joint, &step));
         let exceeded = verdict.noise_floor[joint].exceeded();
         let exceeded = exceeded.filter(|_| verdict.outcome == Outcome::Unexplained);
         let exceeded = exceeded.map(|times| {
@@ -33,10 +41,25 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
                 "errors away from its turns are {times:.1} times what differs from period to period: what comes back is missing"
             )
         });
-        let said = std::iter::once(follows).chain(exceeded).chain(found);
+        let said = std::iter::once(follows).chain(step).chain(exceeded).chain(found);
         Some(said.collect())
     });
     told.collect()
+}
+
+/// When a joint's level changes, and by how much.
+fn stepped(closed: &Loop, joint: usize, step: &Step) -> String {
+    let size = significant(step.size, 3);
+    let unit = Units::of(closed.before.arm.compiled().model.joints[joint].kind).torque;
+    let log = if closed.traced.len() > 1 {
+        format!(" of log {}", step.log + 1)
+    } else {
+        String::new()
+    };
+    let time = step.time;
+    format!(
+        "its residual changes by {size} {unit} at {time:.1} s{log} and stays there, as where something slips, breaks or is set anew: a log before it and one behind it are of two arms"
+    )
 }
 
 /// One line: the term of the equations and the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.

@@ -205,3 +205,16 @@ fn a_law_of_time_is_told_by_its_frequency() {
         "{told}"
     );
 }
+
+/// A torque that steps once is slower than any motion, and no wander of the zero.
+#[test]
+fn a_torque_that_steps_is_no_noise() {
+    let step = folded("", "", |t, _| [if t < 12.0 { 0.0 } else { 1.5 }, 0.0]);
+    let (told, out) = told(&folding(""), &step);
+    assert_eq!(out["outcome"], "unexplained", "{told}");
+    let step = &out["structure_where"][0]["step"];
+    close(step["time"].as_f64().expect("a number"), 12.0, 0.02);
+    close(step["size"].as_f64().expect("a number"), 1.5, 0.3);
+    assert_eq!(step["log"], 1, "{out}");
+    assert!(told.contains("N m at 12.0 s and stays there"), "{told}");
+}

@@ -42,6 +42,7 @@ mod folds;
 mod gate;
 mod gram;
 mod grid;
+mod line;
 mod multiplicity;
 mod normal;
 mod projected;
@@ -56,6 +57,7 @@ mod search;
 mod slopes;
 mod small;
 mod stage;
+mod step;
 mod structure;
 mod sure;
 mod trial;
@@ -65,6 +67,7 @@ mod whereabouts;
 pub use floor::{Floor, FloorFrom};
 pub use search::{MOST_EFFECTS, Trace};
 pub use stage::Stage;
+pub use step::Step;
 pub use structure::Structure;
 pub use verdict::{
     Alternative, Evidence, Finding, FoundParameter, Outcome, Refusal, Tried, Verdict,

@@ -60,21 +60,26 @@ impl Search<'_> {
             .iter()
             .map(|log| self.raw_residuals(state, log))
             .collect();
+        let steps = self.steps(state);
         let of_joint = |j: usize| {
             let logs: Vec<RawResidual> = raw
                 .iter()
                 .zip(&self.prepared)
                 .zip(&self.periods)
                 .zip(&state.stack.segments)
-                .map(|(((residuals, log), period), segment)| RawResidual {
-                    values: &residuals[j],
-                    beyond: self.beyond(log, j),
-                    filtered: evenly(segment, &state.residuals[j], log.filtered_hz()),
-                    filtered_hz: log.filtered_hz(),
-                    rate_hz: log.rate_hz,
-                    shared_hz: self.shared_hz,
-                    period: *period,
-                })
+                .zip(&steps[j])
+                .map(
+                    |((((residuals, log), period), segment), step)| RawResidual {
+                        values: &residuals[j],
+                        beyond: self.beyond(log, j),
+                        filtered: evenly(segment, &state.residuals[j], log.filtered_hz()),
+                        filtered_hz: log.filtered_hz(),
+                        rate_hz: log.rate_hz,
+                        shared_hz: self.shared_hz,
+                        period: *period,
+                        stepped: step.map_or(0.0, |(_, taken)| taken),
+                    },
+                )
                 .collect();
             structure::of(&logs)
         };
@@ -83,7 +88,7 @@ impl Search<'_> {
 }
 
 /// A log's rows of a series, one for each step of its decimated time: zero where a hole has none.
-fn evenly(segment: &Segment, series: &[f64], rate_hz: f64) -> Vec<f64> {
+pub(super) fn evenly(segment: &Segment, series: &[f64], rate_hz: f64) -> Vec<f64> {
     let (Some(first), Some(last)) = (segment.time.first(), segment.time.last()) else {
         return Vec::new();
     };

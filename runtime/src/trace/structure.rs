@@ -1,8 +1,9 @@
 //! Is anything missing? Structure in the residual, whatever its cause.
 //!
-//! Two tests that need no candidate and no known noise level. The first compares the residual's power where robots move
+//! Three tests that need no candidate and no known noise level. The first compares the residual's power where robots move
 //! with its power just above, and with that of the part of the band of motion which has least: sensor noise, white or correlated over
-//! milliseconds, has as much power in all of them or one, a missing torque follows the motion. The second needs a motion that repeats: what comes back in every period is not noise.
+//! milliseconds, has as much power in all of them or one, a missing torque follows the motion. The second needs a motion that repeats:
+//! what comes back in every period is not noise. The third is of a level that changes once and stays, which is slower than any motion.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -78,6 +79,8 @@ pub(super) struct RawResidual<'a> {
     pub(super) rate_hz: f64,
     pub(super) shared_hz: f64,
     pub(super) period: Option<f64>,
+    /// Mean square that a step takes off it.
+    pub(super) stepped: f64,
 }
 
 /// Structure of one joint over all logs.
@@ -111,7 +114,7 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         let periodic = log.period.map_or(0.0, |period| {
             repeated_power(&log.filtered, period * log.filtered_hz)
         });
-        found.power += weight * above.max(periodic);
+        found.power += weight * above.max(periodic).max(log.stepped);
         found.ratio = found.ratio.max(ratio);
     }
     found.share = if total > 0.0 {
@@ -248,6 +251,7 @@ mod tests {
                 rate_hz: HZ,
                 shared_hz: 10.0,
                 period: None,
+                stepped: 0.0,
             }])
         };
         let density =

@@ -5,15 +5,13 @@
 //! model's columns as an effect would, and its share is what it takes off the squared error of folds that it was not fitted on. Shares
 //! overlap, as quantities of one motion move together.
 
-use std::f64::consts::TAU;
-
 use crate::columns::Entry;
-use crate::identify::golden;
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
 use super::gram::Gram;
 use super::search::{Accepted, Search, State};
+use super::step::Step;
 
 /// A curve is straight between so many values of its quantity, among which samples are evenly spread.
 const KNOTS: usize = 24;
@@ -26,9 +24,6 @@ const KNOT_S: f64 = 6.0;
 
 /// A quantity that spans less than this of its largest value stands.
 const LEAST_SPAN: f64 = 1e-6;
-
-/// Phases of a line in the spectrum are those of pieces of a log that are no longer than this, s.
-const PIECE_S: f64 = 60.0;
 
 /// Terms of equations that are kept of a joint.
 const MOST_TERMS: usize = 3;
@@ -169,6 +164,8 @@ pub struct Whereabouts {
     pub peak_hz: f64,
     /// Share of that line in the residual's power, in the band of the fit.
     pub peak_share: f64,
+    /// Where its level changes, once.
+    pub step: Option<Step>,
 }
 
 impl Search<'_> {
@@ -252,6 +249,7 @@ impl Search<'_> {
                 terms,
                 peak_hz,
                 peak_share,
+                step: self.largest_step(state, joint),
             }
         };
         joints.into_iter().map(of_joint).collect()
@@ -323,46 +321,6 @@ impl Search<'_> {
         }
         Some(all)
     }
-
-    /// Frequency and share of the highest line of a joint's residual.
-    fn peak(&self, state: &State, joint: usize) -> (f64, f64) {
-        let residual = match self.away(state) {
-            Some(away) => &away.residuals[joint],
-            None => &state.residuals[joint],
-        };
-        let segments = state.stack.segments.iter();
-        let pieces = segments.flat_map(|segment| {
-            let time = &segment.time;
-            let seconds = time.last().map_or(0.0, |last| last - time[0]);
-            let count = whole_steps((seconds / PIECE_S).ceil()).max(1);
-            let rows = move |k: usize| k * time.len() / count;
-            let of_piece = move |k| {
-                let rows = rows(k)..rows(k + 1);
-                let of_rows = segment.start + rows.start..segment.start + rows.end;
-                (&time[rows], &residual[of_rows])
-            };
-            (0..count).map(of_piece)
-        });
-        let pieces: Vec<(&[f64], &[f64])> = pieces.filter(|(time, _)| time.len() > 2).collect();
-        let total: f64 = residual.iter().map(|r| r * r).sum();
-        let lasts = pieces
-            .iter()
-            .map(|(time, _)| time[time.len() - 1] - time[0]);
-        let longest = lasts.fold(0.0, f64::max);
-        if longest <= 0.0 || total <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let power = |hz: f64| -> f64 { pieces.iter().map(|piece| line(*piece, hz)).sum() };
-        let step = 0.5 / longest;
-        let lines = (2..=whole_steps(self.shared_hz / step)).map(|k| step * k as f64);
-        let highest = lines.map(|hz| (power(hz), hz));
-        let highest = highest.max_by(|a, b| a.0.total_cmp(&b.0));
-        let about = highest.map_or(0.0, |(_, hz)| hz);
-        let Ok(hz) = golden(about - step, about + step, &mut |hz| {
-            Ok::<_, std::convert::Infallible>(-power(hz))
-        });
-        (hz, (power(hz) / total).min(1.0))
-    }
 }
 
 /// The knot below a value, and how far that is on the way to the next one.
@@ -371,30 +329,4 @@ fn between(knots: &[f64], value: f64) -> (usize, f64) {
     let above = above.clamp(1, knots.len() - 1);
     let (low, high) = (knots[above - 1], knots[above]);
     (above - 1, ((value - low) / (high - low)).clamp(0.0, 1.0))
-}
-
-/// Sum of squares of a sine of a frequency, of the amplitude and phase that values at some times have.
-fn line((time, values): (&[f64], &[f64]), hz: f64) -> f64 {
-    let (mut re, mut im) = (0.0, 0.0);
-    for (time, value) in time.iter().zip(values) {
-        let (sin, cos) = (TAU * hz * time).sin_cos();
-        re += value * cos;
-        im += value * sin;
-    }
-    2.0 * (re * re + im * im) / time.len() as f64
-}
-
-#[cfg(test)]
-mod tests {
-    use super::line;
-
-    #[test]
-    fn a_line_has_the_power_of_its_sine() {
-        let time: Vec<f64> = (0..2000).map(|k| 0.01 * f64::from(k)).collect();
-        let sine = |t: &f64| 3.0 * (7.0 * t + 0.4).sin() + (11.0 * t).cos();
-        let values: Vec<f64> = time.iter().map(sine).collect();
-        let hz = 7.0 / std::f64::consts::TAU;
-        let power = line((&time, &values), hz) / 2000.0;
-        assert!((power - 4.5).abs() < 0.1, "{power}");
-    }
 }

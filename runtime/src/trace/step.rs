@@ -1,0 +1,264 @@
+//! A torque that steps once, and stays where it is: a slipped gear, a cable that came loose, an offset that was set anew.
+//!
+//! It has next to no power where robots move, so that it looks like a wander of the zero, but a wander goes everywhere and a step is at one
+//! place. Means of a second before and after every sample differ by what noise leaves in a mean, of whatever color it is; a step stands far
+//! out of all these differences, and the means of all that is before and behind it differ as well.
+
+use std::cell::OnceCell;
+
+use crate::columns::Entry;
+use crate::identify::Segment;
+use crate::signal::resample::whole_steps;
+
+use super::gram::Gram;
+use super::residual::evenly;
+use super::score::Present;
+use super::search::{Search, State};
+
+/// Means are of so long a time on either side, s.
+const SIDE_S: f64 = 1.0;
+
+/// A step stands out of the differences of means by so many of their deviations: of noise the largest is three to four.
+const STANDS_OUT: f64 = 6.0;
+
+/// So many deviations are worth a look with the step beside the model.
+const A_HINT: f64 = 2.5;
+
+/// Of what a second differs by, this share has to be there between the means of all before and all behind.
+const STAYS: f64 = 0.5;
+
+/// A median of the sizes of normal numbers, in deviations.
+const MEDIAN: f64 = 0.674_489_750_196_081_7;
+
+/// Differences of means that are told apart: fewer know nothing of their deviation.
+const LEAST_APART: usize = 10;
+
+/// Where a joint's residual steps from one level to another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Step {
+    /// Which log, from 0.
+    pub log: usize,
+    /// When, s since the start of that log.
+    pub time: f64,
+    /// By how much, N m or N.
+    pub size: f64,
+}
+
+/// The step of a series.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Level {
+    /// The first sample behind it.
+    at: usize,
+    size: f64,
+}
+
+/// Sums of values and counts up to each sample; those of a sample that says nothing, which is zero, do not count.
+struct Sums(Vec<(f64, usize)>);
+
+impl Sums {
+    fn of(values: &[f64]) -> Self {
+        let mut sums = vec![(0.0, 0)];
+        let (mut sum, mut count) = (0.0, 0);
+        for value in values {
+            sum += value;
+            count += usize::from(*value != 0.0);
+            sums.push((sum, count));
+        }
+        Self(sums)
+    }
+
+    /// The mean between two samples, and of how many it is; none where fewer than these say something.
+    fn mean(&self, from: usize, to: usize, least: usize) -> Option<(f64, usize)> {
+        let (first, last) = (self.0[from], self.0[to]);
+        let count = last.1 - first.1;
+        (count >= least.max(1)).then(|| ((last.0 - first.0) / count as f64, count))
+    }
+}
+
+/// The step of a series whose samples are zero where they say nothing, as far as it stands out by so many deviations.
+fn level(values: &[f64], rate_hz: f64, stands_out: f64) -> Option<Level> {
+    let side = whole_steps((SIDE_S * rate_hz).round()).max(2);
+    if values.len() < side * LEAST_APART {
+        return None;
+    }
+    let sums = Sums::of(values);
+    let difference = |at: usize| {
+        let before = sums.mean(at - side, at, side.div_ceil(2))?.0;
+        let behind = sums.mean(at, at + side, side.div_ceil(2))?.0;
+        Some((at, behind - before))
+    };
+    let all: Vec<(usize, f64)> = (side..=values.len() - side)
+        .filter_map(difference)
+        .collect();
+    if all.len() < side * LEAST_APART {
+        return None;
+    }
+    let mut sizes: Vec<f64> = all.iter().map(|(_, size)| size.abs()).collect();
+    let middle = sizes.len() / 2;
+    let deviation = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN;
+    let largest = all
+        .into_iter()
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let (at, sharp) = largest;
+    let size = sums.mean(at, values.len(), side)?.0 - sums.mean(0, at, side)?.0;
+    let is_one = sharp.abs() > stands_out * deviation && size * sharp > STAYS * sharp * sharp;
+    is_one.then_some(Level { at, size })
+}
+
+/// A log's part of a joint's residual.
+struct Part<'a> {
+    joint: usize,
+    segment: &'a Segment,
+    rate_hz: f64,
+}
+
+impl Part<'_> {
+    fn level(&self, residual: &[f64], stands_out: f64) -> Option<Level> {
+        let even = evenly(self.segment, residual, self.rate_hz);
+        level(&even, self.rate_hz, stands_out)
+    }
+
+    /// Seconds of the log at which a level changes.
+    fn time(&self, level: Level) -> f64 {
+        self.segment.time[0] + level.at as f64 / self.rate_hz
+    }
+
+    /// The step with the model beside it, and the mean square that it takes off this part.
+    ///
+    /// Parameters take in a part of a step, which follows the motion then and hides the rest: so what is asked is the residual of a model
+    /// that has the step, with the step in it.
+    fn refitted(&self, present: &Present, hint: Level) -> Option<(Level, f64)> {
+        let rows = self.segment.start..self.segment.start + self.segment.time.len();
+        let mean_square = |residual: &[f64]| {
+            let squares: f64 = residual[rows.clone()].iter().map(|r| r * r).sum();
+            squares / rows.len() as f64
+        };
+        let before = mean_square(&present.residuals[self.joint]);
+        let mut found = hint;
+        let mut taken = 0.0;
+        for stands_out in [A_HINT, STANDS_OUT] {
+            let time = self.time(found);
+            let mut values = vec![0.0; present.stack.samples()];
+            for (value, at) in values[rows.clone()].iter_mut().zip(&self.segment.time) {
+                *value = f64::from(*at >= time);
+            }
+            let mut column = [Entry {
+                joint: self.joint,
+                column: 0,
+                values,
+            }];
+            present.stack.clear_left_out(&mut column);
+            let projected = present.project(&column, 1)?;
+            let mut rest = present.rest(&column, &projected).swap_remove(self.joint);
+            taken = before - mean_square(&rest);
+            let [column] = column;
+            for (rest, value) in rest.iter_mut().zip(&column.values) {
+                *rest += projected.gain[0] * value;
+            }
+            found = self.level(&rest, stands_out)?;
+        }
+        Some((found, taken.max(0.0)))
+    }
+}
+
+impl Search<'_> {
+    /// The step of each joint's residual in each log, `[joint][log]`, with the mean square that it takes off that log's part.
+    pub(super) fn steps(&self, state: &State) -> Vec<Vec<Option<(Step, f64)>>> {
+        let gram = OnceCell::new();
+        let step = |joint: usize, log: usize| {
+            let part = Part {
+                joint,
+                segment: &state.stack.segments[log],
+                rate_hz: self.prepared[log].filtered_hz(),
+            };
+            let hint = part.level(&state.residuals[joint], A_HINT)?;
+            let gram = gram.get_or_init(|| Gram::new(&state.stack, &self.folds));
+            let sigma = &state.solution.sigma;
+            let present = Present::new(&state.stack, gram, sigma, &state.residuals);
+            let (level, taken) = part.refitted(&present, hint)?;
+            let (time, size) = (part.time(level), level.size);
+            Some((Step { log, time, size }, taken))
+        };
+        let logs = 0..self.prepared.len();
+        let joint = |joint: usize| logs.clone().map(|log| step(joint, log)).collect();
+        (0..self.arm.dof()).map(joint).collect()
+    }
+
+    /// The step of a joint's residual that takes most off it.
+    pub(super) fn largest_step(&self, state: &State, joint: usize) -> Option<Step> {
+        let steps = self.steps(state).swap_remove(joint);
+        let steps = steps.into_iter().flatten();
+        let largest = steps.max_by(|(_, one), (_, other)| one.total_cmp(other));
+        largest.map(|(step, _)| step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Level, STANDS_OUT};
+
+    const HZ: f64 = 50.0;
+
+    fn level(values: &[f64]) -> Option<Level> {
+        super::level(values, HZ, STANDS_OUT)
+    }
+
+    /// Noise that remembers `kept` of itself from one sample to the next, of about a deviation of one.
+    fn noise(samples: u32, kept: f64, seed: u32) -> Vec<f64> {
+        let mut value = 0.0;
+        let next = |k: u32| {
+            let random =
+                (12.9898 * f64::from(k + 1) + 78.233 * f64::from(seed)).sin() * 43_758.545_3;
+            let white = (random.rem_euclid(1.0) - 0.5) * 12.0_f64.sqrt();
+            value = kept * value + (1.0 - kept * kept).sqrt() * white;
+            value
+        };
+        (0..samples).map(next).collect()
+    }
+
+    #[test]
+    fn noise_of_any_color_has_no_step() {
+        for kept in [0.0, 0.9, 0.98, 0.998, 1.0 - 1e-6] {
+            for samples in [700, 1500, 5000] {
+                let is_found = |seed: &u32| level(&noise(samples, kept, *seed)).is_some();
+                let found = (0..200).filter(is_found).count();
+                assert!(found <= 1, "{found} of 200, {kept}, {samples}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_step_is_found_where_it_is_and_a_pulse_is_none() {
+        for seed in 0..20 {
+            let mut values = noise(1500, 0.2, seed);
+            values[900..].iter_mut().for_each(|value| *value += 3.0);
+            let found = level(&values).expect("a step");
+            assert!(found.at.abs_diff(900) <= 10, "{found:?}");
+            assert!((found.size - 3.0).abs() < 0.3, "{found:?}");
+            values[1000..].iter_mut().for_each(|value| *value -= 3.0);
+            assert_eq!(level(&values), None);
+        }
+    }
+
+    /// A joint that stands at first: its rows say nothing, and are no level.
+    #[test]
+    fn samples_that_say_nothing_are_no_level() {
+        for seed in 0..20 {
+            let mut values = noise(1500, 0.5, seed);
+            values.iter_mut().for_each(|value| *value += 5.0);
+            values[..800].fill(0.0);
+            assert_eq!(level(&values), None);
+        }
+    }
+
+    /// Dry friction that no law has: a level for every stroke, none of which stands out.
+    #[test]
+    fn a_wave_of_squares_is_no_step() {
+        let mut values = noise(3000, 0.5, 1);
+        for (k, value) in values.iter_mut().enumerate() {
+            *value += 4.0 * (k as f64 / 40.0).sin().signum();
+        }
+        assert_eq!(level(&values), None);
+    }
+}
