@@ -38,11 +38,12 @@ pub(super) struct Changed {
 }
 
 impl Search<'_> {
-    /// What a change adds to first order, filtered: one column a shape, for the shape at its probe.
+    /// What a change adds along the motions of logs to first order, filtered: one column a shape, for the shape at its probe.
     pub(super) fn first_order(
         &self,
         state: &State,
         change: &dyn Change,
+        mut logs: Vec<Prepared>,
     ) -> Result<Vec<Entry>, IdentifyError> {
         let arm = change.arm();
         let own = self.arm.unknowns().len();
@@ -53,7 +54,6 @@ impl Search<'_> {
                 .collect::<Vec<_>>()
         };
         let neutral = self.with_own(change.neutral());
-        let mut logs = self.prepared.clone();
         let (estimate, before) = if names(arm) == names(self.arm) {
             let mut estimate = state.solution.estimate.clone();
             estimate[own..].fill(0.0);

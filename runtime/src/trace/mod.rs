@@ -44,6 +44,7 @@ mod gram;
 mod grid;
 mod line;
 mod multiplicity;
+mod noise;
 mod normal;
 mod projected;
 mod prune;

@@ -20,6 +20,17 @@ impl Search<'_> {
         )
     }
 
+    /// Torque of the present model along a log, `[joint][sample]`.
+    pub(super) fn torque(&self, state: &State, log: &Prepared) -> Vec<Vec<f64>> {
+        torque(
+            self.arm,
+            &self.shapes,
+            &state.solution.estimate,
+            &state.accepted,
+            log,
+        )
+    }
+
     /// Mean square of a joint's torque that decimation took off.
     fn beyond(&self, log: &Prepared, joint: usize) -> f64 {
         self.arm.actuator_gain()[joint].powi(2) * log.tau_beyond[joint]
@@ -119,9 +130,8 @@ pub(super) fn clear(residuals: &mut [Vec<f64>], left_out: &[Vec<bool>]) {
     }
 }
 
-/// Raw torque less that of an arm at an estimate, whose last numbers are those of accepted effects: `[joint][sample]` of one log, both
-/// ends cut; zero where samples say nothing.
-pub(super) fn raw_residuals(
+/// Torque of an arm at an estimate, whose last numbers are those of accepted effects: `[joint][sample]` of one log.
+fn torque(
     arm: &dyn Arm,
     shapes: &[f64],
     estimate: &[f64],
@@ -141,13 +151,29 @@ pub(super) fn raw_residuals(
         first += trial.count();
     }
     let known = arm.known_torque(&log.motion, shapes);
+    for (sum, known) in torque.iter_mut().zip(known) {
+        sum.iter_mut().zip(known).for_each(|(s, k)| *s += k);
+    }
+    torque
+}
+
+/// Raw torque less that of an arm at an estimate, whose last numbers are those of accepted effects: `[joint][sample]` of one log, both
+/// ends cut; zero where samples say nothing.
+pub(super) fn raw_residuals(
+    arm: &dyn Arm,
+    shapes: &[f64],
+    estimate: &[f64],
+    accepted: &[Accepted],
+    log: &Prepared,
+) -> Vec<Vec<f64>> {
+    let torque = torque(arm, shapes, estimate, accepted, log);
     let inner = log.shared.border()..log.motion.time.len().saturating_sub(log.shared.border());
-    let mut residuals: Vec<Vec<f64>> = (0..dof)
+    let mut residuals: Vec<Vec<f64>> = (0..arm.dof())
         .map(|j| {
             let gain = arm.actuator_gain()[j];
             inner
                 .clone()
-                .map(|k| gain * log.tau[j][k] - known[j][k] - torque[j][k])
+                .map(|k| gain * log.tau[j][k] - torque[j][k])
                 .collect()
         })
         .collect();

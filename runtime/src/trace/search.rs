@@ -339,7 +339,8 @@ impl Search<'_> {
         let Some(change) = candidate.change() else {
             return Grid::new(candidate, Rows::new(&self.prepared, &state.stack));
         };
-        let first = self.first_order(state, change).into_iter();
+        let logs = self.prepared.clone();
+        let first = self.first_order(state, change, logs).into_iter();
         let trials = first.map(|entries| Trial::first_order(candidate, entries));
         Grid::Formed(trials.collect())
     }

@@ -71,7 +71,8 @@ pub enum Refusal {
     Small,
     /// The arm with it has no solution inside the ranges of its shapes.
     Unsolved,
-    /// It reads the logged torque, whose noise explains itself, and there is no structure.
+    /// It reads the logged torque, whose noise explains itself: there is no structure, or the model's own torque in its place says next to
+    /// nothing.
     Noise,
     /// It is a law of the part of the motion's period, and leaves of what comes back in every period.
     ComesBack,

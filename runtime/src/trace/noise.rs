@@ -1,0 +1,52 @@
+//! Laws that read the logged torque: do they explain more than its noise?
+//!
+//! The noise of a torque is in the residual and in a column that is made of that torque, so the column explains it, on samples that were not
+//! fitted as well. The model's own torque along the same motion has none of it, and is the same but for what is missing, as an instrument
+//! is (Young 2011, Recursive Estimation and Time-Series Analysis). It need not explain as much: a spring swings, too, where its load
+//! does not follow from the motion.
+
+use crate::columns::Change;
+use crate::signal::Prepared;
+
+use super::gate::{Baseline, Judged, MATERIAL_PERCENT};
+use super::search::{Search, State};
+use super::trial::Trial;
+use super::verdict::Refusal;
+
+impl Search<'_> {
+    /// Whether the first order of a change of the arm that reads the torque lowers an error by as much as matters where it reads that of the
+    /// model, on a joint where the change itself does.
+    pub(super) fn is_more_than_noise(
+        &self,
+        state: &State,
+        baseline: &Baseline,
+        (judged, change): (&Judged, &dyn Change),
+    ) -> bool {
+        let Ok(entries) = self.first_order(state, change, self.without_noise(state)) else {
+            return false;
+        };
+        let trial = Trial::first_order(judged.trial.candidate, entries);
+        let Some(projected) = trial.project(&baseline.present) else {
+            return false;
+        };
+        let without_noise = baseline.judge(trial, &projected);
+        let refused = |refusal| without_noise.refusals.contains(&refusal);
+        let pairs = without_noise.evidence.held_out_percent.iter();
+        let mut pairs = pairs.zip(&judged.evidence.raw_percent);
+        !(refused(Refusal::Chance) || refused(Refusal::HeldOut))
+            && pairs.any(|(clean, raw)| clean.min(*raw) >= MATERIAL_PERCENT)
+    }
+
+    /// The logs with the torque of the present model in place of what effects read of the logged one.
+    fn without_noise(&self, state: &State) -> Vec<Prepared> {
+        let mut logs = self.prepared.clone();
+        for log in &mut logs {
+            log.motion.tau = self.torque(state, log);
+            let gains = self.arm.actuator_gain();
+            for (tau, gain) in log.motion.tau.iter_mut().zip(gains) {
+                tau.iter_mut().for_each(|tau| *tau /= gain);
+            }
+        }
+        logs
+    }
+}
