@@ -3,13 +3,16 @@
 use std::fmt::Write;
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Alternative, Finding};
+use robot_model::trace::{Alternative, Finding, Outcome};
 use robot_model_spec::model::EffectLeaf;
 
 use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::excite::have_own_columns;
 use crate::output::significant;
+
+/// An error that is smaller is at most this share of what it was.
+const LEAST_FALL: f64 = 0.99;
 
 const PUT: &str = "a string takes all";
 
@@ -34,9 +37,18 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
         have_own_columns(spec, text, &both[0], &both[1]).then(|| experiment(spec, &both))
     });
     if let Some(command) = command {
+        let joints = &closed.before.arm.compiled().model.joints;
+        let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
+        let first = unbound.map(|joint| {
+            format!(
+                ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
+                joint.name
+            )
+        });
+        let first = first.unwrap_or_default();
         writeln!(
             out,
-            "  these logs do not settle it; the motion that tells them apart best: {command}"
+            "  these logs do not settle it; the motion that tells them apart best{first}: {command}"
         )
         .expect(PUT);
     }
@@ -57,6 +69,20 @@ pub(super) fn said_of_doubtful(closed: &Loop) -> Option<String> {
         percent.fold(f64::NEG_INFINITY, f64::max),
         refusals.join(", ")
     ))
+}
+
+/// That the log which was not fitted is against what was found: none of its joints' errors is smaller.
+pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
+    let (before, after) = (
+        &closed.before.validation,
+        &closed.changed.as_ref()?.validation,
+    );
+    let (before, after) = (&before.as_ref()?.rmse, &after.as_ref()?.rmse);
+    let mut pairs = before.iter().zip(after);
+    let is_smaller = |(before, after): (&f64, &f64)| *after < LEAST_FALL * before;
+    (closed.outcome() == Outcome::Explained && !pairs.any(is_smaller)).then(|| {
+        "no joint's error on the log of `--validate` is smaller with it by a hundredth: that log does not bear it out, so take it for a guess until another log does".to_owned()
+    })
 }
 
 /// Parameters in which something that is missing hides.

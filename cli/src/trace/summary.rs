@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
-use super::doubt::{doubt, impossible, on_joints, said_of_doubtful};
+use super::doubt::{doubt, impossible, not_borne_out, on_joints, said_of_doubtful};
 use super::report::effect;
 use super::tried::tried;
 use super::whereabouts::structure_left;
@@ -82,7 +82,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     if let Some(told) = said_of_doubtful(closed) {
         writeln!(out, "  {told}").expect("a string takes all");
     }
-    for told in impossible(closed) {
+    for told in impossible(closed).chain(not_borne_out(closed)) {
         writeln!(out, "  {told}").expect("a string takes all");
     }
     out.push_str(&tried(closed));

@@ -10,6 +10,9 @@ use crate::close_the_loop::Loop;
 /// Rows of a round.
 const MOST: usize = 5;
 
+/// Scores beyond this are told by their power of ten.
+const MOST_SCORE: f64 = 1e6;
+
 const PUT: &str = "a string takes all";
 
 /// Round, effect, score, fall of the errors and outcome of so many a round that count.
@@ -56,9 +59,14 @@ pub(super) fn tried(closed: &Loop) -> String {
 fn row(closed: &Loop, one: &Tried) -> [String; 6] {
     let best = |percents: &[f64]| {
         let best = percents.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // What is many times as large, as errors of another part of the log can be, is no number to compare.
+        if best <= -100.0 {
+            return "worse".to_owned();
+        }
         // No zero has a sign.
         format!("{:.1} %", (10.0 * best).round() / 10.0 + 0.0)
     };
+    let score = one.evidence.score;
     let reasons: Vec<String> = one.refusals.iter().map(ToString::to_string).collect();
     let end = if reasons.is_empty() {
         passed(closed, one).to_owned()
@@ -68,7 +76,11 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
     [
         (one.round + 1).to_string(),
         on_joints(closed, &one.kind, &one.joints),
-        format!("{:.1}", one.evidence.score),
+        if score < MOST_SCORE {
+            format!("{score:.1}")
+        } else {
+            format!("{score:.0e}")
+        },
         best(&one.evidence.held_out_percent),
         best(&one.evidence.raw_percent),
         end,
