@@ -3,8 +3,14 @@
 //! A motion that repeats shows every fold the same phase again, so folds of a periodic log are intervals of the phase, the
 //! same in every period. Folds of other logs are blocks of time. Training keeps a gap to both sides of what is tested.
 
+use std::ops::Range;
+
+use crate::columns::Entry;
 use crate::identify::Segment;
 use crate::signal::resample::whole_steps;
+
+use super::search::{Search, is_of_phase};
+use super::trial::{Presence, Trial};
 
 /// Number of folds.
 pub(super) const FOLDS: usize = 5;
@@ -21,6 +27,14 @@ const LEAST_BLOCKS_PER_FOLD: usize = 2;
 const GAP_S: f64 = 0.4;
 const GAP_SHARE: f64 = 0.08;
 
+/// What comes once is cut into intervals of its own, one a fold, of so many seconds at least; the gap between training and test samples
+/// is this share of one at most.
+const LEAST_INTERVAL_S: f64 = 0.4;
+const GAP_OF_INTERVAL: f64 = 0.2;
+
+/// A law is there where its column is more than this share of the largest value.
+const THERE: f64 = 0.05;
+
 /// One fold: rows to judge on, rows to fit on.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Fold {
@@ -28,12 +42,63 @@ pub(super) struct Fold {
     pub(super) train: Vec<usize>,
 }
 
+impl Search<'_> {
+    /// The folds that a candidate is judged on where they are not those of all.
+    ///
+    /// A law of the part of a period has blocks of time. What is there once, as a contact is, may be in a single block, so that no fold that
+    /// leaves it out knows anything of it: blocks are short enough that every fold has some of it.
+    pub(super) fn own_folds(&self, trial: &Trial, segments: &[Segment]) -> Option<Vec<Fold>> {
+        if is_of_phase(trial.candidate) {
+            return Some(cut(segments, &vec![None; segments.len()]));
+        }
+        if trial.presence != Presence::ComesAndGoes || self.periods.iter().all(Option::is_some) {
+            return None;
+        }
+        let interval = shortest(trial, segments)? / FOLDS as f64;
+        let cuts = segments.iter().zip(&self.periods);
+        let cuts = cuts.map(|(segment, period)| match period {
+            Some(_) => Cut::new(segment, *period),
+            None => Cut::fine(segment, interval.max(LEAST_INTERVAL_S)),
+        });
+        (interval < BLOCK_S).then(|| by(segments, cuts))
+    }
+}
+
+/// How long a law is there from its first sample in a log to its last, s, in the log where that is shortest.
+fn shortest(trial: &Trial, segments: &[Segment]) -> Option<f64> {
+    let entries = trial.entries.iter().map(|entry| {
+        let sizes = entry.values.iter().map(|value| value.abs());
+        (entry, THERE * sizes.fold(0.0, f64::max))
+    });
+    // Filters leave a little of it everywhere.
+    let entries: Vec<(&Entry, f64)> = entries.collect();
+    let there = |segment: &Segment| -> Option<f64> {
+        let rows: Range<usize> = segment.start..segment.start + segment.time.len();
+        let is_there = |row: &usize| {
+            let mut entries = entries.iter();
+            entries.any(|(entry, least)| entry.values[*row].abs() > *least)
+        };
+        let first = rows.clone().find(is_there)?;
+        let last = rows.rev().find(is_there)?;
+        Some(segment.time[last - segment.start] - segment.time[first - segment.start])
+    };
+    segments.iter().filter_map(there).min_by(f64::total_cmp)
+}
+
 /// Cuts the rows of all logs into folds. `periods` has one entry a log.
 pub(super) fn cut(segments: &[Segment], periods: &[Option<f64>]) -> Vec<Fold> {
+    let cuts = segments.iter().zip(periods);
+    by(
+        segments,
+        cuts.map(|(segment, period)| Cut::new(segment, *period)),
+    )
+}
+
+/// The folds of logs that are cut so.
+fn by(segments: &[Segment], cuts: impl Iterator<Item = Cut>) -> Vec<Fold> {
     // For every row the fold that it tests, and those of the instants a gap before and after it.
     let mut places: Vec<[usize; 3]> = Vec::new();
-    for (segment, period) in segments.iter().zip(periods) {
-        let cut = Cut::new(segment, *period);
+    for (segment, cut) in segments.iter().zip(cuts) {
         places.extend(
             segment
                 .time
@@ -83,6 +148,17 @@ impl Cut {
             cycle,
             intervals: FOLDS * per_fold,
             gap: GAP_S.min(GAP_SHARE * cycle),
+        }
+    }
+
+    /// One of intervals that are about so long, s.
+    fn fine(segment: &Segment, interval: f64) -> Self {
+        let whole = Self::new(segment, None);
+        let intervals = whole_steps((whole.cycle / interval).round()).max(FOLDS);
+        Self {
+            intervals,
+            gap: GAP_S.min(GAP_OF_INTERVAL * whole.cycle / intervals as f64),
+            ..whole
         }
     }
 

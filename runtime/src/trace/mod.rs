@@ -63,6 +63,7 @@ mod structure;
 mod sure;
 mod trial;
 mod verdict;
+mod wander;
 mod whereabouts;
 
 pub use floor::{Floor, FloorFrom};

@@ -95,17 +95,18 @@ impl Search<'_> {
                 }
                 let trial = trial.refined(&baseline.present, rows, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
-                let mut judged = if is_of_phase(trial.candidate) {
-                    let baseline = self.baseline(state, *tests, self.folds_of(trial.candidate));
-                    let rest = baseline.present.rest(&trial.entries, &projected);
-                    let mut judged = baseline.judge(trial, &projected);
+                let mut judged = match self.own_folds(&trial, &state.stack.segments) {
+                    Some(folds) => self
+                        .baseline(state, *tests, &folds)
+                        .judge(trial, &projected),
+                    None => baseline.judge(trial, &projected),
+                };
+                if is_of_phase(judged.trial.candidate) {
+                    let rest = baseline.present.rest(&judged.trial.entries, &projected);
                     if self.comes_back(state, &rest) {
                         judged.refusals.push(Refusal::ComesBack);
                     }
-                    judged
-                } else {
-                    baseline.judge(trial, &projected)
-                };
+                }
                 let Some(change) = judged.trial.candidate.change() else {
                     let follows_torque = judged.trial.candidate.follows_torque();
                     if follows_torque && !self.is_of_structure(state, &judged) {

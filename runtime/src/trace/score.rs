@@ -12,6 +12,7 @@ use super::gram::Gram;
 use super::normal::Normal;
 use super::projected::Projected;
 use super::small::{add, directions, dot, solve_symmetric};
+use super::wander;
 
 /// A candidate's columns are called new only if this share of their norm is outside the model's columns.
 const LEAST_NEW: f64 = 1e-3;
@@ -142,12 +143,36 @@ impl<'a> Present<'a> {
                 add(row, *a, &score);
             }
         }
+        // What a zero that walks makes of them.
+        let walked = self.walked(&columns, &rest);
+        let half: Vec<Vec<f64>> = walked.iter().map(|row| along(row)).collect();
+        for (line, direction) in variance.iter_mut().zip(&directions) {
+            for (row, weight) in half.iter().zip(direction) {
+                add(line, *weight, row);
+            }
+        }
         let wald = dot(&moved, &solve_symmetric(&variance, &moved));
         let (parameters, blocks) = (moved.len() as f64, scores.len() as f64);
         let f = (wald * (blocks - parameters) / (parameters * blocks)).max(0.0);
         let p_value = FisherSnedecor::new(parameters, blocks - parameters)
             .map_or(1.0, |distribution| distribution.sf(f));
         Score { f, p_value, rest }
+    }
+
+    /// Products of the columns' scores that walks of the torques' zeros make, weighed as scores are.
+    fn walked(&self, columns: &[Vec<Vec<f64>>], rest: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let count = columns.first().map_or(0, Vec::len);
+        let mut sum = vec![vec![0.0; count]; count];
+        for ((columns, rest), sigma) in columns.iter().zip(rest).zip(self.sigma) {
+            let columns: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
+            for segment in &self.stack.segments {
+                let products = wander::products(segment, wander::walk(segment, rest), &columns);
+                for (sum, products) in sum.iter_mut().zip(&products) {
+                    add(sum, sigma.powi(-4), products);
+                }
+            }
+        }
+        sum
     }
 
     /// Sums of products over blocks that are independent, `[block][column]`.

@@ -166,7 +166,6 @@ impl<'a> Trace<'a> {
             unexcited: solution.unexcited.clone(),
             prepared,
             folds: folds::cut(&stack.segments, &periods),
-            folds_of_time: folds::cut(&stack.segments, &vec![None; logs.len()]),
             tests: OnceLock::new(),
             periods,
         };
@@ -272,22 +271,11 @@ pub(super) struct Search<'s> {
     pub(super) position_noise: Vec<f64>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
-    /// Blocks of time although motions repeat: for laws of the part of a period, of which others have to be seen.
-    folds_of_time: Vec<Fold>,
     /// Independent tests that all candidates are worth, found in the first round.
     pub(super) tests: OnceLock<f64>,
 }
 
 impl Search<'_> {
-    /// The folds that a candidate is judged on.
-    pub(super) fn folds_of(&self, candidate: &dyn Candidate) -> &[Fold] {
-        if is_of_phase(candidate) {
-            &self.folds_of_time
-        } else {
-            &self.folds
-        }
-    }
-
     /// Finds the speeds at which joints creep where they turn, and takes what was made of others anew. Whether there was anything to do.
     fn settle_turns(&mut self, state: &State, joints: &[usize]) -> Result<bool, IdentifyError> {
         let found = self

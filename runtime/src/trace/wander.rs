@@ -1,0 +1,145 @@
+//! The wander of a torque's zero: what it says for a column that is no law's doing.
+//!
+//! A zero that walks has no length beyond which its samples are independent, so that blocks of it, however long, agree with each other, and
+//! a constant, a weight or a gain is found in it that the next log does not have. How much of a score a walk makes follows from its steps:
+//! with `W' = s n`, where `n` is white, `int z W dt` has the variance `s^2 int S^2 dt` with `S(t) = int_t z`. Steps are seen in how means of
+//! seconds part with the time between them, `E (m_(i+k) - m_i)^2 = s^2 (k - 1/3) + 2 v`, where what follows the motion, or is noise over
+//! less than a second, does not part further.
+
+use crate::identify::Segment;
+use crate::signal::resample::whole_steps;
+
+/// Means are of so long a time, s.
+const MEAN_S: f64 = 1.0;
+
+/// Numbers of means between two that are compared, each twice the one before.
+const APART: [usize; 4] = [1, 2, 4, 8];
+
+/// As many pairs of means tell how far they part.
+const LEAST_PAIRS: usize = 4;
+
+/// `s^2`, the power of a residual's walk over a log, (N m)^2/s: the least that any two of the times apart say.
+pub(super) fn walk(segment: &Segment, residual: &[f64]) -> f64 {
+    let means = means(segment, residual);
+    let parted = |apart: usize| -> Option<f64> {
+        let pairs = means.iter().zip(means.iter().skip(apart));
+        let squares = pairs.filter_map(|(one, other)| Some(((*other)? - (*one)?).powi(2)));
+        let squares: Vec<f64> = squares.collect();
+        (squares.len() >= LEAST_PAIRS).then(|| squares.iter().sum::<f64>() / squares.len() as f64)
+    };
+    let pairs = APART.windows(2);
+    let steps = pairs.filter_map(|pair| {
+        let [near, far] = [pair[0], pair[1]];
+        Some((parted(far)? - parted(near)?) / (far - near) as f64 / MEAN_S)
+    });
+    let least = steps.min_by(f64::total_cmp);
+    least.unwrap_or(0.0).max(0.0)
+}
+
+/// Means of a log's seconds; none where most rows say nothing, which are zero.
+fn means(segment: &Segment, residual: &[f64]) -> Vec<Option<f64>> {
+    let Some(first) = segment.time.first() else {
+        return Vec::new();
+    };
+    let place = |time: f64| whole_steps((time - first) / MEAN_S);
+    let mut sums = vec![(0.0, 0, 0); segment.time.last().map_or(0, |last| place(*last))];
+    for (time, value) in segment.time.iter().zip(&residual[segment.start..]) {
+        if let Some((sum, count, all)) = sums.get_mut(place(*time)) {
+            *sum += value;
+            *count += usize::from(*value != 0.0);
+            *all += 1;
+        }
+    }
+    let mean = |(sum, count, all): (f64, usize, usize)| {
+        (count > 0 && 2 * count >= all).then(|| sum / count as f64)
+    };
+    sums.into_iter().map(mean).collect()
+}
+
+/// What a walk of this power adds to products of two columns' scores over a log: `s^2 int S_a S_b dt`.
+pub(super) fn products(segment: &Segment, walk: f64, columns: &[&[f64]]) -> Vec<Vec<f64>> {
+    let count = columns.len();
+    let mut products = vec![vec![0.0; count]; count];
+    let rows = segment.time.len();
+    if walk <= 0.0 || rows < 2 {
+        return products;
+    }
+    let step = (segment.time[rows - 1] - segment.time[0]) / (rows - 1) as f64;
+    let mut tails = vec![0.0; count];
+    for row in (segment.start..segment.start + rows).rev() {
+        for (tail, column) in tails.iter_mut().zip(columns) {
+            *tail += column[row];
+        }
+        for (line, a) in products.iter_mut().zip(&tails) {
+            for (product, b) in line.iter_mut().zip(&tails) {
+                *product += walk * step * a * b;
+            }
+        }
+    }
+    products
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HZ: f64 = 40.0;
+
+    fn segment(rows: u32) -> Segment {
+        Segment {
+            start: 0,
+            time: (0..rows).map(|k| f64::from(k) / HZ).collect(),
+        }
+    }
+
+    /// White numbers of a deviation of one.
+    fn white(rows: u32, seed: u32) -> Vec<f64> {
+        let random = |k: u32| {
+            let hash = (k + 7919 * seed)
+                .wrapping_mul(2_654_435_761)
+                .rotate_left(13)
+                ^ 0x5bd1_e995;
+            let hash = hash.wrapping_mul(0x85eb_ca6b) ^ (hash >> 15);
+            (f64::from(hash.wrapping_mul(0xc2b2_ae35) >> 1) / f64::from(u32::MAX >> 1) - 0.5)
+                * 12_f64.sqrt()
+        };
+        (0..rows).map(random).collect()
+    }
+
+    fn walked(rows: u32, seed: u32, power: f64) -> Vec<f64> {
+        let mut value = 0.0;
+        let steps = white(rows, seed);
+        let step = |step: f64| {
+            value += (power / HZ).sqrt() * step;
+            value
+        };
+        steps.into_iter().map(step).collect()
+    }
+
+    #[test]
+    fn a_walk_is_told_from_noise_and_from_what_follows_a_motion() {
+        let segment = segment(1600);
+        let found = (0..40).map(|seed| walk(&segment, &walked(1600, seed, 0.09)));
+        let mut found: Vec<f64> = found.collect();
+        found.sort_by(f64::total_cmp);
+        // The least of three is less than their mean, and of a few seconds none is sure.
+        assert!(found[20] > 0.02 && found[20] < 0.12, "{found:?}");
+        for seed in 0..10 {
+            assert!(walk(&segment, &white(1600, seed)) < 0.003);
+        }
+        let wave = |k: u32| (0.9 * f64::from(k) / HZ).sin() + 0.4 * (2.3 * f64::from(k) / HZ).cos();
+        let wave: Vec<f64> = (0..1600).map(wave).collect();
+        assert!(walk(&segment, &wave) < 1e-3);
+    }
+
+    /// The variance of a constant's score over walks of many seeds.
+    #[test]
+    fn a_score_varies_with_walks_as_it_is_said_to() {
+        let segment = segment(800);
+        let ones = vec![1.0; 800];
+        let scores = (0..400).map(|seed| walked(800, seed, 0.25).iter().sum::<f64>());
+        let variance = scores.map(|score| score * score).sum::<f64>() / 400.0;
+        let said = products(&segment, 0.25, &[&ones])[0][0];
+        assert!((variance / said - 1.0).abs() < 0.3, "{variance} {said}");
+    }
+}
