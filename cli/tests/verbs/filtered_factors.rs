@@ -5,7 +5,9 @@ use serde_json::Value;
 use crate::common::{CART, Folder, cart_log, json, numbers};
 use crate::turns::dry_cart;
 
-const FORM: [&str; 6] = ["--form", "filtered", "--corner", "40", "--bands", "10,30,90"];
+const FORM: [&str; 6] = [
+    "--form", "filtered", "--corner", "40", "--bands", "10,30,90",
+];
 
 fn values(fit: &Value, of: &str) -> Vec<f64> {
     let parameters = fit["parameters"].as_array().expect("a list");
@@ -89,10 +91,7 @@ fn pieces_of_a_long_log_are_the_whole_in_the_filtered_form() {
     let bands = format!("{},{},{}", bands[0], bands[1], bands[2]);
     let direct = report(&folder, &[&log[..], &["--bands", &bands]].concat());
     let pairs = values(&fit, "value").into_iter();
-    for ((found, direct), std) in pairs
-        .zip(values(&direct, "value"))
-        .zip(values(&fit, "std"))
-    {
+    for ((found, direct), std) in pairs.zip(values(&direct, "value")).zip(values(&fit, "std")) {
         assert!((found - direct).abs() < 0.1 * std, "{found} {direct} {std}");
     }
     assert_eq!(fit["domain"], "filtered");

@@ -110,15 +110,17 @@ pub(super) fn search(
             " of part {} of the search, which has other windows or weighs joints by the errors so far",
             iterate.stage + 1
         );
-        progress.step(&(what + if begins { &of_part } else { "" }));
+        progress.part(&(what + if begins { &of_part } else { "" }), iterate.done);
     };
     let mut begun = 0_u32;
     let mut compare = |iterate: &Iterate| {
         // The first one of each start.
-        if iterate.simulations == 2 {
-            begun += 1;
+        let begins = iterate.simulations == 1;
+        begun += u32::from(begins);
+        if begins || progress.is_live() {
             let what = format!("looking from start {begun} of {}", starts.len());
-            progress.part(&what, f64::from(begun - 1) / starts.len() as f64);
+            let done = f64::from(begun) - 1.0 + iterate.done;
+            progress.part(&what, done / starts.len() as f64);
         }
     };
     let places = settings.nearest(plant, names, starts, recordings, &mut compare)?;
