@@ -3,8 +3,9 @@
 //! Rows `[W_j tau_j]` of each joint are reduced to a factor `R_j` with `R_j'R_j = [W_j tau_j]'[W_j tau_j]`, block after block of a log; two factors
 //! below each other are reduced to that of both (TSQR). Least squares and weights need no more. A factor keeps 16 to 32 blocks apart: their
 //! own equations, `s_b = sum_j W_bj'(tau_bj - W_bj beta) / sigma_j^2`, say how far an estimate is off, as far as noise is not correlated
-//! beyond a block. Rows around turns of joints with dry friction have factors of their own beside the others, so that it is known what
-//! they move an estimate by.
+//! beyond a block. Where joints with dry friction turn, rows away from turns have factors of their own beside those of all rows, so that it is
+//! known what turns move an estimate by. Rows are of either form of the equations: `tau = Y_b beta`, or `L{tau} = Y_L beta` without
+//! accelerations, where those away from turns are of an `L` that starts anew behind each of them.
 //!
 //! Sources: Golub, Van Loan, Matrix Computations, on updating; Demmel, Grigori, Hoemmen, Langou 2012, Communication-optimal parallel and
 //! sequential QR; MacKinnon, Nielsen, Webb 2023 for deviations from blocks.

@@ -63,9 +63,8 @@ impl FactorBlock {
     }
 
     /// The same in the filtered form, `L{tau} = Y_L beta` with `L(s) = w / (s + w)`; `corner` is `w` in rad/s, without it the end of the shared
-    /// band. `L` starts where each piece's
-    /// filters have settled, as in [`Identify::fit_filtered`] where those of a log have: both sides of the equation are zero there, so pieces
-    /// approximate nothing.
+    /// band. `L` starts where each piece's filters have settled, as in [`Identify::fit_filtered`] where those of a log have: both sides of the
+    /// equation are zero there, so pieces approximate nothing.
     ///
     /// # Errors
     /// Those of [`Identify::fit_filtered`] for a log that does not fit the arm, the filters or the corner.
@@ -123,6 +122,7 @@ impl FactorBlock {
         Self::of(stack, None)
     }
 
+    /// The same, and where `anew` is given and has others than `stack`, its rows as those away from turns.
     fn of(stack: &Stack, anew: Option<&Stack>) -> Self {
         let torque = stack.joints.iter().flat_map(|rows| &rows.tau);
         // Without any torque nothing tells it from others.
