@@ -118,6 +118,15 @@ fn factors_of_other_forms_and_corners_do_not_belong_together() {
     let without = text.replacen("\"corner\":40.0", "\"corner\":null", 1);
     assert_ne!(without, text);
     folder.write("without.json", &without);
+    let other = text.replacen("\"form\":\"filtered\"", "\"form\":\"power\"", 1);
+    folder.write("power.json", &other);
+    folder.write("dry.robot", &dry_cart());
+    let identify = ["identify", "dry.robot", "log.csv", "--factor", "dry.json"];
+    folder.succeed(&[&identify[..], &FORM].concat());
+    let text = folder.read("dry.json");
+    let more = text.replacen("\"away\":{\"counts\":[", "\"away\":{\"counts\":[9", 1);
+    assert_ne!(more, text);
+    folder.write("more.json", &more);
     for (arguments, reason) in [
         (
             &["merge", "cart.robot", "40.json", "50.json"][..],
@@ -136,6 +145,14 @@ fn factors_of_other_forms_and_corners_do_not_belong_together() {
         (
             &["merge", "cart.robot", "without.json"],
             "without.json: it is of the filtered form, and has no `corner` above 0 rad/s",
+        ),
+        (
+            &["merge", "cart.robot", "power.json"],
+            "`form`: unknown variant `power`, expected `acceleration` or `filtered`",
+        ),
+        (
+            &["merge", "dry.robot", "more.json"],
+            "more.json: block 1 has more rows away from turns than rows",
         ),
         (
             &["merge", "loaded.robot", "40.json"],
