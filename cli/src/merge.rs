@@ -3,16 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{Factor, Identify, Method};
+use robot_model::identify::{Factor, Identify, IdentifyError, Method};
 
 use crate::Error;
 use crate::identify::factor_file;
-use crate::identify::fit::{ByAcceleration, Fit};
+use crate::identify::fit::of_form;
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
 use crate::identify::options::WeightsArgument;
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
-use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
 use crate::output::{self, Files, counted};
 use crate::progress::Progress;
@@ -26,7 +25,7 @@ use crate::spec::{compile, read_mended};
 pub(crate) struct Merge {
     /// The `.robot` file.
     spec: PathBuf,
-    /// Factors of the same spec and `--bands`.
+    /// Factors of the same spec, `--bands`, `--form` and `--corner`; the form is theirs.
     #[arg(required = true, value_name = "FACTOR")]
     factors: Vec<PathBuf>,
     /// How parameters are found.
@@ -114,23 +113,30 @@ impl Merge {
             Files::reading(inputs.map(PathBuf::as_path)).and(settings.files(&self.validate));
         let out = files.claim_if(self.factor.as_deref())?;
         let json = files.claim_if(self.json.as_deref())?;
-        let form = ByAcceleration(InterpretedArm::new(compile(&self.spec)?));
-        let arm = &form.0;
+        let compiled = compile(&self.spec)?;
         let progress = Progress::new();
-        let mut all: Option<Factor> = None;
-        let mut read: Vec<(&PathBuf, Factor)> = Vec::new();
-        for (k, path) in self.factors.iter().enumerate() {
+        let mut opened = self.factors.iter().enumerate().map(|(k, path)| {
             let done = k as f64 / self.factors.len() as f64;
             progress.part(&format!("reading {}", path.display()), done);
-            let factor = factor_file::read(path, arm)?;
+            factor_file::open(path)
+        });
+        // The first says of which form all are.
+        let first = opened.next().ok_or(IdentifyError::NoLog)??;
+        let form = of_form(compiled, first.form)?;
+        let mut all: Option<Factor> = None;
+        let mut read: Vec<(&Path, Factor)> = Vec::new();
+        for opened in std::iter::once(Ok(first)).chain(opened) {
+            let opened = opened?;
+            let path = opened.path;
+            let factor = opened.factor(&*form)?;
             for doubt in twice(path, &factor, &read) {
                 progress.note(&format!("note: {doubt}"));
             }
             // Without its rows a factor is known again all the same.
             let mut known = factor.clone();
             for block in &mut known.blocks {
-                block.away.rows.clear();
-                block.at_turns.rows.clear();
+                block.whole.rows.clear();
+                block.away = None;
             }
             read.push((path, known));
             match &mut all {
@@ -140,19 +146,19 @@ impl Merge {
                     .map_err(|error| Error::json(path, &error.to_string()))?,
             }
         }
-        let factor = all.ok_or(robot_model::identify::IdentifyError::NoLog)?;
-        let estimate = factor.estimate(arm, &identify)?;
+        let factor = all.ok_or(IdentifyError::NoLog)?;
+        let estimate = factor.estimate(form.arm(), &identify)?;
         if !self.partial {
             told_apart(&estimate)?;
         }
-        for doubt in factor_doubts(&estimate, &form) {
+        for doubt in factor_doubts(&estimate, &*form) {
             progress.note(&format!("note: {doubt}"));
         }
         let mut faults = Vec::new();
         let validation = match &self.validate {
             None => None,
             Some(path) => {
-                let mended = read_mended(path, &arm.compiled().model, settings, &progress)?;
+                let mended = read_mended(path, form.model(), settings, &progress)?;
                 let source = path.display().to_string();
                 let found = mended.faults.into_iter();
                 faults.extend(found.map(|fault| (source.clone(), fault)));
@@ -193,7 +199,7 @@ impl Merge {
 }
 
 /// Factors that have blocks of a log which one before them has, too.
-fn twice(path: &Path, factor: &Factor, before: &[(&PathBuf, Factor)]) -> Vec<String> {
+fn twice(path: &Path, factor: &Factor, before: &[(&Path, Factor)]) -> Vec<String> {
     let told = before.iter().filter_map(|(first, other)| {
         let common = factor.common_parts(other);
         (common > 0).then(|| {

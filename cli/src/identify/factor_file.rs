@@ -3,12 +3,12 @@
 use std::io::Read;
 use std::path::Path;
 
-use robot_model::identify::{Factor, FactorBlock, FactorRows};
+use robot_model::identify::{Factor, FactorBlock, FactorRows, Form};
 use robot_model::signal::Bands;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::interpreted::InterpretedArm;
+use super::fit::Fit;
 use crate::{Error, json};
 
 /// What is written and read; a contract between machines.
@@ -20,8 +20,20 @@ struct File {
     joints: Vec<String>,
     /// What the columns are made of, see [`Factor::equations`].
     equations: Vec<[f64; 2]>,
+    form: FormName,
+    /// Of the filtered form only, rad/s.
+    #[serde(default)]
+    corner: Option<f64>,
     bands_hz: [f64; 3],
     blocks: Vec<Block>,
+}
+
+/// As [`Form::name`] has them.
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum FormName {
+    Acceleration,
+    Filtered,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -29,10 +41,10 @@ struct Block {
     samples: usize,
     /// What its parts are known by, see [`FactorBlock::prints`].
     prints: Vec<f64>,
-    away: Part,
-    /// Rows at turns of joints with dry friction, where there are some.
+    whole: Part,
+    /// Rows without those at turns of joints with dry friction, where there are some.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    at_turns: Option<Part>,
+    away: Option<Part>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -86,17 +98,21 @@ impl Part {
 
 impl Block {
     fn fault(&self, joints: usize, width: usize) -> Option<String> {
-        let parts = std::iter::once(&self.away).chain(&self.at_turns);
-        let faults = parts.clone().map(|rows| rows.fault(joints, width));
-        if let Some(fault) = faults.flatten().next() {
+        let mut parts = std::iter::once(&self.whole).chain(&self.away);
+        if let Some(fault) = parts.find_map(|rows| rows.fault(joints, width)) {
             return Some(fault);
         }
-        let count = |joint: usize| -> usize { parts.clone().map(|rows| rows.counts[joint]).sum() };
         if self.prints.windows(2).any(|pair| pair[0] > pair[1]) {
             return Some("has prints that do not ascend".to_owned());
         }
-        let is_more = self.samples == 0 || (0..joints).any(|joint| count(joint) > self.samples);
-        is_more.then(|| "has no samples, or less than rows".to_owned())
+        let mut counts = self.whole.counts.iter();
+        if self.samples == 0 || counts.any(|count| *count > self.samples) {
+            return Some("has no samples, or less than rows".to_owned());
+        }
+        let away = self.away.iter().flat_map(|away| &away.counts);
+        let mut pairs = away.zip(&self.whole.counts);
+        let is_more = pairs.any(|(away, whole)| away > whole);
+        is_more.then(|| "has more rows away from turns than rows".to_owned())
     }
 }
 
@@ -104,26 +120,29 @@ impl Block {
 const AS_WRITTEN: &str = "it is no factor as `identify --factor` writes it; write it anew";
 
 /// The first did not say what its columns are made of, nor which rows are at turns, the second not of which parts a block is, the third no
-/// largest torques.
-const FORM: u32 = 4;
+/// largest torques, the fourth not of which form of the equations the rows are.
+const FORM: u32 = 5;
 
 /// The text of a factor's file.
 pub(crate) fn text(factor: &Factor) -> String {
-    let blocks = factor.blocks.iter().map(|block| {
-        let has_turns = block.at_turns.rows.iter().any(|rows| !rows.is_empty());
-        Block {
-            samples: block.samples,
-            prints: block.prints.clone(),
-            away: Part::of(&block.away),
-            at_turns: has_turns.then(|| Part::of(&block.at_turns)),
-        }
+    let blocks = factor.blocks.iter().map(|block| Block {
+        samples: block.samples,
+        prints: block.prints.clone(),
+        whole: Part::of(&block.whole),
+        away: block.away.as_ref().map(Part::of),
     });
     let bands = factor.bands;
+    let (form, corner) = match factor.form {
+        Form::Acceleration => (FormName::Acceleration, None),
+        Form::Filtered { corner } => (FormName::Filtered, Some(corner)),
+    };
     let file = File {
         factor: FORM,
         unknowns: factor.unknowns.clone(),
         joints: factor.joints.clone(),
         equations: factor.equations.clone(),
+        form,
+        corner,
         bands_hz: [bands.shared_hz, bands.smooth_hz, bands.wide_hz],
         blocks: blocks.collect(),
     };
@@ -148,8 +167,15 @@ fn log_of(path: &Path) -> bool {
     MAGIC.iter().any(|magic| bytes.starts_with(magic)) || is_line(first)
 }
 
-/// Reads a factor of an arm.
-pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
+/// A file that is sound in itself, of whatever arm.
+pub(crate) struct Opened<'a> {
+    pub path: &'a Path,
+    pub form: Form,
+    file: File,
+}
+
+/// Reads the file of a factor.
+pub(crate) fn open(path: &Path) -> Result<Opened<'_>, Error> {
     let refuse = |reason: &str| Error::json(path, &reason);
     let value: Value = json::read(path).map_err(|error| {
         // What is no JSON at all is most likely what the factor was to be made of.
@@ -168,6 +194,15 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
         )));
     }
     let file: File = json::typed(path, value, AS_WRITTEN)?;
+    let form = match (&file.form, file.corner) {
+        (FormName::Acceleration, _) => Form::Acceleration,
+        (FormName::Filtered, Some(corner)) if corner > 0.0 => Form::Filtered { corner },
+        (FormName::Filtered, _) => {
+            return Err(refuse(
+                "it is of the filtered form, and has no `corner` above 0 rad/s; write it anew with `identify --factor`",
+            ));
+        }
+    };
     let (joints, width) = (file.joints.len(), file.unknowns.len() + 1);
     for (k, block) in file.blocks.iter().enumerate() {
         if let Some(fault) = block.fault(joints, width) {
@@ -177,31 +212,37 @@ pub(crate) fn read(path: &Path, arm: &InterpretedArm) -> Result<Factor, Error> {
             )));
         }
     }
-    let [shared_hz, smooth_hz, wide_hz] = file.bands_hz;
-    let bands = Bands {
-        smooth_hz,
-        wide_hz,
-        shared_hz,
-    };
-    let mut factor = Factor::new(arm, bands)?;
-    factor.joints = file.joints;
-    factor.unknowns = file.unknowns;
-    factor.equations = file.equations;
-    factor.blocks = file
-        .blocks
-        .into_iter()
-        .map(|block| FactorBlock {
+    Ok(Opened { path, form, file })
+}
+
+impl Opened<'_> {
+    /// The factor, where it is of this arm and form.
+    pub fn factor(self, fit: &dyn Fit) -> Result<Factor, Error> {
+        let Self { path, form, file } = self;
+        let [shared_hz, smooth_hz, wide_hz] = file.bands_hz;
+        let bands = Bands {
+            smooth_hz,
+            wide_hz,
+            shared_hz,
+        };
+        let own = fit.factor(bands)?;
+        let mut factor = own.clone();
+        factor.form = form;
+        factor.joints = file.joints;
+        factor.unknowns = file.unknowns;
+        factor.equations = file.equations;
+        let blocks = file.blocks.into_iter().map(|block| FactorBlock {
             samples: block.samples,
             prints: block.prints,
-            away: block.away.into_rows(),
-            at_turns: block
-                .at_turns
-                .map_or_else(|| FactorRows::none(joints), Part::into_rows),
-        })
-        .collect();
-    // Of this arm, and of none that is alike.
-    Factor::new(arm, bands)?
-        .merge(factor.clone())
-        .map_err(|error| refuse(&error.to_string()))?;
-    Ok(factor)
+            whole: block.whole.into_rows(),
+            away: block.away.map(Part::into_rows),
+        });
+        factor.blocks = blocks.collect();
+        // Of this arm, and of none that is alike.
+        let mut merged = own;
+        merged
+            .merge(factor)
+            .map_err(|error| Error::json(path, &error.to_string()))?;
+        Ok(merged)
+    }
 }

@@ -1,15 +1,17 @@
 //! Both forms of the equations behind one face.
 
 use robot_model::columns::{Arm, Columns, Shape, Unknown};
-use robot_model::identify::{Errors, Estimate, Identify, IdentifyError};
+use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Form, Identify, IdentifyError};
 use robot_model::log::Log;
+use robot_model::signal::Bands;
 use robot_model_codegen::Compiled;
 use robot_model_spec::Model;
 
+use crate::Error;
 use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 
 /// A way to identify and to judge what was identified.
-pub(crate) trait Fit {
+pub(crate) trait Fit: Sync {
     fn arm(&self) -> &dyn Arm;
     fn compiled(&self) -> &Compiled;
     fn model(&self) -> &Model {
@@ -29,6 +31,12 @@ pub(crate) trait Fit {
         estimate: &Estimate,
         log: &Log,
     ) -> Result<Vec<Vec<f64>>, IdentifyError>;
+    /// The bands that [`Self::fit`] takes of a log.
+    fn bands_of(&self, identify: &Identify, log: &Log) -> Result<Bands, IdentifyError>;
+    /// A factor of no log.
+    fn factor(&self, bands: Bands) -> Result<Factor, IdentifyError>;
+    /// A piece of a log, reduced for such a factor.
+    fn reduced(&self, log: &Log, bands: &Bands) -> Result<Vec<FactorBlock>, IdentifyError>;
 }
 
 /// An estimate with other values of its parameters.
@@ -75,11 +83,31 @@ impl Fit for ByAcceleration {
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
         with_values(estimate, values).predict(&self.0, log)
     }
+
+    fn bands_of(&self, identify: &Identify, log: &Log) -> Result<Bands, IdentifyError> {
+        identify.bands_of(&self.0, log)
+    }
+
+    fn factor(&self, bands: Bands) -> Result<Factor, IdentifyError> {
+        Factor::new(&self.0, bands)
+    }
+
+    fn reduced(&self, log: &Log, bands: &Bands) -> Result<Vec<FactorBlock>, IdentifyError> {
+        FactorBlock::of_log(&self.0, log, bands)
+    }
 }
 
 pub(crate) struct Filtered {
     pub arm: InterpretedMomentum,
     pub corner: Option<f64>,
+}
+
+impl Filtered {
+    pub fn new(compiled: Compiled, corner: Option<f64>) -> Result<Self, Error> {
+        let arm = InterpretedMomentum::new(compiled);
+        let arm = arm.map_err(|refusal| Error::Argument(refusal.to_string()))?;
+        Ok(Self { arm, corner })
+    }
 }
 
 impl Fit for Filtered {
@@ -115,6 +143,25 @@ impl Fit for Filtered {
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
         with_values(estimate, values).predict(&self.arm, log)
     }
+    fn bands_of(&self, identify: &Identify, log: &Log) -> Result<Bands, IdentifyError> {
+        identify.filtered_bands_of(&self.arm, log, self.corner)
+    }
+
+    fn factor(&self, bands: Bands) -> Result<Factor, IdentifyError> {
+        Factor::filtered(&self.arm, bands, self.corner)
+    }
+
+    fn reduced(&self, log: &Log, bands: &Bands) -> Result<Vec<FactorBlock>, IdentifyError> {
+        FactorBlock::of_filtered_log(&self.arm, log, bands, self.corner)
+    }
+}
+
+/// A spec behind the face of a form.
+pub(crate) fn of_form(compiled: Compiled, form: Form) -> Result<Box<dyn Fit>, Error> {
+    Ok(match form {
+        Form::Acceleration => Box::new(ByAcceleration(InterpretedArm::new(compiled))),
+        Form::Filtered { corner } => Box::new(Filtered::new(compiled, Some(corner))?),
+    })
 }
 
 /// Errors on each of several logs.

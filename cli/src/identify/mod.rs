@@ -35,7 +35,7 @@ use robot_model::signal::{Bands, SignalError};
 
 use crate::Error;
 use crate::in_order::workers;
-use crate::interpreted::{InterpretedArm, InterpretedMomentum};
+use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
 use crate::output::{self, Files};
 use crate::progress::Progress;
@@ -159,22 +159,21 @@ impl IdentifyArguments {
                 compiled.model.source
             ));
         }
-        match self.form {
+        let form: Box<dyn Fit> = match self.form {
             FormArgument::Acceleration => {
                 let form = ByAcceleration(InterpretedArm::new(compiled));
-                match &self.factor {
-                    _ if !self.payload.is_empty() => self.with_payload(&form, method),
-                    Some(factor) => self.reduce(&form, method, factor),
-                    None => self.fit(&form, method),
+                if !self.payload.is_empty() {
+                    return self.with_payload(&form, method);
                 }
+                Box::new(form)
             }
-            FormArgument::Filtered => {
-                let arm = InterpretedMomentum::new(compiled)
-                    .map_err(|refusal| Error::Argument(refusal.to_string()))?;
-                let corner = self.corner;
-                self.fit(&Filtered { arm, corner }, method)
-            }
-        }
+            FormArgument::Filtered => Box::new(Filtered::new(compiled, self.corner)?),
+        };
+        let done = match &self.factor {
+            Some(factor) => self.reduce(&*form, method, factor),
+            None => self.fit(&*form, method),
+        };
+        done.map_err(|error| self.refused(error))
     }
 
     fn fit(&self, form: &dyn Fit, method: Method) -> Result<(), Error> {
@@ -203,9 +202,7 @@ impl IdentifyArguments {
             ..self.asked(method)
         };
         progress.step("identifying");
-        let estimate = form
-            .fit(&identify, &logs)
-            .map_err(|error| self.refused(error))?;
+        let estimate = form.fit(&identify, &logs)?;
         if !self.partial {
             told_apart(&estimate)?;
         }
@@ -258,7 +255,7 @@ impl IdentifyArguments {
     }
 
     /// As [`Self::fit`], in memory that does not grow with the logs.
-    fn reduce(&self, form: &ByAcceleration, method: Method, factor: &Path) -> Result<(), Error> {
+    fn reduce(&self, form: &dyn Fit, method: Method, factor: &Path) -> Result<(), Error> {
         let inputs = std::iter::once(&self.spec)
             .chain(&self.logs)
             .chain(&self.validate);
@@ -276,7 +273,7 @@ impl IdentifyArguments {
         let identify = self.asked(method);
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
-        let estimate = reduced.estimate(&form.0, &identify)?;
+        let estimate = reduced.estimate(form.arm(), &identify)?;
         let train = Errors {
             relative_percent: estimate.relative_percent.clone(),
             ..streams.errors(&estimate, &progress)?
@@ -378,12 +375,13 @@ impl IdentifyArguments {
     }
 
     /// A corner that was asked for is named as it was.
-    fn refused(&self, error: IdentifyError) -> Error {
+    fn refused(&self, error: Error) -> Error {
         match (error, self.corner) {
-            (IdentifyError::Signal(fault @ SignalError::Corner { .. }), Some(_)) => {
-                Error::Argument(format!("--corner: {fault}"))
-            }
-            (error, _) => error.into(),
+            (
+                Error::Identify(IdentifyError::Signal(fault @ SignalError::Corner { .. })),
+                Some(_),
+            ) => Error::Argument(format!("--corner: {fault}")),
+            (error, _) => error,
         }
     }
 }

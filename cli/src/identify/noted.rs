@@ -3,7 +3,7 @@
 use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
 
-use super::fit::{ByAcceleration, Fit};
+use super::fit::Fit;
 use super::{IdentifyArguments, brief, coarse, doubts, nominal, steps, twice, untold};
 use crate::Error;
 
@@ -59,7 +59,7 @@ pub(crate) fn too_slow(estimate: &Estimate, log: &Log) -> Option<String> {
 }
 
 /// What is doubtful about an estimate from factors, without their logs.
-pub(crate) fn factor_doubts(estimate: &Estimate, form: &ByAcceleration) -> Vec<String> {
+pub(crate) fn factor_doubts(estimate: &Estimate, form: &dyn Fit) -> Vec<String> {
     let negative = doubts::negative(estimate, form.unknowns());
     let explained = doubts::explained(estimate, None);
     let blocks = [brief::blocks_doubt(estimate), brief::lone_doubt(estimate)];

@@ -164,9 +164,6 @@ impl IdentifyArguments {
             }
         }
         if self.factor.is_some() {
-            if self.form == FormArgument::Filtered {
-                return refuse("`--factor` is of `--form acceleration`");
-            }
             let single = [Method::Robust, Method::Total, Method::Instrumental];
             if single.contains(&method) {
                 return refuse(

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Identify};
+use robot_model::identify::{Errors, Estimate, Factor, Identify};
 use robot_model::log::{Fault, Log, Mended, Note};
 use robot_model::signal::Bands;
 
-use super::fit::{ByAcceleration, Fit};
+use super::fit::Fit;
 use crate::Error;
 use crate::in_order::in_order;
 use crate::log_settings::LogSettings;
@@ -17,7 +17,7 @@ const PIECE: usize = 16_384;
 
 /// Logs that are looked at piece by piece.
 pub(super) struct Streams<'a> {
-    pub form: &'a ByAcceleration,
+    pub form: &'a dyn Fit,
     pub logs: &'a [PathBuf],
     pub settings: &'a LogSettings,
     pub as_logged: bool,
@@ -33,15 +33,13 @@ impl Streams<'_> {
         faults: &mut Vec<(String, Fault)>,
         progress: &Progress,
     ) -> Result<Factor, Error> {
-        let arm = &self.form.0;
-        let effects = arm.compiled().model.effects.iter();
+        let model = self.form.model();
+        let effects = model.effects.iter();
         let mut remembers = effects.filter(|effect| !effect.definition.states.is_empty());
         if let Some(effect) = remembers.next() {
             return Err(Error::Argument(format!(
                 "{}:{}: `{}` remembers, and a log that is read piece by piece forgets; identify without `--factor`",
-                arm.compiled().model.source,
-                effect.line,
-                effect.definition.name
+                model.source, effect.line, effect.definition.name
             )));
         }
         let mut factor: Option<Factor> = None;
@@ -52,9 +50,9 @@ impl Streams<'_> {
             };
             let factor = match &mut factor {
                 Some(factor) => factor,
-                none => none.insert(Factor::new(arm, bands)?),
+                none => none.insert(self.form.factor(bands)?),
             };
-            let blocks = |log: &Log| Ok(FactorBlock::of_log(arm, log, &bands)?);
+            let blocks = |log: &Log| Ok(self.form.reduced(log, &bands)?);
             self.each(path, &bands, progress, blocks, |blocks, found| {
                 let source = path.display().to_string();
                 for fault in found {
@@ -92,7 +90,7 @@ impl Streams<'_> {
             }
         }
         let slowest = slowest.ok_or(robot_model::identify::IdentifyError::NoLog)?;
-        Ok(identify.bands_of(&self.form.0, &slowest)?)
+        Ok(self.form.bands_of(identify, &slowest)?)
     }
 
     /// Works on every piece of a log, mended, in threads; takes what comes of it and the piece's faults in the order of the pieces.
@@ -156,9 +154,11 @@ impl Streams<'_> {
 mod tests {
     use std::fmt::Write;
 
+    use robot_model::identify::Form;
+
     use super::super::factor_file::text;
     use super::*;
-    use crate::interpreted::InterpretedArm;
+    use crate::identify::fit::of_form;
 
     /// A mass on a rail for six pieces and a half.
     fn log() -> String {
@@ -180,13 +180,12 @@ mod tests {
         let model = robot_model_spec::load("cart.robot", spec);
         let model = model.unwrap_or_else(|errors| panic!("{errors}"));
         let compiled = robot_model_codegen::compile_model(&model);
-        let form = ByAcceleration(InterpretedArm::new(compiled));
         let folder = tempfile::tempdir().expect("a temporary folder");
         let logs = [folder.path().join("log.csv")];
         std::fs::write(&logs[0], log()).expect("a file in the folder");
-        let of = |workers: usize| {
+        let of = |form: &dyn Fit, workers: usize| {
             let streams = Streams {
-                form: &form,
+                form,
                 logs: &logs,
                 settings: &LogSettings::default(),
                 as_logged: false,
@@ -196,17 +195,20 @@ mod tests {
             let mut faults = Vec::new();
             let factor = streams.reduce(&identify, &mut faults, &progress);
             let factor = factor.expect("a sound log");
-            let estimate = factor.estimate(&form.0, &identify).expect("excited");
+            let estimate = factor.estimate(form.arm(), &identify).expect("excited");
             let errors = streams.errors(&estimate, &progress).expect("a sound log");
             (text(&factor), errors)
         };
-        let alone = of(1);
-        assert!(
-            alone.0.matches("\"samples\"").count() > 16,
-            "pieces in blocks"
-        );
-        for workers in [2, 3, 16] {
-            assert!(of(workers) == alone, "{workers} threads");
+        for form in [Form::Acceleration, Form::Filtered { corner: 60.0 }] {
+            let form = of_form(compiled.clone(), form).expect("no effect of the load");
+            let alone = of(&*form, 1);
+            assert!(
+                alone.0.matches("\"samples\"").count() > 16,
+                "pieces in blocks"
+            );
+            for workers in [2, 3, 16] {
+                assert!(of(&*form, workers) == alone, "{workers} threads");
+            }
         }
     }
 }

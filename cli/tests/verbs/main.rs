@@ -25,6 +25,7 @@ mod eval;
 mod every;
 mod excite;
 mod export;
+mod filtered_factors;
 mod friction;
 mod identifiable;
 mod identify;

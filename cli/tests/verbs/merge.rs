@@ -147,7 +147,7 @@ fn strangers() -> Folder {
     folder.write("cut.json", &text[..text.len() / 2]);
     folder.write(
         "form.json",
-        &text.replacen("\"factor\":4", "\"factor\":9", 1),
+        &text.replacen("\"factor\":5", "\"factor\":9", 1),
     );
     folder.write("old.json", "{\"factor\":1,\"unknowns\":[]}");
     folder.write(
@@ -184,11 +184,11 @@ fn what_is_no_factor_of_the_arm_is_refused() {
         (&["merge", "cart.robot", "cut.json"], "cut.json"),
         (
             &["merge", "cart.robot", "form.json"],
-            "a factor of form 9, this program reads form 4; write it anew with `identify --factor`",
+            "a factor of form 9, this program reads form 5; write it anew with `identify --factor`",
         ),
         (
             &["merge", "cart.robot", "old.json"],
-            "a factor of form 1, this program reads form 4",
+            "a factor of form 1, this program reads form 5",
         ),
         (
             &["merge", "cart.robot", "negative.json"],
@@ -225,18 +225,6 @@ fn what_is_no_factor_of_the_arm_is_refused() {
                 "tls",
             ],
             "others ask for single samples",
-        ),
-        (
-            &[
-                "identify",
-                "cart.robot",
-                "one.csv",
-                "--factor",
-                "x.json",
-                "--form",
-                "filtered",
-            ],
-            "of `--form acceleration`",
         ),
     ] {
         let said = folder.refuse(arguments);

@@ -25,7 +25,7 @@ pub(crate) const TRUTH: [(&str, f64); 10] = [
 const RUNS: usize = 32;
 
 /// The cart with dry friction.
-fn dry_cart() -> String {
+pub(crate) fn dry_cart() -> String {
     CART.replace(
         "viscous_friction on rail;",
         "viscous_friction on rail; coulomb_friction on rail;",

@@ -227,10 +227,10 @@ pub enum IdentifyError {
     },
     /// A factor of another arm, or of other rows.
     #[error(
-        "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`"
+        "the factor has other {what} than the arm or the factors before it; make all with one spec and the same `--bands`, `--form` and `--corner`"
     )]
     OtherFactor {
-        /// Joints, unknowns, equations or filters.
+        /// Joints, unknowns, equations, filters or rows.
         what: String,
     },
     /// The signals cannot be filtered.

@@ -3,30 +3,31 @@
 //! Rows `[W_j tau_j]` of each joint are reduced to a factor `R_j` with `R_j'R_j = [W_j tau_j]'[W_j tau_j]`, block after block of a log; two factors
 //! below each other are reduced to that of both (TSQR). Least squares and weights need no more. A factor keeps 16 to 32 blocks apart: their
 //! own equations, `s_b = sum_j W_bj'(tau_bj - W_bj beta) / sigma_j^2`, say how far an estimate is off, as far as noise is not correlated
-//! beyond a block. Rows around turns of joints with dry friction have factors of their own beside the others, so that it is known what
-//! they move an estimate by.
+//! beyond a block. Where joints with dry friction turn, rows away from turns have factors of their own beside those of all rows, so that it is
+//! known what turns move an estimate by. Rows are of either form of the equations: `tau = Y_b beta`, or `L{tau} = Y_L beta` without
+//! accelerations, where those away from turns are of an `L` that starts anew behind each of them.
 //!
 //! Sources: Golub, Van Loan, Matrix Computations, on updating; Demmel, Grigori, Hoemmen, Langou 2012, Communication-optimal parallel and
 //! sequential QR; MacKinnon, Nielsen, Webb 2023 for deviations from blocks.
 
-use super::estimate::{Estimate, Form};
-use super::fitted::Fitted;
-use super::least_squares::Factors;
-use super::stack::{Stack, percent};
-use super::{Identify, IdentifyError};
-use crate::columns::Arm;
+use super::IdentifyError;
+use super::estimate::Form;
+use super::filtered::default_corner;
+use super::stack::Stack;
+use crate::columns::{Arm, MomentumArm};
 use crate::log::Log;
 use crate::signal::Bands;
 
 mod block;
 mod deviations;
 mod equations;
+mod estimate;
+mod rows;
 mod solution;
 mod worth;
 
-use block::reduced;
-pub use block::{FactorBlock, FactorRows};
-use solution::Solved;
+pub use block::FactorBlock;
+pub use rows::FactorRows;
 
 /// Blocks that are kept apart, at most.
 const MOST_BLOCKS: usize = 32;
@@ -56,6 +57,8 @@ pub struct Factor {
     pub joints: Vec<String>,
     /// What the columns are made of, as sums along a motion that is always the same: they tell arms with unknowns of the same names apart.
     pub equations: Vec<[f64; 2]>,
+    /// Which form of the equations the rows are of.
+    pub form: Form,
     /// Filters of the rows.
     pub bands: Bands,
     /// Blocks of the logs, in their order.
@@ -66,7 +69,7 @@ impl Factor {
     /// Fewer blocks say little of how sure a parameter is; deviations from fewer are no smaller than those of white noise.
     pub const ENOUGH_BLOCKS: usize = 8;
 
-    /// One of no log, with these filters.
+    /// One of no log, with these filters, of the rows of [`Identify::fit`](super::Identify::fit).
     ///
     /// # Errors
     /// [`IdentifyError::NotReduced`] where columns depend on more than the motion: open shapes, the load.
@@ -95,15 +98,48 @@ impl Factor {
             unknowns: unknowns.map(|unknown| unknown.name.clone()).collect(),
             joints: arm.joints().to_vec(),
             equations: equations::of(arm),
+            form: Form::Acceleration,
             bands,
             blocks: Vec::new(),
+        })
+    }
+
+    /// One of no log, with these filters, of the rows of [`Identify::fit_filtered`](super::Identify::fit_filtered): `L{tau} = Y_L beta` with
+    /// `L(s) = w / (s + w)`, without accelerations. `corner` is `w` in rad/s; without it the end of the shared band.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, log, pendulum::pendulum};
+    /// use robot_model::identify::{Factor, Form, Identify};
+    /// let arm = pendulum();
+    /// let mut factor = Factor::filtered(&arm, bands(), Some(60.0))?;
+    /// factor.push_filtered(&arm, &log())?;
+    /// let ask = Identify { bands: Some(bands()), ..Identify::default() };
+    /// let (estimate, direct) = (factor.estimate(&arm, &ask)?, ask.fit_filtered(&arm, &[log()], Some(60.0))?);
+    /// assert_eq!(estimate.form, Form::Filtered { corner: 60.0 });
+    /// assert!((estimate.values()[0] - direct.values()[0]).abs() < 1e-9);
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    pub fn filtered(
+        arm: &dyn MomentumArm,
+        bands: Bands,
+        corner: Option<f64>,
+    ) -> Result<Self, IdentifyError> {
+        let corner = corner.unwrap_or_else(|| default_corner(&bands));
+        Ok(Self {
+            form: Form::Filtered { corner },
+            ..Self::new(arm, bands)?
         })
     }
 
     /// Adds a log, or a piece of one, as blocks of a second or more.
     ///
     /// # Errors
-    /// Those of [`FactorBlock::of_log`].
+    /// Those of [`FactorBlock::of_log`]; [`IdentifyError::OtherFactor`] where this one is of the filtered form.
     ///
     /// # Examples
     /// ```
@@ -115,11 +151,39 @@ impl Factor {
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     pub fn push(&mut self, arm: &dyn Arm, log: &Log) -> Result<(), IdentifyError> {
+        self.check_form(Form::Acceleration)?;
         self.extend(FactorBlock::of_log(arm, log, &self.bands)?);
         Ok(())
     }
 
-    /// Adds blocks of [`FactorBlock::of_log`] with the same arm and filters.
+    /// The same for a factor of the filtered form.
+    ///
+    /// # Errors
+    /// Those of [`FactorBlock::of_filtered_log`]; [`IdentifyError::OtherFactor`] where this one is of the form with accelerations.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, factor, log, pendulum::pendulum};
+    /// let mut filtered = robot_model::identify::Factor::filtered(&pendulum(), bands(), None)?;
+    /// filtered.push_filtered(&pendulum(), &log())?;
+    /// assert_eq!(filtered.samples(), factor().samples());
+    /// // Rows of one form do not belong to those of the other.
+    /// assert!(factor().push_filtered(&pendulum(), &log()).is_err() && factor().merge(filtered).is_err());
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    pub fn push_filtered(&mut self, arm: &dyn MomentumArm, log: &Log) -> Result<(), IdentifyError> {
+        let corner = match self.form {
+            Form::Filtered { corner } => corner,
+            Form::Acceleration => default_corner(&self.bands),
+        };
+        self.check_form(Form::Filtered { corner })?;
+        let blocks = FactorBlock::of_filtered_log(arm, log, &self.bands, Some(corner))?;
+        self.extend(blocks);
+        Ok(())
+    }
+
+    /// Adds blocks of [`FactorBlock::of_log`], or [`FactorBlock::of_filtered_log`], with the same arm, form and filters.
     ///
     /// # Examples
     /// ```
@@ -158,7 +222,7 @@ impl Factor {
     /// Adds what other logs tell of the same arm.
     ///
     /// # Errors
-    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations or filters.
+    /// [`IdentifyError::OtherFactor`] where it is of other unknowns, joints, equations, filters, or of another form.
     ///
     /// # Examples
     /// ```
@@ -183,7 +247,21 @@ impl Factor {
         Ok(())
     }
 
-    /// That another factor is of the same arm and filters.
+    /// That the rows are of a form, and of its corner.
+    fn check_form(&self, wanted: Form) -> Result<(), IdentifyError> {
+        let name = |form: Form| match form {
+            Form::Acceleration => form.name().to_owned(),
+            Form::Filtered { corner } => format!("{} with a corner of {corner} rad/s", form.name()),
+        };
+        if self.form == wanted {
+            return Ok(());
+        }
+        let (found, wanted) = (name(self.form), name(wanted));
+        let what = format!("rows (of the form {found}, where {wanted} is wanted)");
+        Err(IdentifyError::OtherFactor { what })
+    }
+
+    /// That another factor is of the same arm, form and filters.
     fn check(&self, other: &Self) -> Result<(), IdentifyError> {
         let what = if other.joints != self.joints {
             Some("joints".to_owned())
@@ -191,7 +269,8 @@ impl Factor {
             Some("unknowns".to_owned())
         } else if !equations::are_alike(&other.equations, &self.equations) {
             Some(equations::OTHER.to_owned())
-        } else if other.bands != self.bands {
+        } else if other.bands != self.bands && other.form.name() == self.form.name() {
+            // Those that are chosen differ where forms do.
             let (own, others) = (self.bands, other.bands);
             Some(format!("filters ({others}, where {own} are wanted)"))
         } else {
@@ -199,7 +278,7 @@ impl Factor {
         };
         match what {
             Some(what) => Err(IdentifyError::OtherFactor { what }),
-            None => Ok(()),
+            None => other.check_form(self.form),
         }
     }
 
@@ -245,7 +324,8 @@ impl Factor {
     /// ```
     #[must_use]
     pub fn counts(&self) -> Vec<usize> {
-        let joint = |joint: usize| self.blocks.iter().map(|block| block.count(joint)).sum();
+        let blocks = self.blocks.iter();
+        let joint = |joint: usize| blocks.clone().map(|block| block.whole.counts[joint]).sum();
         (0..self.joints.len()).map(joint).collect()
     }
 
@@ -259,134 +339,6 @@ impl Factor {
             self.blocks[k].add(other);
         }
     }
-
-    /// The factor of all blocks, joint by joint.
-    fn whole(&self) -> Factors {
-        let joints = (0..self.joints.len()).map(|joint| {
-            let blocks = self.blocks.iter();
-            let rows: Vec<Vec<f64>> = blocks
-                .flat_map(|block| block.rows(joint))
-                .cloned()
-                .collect();
-            reduced(&rows)
-        });
-        Factors::from_joints(self.unknowns.len(), self.counts(), joints.collect())
-    }
-
-    /// The same without rows at turns.
-    fn without_turns(&self) -> Self {
-        let blocks = self.blocks.iter().map(FactorBlock::without_turns);
-        Self {
-            unknowns: self.unknowns.clone(),
-            joints: self.joints.clone(),
-            equations: self.equations.clone(),
-            bands: self.bands,
-            blocks: blocks.collect(),
-        }
-    }
-
-    /// Rows of each joint at its turns.
-    fn turns(&self) -> Vec<usize> {
-        let blocks = || self.blocks.iter();
-        let joint = |joint: usize| blocks().map(|block| block.at_turns.counts[joint]).sum();
-        (0..self.joints.len()).map(joint).collect()
-    }
-
-    /// What all these logs together say, by [`Method::Ls`](super::Method::Ls), `Wls`, `Ridge` or `Physical`; of `identify` the
-    /// method, its weights, the prior and [`Identify::leave_out_turns`] are read. Without the latter, by how much rows at turns move the
-    /// estimate is in its deviations.
-    ///
-    /// # Errors
-    /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for what needs the rows themselves,
-    /// [`IdentifyError::NoLog`], [`IdentifyError::TooFewSamples`], [`IdentifyError::NothingExcited`]; those of the method.
-    ///
-    /// # Examples
-    /// ```
-    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
-    /// use robot_model::identify::{Identify, Method, Weights};
-    /// let (arm, factor) = (factor::pendulum::pendulum(), factor::factor());
-    /// let by_torque = Identify { weights: Weights::TorqueNorm, ..Identify::default() };
-    /// assert!((factor.estimate(&arm, &by_torque)?.values()[1] - 9.0).abs() < 0.1);
-    /// let robust = Identify { method: Method::Robust, ..Identify::default() };
-    /// let refused = factor.estimate(&arm, &robust).unwrap_err();
-    /// assert!(refused.to_string().contains("`robust` weighs single samples"));
-    /// # Ok::<(), robot_model::identify::IdentifyError>(())
-    /// ```
-    pub fn estimate(&self, arm: &dyn Arm, identify: &Identify) -> Result<Estimate, IdentifyError> {
-        let (method, leave_out_turns) = (identify.method, identify.leave_out_turns);
-        Self::new(arm, self.bands)?.check(self)?;
-        let at_turns = self.turns();
-        let has_turns = at_turns.iter().any(|count| *count > 0);
-        let away = has_turns.then(|| self.without_turns());
-        let used = away.as_ref().filter(|_| leave_out_turns).unwrap_or(self);
-        if self.blocks.is_empty() {
-            return Err(IdentifyError::NoLog);
-        }
-        let widened_by = away.as_ref().filter(|_| !leave_out_turns);
-        let Solved {
-            solution,
-            lone,
-            possible,
-        } = used.solved(arm, identify, widened_by)?;
-        let fitted = Fitted {
-            relative_percent: used.relative_percent(&solution.estimate),
-            samples: self.samples(),
-            turns: at_turns,
-            clipped: Vec::new(),
-            held: Vec::new(),
-            effective_samples: None,
-            names: self.unknowns.clone(),
-        };
-        let form = Form::Acceleration;
-        let estimate = Estimate::new(arm, method, form, self.bands, &solution, Vec::new(), fitted);
-        Ok(Estimate {
-            blocks: Some(used.blocks.len()),
-            of_one_block: lone.iter().map(|&k| self.unknowns[k].clone()).collect(),
-            is_without_turns: leave_out_turns,
-            possible,
-            ..estimate
-        })
-    }
-
-    /// Sum of squared residuals of a joint.
-    fn squares(&self, joint: usize, estimate: &[f64]) -> f64 {
-        let rows = self.blocks.iter().flat_map(|block| block.rows(joint));
-        rows.map(|row| residual(row, estimate).powi(2)).sum()
-    }
-
-    /// Root of the mean squared residual per joint, of filtered torque.
-    ///
-    /// # Examples
-    /// ```
-    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
-    /// // The noise of the log is of 0.03 N m, before the filter.
-    /// assert!(factor::factor().rmse(&[2.0, 9.0, 1.0])[0] < 0.03);
-    /// assert!(factor::factor().rmse(&[2.0, 0.0, 1.0])[0] > 1.0);
-    /// ```
-    #[must_use]
-    pub fn rmse(&self, estimate: &[f64]) -> Vec<f64> {
-        let counts = self.counts().into_iter().enumerate();
-        let of = |(joint, count): (usize, usize)| {
-            (self.squares(joint, estimate) / count.max(1) as f64).sqrt()
-        };
-        counts.map(of).collect()
-    }
-
-    fn relative_percent(&self, estimate: &[f64]) -> Vec<f64> {
-        let joints = 0..self.joints.len();
-        let of = |joint: usize| {
-            let blocks = self.blocks.iter();
-            let torque: f64 = blocks.map(|block| block.torque_squares(joint)).sum();
-            percent(self.squares(joint, estimate).sqrt(), torque.sqrt())
-        };
-        joints.map(of).collect()
-    }
-}
-
-/// `target - columns * estimate` of a reduced row.
-fn residual(row: &[f64], estimate: &[f64]) -> f64 {
-    let fitted: f64 = row.iter().zip(estimate).map(|(x, beta)| x * beta).sum();
-    row[estimate.len()] - fitted
 }
 
 #[cfg(test)]

@@ -97,28 +97,37 @@ pub(super) fn search(
     progress: &Progress,
 ) -> Result<OutputEstimate, OutputErrorError> {
     let (plant, names) = (&beginning.plant, &beginning.names);
-    let mut part = 0;
+    let (mut part, mut searches) = (0, 0);
     let mut tell = |iterate: &Iterate| {
-        let what = format!(
-            "simulation {}: cost {:.6e}",
-            iterate.simulations, iterate.cost
-        );
         // Costs of different parts cannot be compared.
         let begins = iterate.stage > part;
         part = iterate.stage;
-        let of_part = format!(
-            " of part {} of the search, which has other windows or weighs joints by the errors so far",
-            iterate.stage + 1
+        searches += u32::from(iterate.simulations == 1);
+        let of_which = if begins {
+            format!(
+                " of part {} of the search, which has other windows or weighs joints by the errors so far",
+                iterate.stage + 1
+            )
+        } else if iterate.simulations == 1 && searches > 1 {
+            format!(" of search {searches}, as the one before it has not come down to the noise")
+        } else {
+            String::new()
+        };
+        let what = format!(
+            "simulation {}: cost {:.6e}{of_which}",
+            iterate.simulations, iterate.cost
         );
-        progress.step(&(what + if begins { &of_part } else { "" }));
+        progress.part(&what, iterate.done);
     };
     let mut begun = 0_u32;
     let mut compare = |iterate: &Iterate| {
         // The first one of each start.
-        if iterate.simulations == 2 {
-            begun += 1;
+        let begins = iterate.simulations == 1;
+        begun += u32::from(begins);
+        if begins || progress.is_live() {
             let what = format!("looking from start {begun} of {}", starts.len());
-            progress.part(&what, f64::from(begun - 1) / starts.len() as f64);
+            let done = f64::from(begun) - 1.0 + iterate.done;
+            progress.part(&what, done / starts.len() as f64);
         }
     };
     let places = settings.nearest(plant, names, starts, recordings, &mut compare)?;

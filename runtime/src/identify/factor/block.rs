@@ -1,12 +1,10 @@
-//! Rows of a part of a log, reduced; those around turns of joints with dry friction apart from the others, so that estimates with and
-//! without them can be had of many logs, too.
+//! Rows of a part of a log, reduced: all of them and, where joints with dry friction turn, those away from turns, so that estimates with
+//! and without turns can be had of many logs, too.
 
-use faer::Mat;
-
-use super::super::least_squares::Factors;
 use super::super::stack::Stack;
-use super::super::{IdentifyError, check_logs, clipped, prepare_all, turns};
-use crate::columns::Arm;
+use super::super::{Identify, IdentifyError, check_logs, filtered, prepare_all, turns};
+use super::rows::FactorRows;
+use crate::columns::{Arm, MomentumArm};
 use crate::log::Log;
 use crate::signal::Bands;
 use crate::signal::resample::whole_steps;
@@ -25,86 +23,14 @@ const PRINTS: usize = 64;
 pub struct FactorBlock {
     /// Samples per joint.
     pub samples: usize,
-    /// Rows away from turns, of a joint without dry friction all.
-    pub away: FactorRows,
-    /// Rows around turns.
-    pub at_turns: FactorRows,
+    /// All rows.
+    pub whole: FactorRows,
+    /// Rows without those around turns of joints with dry friction; none where these are all rows. In the filtered form those of a filter
+    /// that starts anew behind each turn, which are others than the same rows of `whole` as far behind a turn as it remembers.
+    pub away: Option<FactorRows>,
     /// Of each part that this block is made of the sum of all joints' squared torque, by which it is known again, ascending; of many parts
     /// the least ones, so that what two blocks have in common is among those of both.
     pub prints: Vec<f64>,
-}
-
-/// Rows, reduced joint by joint.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FactorRows {
-    /// Rows of each joint that say something: a joint that stands says nothing.
-    pub counts: Vec<usize>,
-    /// `[joint][row][column]`: columns are the unknowns, then the torque less that of known parameters.
-    pub rows: Vec<Vec<Vec<f64>>>,
-    /// Sum of the squared torque, one a joint.
-    pub torque_squares: Vec<f64>,
-    /// The largest torque either way, one a joint.
-    pub most_torque: Vec<f64>,
-}
-
-impl FactorRows {
-    /// Those of so many joints where there are none.
-    ///
-    /// # Examples
-    /// ```
-    /// use robot_model::identify::FactorRows;
-    /// assert_eq!(FactorRows::none(6).counts, [0; 6]);
-    /// ```
-    #[must_use]
-    pub fn none(joints: usize) -> Self {
-        Self {
-            counts: vec![0; joints],
-            rows: vec![Vec::new(); joints],
-            torque_squares: vec![0.0; joints],
-            most_torque: vec![0.0; joints],
-        }
-    }
-
-    /// The rows of a stack for which that is so.
-    fn of(stack: &Stack, is_so: &dyn Fn(usize, usize) -> bool) -> Self {
-        let factors = Factors::of_rows(stack, &|joint, row| f64::from(is_so(joint, row)));
-        let joints = stack.joints.iter().enumerate();
-        let torques = joints.map(|(joint, rows)| {
-            let rows = rows.tau.iter().enumerate();
-            let rows = rows.filter(move |(row, _)| is_so(joint, *row));
-            rows.map(|(_, tau)| *tau)
-        });
-        let squares = torques.clone().map(|taus| taus.map(|tau| tau * tau).sum());
-        let most = torques.map(|taus| taus.fold(0.0, |most: f64, tau| most.max(tau.abs())));
-        // Where no row counts there is nothing to keep.
-        let rows = factors.joints().iter().zip(factors.counts());
-        let rows = rows.map(|(rows, count)| match count {
-            0 => Vec::new(),
-            _ => rows_of(rows),
-        });
-        Self {
-            counts: factors.counts().to_vec(),
-            rows: rows.collect(),
-            torque_squares: squares.collect(),
-            most_torque: most.collect(),
-        }
-    }
-
-    fn add(&mut self, other: Self) {
-        for (count, more) in self.counts.iter_mut().zip(other.counts) {
-            *count += more;
-        }
-        for (sum, more) in self.torque_squares.iter_mut().zip(other.torque_squares) {
-            *sum += more;
-        }
-        for (most, more) in self.most_torque.iter_mut().zip(other.most_torque) {
-            *most = most.max(more);
-        }
-        for (rows, more) in self.rows.iter_mut().zip(other.rows) {
-            rows.extend(more);
-            *rows = rows_of(&reduced(rows));
-        }
-    }
 }
 
 impl FactorBlock {
@@ -132,15 +58,49 @@ impl FactorBlock {
     pub fn of_log(arm: &dyn Arm, log: &Log, bands: &Bands) -> Result<Vec<Self>, IdentifyError> {
         check_logs(arm, std::slice::from_ref(log))?;
         let prepared = prepare_all(std::slice::from_ref(log), bands)?;
-        let mut stack = Stack::new(arm, &prepared, &[]);
-        clipped::leave_out(&mut stack, arm, &prepared);
-        turns::find(&mut stack, arm, &prepared);
-        let samples = stack.samples();
+        let rows = Identify::default().rows(arm, &prepared, &[]);
+        Ok(Self::cut(log, &rows, None))
+    }
+
+    /// The same in the filtered form, `L{tau} = Y_L beta` with `L(s) = w / (s + w)`; `corner` is `w` in rad/s, without it the end of the shared
+    /// band. `L` starts where each piece's filters have settled, as in [`Identify::fit_filtered`] where those of a log have: both sides of the
+    /// equation are zero there, so pieces approximate nothing.
+    ///
+    /// # Errors
+    /// Those of [`Identify::fit_filtered`] for a log that does not fit the arm, the filters or the corner.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod factor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/factor.rs")); }
+    /// # use factor::{bands, log, pendulum::pendulum};
+    /// use robot_model::identify::{Factor, FactorBlock};
+    /// let mut factor = Factor::filtered(&pendulum(), bands(), Some(60.0))?;
+    /// factor.extend(FactorBlock::of_filtered_log(&pendulum(), &log(), &bands(), Some(60.0))?);
+    /// assert!(factor.rmse(&[2.0, 9.0, 1.0])[0] < 0.03); // of filtered noise of 0.03 N m
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    pub fn of_filtered_log(
+        arm: &dyn MomentumArm,
+        log: &Log,
+        bands: &Bands,
+        corner: Option<f64>,
+    ) -> Result<Vec<Self>, IdentifyError> {
+        check_logs(arm, std::slice::from_ref(log))?;
+        let (rows, anew) = filtered::rows(arm, log, bands, corner)?;
+        Ok(Self::cut(log, &rows, anew.as_ref()))
+    }
+
+    /// A log's rows as blocks; `anew` are the same of a filter that starts anew behind each turn.
+    fn cut(log: &Log, rows: &Stack, anew: Option<&Stack>) -> Vec<Self> {
+        let samples = rows.samples();
         let second = (samples as f64 / log.seconds().max(1.0)).max(1.0);
         let count = whole_steps(samples as f64 / second).clamp(1, PARTS);
         let part = |part: usize| part * samples / count..(part + 1) * samples / count;
-        let parts = (0..count).map(|k| Self::of_rows(&stack.part(part(k))));
-        Ok(parts.collect())
+        let parts = (0..count).map(|k| {
+            let of = |stack: &Stack| stack.part(part(k));
+            Self::of(&of(rows), anew.map(of).as_ref())
+        });
+        parts.collect()
     }
 
     /// Rows as one block.
@@ -153,44 +113,50 @@ impl FactorBlock {
     /// # let unknown = robot_model::columns::Unknown { name: "k".to_owned(), nonnegative: false };
     /// let stack = Stack { unknowns: vec![unknown], joints: vec![rows], ..Stack::default() };
     /// let block = FactorBlock::of_rows(&stack);
-    /// assert_eq!((block.samples, block.away.torque_squares[0]), (2, 100.0));
-    /// let row = &block.away.rows[0][0];
+    /// assert_eq!((block.samples, block.whole.torque_squares[0]), (2, 100.0));
+    /// let row = &block.whole.rows[0][0];
     /// assert!((row[0].abs() - 5.0).abs() < 1e-12 && (row[1] / row[0] - 2.0).abs() < 1e-12);
     /// ```
     #[must_use]
     pub fn of_rows(stack: &Stack) -> Self {
-        let at_turns = turns::are_at(stack);
-        let is_at = |joint: usize, row: usize| at_turns[joint][row];
+        Self::of(stack, None)
+    }
+
+    /// The same, and where `anew` is given and has others than `stack`, its rows as those away from turns.
+    fn of(stack: &Stack, anew: Option<&Stack>) -> Self {
         let torque = stack.joints.iter().flat_map(|rows| &rows.tau);
         // Without any torque nothing tells it from others.
         let print = Some(torque.map(|tau| tau * tau).sum()).filter(|sum| *sum > 0.0);
+        let at_turns = turns::are_at(stack);
+        let is_away = |joint: usize, row: usize| !at_turns[joint][row];
+        let has_turns = stack.turns.iter().any(|rows| !rows.is_empty());
+        // Before the first turn both are the same.
+        let (whole, away) = match anew.filter(|anew| *anew != stack) {
+            Some(anew) => {
+                let away = FactorRows::of(anew, &is_away);
+                (FactorRows::of(stack, &|_, _| true), Some(away))
+            }
+            None if has_turns => {
+                let away = FactorRows::of(stack, &is_away);
+                let mut whole = away.clone();
+                whole.add(FactorRows::of(stack, &|joint, row| !is_away(joint, row)));
+                (whole, Some(away))
+            }
+            None => (FactorRows::of(stack, &|_, _| true), None),
+        };
         Self {
             prints: print.into_iter().collect(),
             samples: stack.samples(),
-            away: FactorRows::of(stack, &|joint, row| !is_at(joint, row)),
-            at_turns: if stack.turns.iter().all(Vec::is_empty) {
-                FactorRows::none(stack.dof())
-            } else {
-                FactorRows::of(stack, &is_at)
-            },
+            whole,
+            away,
         }
     }
 
-    /// All rows of a joint.
-    pub(super) fn rows(&self, joint: usize) -> impl Iterator<Item = &Vec<f64>> {
-        self.away.rows[joint]
-            .iter()
-            .chain(&self.at_turns.rows[joint])
-    }
-
-    /// All rows of a joint that say something.
-    pub(super) fn count(&self, joint: usize) -> usize {
-        self.away.counts[joint] + self.at_turns.counts[joint]
-    }
-
-    /// Sum of the squared torque of a joint.
-    pub(super) fn torque_squares(&self, joint: usize) -> f64 {
-        self.away.torque_squares[joint] + self.at_turns.torque_squares[joint]
+    /// Rows of a joint at its turns.
+    pub(super) fn at_turns(&self, joint: usize) -> usize {
+        let all = self.whole.counts[joint];
+        let away = self.away.as_ref().map_or(all, |rows| rows.counts[joint]);
+        all.saturating_sub(away)
     }
 
     /// The same without rows at turns.
@@ -198,16 +164,19 @@ impl FactorBlock {
         Self {
             samples: self.samples,
             prints: self.prints.clone(),
-            away: self.away.clone(),
-            at_turns: FactorRows::none(self.away.counts.len()),
+            whole: self.away.as_ref().unwrap_or(&self.whole).clone(),
+            away: None,
         }
     }
 
     /// What follows becomes a part of this one.
     pub(super) fn add(&mut self, other: Self) {
         self.samples += other.samples;
-        self.away.add(other.away);
-        self.at_turns.add(other.at_turns);
+        if self.away.is_some() || other.away.is_some() {
+            let away = self.away.get_or_insert_with(|| self.whole.clone());
+            away.add(other.away.unwrap_or_else(|| other.whole.clone()));
+        }
+        self.whole.add(other.whole);
         self.prints.extend(other.prints);
         self.prints.sort_unstable_by(f64::total_cmp);
         self.prints.truncate(PRINTS);
@@ -227,20 +196,4 @@ pub(super) fn common(first: &[f64], others: &[f64]) -> usize {
             .is_some_and(|other| **other <= *one + SAME * *one)
     };
     first.iter().filter(is_there).count()
-}
-
-fn rows_of(matrix: &Mat<f64>) -> Vec<Vec<f64>> {
-    let rows = 0..matrix.nrows();
-    rows.map(|row| matrix.row(row).iter().copied().collect())
-        .collect()
-}
-
-/// The triangular factor of rows.
-pub(super) fn reduced(rows: &[Vec<f64>]) -> Mat<f64> {
-    let width = rows.first().map_or(0, Vec::len);
-    let all = Mat::from_fn(rows.len(), width, |row, column| rows[row][column]);
-    if all.nrows() <= width {
-        return all;
-    }
-    all.qr().thin_R().to_owned()
 }

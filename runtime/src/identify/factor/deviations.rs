@@ -3,7 +3,8 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 
-use super::{Factor, residual};
+use super::Factor;
+use super::estimate::residual;
 use crate::calibrate::{NORMAL, quantile};
 use crate::identify::least_squares::Solution;
 
@@ -67,7 +68,9 @@ impl Factor {
         let rows = |block: &super::FactorBlock| -> Mat<f64> {
             let joints = solution.scale.iter().enumerate();
             let rows: Vec<(&Vec<f64>, f64)> = joints
-                .flat_map(|(joint, scale)| block.rows(joint).map(move |row| (row, *scale)))
+                .flat_map(|(joint, scale)| {
+                    block.whole.rows[joint].iter().map(move |row| (row, *scale))
+                })
                 .collect();
             Mat::from_fn(rows.len(), size + 1, |at, k| {
                 let (row, scale) = rows[at];

@@ -105,7 +105,7 @@ impl Factor {
     fn torque_norms(&self) -> Vec<f64> {
         let joint = |joint: usize| {
             let blocks = self.blocks.iter();
-            let squares = blocks.map(|block| block.torque_squares(joint));
+            let squares = blocks.map(|block| block.whole.torque_squares[joint]);
             squares.sum::<f64>().sqrt()
         };
         (0..self.joints.len()).map(joint).collect()
@@ -115,9 +115,8 @@ impl Factor {
     fn most_torques(&self) -> Vec<f64> {
         let joint = |joint: usize| {
             let blocks = self.blocks.iter();
-            let parts = blocks.flat_map(|block| [&block.away, &block.at_turns]);
-            parts
-                .map(|rows| rows.most_torque[joint])
+            blocks
+                .map(|block| block.whole.most_torque[joint])
                 .fold(0.0, f64::max)
         };
         (0..self.joints.len()).map(joint).collect()

@@ -66,6 +66,7 @@ fn empty() -> Factor {
         unknowns: ["a", "b", "c"].map(str::to_owned).to_vec(),
         joints: ["one", "two"].map(str::to_owned).to_vec(),
         equations: vec![[1.0, 2.0], [-3.0, 5.0]],
+        form: Form::Acceleration,
         bands: Bands::DEFAULT,
         blocks: Vec::new(),
     }

@@ -17,13 +17,9 @@ impl Factor {
         let rank = (self.unknowns.len() - solution.unexcited.len()) as f64;
         let joints = solution.sigma.iter().zip(&counts).enumerate();
         let of = |(joint, (sigma, count)): (usize, (&f64, &usize))| {
-            let parts = self
-                .blocks
-                .iter()
-                .flat_map(|block| [&block.away, &block.at_turns]);
             let (mut squares, mut columns) = (0.0, 0.0);
-            for rows in parts {
-                let (square, count) = rows.within_columns(joint, &solution.estimate);
+            for block in &self.blocks {
+                let (square, count) = block.whole.within_columns(joint, &solution.estimate);
                 squares += square;
                 columns += count as f64;
             }

@@ -1,6 +1,10 @@
 //! A wheel with dry friction, which stands at each turn.
 
 use super::*;
+use crate::columns::{Arm, Columns, Entry, Shape, Unknown};
+use crate::motion::Motion;
+
+mod factors;
 
 /// `tau = J ddq + fv dq + fc sign(dq)`
 struct Wheel([Unknown; 3], [String; 1]);
@@ -103,11 +107,11 @@ impl MomentumArm for Wheel {
     }
 }
 
-/// The wheel under two tones of torque: friction holds it for a while at each turn, with whatever torque there is.
-fn log() -> Log {
+/// The wheel under two tones of torque, from some time on: friction holds it for a while at each turn, with whatever torque there is.
+fn log(from: f64) -> Log {
     const STEPS: u32 = 20;
     let [inertia, viscous, dry] = TRUTH;
-    let torque = |t: f64| 0.5 * (3.0 * t).sin() + 0.2 * (7.1 * t + 1.0).sin();
+    let torque = |t: f64| 0.5 * (3.0 * (t + from)).sin() + 0.2 * (7.1 * (t + from) + 1.0).sin();
     let step = 1.0 / (RATE * f64::from(STEPS));
     let (mut q, mut v) = (0.0, 0.0_f64);
     let (mut time, mut positions, mut torques) = (Vec::new(), Vec::new(), Vec::new());
@@ -135,7 +139,7 @@ fn log() -> Log {
 #[test]
 fn what_holds_a_joint_that_stands_is_not_in_the_rows_behind_it() {
     let wheel = Wheel::new();
-    let logs = [log()];
+    let logs = [log(0.0)];
     let off = |leave_out_turns: bool| {
         let identify = Identify {
             leave_out_turns,

@@ -110,15 +110,27 @@ impl OutputError {
         let mut parts = Parts::new(self, start.len(), plant.joints(), progress);
         let hold = self.hold.unwrap_or_default();
         let problem = |window, pace| self.problem(plant.clone(), recordings, (window, pace), hold);
+        let coarse = problem(self.window, Pace::Coarse)?;
+        let other_hold = self.other_hold(recordings);
+        parts.to_come = 1
+            + usize::from(self.first_window().is_some())
+            + usize::from(coarse.is_coarse())
+            + match other_hold {
+                None => 0,
+                Some(End::Fine) => 1,
+                Some(End::Rough) => 2,
+            };
         // From a start that is far away a short motion leads back sooner than a long one.
         let first = match self.first_window() {
             Some(first) => match problem(Some(first), Pace::Coarse) {
-                Err(OutputErrorError::Short { .. }) => None,
+                Err(OutputErrorError::Short { .. }) => {
+                    parts.to_come -= 1;
+                    None
+                }
                 problem => Some(parts.search(problem?, Some(first), start, None, End::Rough)?),
             },
             None => None,
         };
-        let coarse = problem(self.window, Pace::Coarse)?;
         let values = first.as_ref().map_or(start, |part| &part.place.values);
         let near = if coarse.is_coarse() {
             let found = parts.search(coarse, self.window, values, first.as_ref(), End::Rough);
@@ -147,7 +159,7 @@ impl OutputError {
         let mut rival = None;
         // A search that has not come to its end would only be given more time.
         if part.found.1 == search::Ending::Converged
-            && let Some(end) = self.other_hold(recordings)
+            && let Some(end) = other_hold
         {
             let window = part.window;
             let mut other = |from: &Part<'_, P>, end: End| {
@@ -284,6 +296,7 @@ impl OutputError {
             held_starts: self.held_starts.as_deref(),
             most: self.iterations.unwrap_or(search::MOST),
             end: End::Fine,
+            part: 0.0..1.0,
             plant,
         })
     }

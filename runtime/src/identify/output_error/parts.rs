@@ -25,6 +25,10 @@ pub(super) struct Parts<'s> {
     /// What joints are weighed by: errors of the part before.
     scale: Vec<f64>,
     pub iterates: Vec<Iterate>,
+    /// Parts that may come.
+    pub to_come: usize,
+    /// Share of the search that is behind it.
+    done: f64,
     progress: &'s mut dyn FnMut(&Iterate),
 }
 
@@ -51,6 +55,8 @@ impl<'s> Parts<'s> {
             bounds: settings.bounds_of(parameters),
             scale: vec![1.0; joints],
             iterates: Vec::new(),
+            to_come: 1,
+            done: 0.0,
             progress,
         }
     }
@@ -70,8 +76,13 @@ impl<'s> Parts<'s> {
             problem.start_as(&mut place, &before.problem, &before.place);
         }
         let weighed = self.scale.len() > 1;
+        let rounds = if weighed { ROUNDS } else { 1 };
+        let begin = self.done;
+        let length = (1.0 - begin) / self.to_come.max(1) as f64;
         let mut round = 0;
         let found = loop {
+            let [from, to] = [round, round + 1].map(|k| begin + length * k as f64 / rounds as f64);
+            problem.part = from..to;
             round += 1;
             // Without a part before, a first round tells what joints are weighed by in the second.
             let is_first = weighed && before.is_none() && round == 1;
@@ -98,10 +109,12 @@ impl<'s> Parts<'s> {
             let scale = problem.scales(&found.0);
             let is_settled = before.is_some() && are_near(&scale, &self.scale);
             self.scale = scale;
-            if is_settled || round == ROUNDS {
+            if is_settled || round == rounds {
                 break found;
             }
         };
+        self.done = begin + length;
+        self.to_come = self.to_come.saturating_sub(1);
         Ok(Part {
             problem,
             place,

@@ -1,5 +1,7 @@
 //! What a search fits: windows of logs, and what drives them.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use super::law::Law;
@@ -30,6 +32,8 @@ pub(super) struct Problem<'a, P> {
     /// Iterations of a search.
     pub most: usize,
     pub end: End,
+    /// Which part of the whole a search of it is, from 0 to 1.
+    pub part: Range<f64>,
 }
 
 impl<P: Adjustable + Clone + Sync> Problem<'_, P> {

@@ -7,15 +7,18 @@
 //! gravity tests of a pneumatic arm, with its constants `0, 2, 0.25, 0.25, 0.5`, where the radius shrinks to `0.25 |D d|` of the step (the
 //! paper prints the gradient's length).
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::equations::Equations;
-use super::identifiable::audible;
 use super::problem::{Place, Problem};
 use super::run::{Asked, Run};
 use crate::simulate::{Adjustable, SimulateError};
+use control::{first_control, next_control, scales};
+use share::Share;
 use step::{LEAST, Room, Step};
 
+mod control;
+mod share;
 mod step;
 
 /// Iterations at most of a search that is to end.
@@ -68,16 +71,10 @@ pub struct Iterate {
     pub control: f64,
     /// Simulations of all logs so far.
     pub simulations: usize,
-}
-
-/// Lengths of columns so far, 0 where all of a parameter is nothing beside the largest of the others.
-fn scales(now: &DMatrix<f64>, before: &DVector<f64>, values: &[f64]) -> DVector<f64> {
-    let lengths = now.column_iter().map(|column| column.norm());
-    let lengths: Vec<f64> = lengths
-        .zip(before.iter())
-        .map(|(now, before)| now.max(*before))
-        .collect();
-    DVector::from_vec(audible(&lengths, values))
+    /// Share of the search that is behind it, from 0 to 1, which never falls: of its parts that may come those that are done, and within one by
+    /// how far the gain of its steps has fallen, in logarithm, toward what ends it, or, where that is more, the steps so far beside as many more
+    /// as a part takes at the median. Nobody knows how many come.
+    pub done: f64,
 }
 
 /// How a search ended.
@@ -118,6 +115,7 @@ pub(super) fn search<P: Adjustable + Clone + Sync>(
         best,
         scale: DVector::zeros(place.values.len()),
         control: None,
+        share: Share::new(problem.part.clone()),
         iterates,
         progress,
     };
@@ -177,6 +175,7 @@ struct Way<'a> {
     best: Vec<Run>,
     scale: DVector<f64>,
     control: Option<f64>,
+    share: Share,
     iterates: &'a mut Vec<Iterate>,
     progress: &'a mut dyn FnMut(&Iterate),
 }
@@ -213,8 +212,9 @@ impl Way<'_> {
             let cost = self.cost;
             let noise = (2.0 * cost / problem.samples().max(1) as f64).sqrt();
             let worth = reduced.worth(noise);
+            let little = LITTLE * worth * cost;
             let is_little = |gain: f64, step: &Step| {
-                gain <= LITTLE * worth * cost
+                gain <= little
                     && (&reduced.r * &step.parameters).norm() <= WITHIN_NOISE * worth.sqrt() * noise
             };
             if slopes.is_content {
@@ -227,10 +227,11 @@ impl Way<'_> {
                 return Ending::Converged;
             };
             let gain = cost - next.cost;
-            let is_quiet = match problem.end {
-                End::Rough => gain <= ROUGH * cost,
-                End::Fine => is_little(gain, &next.step),
+            let (enough, is_quiet) = match problem.end {
+                End::Rough => (ROUGH * cost, gain <= ROUGH * cost),
+                End::Fine => (little, is_little(gain, &next.step)),
             };
+            self.share.after(gain, enough);
             quiet = if is_quiet { quiet + 1 } else { 0 };
             let size = DVector::from_column_slice(&next.place.values).component_mul(&self.scale);
             let is_over = gain <= STILL * cost
@@ -323,6 +324,7 @@ impl Way<'_> {
             last.cost = self.cost;
             last.control = self.control.unwrap_or_default();
             last.simulations = self.simulations;
+            last.done = self.share.done();
             return;
         }
         let iterate = Iterate {
@@ -331,6 +333,7 @@ impl Way<'_> {
             values: place.values.clone(),
             control: self.control.unwrap_or_default(),
             simulations: self.simulations,
+            done: self.share.done(),
         };
         (self.progress)(&iterate);
         self.iterates.push(iterate);
@@ -356,32 +359,6 @@ impl Place {
                 })
                 .collect(),
         }
-    }
-}
-
-fn first_control(search: Search, place: &Place, scale: &DVector<f64>) -> f64 {
-    match search {
-        Search::LevenbergMarquardt => 1e-3,
-        Search::TrustRegion => {
-            let values = DVector::from_column_slice(&place.values);
-            f64::max(0.3 * values.component_mul(scale).norm(), 1e-6)
-        }
-    }
-}
-
-/// Damping or radius after a step of a length, that lowered the cost by `ratio` of what was foretold.
-fn next_control(search: Search, now: f64, ratio: f64, length: f64) -> f64 {
-    // Not a number where the motion ran away.
-    let ratio = if ratio.is_nan() { -1.0 } else { ratio };
-    match search {
-        Search::LevenbergMarquardt if ratio > 0.75 => f64::max(0.1 * now, LEAST),
-        Search::LevenbergMarquardt if ratio > 0.25 => now,
-        Search::LevenbergMarquardt if ratio > 0.0 => 4.0 * now,
-        Search::LevenbergMarquardt => 10.0 * now,
-        Search::TrustRegion if ratio < 0.25 && length > 0.0 => f64::min(0.25 * length, 0.5 * now),
-        Search::TrustRegion if ratio < 0.25 => 0.5 * now,
-        Search::TrustRegion if ratio > 0.75 => 2.0 * now,
-        Search::TrustRegion => now,
     }
 }
 

@@ -4,6 +4,7 @@ mod cogs;
 mod controller;
 mod hold;
 mod pace;
+mod share;
 mod starts;
 mod torques;
 mod upright;
