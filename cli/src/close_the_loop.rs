@@ -108,7 +108,7 @@ pub fn close(
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
     if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
         faults.push(smoothed);
-    } else if let Some(late) = data_gate::late_position(estimate) {
+    } else if let Some(late) = data_gate::late_position(estimate, progress) {
         faults.push(late);
     } else if let Some((late, logs)) = data_gate::delay(arm, estimate, &sound) {
         faults.push(late);

@@ -17,6 +17,9 @@ const LEAST_SHARE: f64 = 0.05;
 const DEVIATIONS: f64 = 4.0;
 const APART: f64 = 0.1;
 
+/// A late position is the cause where this share of its joint's error goes with it.
+const LEAST_OF_LATE: f64 = 0.5;
+
 /// A fault of the logs that matters.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DataFault {
@@ -128,19 +131,26 @@ pub(crate) fn smoothed(
     }))
 }
 
-/// The position of one joint that is late against all else: no spec declares that, and all that moves with it is wrong.
-pub(crate) fn late_position(estimate: &Estimate) -> Option<DataFault> {
+/// The position of one joint that is late against all else: no spec declares that, and all that moves with it is wrong. Where that leaves
+/// most of the joint's error it is something else, as a gap or a spring, which only looks late: then it is noted, and logs are traced.
+pub(crate) fn late_position(estimate: &Estimate, progress: &Progress) -> Option<DataFault> {
     let mut delays = estimate.delays.iter();
     let found = delays.find(|delay| delay.channel == LateChannel::Position)?;
     let (ms, std) = (1e3 * found.seconds, 1e3 * found.std);
+    let (joint, percent) = (&estimate.joints[found.joint], 100.0 * found.gain);
+    if found.gain < LEAST_OF_LATE {
+        progress.note(&format!(
+            "note: the position of {joint} looks late by {ms:.2} +- {std:.2} ms, but most of its error stays without that ({percent:.0} % less), \
+             so it is not taken for the cause"
+        ));
+        return None;
+    }
     Some(DataFault {
         kind: "time-delay",
         joints: vec![found.joint],
         told: format!(
-            "the position of {} is late against all other channels by {ms:.2} +- {std:.2} ms, without which its error is {:.0} % less: move \
-             its column in the log by that",
-            estimate.joints[found.joint],
-            100.0 * found.gain
+            "the position of {joint} is late against all other channels by {ms:.2} +- {std:.2} ms, without which its error is {percent:.0} % less: \
+             move its column in the log by that",
         ),
         delay: Some((found.seconds, found.std)),
         is_last: true,

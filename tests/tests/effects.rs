@@ -43,7 +43,7 @@ const LAWS: [(&str, Law); 26] = [
     }),
     ("dahl", |at| at.p[0] * at.z[0]),
     ("dry_friction_drift", |at| {
-        at.p[0] * (1.0 - (-TIME / at.s[0]).exp()) * at.dq[0].signum()
+        at.p[0] * (-TIME / at.s[0]).exp_m1() / (-60.0 / at.s[0]).exp_m1() * at.dq[0].signum()
     }),
     ("gear_coupling", |at| {
         at.p[0] * at.ddq[1] + at.p[1] * at.dq[1] + at.p[2] * (at.dq[0] + at.dq[1]).signum()
@@ -69,7 +69,7 @@ const LAWS: [(&str, Law); 26] = [
     }),
     ("motor_inertia", |at| at.p[0] * at.ddq[0]),
     ("parameter_drift", |at| {
-        at.p[0] * (1.0 - (-TIME / at.s[0]).exp()) * at.dq[0]
+        at.p[0] * (-TIME / at.s[0]).exp_m1() / (-60.0 / at.s[0]).exp_m1() * at.dq[0]
     }),
     ("position_dependent_friction", |at| {
         let amplitude = at.p[0].hypot(at.p[1]);

@@ -72,18 +72,29 @@ impl Identify {
     }
 }
 
-/// Mean square of each joint's raw torque that as much noise again on the positions makes of a model's, N^2 m^2 or N^2: about what the noise
-/// that they have makes. Zero where that is not known.
+/// What noise of the positions makes of a joint's torque, mean squares, N^2 m^2 or N^2.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct TorqueOfNoise {
+    /// Of raw samples.
+    pub(crate) raw: f64,
+    /// Of rows of the fit.
+    pub(crate) filtered: f64,
+}
+
+/// What as much noise again on the positions makes of a model's torque, joint by joint: about what the noise that they have makes. Zero where
+/// that is not known.
 pub(crate) fn torque_of_noise(
     arm: &dyn Arm,
     (logs, prepared, bands): (&[Log], &[Prepared], &Bands),
     (shapes, estimate): (&[f64], &[f64]),
-) -> Result<Vec<f64>, IdentifyError> {
+) -> Result<Vec<TorqueOfNoise>, IdentifyError> {
     let dof = arm.dof();
-    let (mut squares, mut samples) = (vec![0.0; dof], 0);
+    let mut made = vec![TorqueOfNoise::default(); dof];
+    let (mut samples, mut rows) = (0, 0);
+    let squares = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
     for (seed, (log, prepared)) in logs.iter().zip(prepared).enumerate() {
         let Some(noisy) = noisier(log, prepared, bands, seed as u64) else {
-            return Ok(vec![0.0; dof]);
+            return Ok(vec![TorqueOfNoise::default(); dof]);
         };
         let mut noisy = prepare(&noisy, bands)?.motion;
         noisy.turn_speeds.clone_from(&prepared.motion.turn_speeds);
@@ -93,16 +104,22 @@ pub(crate) fn torque_of_noise(
         let border = prepared.shared.border();
         let inner = border..prepared.motion.time.len().saturating_sub(border);
         samples += inner.len();
-        for (joint, sum) in squares.iter_mut().enumerate() {
+        let mut filtered = Vec::new();
+        for (joint, made) in made.iter_mut().enumerate() {
             let pairs = with[joint].iter().zip(&without[joint]);
-            let inner = pairs.skip(inner.start).take(inner.len());
-            *sum += inner
-                .map(|(with, without)| (with - without).powi(2))
-                .sum::<f64>();
+            let differences: Vec<f64> = pairs.map(|(with, without)| with - without).collect();
+            let inner = differences.get(inner.clone()).unwrap_or_default();
+            made.raw += squares(inner);
+            prepared.shared.apply(&differences, &mut filtered);
+            made.filtered += squares(&filtered);
         }
+        rows += filtered.len();
     }
-    let mean = |sum: f64| sum / samples.max(1) as f64;
-    Ok(squares.into_iter().map(mean).collect())
+    let mean = |made: TorqueOfNoise| TorqueOfNoise {
+        raw: made.raw / samples.max(1) as f64,
+        filtered: made.filtered / rows.max(1) as f64,
+    };
+    Ok(made.into_iter().map(mean).collect())
 }
 
 /// A log with as much noise again on its positions as they have; none where that is not known.

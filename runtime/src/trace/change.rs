@@ -14,6 +14,7 @@ use crate::signal::Prepared;
 use super::raw::above;
 use super::residual::raw_residuals;
 use super::search::{Search, State};
+use super::structure::Structure;
 
 /// Steps of Gauss-Newton, and the step, in a shape's deviations or of the shape itself, that is none.
 const STEPS: usize = 8;
@@ -33,6 +34,8 @@ pub(super) struct Changed {
     pub(super) stack: Stack,
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
     pub(super) noise_power: Vec<f64>,
+    /// What it leaves of structure, per joint.
+    pub(super) structure: Vec<Structure>,
     /// Whether the logged torque is in it, whose noise then explains itself.
     pub(super) follows_torque: bool,
 }
@@ -137,12 +140,15 @@ impl Search<'_> {
                     .map(|log| raw_residuals(arm, &shapes, &plain.estimate, &state.accepted, log));
                 let raw: Vec<_> = raw.collect();
                 let noise_power = above(&raw, &self.beyond_all(&raw), &filtered);
+                let segments = &state.stack.segments;
+                let structure = self.structure_in(segments, &raw, &filtered, &|_, _| 0.0);
                 let std = self.identify.beside_slopes(&stack, &plain);
                 return Ok(is_inside.then(|| Changed {
                     shapes: own,
                     std: std[unknowns..].to_vec(),
                     stack,
                     noise_power,
+                    structure,
                     follows_torque,
                 }));
             }

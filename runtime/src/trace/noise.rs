@@ -13,15 +13,21 @@ use super::search::{Search, State};
 use super::trial::Trial;
 use super::verdict::Refusal;
 
+/// Of a joint's structure a law that is no noise leaves at most this share.
+const MOST_LEFT: f64 = 0.5;
+
 impl Search<'_> {
-    /// Whether the first order of a change of the arm that reads the torque lowers an error by as much as matters where it reads that of the
-    /// model, on a joint where the change itself does.
+    /// Whether a change of the arm that reads the torque takes structure off, or its first order lowers an error by as much as matters
+    /// where it reads that of the model, on a joint where the change itself does.
     pub(super) fn is_more_than_noise(
         &self,
         state: &State,
         baseline: &Baseline,
         (judged, change): (&Judged, &dyn Change),
     ) -> bool {
+        if self.takes_structure(state, judged) {
+            return true;
+        }
         let Ok(entries) = self.first_order(state, change, self.without_noise(state)) else {
             return false;
         };
@@ -35,6 +41,18 @@ impl Search<'_> {
         let mut pairs = pairs.zip(&judged.evidence.raw_percent);
         !(refused(Refusal::Chance) || refused(Refusal::HeldOut))
             && pairs.any(|(clean, raw)| clean.min(*raw) >= MATERIAL_PERCENT)
+    }
+
+    /// Whether it takes most of the structure off a joint, as noise that explains itself does not.
+    fn takes_structure(&self, state: &State, judged: &Judged) -> bool {
+        let before = self.structure_of_all_rows(state);
+        let after = judged.changed.iter().flat_map(|changed| &changed.structure);
+        let mut joints = before.iter().zip(after).zip(&judged.evidence.raw_percent);
+        joints.any(|((before, after), raw)| {
+            before.is_material()
+                && after.power < MOST_LEFT * before.power
+                && *raw >= MATERIAL_PERCENT
+        })
     }
 
     /// The logs with the torque of the present model in place of what effects read of the logged one.

@@ -5,6 +5,7 @@ use crate::identify::{Segment, left_out, torque_of};
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
+use super::floor::STEPS;
 use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
 
@@ -66,32 +67,37 @@ impl Search<'_> {
 
     /// Structure per joint, of turns and what is away from them alike.
     pub(super) fn structure_of_all_rows(&self, state: &State) -> Vec<Structure> {
-        let raw: Vec<_> = self
-            .prepared
-            .iter()
-            .map(|log| self.raw_residuals(state, log))
-            .collect();
+        let logs = self.prepared.iter();
+        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
         let steps = self.steps(state);
-        let of_joint = |j: usize| {
-            let logs: Vec<RawResidual> = raw
-                .iter()
-                .zip(&self.prepared)
-                .zip(&self.periods)
-                .zip(&state.stack.segments)
-                .zip(&steps[j])
-                .map(
-                    |((((residuals, log), period), segment), step)| RawResidual {
-                        values: &residuals[j],
-                        beyond: self.beyond(log, j),
-                        filtered: evenly(segment, &state.residuals[j], log.filtered_hz()),
-                        filtered_hz: log.filtered_hz(),
-                        rate_hz: log.rate_hz,
-                        shared_hz: self.shared_hz,
-                        period: *period,
-                        stepped: step.map_or(0.0, |(_, taken)| taken),
-                    },
-                )
-                .collect();
+        let stepped = |joint: usize, log: usize| steps[joint][log].map_or(0.0, |(_, taken)| taken);
+        self.structure_in(&state.stack.segments, &raw, &state.residuals, &stepped)
+    }
+
+    /// Structure per joint of raw residuals, `[log][joint][sample]`, and filtered ones, `[joint][row]`, of which steps take so much off.
+    pub(super) fn structure_in(
+        &self,
+        segments: &[Segment],
+        raw: &[Vec<Vec<f64>>],
+        filtered: &[Vec<f64>],
+        stepped: &dyn Fn(usize, usize) -> f64,
+    ) -> Vec<Structure> {
+        let of = |joint: usize, log: usize| {
+            let prepared = &self.prepared[log];
+            RawResidual {
+                values: &raw[log][joint],
+                beyond: self.beyond(prepared, joint),
+                filtered: evenly(&segments[log], &filtered[joint], prepared.filtered_hz()),
+                filtered_hz: prepared.filtered_hz(),
+                rate_hz: prepared.rate_hz,
+                shared_hz: self.shared_hz,
+                period: self.periods[log],
+                stepped: stepped(joint, log),
+                steps: STEPS * self.position_noise[joint].filtered,
+            }
+        };
+        let of_joint = |joint: usize| {
+            let logs: Vec<RawResidual> = (0..raw.len()).map(|log| of(joint, log)).collect();
             structure::of(&logs)
         };
         (0..self.arm.dof()).map(of_joint).collect()

@@ -103,7 +103,7 @@ impl Search<'_> {
                 };
                 if is_of_phase(judged.trial.candidate) {
                     let rest = baseline.present.rest(&judged.trial.entries, &projected);
-                    if self.comes_back(state, &rest) {
+                    if self.comes_back(state, &judged, &rest) {
                         judged.refusals.push(Refusal::ComesBack);
                     }
                 }
@@ -172,13 +172,17 @@ impl Search<'_> {
         judged
     }
 
-    /// Whether a law of the part of a period leaves too much of what comes back in every period, which any such law could have a share of:
-    /// a force that is the whole of it is one.
-    fn comes_back(&self, state: &State, rest: &[Vec<f64>]) -> bool {
+    /// Whether a law of the part of a period leaves too much of what comes back in every period on the joints where it matters, which any
+    /// such law could have a share of: a force that is the whole of it is one.
+    fn comes_back(&self, state: &State, judged: &Judged, rest: &[Vec<f64>]) -> bool {
+        let percent = &judged.evidence.raw_percent;
+        let matters = |joint: &usize| percent[*joint] >= MATERIAL_PERCENT;
         let power = |residuals: &[Vec<f64>]| -> f64 {
-            let weighed = residuals.iter().zip(&state.solution.sigma);
-            let weighed =
-                weighed.map(|(values, sigma)| self.repeated_power(state, values) / (sigma * sigma));
+            let joints = (0..residuals.len()).filter(matters);
+            let weighed = joints.map(|joint| {
+                let sigma = state.solution.sigma[joint];
+                self.repeated_power(state, &residuals[joint]) / (sigma * sigma)
+            });
             weighed.sum()
         };
         power(rest) >= LEFT_OF_PERIOD * power(&state.residuals)

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::columns::{Arm, Candidate};
-use crate::identify::drowned::torque_of_noise;
+use crate::identify::drowned::{TorqueOfNoise, torque_of_noise};
 use crate::identify::{
     Identify, IdentifyError, Method, Solution, Stack, check_logs, load_motion, missing_input,
     prepare_all, slowest_bands,
@@ -267,8 +267,8 @@ pub(super) struct Search<'s> {
     /// Unknowns that the logs do not excite: held at zero throughout.
     unexcited: Vec<usize>,
     pub(super) prepared: Vec<Prepared>,
-    /// Mean square of each joint's raw torque that noise of the positions makes of the declared model's.
-    pub(super) position_noise: Vec<f64>,
+    /// What noise of the positions makes of each joint's torque by the declared model.
+    pub(super) position_noise: Vec<TorqueOfNoise>,
     pub(super) periods: Vec<Option<f64>>,
     pub(super) folds: Vec<Fold>,
     /// Independent tests that all candidates are worth, found in the first round.

@@ -9,6 +9,9 @@ use super::search::{Accepted, Search, State};
 /// Deviations that a parameter is told by.
 const TOLD: f64 = 2.0;
 
+/// The same of a change of the arm, which moves all of the equations, and their noise with them.
+const TOLD_OF_CHANGE: f64 = 3.0;
+
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
     /// torque linearized in the shapes. None of what another unknown can stand for, and of changes of the arm.
@@ -51,10 +54,14 @@ impl Search<'_> {
     /// be traded for each other all along, the law fits as anything with so many parameters does.
     pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
         let trial = &judged.trial;
-        let is_told =
-            |(value, std): (&f64, &Option<f64>)| std.is_some_and(|std| value.abs() > TOLD * std);
+        let is_beyond = |times: f64| {
+            move |(value, std): (&f64, &Option<f64>)| {
+                std.is_some_and(|std| value.abs() > times * std)
+            }
+        };
         if let Some(changed) = &judged.changed {
-            return changed.shapes.iter().zip(&changed.std).any(is_told);
+            let mut shapes = changed.shapes.iter().zip(&changed.std);
+            return shapes.any(is_beyond(TOLD_OF_CHANGE));
         }
         let mut stack = state.stack.clone();
         let first = stack.unknowns.len();
@@ -67,7 +74,7 @@ impl Search<'_> {
         let slopes = rows.slopes(trial.candidate, &trial.shapes, gain);
         stack.append(&unknowns(trial.candidate), &slopes);
         let std = self.identify.beside_slopes(&stack, &solution);
-        gain.iter().zip(&std[first..]).any(is_told)
+        gain.iter().zip(&std[first..]).any(is_beyond(TOLD))
     }
 }
 
