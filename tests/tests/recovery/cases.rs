@@ -70,7 +70,8 @@ pub const CASES: &[Case] = &[
             vec![
                 ("j.coulomb_friction.fc", p[0]),
                 ("j.viscous_friction.fv", p[1]),
-                ("j.parameter_drift.fv", -p[2]),
+                // What it falls by in the first minute.
+                ("j.parameter_drift.fv", p[2] * (-60.0 / p[3]).exp_m1()),
                 ("j.parameter_drift.settle", p[3]),
             ]
         },
