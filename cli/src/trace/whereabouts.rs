@@ -26,8 +26,8 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             return None;
         }
         let share = 100.0 * left.share;
-        let steps = verdict.left.iter().filter(|one| one.joint == joint);
-        let step = steps.filter_map(|one| one.step).next();
+        let mut steps = verdict.left.iter().filter(|one| one.joint == joint);
+        let step = steps.find_map(|one| one.step);
         let follows = match step {
             Some(_) => "is that of a level which changes",
             None => "still follows the motion",

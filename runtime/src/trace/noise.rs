@@ -61,8 +61,10 @@ impl Search<'_> {
         for log in &mut logs {
             log.motion.tau = self.torque(state, log);
             let gains = self.arm.actuator_gain();
-            for (tau, gain) in log.motion.tau.iter_mut().zip(gains) {
-                tau.iter_mut().for_each(|tau| *tau /= gain);
+            for (torques, gain) in log.motion.tau.iter_mut().zip(gains) {
+                for tau in torques {
+                    *tau /= gain;
+                }
             }
         }
         logs

@@ -232,11 +232,15 @@ mod tests {
     fn a_step_is_found_where_it_is_and_a_pulse_is_none() {
         for seed in 0..20 {
             let mut values = noise(1500, 0.2, seed);
-            values[900..].iter_mut().for_each(|value| *value += 3.0);
+            for value in &mut values[900..] {
+                *value += 3.0;
+            }
             let found = level(&values).expect("a step");
             assert!(found.at.abs_diff(900) <= 10, "{found:?}");
             assert!((found.size - 3.0).abs() < 0.3, "{found:?}");
-            values[1000..].iter_mut().for_each(|value| *value -= 3.0);
+            for value in &mut values[1000..] {
+                *value -= 3.0;
+            }
             assert_eq!(level(&values), None);
         }
     }
@@ -246,7 +250,9 @@ mod tests {
     fn samples_that_say_nothing_are_no_level() {
         for seed in 0..20 {
             let mut values = noise(1500, 0.5, seed);
-            values.iter_mut().for_each(|value| *value += 5.0);
+            for value in &mut values {
+                *value += 5.0;
+            }
             values[..800].fill(0.0);
             assert_eq!(level(&values), None);
         }
