@@ -218,3 +218,17 @@ fn a_torque_that_steps_is_no_noise() {
     assert_eq!(step["log"], 1, "{out}");
     assert!(told.contains("N m at 12.0 s and stays there"), "{told}");
 }
+
+/// Neither its time nor its end is told by a log of a part of it, but what it does is.
+#[test]
+fn friction_that_drifts_evenly_is_named() {
+    let log = folded("", "", |t, _| {
+        let dq = 0.9 * 1.3 * (1.3 * t).cos() + 0.2 * 4.1 * (4.1 * t).cos();
+        [0.02 * t * (dq / 0.005).tanh(), 0.0]
+    });
+    let (told, out) = told(&folding(""), &log);
+    assert_eq!(kinds(&out, "effects"), ["parameter-drift"], "{told}");
+    assert_eq!(out["effects"][0]["effect"], "dry_friction_drift", "{told}");
+    let fc = &out["effects"][0]["parameters"][0];
+    close(fc["value"].as_f64().expect("a number"), 1.2, 0.3);
+}

@@ -174,6 +174,29 @@ impl Cut {
 mod tests {
     use super::*;
 
+    /// What is there for four seconds is in every fold, wherever it begins.
+    #[test]
+    fn every_fold_has_some_of_what_comes_once() {
+        let time: Vec<f64> = (0..1600).map(|k| f64::from(k) / 40.0).collect();
+        let segments = [Segment { start: 0, time }];
+        let share = |rows: &[usize], from: usize| {
+            let there = rows.iter().filter(|row| (from..from + 160).contains(*row));
+            there.count() as f64 / 160.0
+        };
+        let fine = by(&segments, segments.iter().map(|one| Cut::fine(one, 0.8)));
+        let coarse = cut(&segments, &[None]);
+        let mut least_of_coarse = 1.0_f64;
+        for from in (0..1440).step_by(7) {
+            for fold in &fine {
+                assert!((share(&fold.test, from) - 0.2).abs() < 0.05, "{from}");
+                assert!(share(&fold.train, from) > 0.6, "{from}");
+            }
+            let known = coarse.iter().map(|fold| share(&fold.train, from));
+            least_of_coarse = known.fold(least_of_coarse, f64::min);
+        }
+        assert!(least_of_coarse < 0.1, "{least_of_coarse}");
+    }
+
     #[test]
     fn folds_of_a_periodic_log_never_share_a_phase() {
         for cycle in [0.8, 2.0, 5.0, 20.0 / 3.0, 10.0] {
