@@ -71,8 +71,8 @@ pub(super) fn said_of_doubtful(closed: &Loop) -> Option<String> {
     ))
 }
 
-/// That the log which was not fitted is against what was found: none of its joints' errors is smaller.
-pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
+/// Whether some joint's error on the log that was not fitted is smaller with what was found; none where that was not asked.
+pub(super) fn borne_out(closed: &Loop) -> Option<bool> {
     let (before, after) = (
         &closed.before.validation,
         &closed.changed.as_ref()?.validation,
@@ -80,7 +80,13 @@ pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
     let (before, after) = (&before.as_ref()?.rmse, &after.as_ref()?.rmse);
     let mut pairs = before.iter().zip(after);
     let is_smaller = |(before, after): (&f64, &f64)| *after < LEAST_FALL * before;
-    (closed.outcome() == Outcome::Explained && !pairs.any(is_smaller)).then(|| {
+    Some(pairs.any(is_smaller))
+}
+
+/// That the log which was not fitted is against what was found.
+pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
+    let is_against = closed.outcome() == Outcome::Explained && borne_out(closed) == Some(false);
+    is_against.then(|| {
         "no joint's error on the log of `--validate` is smaller with it by a hundredth: that log does not bear it out, so take it for a guess until another log does".to_owned()
     })
 }

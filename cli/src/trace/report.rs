@@ -3,6 +3,7 @@
 use robot_model::trace::{Alternative, Evidence, Finding, Share, TermShare, Tried, Whereabouts};
 use serde::Serialize;
 
+use super::doubt::borne_out;
 use crate::close_the_loop::Loop;
 use crate::data_gate::DataFault;
 
@@ -36,6 +37,8 @@ pub(crate) struct Report<'a> {
     structure_where: Vec<WhereReport<'a>>,
     /// Parameters of the last model that no arm has below zero, and that are by more than three deviations.
     impossible: Vec<ParameterReport<'a>>,
+    /// Whether some joint's raw error on the validation log is smaller by a hundredth with the amended spec; null where there is none.
+    borne_out: Option<bool>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
     /// What was judged in every round, best first, and why it was refused.
@@ -64,6 +67,8 @@ struct StepReport {
     time: f64,
     /// N m or N.
     size: f64,
+    /// Of the power of the joint's residual in that log.
+    share: f64,
 }
 
 #[derive(Serialize)]
@@ -202,6 +207,7 @@ impl<'a> Report<'a> {
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
+            borne_out: borne_out(closed),
             impossible: closed
                 .impossible()
                 .map(|found| ParameterReport::new(&found.name, found.value, Some(found.std)))
@@ -276,6 +282,7 @@ fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
             log: step.log + 1,
             time: step.time,
             size: step.size,
+            share: step.share,
         }),
     }
 }

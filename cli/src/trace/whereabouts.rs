@@ -11,6 +11,9 @@ use crate::units::Units;
 const TOLD: usize = 3;
 const LEAST_PERCENT: f64 = 10.0;
 
+/// A step is what structure is where it takes this share off it.
+const MOST: f64 = 0.5;
+
 /// Position and velocity together are told where they say so much more than either alone.
 const MORE: f64 = 0.1;
 
@@ -29,8 +32,8 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
         let mut steps = verdict.left.iter().filter(|one| one.joint == joint);
         let step = steps.find_map(|one| one.step);
         let follows = match step {
-            Some(_) => "is that of a level which changes",
-            None => "still follows the motion",
+            Some(step) if step.share > MOST => "is that of a level which changes",
+            _ => "still follows the motion",
         };
         let follows = format!("{share:.0} % of the error's power on {name} {follows}");
         let step = step.map(|step| stepped(closed, joint, &step));
@@ -58,7 +61,7 @@ fn stepped(closed: &Loop, joint: usize, step: &Step) -> String {
     };
     let time = step.time;
     format!(
-        "its residual changes by {size} {unit} at {time:.1} s{log} and stays there, as where something slips, breaks or is set anew: a log before it and one behind it are of two arms"
+        "its residual changes by {size} {unit} at {time:.1} s{log} and stays there, as where something slips, breaks or is set anew, or where the arm goes on at another place: fit what is before it and what is behind it apart"
     )
 }
 

@@ -38,7 +38,7 @@ pub(super) fn verdict(
     let is_beyond = found.is_empty() && values.floor.iter().any(|floor| floor.exceeded().is_some());
     // Nor is all well where a law that is not the right one takes much off.
     let is_doubtful = found.is_empty() && doubtful(&tried).is_some();
-    let is_settled = !is_beyond && !unsettled(&before, &after, state, &values.floor);
+    let is_settled = !is_beyond && !unsettled(&before, &after, state);
     let left = is_doubtful || !is_settled;
     let outcome = match (left, found.is_empty()) {
         (true, _) => Outcome::Unexplained,
@@ -160,11 +160,10 @@ fn alternatives(state: &State) -> Vec<Alternative> {
 
 /// Whether structure that matters is left which the findings should have accounted for, or which makes them doubtful.
 ///
-/// A law that leaves most of its joint's error where that comes back beyond all noise is not the one, whatever the frequency.
 /// Findings stand beside structure on other joints as long as they are most of the story: one law was enough for every
 /// joint, and more of the joints on which something was missing are settled than not. Where names pile up on a joint, or
 /// most of the structure is elsewhere, the names are those of something else.
-fn unsettled(before: &[Structure], after: &[Structure], state: &State, floor: &[Floor]) -> bool {
+fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
     let acting = |joint: usize| {
         let acts =
             move |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
@@ -185,10 +184,7 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State, floor: &[
         .filter(|j| laws(*j) > 0 && !left.contains(j))
         .count();
     let one_law_each = joints.clone().all(|j| laws(j) <= 1);
-    let is_doubtful = |j: usize| {
-        let is_beyond = floor[j].exceeded().is_some() && stays(j) > STAYS;
-        laws(j) > 0 && (is_beyond || is_another_law(&before[j], &after[j], stays(j)))
-    };
+    let is_doubtful = |j: usize| laws(j) > 0 && is_another_law(&before[j], &after[j], stays(j));
     joints.clone().any(is_doubtful)
         || left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
         || (!left.is_empty() && left.len() >= settled)

@@ -1,5 +1,7 @@
 //! Does a candidate hold on data that it was not fitted on?
 
+use std::rc::Rc;
+
 use crate::columns::Change;
 
 use super::change::Changed;
@@ -30,7 +32,7 @@ pub(super) struct Baseline<'a> {
     gram: Gram,
     held_out: HeldOut,
     /// The residual on raw samples.
-    raw: Raw<'a>,
+    raw: Rc<Raw<'a>>,
     /// Independent tests that all candidates and shapes are worth.
     tests: f64,
 }
@@ -65,13 +67,26 @@ impl Search<'_> {
             present: Present::new(stack, &gram, sigma, &state.residuals),
             held_out: gram.held_out(sigma),
             gram,
-            raw: self.raw(state),
+            raw: Rc::new(self.raw(state)),
             tests,
         }
     }
 }
 
-impl Baseline<'_> {
+impl<'a> Baseline<'a> {
+    /// The same on other folds.
+    pub(super) fn on(&self, folds: &[Fold]) -> Self {
+        let present: &Present<'a> = &self.present;
+        let gram = Gram::new(present.stack, folds);
+        Self {
+            present: Present::new(present.stack, &gram, present.sigma, present.residuals),
+            held_out: gram.held_out(present.sigma),
+            gram,
+            raw: Rc::clone(&self.raw),
+            tests: self.tests,
+        }
+    }
+
     pub(super) fn judge<'t>(&self, trial: Trial<'t>, projected: &Projected) -> Judged<'t> {
         let stack = self.present.stack;
         let count = trial.count();

@@ -45,7 +45,7 @@ impl Search<'_> {
 
     /// Whether it takes most of the structure off a joint, as noise that explains itself does not.
     fn takes_structure(&self, state: &State, judged: &Judged) -> bool {
-        let before = self.structure_of_all_rows(state);
+        let before = self.structure_without_steps(state);
         let after = judged.changed.iter().flat_map(|changed| &changed.structure);
         let mut joints = before.iter().zip(after).zip(&judged.evidence.raw_percent);
         joints.any(|((before, after), raw)| {

@@ -70,8 +70,15 @@ impl Search<'_> {
         let logs = self.prepared.iter();
         let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
         let steps = self.steps(state);
-        let stepped = |joint: usize, log: usize| steps[joint][log].map_or(0.0, |(_, taken)| taken);
+        let stepped = |joint: usize, log: usize| steps[joint][log].map_or(0.0, |step| step.taken);
         self.structure_in(&state.stack.segments, &raw, &state.residuals, &stepped)
+    }
+
+    /// The same but for torques that step once: what no law that follows the motion or the load takes off.
+    pub(super) fn structure_without_steps(&self, state: &State) -> Vec<Structure> {
+        let logs = self.prepared.iter();
+        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
+        self.structure_in(&state.stack.segments, &raw, &state.residuals, &|_, _| 0.0)
     }
 
     /// Structure per joint of raw residuals, `[log][joint][sample]`, and filtered ones, `[joint][row]`, of which steps take so much off.

@@ -96,9 +96,7 @@ impl Search<'_> {
                 let trial = trial.refined(&baseline.present, rows, place < FINELY);
                 let projected = trial.project(&baseline.present)?;
                 let mut judged = match self.own_folds(&trial, &state.stack.segments) {
-                    Some(folds) => self
-                        .baseline(state, *tests, &folds)
-                        .judge(trial, &projected),
+                    Some(folds) => baseline.on(&folds).judge(trial, &projected),
                     None => baseline.judge(trial, &projected),
                 };
                 if is_of_phase(judged.trial.candidate) {
@@ -177,6 +175,9 @@ impl Search<'_> {
     fn comes_back(&self, state: &State, judged: &Judged, rest: &[Vec<f64>]) -> bool {
         let percent = &judged.evidence.raw_percent;
         let matters = |joint: &usize| percent[*joint] >= MATERIAL_PERCENT;
+        if !(0..rest.len()).any(|joint| matters(&joint)) {
+            return false;
+        }
         let power = |residuals: &[Vec<f64>]| -> f64 {
             let joints = (0..residuals.len()).filter(matters);
             let weighed = joints.map(|joint| {
@@ -190,7 +191,7 @@ impl Search<'_> {
 
     /// What has the logged torque in it lowers the error by what that has of noise, too: it counts where there is structure.
     fn is_of_structure(&self, state: &State, judged: &Judged) -> bool {
-        let structure = self.structure_of_all_rows(state);
+        let structure = self.structure_without_steps(state);
         let mut joints = structure.iter().zip(&judged.evidence.raw_percent);
         joints.any(|(structure, percent)| structure.is_material() && *percent >= MATERIAL_PERCENT)
     }

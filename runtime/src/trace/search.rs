@@ -361,11 +361,8 @@ impl Search<'_> {
         }
         for effect in &mut accepted {
             if anew || effect.trial.candidate.uses_rigid_torque() {
-                effect.trial = Trial::new(
-                    effect.trial.candidate,
-                    effect.trial.shapes.clone(),
-                    Rows::new(&self.prepared, &stack),
-                );
+                let rows = Rows::new(&self.prepared, &stack);
+                effect.trial.entries = rows.columns(effect.trial.candidate, &effect.trial.shapes);
             }
             stack.append(effect.trial.candidate.unknowns(), &effect.trial.entries);
         }

@@ -41,8 +41,10 @@ pub struct Step {
     pub log: usize,
     /// When, s since the start of that log.
     pub time: f64,
-    /// By how much, N m or N.
+    /// By how much, N m or N, with the model fitted beside it.
     pub size: f64,
+    /// Share of the power of the joint's residual in that log, in the band of the fit, that it takes off.
+    pub share: f64,
 }
 
 /// The step of a series.
@@ -50,6 +52,7 @@ pub struct Step {
 struct Level {
     /// The first sample behind it.
     at: usize,
+    /// Of the means of all before and all behind.
     size: f64,
 }
 
@@ -124,47 +127,74 @@ impl Part<'_> {
         self.segment.time[0] + level.at as f64 / self.rate_hz
     }
 
-    /// The step with the model beside it, and the mean square that it takes off this part.
+    /// The step with the model beside it.
     ///
     /// Parameters take in a part of a step, which follows the motion then and hides the rest: so what is asked is the residual of a model
     /// that has the step, with the step in it.
-    fn refitted(&self, present: &Present, hint: Level) -> Option<(Level, f64)> {
+    fn refitted(&self, present: &Present, hint: Level) -> Option<(Level, Beside)> {
+        let mut found = hint;
+        for stands_out in [A_HINT, STANDS_OUT] {
+            let with_step = self.beside(present, found)?.residual;
+            found = self.level(&with_step, stands_out)?;
+        }
+        Some((found, self.beside(present, found)?))
+    }
+
+    /// The model with a step beside it.
+    fn beside(&self, present: &Present, level: Level) -> Option<Beside> {
         let rows = self.segment.start..self.segment.start + self.segment.time.len();
         let mean_square = |residual: &[f64]| {
             let squares: f64 = residual[rows.clone()].iter().map(|r| r * r).sum();
             squares / rows.len() as f64
         };
-        let before = mean_square(&present.residuals[self.joint]);
-        let mut found = hint;
-        let mut taken = 0.0;
-        for stands_out in [A_HINT, STANDS_OUT] {
-            let time = self.time(found);
-            let mut values = vec![0.0; present.stack.samples()];
-            for (value, at) in values[rows.clone()].iter_mut().zip(&self.segment.time) {
-                *value = f64::from(*at >= time);
-            }
-            let mut column = [Entry {
-                joint: self.joint,
-                column: 0,
-                values,
-            }];
-            present.stack.clear_left_out(&mut column);
-            let projected = present.project(&column, 1)?;
-            let mut rest = present.rest(&column, &projected).swap_remove(self.joint);
-            taken = before - mean_square(&rest);
-            let [column] = column;
-            for (rest, value) in rest.iter_mut().zip(&column.values) {
-                *rest += projected.gain[0] * value;
-            }
-            found = self.level(&rest, stands_out)?;
+        let time = self.time(level);
+        let mut values = vec![0.0; present.stack.samples()];
+        for (value, at) in values[rows.clone()].iter_mut().zip(&self.segment.time) {
+            *value = f64::from(*at >= time);
         }
-        Some((found, taken.max(0.0)))
+        let mut column = [Entry {
+            joint: self.joint,
+            column: 0,
+            values,
+        }];
+        present.stack.clear_left_out(&mut column);
+        let projected = present.project(&column, 1)?;
+        let mut residual = present.rest(&column, &projected).swap_remove(self.joint);
+        let before = mean_square(&present.residuals[self.joint]);
+        let taken = (before - mean_square(&residual)).max(0.0);
+        let size = projected.gain[0];
+        for (rest, value) in residual.iter_mut().zip(&column[0].values) {
+            *rest += size * value;
+        }
+        Some(Beside {
+            size,
+            taken,
+            share: taken / before.max(f64::MIN_POSITIVE),
+            residual,
+        })
     }
 }
 
+/// What a step is with the model beside it.
+struct Beside {
+    size: f64,
+    /// The mean square that it takes off its log's part of the residual, and its share of what was there.
+    taken: f64,
+    share: f64,
+    /// What the model leaves of the part, with the step in it.
+    residual: Vec<f64>,
+}
+
+/// A step, and the mean square that it takes off its log's part of the residual.
+#[derive(Clone, Copy)]
+pub(super) struct Stepped {
+    pub(super) step: Step,
+    pub(super) taken: f64,
+}
+
 impl Search<'_> {
-    /// The step of each joint's residual in each log, `[joint][log]`, with the mean square that it takes off that log's part.
-    pub(super) fn steps(&self, state: &State) -> Vec<Vec<Option<(Step, f64)>>> {
+    /// The step of each joint's residual in each log, `[joint][log]`.
+    pub(super) fn steps(&self, state: &State) -> Vec<Vec<Option<Stepped>>> {
         let gram = OnceCell::new();
         let step = |joint: usize, log: usize| {
             let part = Part {
@@ -173,25 +203,30 @@ impl Search<'_> {
                 rate_hz: self.prepared[log].filtered_hz(),
             };
             let hint = part.level(&state.residuals[joint], A_HINT)?;
-            let gram = gram.get_or_init(|| Gram::new(&state.stack, &self.folds));
+            let gram = gram.get_or_init(|| Gram::new(&state.stack, &[]));
             let sigma = &state.solution.sigma;
             let present = Present::new(&state.stack, gram, sigma, &state.residuals);
-            let (level, taken) = part.refitted(&present, hint)?;
-            let (time, size) = (part.time(level), level.size);
-            Some((Step { log, time, size }, taken))
+            let (level, found) = part.refitted(&present, hint)?;
+            let step = Step {
+                log,
+                time: part.time(level),
+                size: found.size,
+                share: found.share,
+            };
+            let taken = found.taken;
+            Some(Stepped { step, taken })
         };
         let logs = 0..self.prepared.len();
         let joint = |joint: usize| logs.clone().map(|log| step(joint, log)).collect();
         (0..self.arm.dof()).map(joint).collect()
     }
+}
 
-    /// The step of a joint's residual that takes most off it.
-    pub(super) fn largest_step(&self, state: &State, joint: usize) -> Option<Step> {
-        let steps = self.steps(state).swap_remove(joint);
-        let steps = steps.into_iter().flatten();
-        let largest = steps.max_by(|(_, one), (_, other)| one.total_cmp(other));
-        largest.map(|(step, _)| step)
-    }
+/// The step that takes most off its joint's residual.
+pub(super) fn largest(steps: &[Option<Stepped>]) -> Option<Step> {
+    let steps = steps.iter().flatten();
+    let largest = steps.max_by(|one, other| one.taken.total_cmp(&other.taken));
+    largest.map(|stepped| stepped.step)
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 //! A zero that walks has no length beyond which its samples are independent, so that blocks of it, however long, agree with each other, and
 //! a constant, a weight or a gain is found in it that the next log does not have. How much of a score a walk makes follows from its steps:
 //! with `W' = s n`, where `n` is white, `int z W dt` has the variance `s^2 int S^2 dt` with `S(t) = int_t z`. Steps are seen in how means of
-//! seconds part with the time between them, `E (m_(i+k) - m_i)^2 = s^2 (k - 1/3) + 2 v`, where what follows the motion, or is noise over
-//! less than a second, does not part further.
+//! seconds part with the time between them, `E (m_(i+k) - m_i)^2 = s^2 (k - 1/3) + 2 v`, up to a quarter of the log: noise over less than a
+//! second does not part further, what follows the motion no further than it moves, and a wander that is bound no further than that.
 
 use crate::identify::Segment;
 use crate::signal::resample::whole_steps;
@@ -12,8 +12,10 @@ use crate::signal::resample::whole_steps;
 /// Means are of so long a time, s.
 const MEAN_S: f64 = 1.0;
 
-/// Numbers of means between two that are compared, each twice the one before.
-const APART: [usize; 4] = [1, 2, 4, 8];
+/// Numbers of means between two that are compared are each twice the one before, these in any case that the log has, further ones as long as
+/// so many of them are in it.
+const APART: usize = 8;
+const PARTS: usize = 4;
 
 /// As many pairs of means tell how far they part.
 const LEAST_PAIRS: usize = 4;
@@ -27,11 +29,11 @@ pub(super) fn walk(segment: &Segment, residual: &[f64]) -> f64 {
         let squares: Vec<f64> = squares.collect();
         (squares.len() >= LEAST_PAIRS).then(|| squares.iter().sum::<f64>() / squares.len() as f64)
     };
-    let pairs = APART.windows(2);
-    let steps = pairs.filter_map(|pair| {
-        let [near, far] = [pair[0], pair[1]];
-        Some((parted(far)? - parted(near)?) / (far - near) as f64 / MEAN_S)
-    });
+    let most = APART.max(means.len() / PARTS);
+    let twice = std::iter::successors(Some(1), |near| Some(2 * near));
+    let steps = twice
+        .take_while(|near| 2 * near <= most)
+        .filter_map(|near| Some((parted(2 * near)? - parted(near)?) / near as f64 / MEAN_S));
     let least = steps.min_by(f64::total_cmp);
     least.unwrap_or(0.0).max(0.0)
 }
@@ -64,11 +66,12 @@ pub(super) fn products(segment: &Segment, walk: f64, columns: &[&[f64]]) -> Vec<
     if walk <= 0.0 || rows < 2 {
         return products;
     }
-    let step = (segment.time[rows - 1] - segment.time[0]) / (rows - 1) as f64;
     let mut tails = vec![0.0; count];
-    for row in (segment.start..segment.start + rows).rev() {
+    for row in (1..rows).rev() {
+        // A hole belongs to the row behind it.
+        let step = segment.time[row] - segment.time[row - 1];
         for (tail, column) in tails.iter_mut().zip(columns) {
-            *tail += column[row];
+            *tail += column[segment.start + row];
         }
         for (line, a) in products.iter_mut().zip(&tails) {
             for (product, b) in line.iter_mut().zip(&tails) {
@@ -130,6 +133,26 @@ mod tests {
         let wave = |k: u32| (0.9 * f64::from(k) / HZ).sin() + 0.4 * (2.3 * f64::from(k) / HZ).cos();
         let wave: Vec<f64> = (0..1600).map(wave).collect();
         assert!(walk(&segment, &wave) < 1e-3);
+    }
+
+    /// A zero that wanders within bounds, and a motion of eighteen seconds, part for a while and then no more: a long log tells.
+    #[test]
+    fn what_is_bound_is_no_walk_of_a_long_log() {
+        let rows = 24_000;
+        let segment = segment(rows);
+        let slow = |k: u32| (0.35 * f64::from(k) / HZ).sin();
+        let slow: Vec<f64> = (0..rows).map(slow).collect();
+        assert!(walk(&segment, &slow) < 1e-3);
+        for seed in 0..10 {
+            let mut value = 0.0;
+            let bound = white(rows, seed).into_iter().map(|step| {
+                value += step / HZ.sqrt() - value / (5.0 * HZ);
+                value
+            });
+            // The power of its steps is 1.
+            let bound: Vec<f64> = bound.collect();
+            assert!(walk(&segment, &bound) < 0.1);
+        }
     }
 
     /// The variance of a constant's score over walks of many seeds.

@@ -11,7 +11,7 @@ use crate::signal::resample::whole_steps;
 
 use super::gram::Gram;
 use super::search::{Accepted, Search, State};
-use super::step::Step;
+use super::step::{self, Step};
 
 /// A curve is straight between so many values of its quantity, among which samples are evenly spread.
 const KNOTS: usize = 24;
@@ -223,6 +223,7 @@ impl Search<'_> {
             (with, (1.0 - left).max(0.0))
         };
         let terms = self.terms();
+        let steps = self.steps(state);
         let of_joint = |joint: usize| {
             let shares = self.quantities(joint).filter_map(|of| {
                 let (_, share) = beside(joint, self.curve(of)?);
@@ -249,7 +250,7 @@ impl Search<'_> {
                 terms,
                 peak_hz,
                 peak_share,
-                step: self.largest_step(state, joint),
+                step: step::largest(&steps[joint]),
             }
         };
         joints.into_iter().map(of_joint).collect()
