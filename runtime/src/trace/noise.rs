@@ -13,6 +13,9 @@ use super::search::{Search, State};
 use super::trial::Trial;
 use super::verdict::Refusal;
 
+/// Noise that explains itself takes less than this off a joint's error of raw samples: it was 11 % of an arm that lacked nothing.
+const FAR_MORE_PERCENT: f64 = 20.0;
+
 /// Of a joint's structure a law that is no noise leaves at most this share.
 const MOST_LEFT: f64 = 0.5;
 
@@ -43,7 +46,7 @@ impl Search<'_> {
             && pairs.any(|(clean, raw)| clean.min(*raw) >= MATERIAL_PERCENT)
     }
 
-    /// Whether it takes most of the structure off a joint, as noise that explains itself does not.
+    /// Whether it takes most of the structure off a joint, and more of its error than noise that explains itself does.
     fn takes_structure(&self, state: &State, judged: &Judged) -> bool {
         let before = self.structure_without_steps(state);
         let after = judged.changed.iter().flat_map(|changed| &changed.structure);
@@ -51,7 +54,7 @@ impl Search<'_> {
         joints.any(|((before, after), raw)| {
             before.is_material()
                 && after.power < MOST_LEFT * before.power
-                && *raw >= MATERIAL_PERCENT
+                && *raw >= FAR_MORE_PERCENT
         })
     }
 
