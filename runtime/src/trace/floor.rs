@@ -29,7 +29,7 @@ const PARTS_OF_TWO: usize = 16;
 const BEYOND: f64 = 3.0;
 
 /// By how much more than white noise of its size the steps of an encoder may count, in power.
-pub(super) const STEPS: f64 = 2.0;
+pub(super) const STEPS_OVER_NOISE: f64 = 2.0;
 
 /// From what a floor is known.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,7 +127,7 @@ impl Search<'_> {
                 let parts: Vec<f64> = parts.map(|part| part + beyond[joint]).collect();
                 let left = self.left_away(&raw, joint);
                 // Steps of an encoder come back with the motion, and are no torque.
-                let noise = STEPS * self.position_noise[joint].raw;
+                let noise = STEPS_OVER_NOISE * self.position_noise[joint].raw;
                 return Floor {
                     left: left.map(|left| (left + beyond[joint] - noise).max(0.0).sqrt()),
                     ..Floor::of_parts(&parts, FloorFrom::Periods)

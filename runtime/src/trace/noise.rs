@@ -14,7 +14,7 @@ use super::trial::Trial;
 use super::verdict::Refusal;
 
 /// Noise that explains itself takes less than this off a joint's error of raw samples: it was 11 % of an arm that lacked nothing.
-const FAR_MORE_PERCENT: f64 = 20.0;
+const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
 
 /// Of a joint's structure a law that is no noise leaves at most this share.
 const MOST_LEFT: f64 = 0.5;
@@ -26,7 +26,8 @@ impl Search<'_> {
         &self,
         state: &State,
         baseline: &Baseline,
-        (judged, change): (&Judged, &dyn Change),
+        judged: &Judged,
+        change: &dyn Change,
     ) -> bool {
         if self.takes_structure(state, judged) {
             return true;
@@ -54,7 +55,7 @@ impl Search<'_> {
         joints.any(|((before, after), raw)| {
             before.is_material()
                 && after.power < MOST_LEFT * before.power
-                && *raw >= FAR_MORE_PERCENT
+                && *raw >= MORE_THAN_NOISE_PERCENT
         })
     }
 

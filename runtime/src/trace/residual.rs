@@ -5,7 +5,7 @@ use crate::identify::{Segment, left_out, torque_of};
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
-use super::floor::STEPS;
+use super::floor::STEPS_OVER_NOISE;
 use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
 
@@ -67,18 +67,26 @@ impl Search<'_> {
 
     /// Structure per joint, of turns and what is away from them alike.
     pub(super) fn structure_of_all_rows(&self, state: &State) -> Vec<Structure> {
-        let logs = self.prepared.iter();
-        let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
         let steps = self.steps(state);
-        let stepped = |joint: usize, log: usize| steps[joint][log].map_or(0.0, |step| step.taken);
-        self.structure_in(&state.stack.segments, &raw, &state.residuals, &stepped)
+        self.structure_with(state, &|joint, log| {
+            steps[joint][log].map_or(0.0, |step| step.taken)
+        })
     }
 
     /// The same but for torques that step once: what no law that follows the motion or the load takes off.
     pub(super) fn structure_without_steps(&self, state: &State) -> Vec<Structure> {
+        self.structure_with(state, &|_, _| 0.0)
+    }
+
+    /// Structure per joint of the present model, of whose residual steps take so much off.
+    fn structure_with(
+        &self,
+        state: &State,
+        stepped: &dyn Fn(usize, usize) -> f64,
+    ) -> Vec<Structure> {
         let logs = self.prepared.iter();
         let raw: Vec<_> = logs.map(|log| self.raw_residuals(state, log)).collect();
-        self.structure_in(&state.stack.segments, &raw, &state.residuals, &|_, _| 0.0)
+        self.structure_in(&state.stack.segments, &raw, &state.residuals, stepped)
     }
 
     /// Structure per joint of raw residuals, `[log][joint][sample]`, and filtered ones, `[joint][row]`, of which steps take so much off.
@@ -100,7 +108,7 @@ impl Search<'_> {
                 shared_hz: self.shared_hz,
                 period: self.periods[log],
                 stepped: stepped(joint, log),
-                steps: STEPS * self.position_noise[joint].filtered,
+                encoder: STEPS_OVER_NOISE * self.position_noise[joint].filtered,
             }
         };
         let of_joint = |joint: usize| {

@@ -161,7 +161,7 @@ impl Search<'_> {
         if judged.passes() && !follows_torque && !self.holds_away_from_turns(state, &judged) {
             judged.refusals.push(Refusal::AtTurns);
         }
-        if follows_torque && !self.is_more_than_noise(state, baseline, (&judged, change)) {
+        if follows_torque && !self.is_more_than_noise(state, baseline, &judged, change) {
             judged.refusals.push(Refusal::Noise);
         }
         if !counts && !judged.refusals.contains(&Refusal::Small) {

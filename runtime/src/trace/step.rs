@@ -8,6 +8,7 @@ use std::cell::OnceCell;
 
 use crate::columns::Entry;
 use crate::identify::Segment;
+use crate::signal::MEDIAN_OF_NORMAL;
 use crate::signal::resample::whole_steps;
 
 use super::gram::Gram;
@@ -26,9 +27,6 @@ const A_HINT: f64 = 2.5;
 
 /// Of what a second differs by, this share has to be there between the means of all before and all behind.
 const STAYS: f64 = 0.5;
-
-/// A median of the sizes of normal numbers, in deviations.
-const MEDIAN: f64 = 0.674_489_750_196_081_7;
 
 /// Differences of means that are told apart: fewer know nothing of their deviation.
 const LEAST_APART: usize = 10;
@@ -99,7 +97,7 @@ fn level(values: &[f64], rate_hz: f64, stands_out: f64) -> Option<Level> {
     }
     let mut sizes: Vec<f64> = all.iter().map(|(_, size)| size.abs()).collect();
     let middle = sizes.len() / 2;
-    let deviation = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN;
+    let deviation = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1 / MEDIAN_OF_NORMAL;
     let largest = all
         .into_iter()
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;

@@ -82,7 +82,7 @@ pub(super) struct RawResidual<'a> {
     /// Mean square that a step takes off it.
     pub(super) stepped: f64,
     /// Mean square of what steps of encoders make of it.
-    pub(super) steps: f64,
+    pub(super) encoder: f64,
 }
 
 /// Structure of one joint over all logs.
@@ -114,7 +114,7 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
             0.0
         };
         let periodic = log.period.map_or(0.0, |period| {
-            (repeated_power(&log.filtered, period * log.filtered_hz) - log.steps).max(0.0)
+            (repeated_power(&log.filtered, period * log.filtered_hz) - log.encoder).max(0.0)
         });
         found.power += weight * above.max(periodic).max(log.stepped);
         found.ratio = found.ratio.max(ratio);
@@ -254,7 +254,7 @@ mod tests {
                 shared_hz: 10.0,
                 period: None,
                 stepped: 0.0,
-                steps: 0.0,
+                encoder: 0.0,
             }])
         };
         let density =
