@@ -11,6 +11,6 @@
 /// large loads, in which a spring is bent and a delay is nothing.
 effect joint_elasticity(j) {
     /// N m/rad (N/m for a prismatic joint).
-    shape stiffness in 20 .. 1000000;
+    shape stiffness in 0.1 .. 1000000;
     position(j) = -rigid_torque(j) / stiffness;
 }

@@ -6,7 +6,7 @@ use plant::{Pendulums, Plant, column, sign};
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::log::Log;
 use robot_model::motion::{Kinematics, Motion};
-use robot_model::trace::{Outcome, Trace, Verdict};
+use robot_model::trace::{Outcome, Refusal, Trace, Verdict};
 
 /// One column on one joint, a function of `(q, dq, shape)`.
 struct Law {
@@ -270,6 +270,80 @@ fn what_comes_back_above_the_band_is_missing_all_the_same() {
     };
     assert_eq!(exceeded(&verdict), [true, false]);
     assert_eq!(exceeded(&traced(|_, _, _| 0.0)), [false, false]);
+}
+
+/// Two columns that are nearly one: their sum is told, neither of their parameters is.
+struct Traded([Unknown; 2]);
+
+impl Traded {
+    fn new() -> Self {
+        Self(["a", "b"].map(|name| Unknown {
+            name: format!("joint1.traded.{name}"),
+            nonnegative: false,
+        }))
+    }
+}
+
+impl Columns for Traded {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.0
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
+        let Kinematics { q, dq, .. } = &motion.wide;
+        let drag = || dq[0].iter().map(|v| v * v.abs());
+        let other = drag()
+            .zip(&q[0])
+            .map(|(drag, q)| drag + 2e-3 * (9.0 * q).sin());
+        vec![column(drag(), 0, 0), column(other, 0, 1)]
+    }
+}
+
+impl Candidate for Traded {
+    fn kind(&self) -> &str {
+        "traded"
+    }
+
+    fn joints(&self) -> &[usize] {
+        &[0]
+    }
+}
+
+/// A law whose parameters trade with each other is not told by its fit, unless that is most of what is missing.
+#[test]
+fn a_law_whose_parameters_trade_is_told_where_it_is_most_of_the_error() {
+    let traded = |extra: fn(usize, [f64; 2], [f64; 2]) -> f64| {
+        let plant = Plant {
+            extra,
+            ..Plant::default()
+        };
+        Trace::new(vec![&Traded::new()])
+            .run(&Pendulums::new(), &[plant.log()], &mut |_| ())
+            .expect("the log is sound")
+    };
+    let small = traded(|j, _, v| {
+        if j == 0 {
+            0.03 * v[0] * v[0].abs()
+        } else {
+            0.0
+        }
+    });
+    assert!(small.findings.is_empty(), "{small:#?}");
+    assert_eq!(
+        small.tried[0].refusals,
+        [Refusal::Undetermined],
+        "{small:#?}"
+    );
+    let large = traded(|j, _, v| if j == 0 { 0.6 * v[0] * v[0].abs() } else { 0.0 });
+    assert_eq!(names(&large), [("traded", 1)], "{large:#?}");
 }
 
 /// A log in which a brake holds the second joint, with a torque that is noise.

@@ -80,7 +80,7 @@ struct Report {
     friction: Option<f64>,
     gain_beside_hysteresis: Option<f64>,
     gain_beside_hysteresis_std: Option<f64>,
-    spec: String,
+    spec: Option<String>,
 }
 
 impl Static {
@@ -121,8 +121,10 @@ impl Static {
     }
 }
 
-fn spec(line: &StaticGain) -> String {
-    format!("actuator_gain = {} Nm/A;", rounded(&line.best()))
+/// None where the points are on no line, which has no gain then.
+fn spec(line: &StaticGain) -> Option<String> {
+    let is_bent = line.curvature.as_ref().is_some_and(Term::is_told);
+    (!is_bent).then(|| format!("actuator_gain = {} Nm/A;", rounded(&line.best())))
 }
 
 fn report(line: &StaticGain) -> Report {
@@ -161,7 +163,7 @@ fn summary(line: &StaticGain) -> String {
          bend        {}\n\
          hysteresis  {}\n\
          \n\
-         for the spec, in the joint:\n    {}\n",
+         {}\n",
         measured(&line.gain, "N m/A"),
         measured(&line.offset, "N m"),
         line.r,
@@ -169,7 +171,14 @@ fn summary(line: &StaticGain) -> String {
         counted(line.samples, "point"),
         bend(line),
         hysteresis(line),
-        spec(line),
+        spec(line).map_or_else(
+            || {
+                "no gain for the spec, as the slope of no line is one: leave out rows with currents at which the drive is at its limit, and \
+                 calibrate again"
+                    .to_owned()
+            },
+            |gain| format!("for the spec, in the joint:\n    {gain}")
+        ),
     )
 }
 

@@ -8,6 +8,7 @@ use robot_model::log::Log;
 use robot_model_spec::Model;
 use robot_model_spec::model::JointKind;
 
+use super::doubts;
 use super::fit::Fit;
 use crate::output::names;
 
@@ -198,7 +199,8 @@ pub(super) fn others(
     for reading in units(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
     }
-    if worst > WELL {
+    // A joint that hardly bends with gravity may fit with a torque of the wrong sign, and friction that pushes.
+    if worst > WELL || doubts::impossible(found, form.unknowns()).next().is_some() {
         let joints = 0..form.dof();
         let signs = joints.flat_map(|joint| {
             let channels = [Channel::Position, Channel::Torque];

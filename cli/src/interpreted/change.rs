@@ -12,6 +12,9 @@ use super::InterpretedArm;
 use super::shape::grids;
 use crate::in_order::each;
 
+/// A shape with an end that changes nothing is probed this part of its first values away from there, where it changes little.
+const LITTLE: usize = 4;
+
 /// An effect without torque on joints where the spec does not declare it, as the arm with it.
 #[derive(Debug, Clone)]
 pub struct InterpretedChange {
@@ -128,11 +131,15 @@ impl InterpretedChange {
                 // Which end of one changes nothing is not known without the others.
                 return None;
             } else {
-                let ends = [low, high].map(|end| change.displacement(end));
-                change
-                    .neutral
-                    .push(if ends[0] < ends[1] { low } else { high });
-                change.probe.push(grid[grid.len() / 2]);
+                let [of_low, of_high] = [low, high].map(|end| change.displacement(end));
+                let (little, last) = (grid.len() / LITTLE, grid.len() - 1);
+                let (neutral, probe) = if of_low < of_high {
+                    (low, grid[little])
+                } else {
+                    (high, grid[last - little])
+                };
+                change.neutral.push(neutral);
+                change.probe.push(probe);
             }
         }
         Some(change)

@@ -14,6 +14,11 @@ use crate::output::significant;
 /// An error that is smaller is at most this share of what it was.
 const LEAST_FALL: f64 = 0.99;
 
+/// Joints of which this many times as much is left, relative to the torque, on the log that was not fitted as on those that were, and more
+/// than this percentage, are told: that is no matter of another motion.
+const TIMES_AS_MUCH: f64 = 3.0;
+const MUCH_PERCENT: f64 = 5.0;
+
 const PUT: &str = "a string takes all";
 
 /// One line an alternative, and for the spec at a path, of a text, the command that designs the motion for the first doubt that has one.
@@ -55,8 +60,18 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
     out
 }
 
+/// What is to be known of a verdict before anybody acts on it, a sentence each.
+pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
+    let of_logs = said_of_doubtful(closed)
+        .into_iter()
+        .chain(impossible(closed));
+    of_logs
+        .chain(not_borne_out(closed))
+        .chain(said_of_unlike(closed))
+}
+
 /// The law that says that something is missing although it may not be named.
-pub(super) fn said_of_doubtful(closed: &Loop) -> Option<String> {
+fn said_of_doubtful(closed: &Loop) -> Option<String> {
     let tried = closed.verdict.doubtful()?;
     let percent = tried
         .joints
@@ -83,8 +98,45 @@ pub(super) fn borne_out(closed: &Loop) -> Option<bool> {
     Some(pairs.any(is_smaller))
 }
 
+/// Joints, from 0, of which much more is left on the log that was not fitted than on the logs that were.
+pub(super) fn unlike(closed: &Loop) -> Vec<usize> {
+    let Some((unseen, fitted)) = relative_percent(closed) else {
+        return Vec::new();
+    };
+    let is_unlike = |joint: &usize| {
+        unseen[*joint] > MUCH_PERCENT && unseen[*joint] > TIMES_AS_MUCH * fitted[*joint]
+    };
+    (0..fitted.len()).filter(is_unlike).collect()
+}
+
+/// What the last model leaves on the log that was not fitted and on those that were, percent of each joint's torque.
+fn relative_percent(closed: &Loop) -> Option<(&[f64], &[f64])> {
+    let after = closed.after();
+    let unseen = &after.validation.as_ref()?.relative_percent;
+    Some((unseen, &after.estimate.relative_percent))
+}
+
+/// That the log which was not fitted shows what those that were do not: no verdict is of that.
+fn said_of_unlike(closed: &Loop) -> Option<String> {
+    let (unseen, fitted) = relative_percent(closed)?;
+    let names = closed.before.arm.joints();
+    let joints = unlike(closed).into_iter().map(|joint| {
+        format!(
+            "{}: {:.1} % of its torque, {:.1} % there",
+            names[joint], unseen[joint], fitted[joint]
+        )
+    });
+    let joints: Vec<String> = joints.collect();
+    (!joints.is_empty()).then(|| {
+        format!(
+            "the log of `--validate` has something that the traced logs do not show ({}): trace it, too, and judge on another one",
+            joints.join("; ")
+        )
+    })
+}
+
 /// That the log which was not fitted is against what was found.
-pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
+fn not_borne_out(closed: &Loop) -> Option<String> {
     let is_against = closed.outcome() == Outcome::Explained && borne_out(closed) == Some(false);
     is_against.then(|| {
         "no joint's error on the log of `--validate` is smaller with it by a hundredth: that log does not bear it out, so take it for a guess until another log does".to_owned()
@@ -92,7 +144,7 @@ pub(super) fn not_borne_out(closed: &Loop) -> Option<String> {
 }
 
 /// Parameters in which something that is missing hides.
-pub(super) fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
+fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     closed.impossible().map(|found| {
         format!(
             "{} = {:.4} +- {} is below zero, as no arm has it: something that the spec lacks moves as it does all along these logs, as friction \

@@ -3,7 +3,7 @@
 use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
 
-use super::doubt::{doubt, impossible, not_borne_out, on_joints, said_of_doubtful};
+use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
 use super::tried::rows;
 use super::whereabouts::structure_left;
@@ -99,8 +99,7 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
             values.collect::<Vec<_>>().join(", ")
         )
     }));
-    items.extend(said_of_doubtful(closed));
-    items.extend(impossible(closed).chain(not_borne_out(closed)));
+    items.extend(doubts(closed));
     if !items.is_empty() {
         page.list(&items);
     }

@@ -3,7 +3,7 @@
 use robot_model::trace::{Alternative, Evidence, Finding, Share, TermShare, Tried, Whereabouts};
 use serde::Serialize;
 
-use super::doubt::borne_out;
+use super::doubt::{borne_out, unlike};
 use crate::close_the_loop::Loop;
 use crate::data_gate::DataFault;
 
@@ -39,6 +39,8 @@ pub(crate) struct Report<'a> {
     impossible: Vec<ParameterReport<'a>>,
     /// Whether some joint's raw error on the validation log is smaller by a hundredth with the amended spec; null where there is none.
     borne_out: Option<bool>,
+    /// Joints of which much more is left on the validation log than on the logs that were traced.
+    unlike_validation: Vec<usize>,
     /// Effects that passed the gates although structure remains.
     leads: Vec<EffectReport<'a>>,
     /// What was judged in every round, best first, and why it was refused.
@@ -208,6 +210,7 @@ impl<'a> Report<'a> {
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
             borne_out: borne_out(closed),
+            unlike_validation: unlike(closed).iter().map(|joint| joint + 1).collect(),
             impossible: closed
                 .impossible()
                 .map(|found| ParameterReport::new(&found.name, found.value, Some(found.std)))

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
-use super::doubt::{doubt, impossible, not_borne_out, on_joints, said_of_doubtful};
+use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
 use super::tried::tried;
 use super::whereabouts::structure_left;
@@ -79,10 +79,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
             writeln!(out, "{:indent$}{said}", "").expect("a string takes all");
         }
     }
-    if let Some(told) = said_of_doubtful(closed) {
-        writeln!(out, "  {told}").expect("a string takes all");
-    }
-    for told in impossible(closed).chain(not_borne_out(closed)) {
+    for told in doubts(closed) {
         writeln!(out, "  {told}").expect("a string takes all");
     }
     out.push_str(&tried(closed));

@@ -74,6 +74,12 @@ fn a_gain_that_saturates_is_no_line() {
     assert!(said.contains("hysteresis  not told"), "{said}");
     let found = json(&folder.read("bent.json"));
     close(found["curvature"].as_f64().expect("told"), -0.002, 1e-9);
+    // A gain that is not there is in no spec.
+    assert!(
+        found["spec"].is_null() && !said.contains("actuator_gain"),
+        "{said}"
+    );
+    assert!(said.contains("at its limit, and calibrate again"), "{said}");
     assert!(found["hysteresis"].is_null() && found["friction"].is_null());
 }
 

@@ -103,6 +103,36 @@ fn trace_closes_the_loop() {
     );
 }
 
+/// A law of one log that the other one does not have: it is named, and that the other is against it is said.
+#[test]
+fn what_the_other_log_does_not_bear_out_is_said() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    for (coulomb, is_borne_out) in [(2.0, true), (0.0, false)] {
+        folder.write("other.csv", &cart_log(20, coulomb, 0.7));
+        let trace = ["trace", "cart.robot", "log.csv", "--validate", "other.csv"];
+        let told = folder.succeed(&[&trace[..], &["--json", "out.json"]].concat());
+        assert!(
+            told.starts_with("explained:\n  coulomb-friction on rail"),
+            "{told}"
+        );
+        let out = json(&folder.read("out.json"));
+        assert_eq!(out["borne_out"], is_borne_out, "{out}");
+        let is_said = told.contains("that log does not bear it out");
+        assert_eq!(is_said, !is_borne_out, "{told}");
+        // What the one log has and the other has not is much of its error.
+        assert_eq!(
+            out["unlike_validation"] == json("[]"),
+            is_borne_out,
+            "{out}"
+        );
+    }
+    let told = folder.succeed(&["trace", "cart.robot", "log.csv", "--json", "out.json"]);
+    assert!(!told.contains("bear it out"), "{told}");
+    assert_eq!(json(&folder.read("out.json"))["borne_out"], Value::Null);
+}
+
 #[test]
 fn trace_writes_nothing_where_it_cannot_write_all() {
     let folder = Folder::new();

@@ -105,6 +105,8 @@ pub struct Design {
     pub motion: Fourier,
     /// All criteria at it.
     pub quality: Quality,
+    /// Variables of the search: the coefficients that are left free by how the motion begins and ends, of all joints.
+    pub variables: usize,
     /// Motions that were started from.
     pub starts: usize,
     /// Whether it was stopped before the last one.
@@ -127,6 +129,8 @@ impl Request {
     /// let along = design.motion.motion(&design.motion.instants(1000));
     /// assert!(along.q[0].iter().all(|q| q.abs() < 0.5) && along.dq[0].iter().all(|dq| dq.abs() < 2.0));
     /// assert_eq!(design.quality.violation, 0.0);
+    /// // One joint with three harmonics: its mean, three sines and three cosines.
+    /// assert_eq!(design.variables, 1 + 2 * 3);
     /// # Ok::<(), robot_model::excite::ExciteError>(())
     /// ```
     pub fn run(&self, watch: &dyn Fn(Progress) -> bool) -> Result<Design, ExciteError> {
@@ -171,21 +175,14 @@ impl Request {
         Ok(Design {
             quality,
             motion,
+            variables: self.variables(),
             starts,
             stopped: stopped.get(),
         })
     }
 
-    /// Number of variables that the search has.
-    ///
-    /// # Examples
-    /// ```
-    /// # mod rotor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/rotor.rs")); }
-    /// // One joint with three harmonics: its mean, three sines and three cosines.
-    /// assert_eq!(rotor::request().variables(), 1 + 2 * 3);
-    /// ```
-    #[must_use]
-    pub fn variables(&self) -> usize {
+    /// Coefficients that ends leave free, of all joints.
+    fn variables(&self) -> usize {
         let joints = 0..self.joints.len();
         let freedom = |joint| Freedom::new(self.harmonics, self.period, &self.ends, joint);
         joints.map(|joint| freedom(joint).len()).sum()

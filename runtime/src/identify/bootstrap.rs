@@ -28,6 +28,9 @@ const LEAST_BLOCKS: usize = 6;
 /// Most blocks: more say nothing more, and take longer.
 const MOST_BLOCKS: usize = 200;
 
+/// Fewer draws have no 95 % of which a few are outside.
+const LEAST_DRAWS: usize = 100;
+
 /// A draw whose least pivot is below this share of that of all blocks does not tell all, and the least share of draws that do.
 const LEAST_PIVOT: f64 = 0.02;
 const LEAST_SHARE: f64 = 0.9;
@@ -75,6 +78,12 @@ pub(super) fn intervals(
     weights: &[Vec<f64>],
     draws: usize,
 ) -> Result<Bootstrap, IdentifyError> {
+    if draws < LEAST_DRAWS {
+        return Err(IdentifyError::Draws {
+            draws,
+            least: LEAST_DRAWS,
+        });
+    }
     let residuals = stack.residuals(&solution.estimate);
     let alike = stack.correlation_times(&residuals);
     let alike = alike.into_iter().fold(1.0, f64::max);

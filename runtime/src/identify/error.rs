@@ -74,6 +74,16 @@ pub enum IdentifyError {
         /// Which are not told, and what is told of them.
         why: String,
     },
+    /// Too few draws for an interval.
+    #[error(
+        "{draws} draws of a bootstrap tell no interval with 95 % of them; ask for {least} or more"
+    )]
+    Draws {
+        /// Draws that were asked for.
+        draws: usize,
+        /// Least number.
+        least: usize,
+    },
     /// Draws of blocks that do not tell all.
     #[error(
         "of {draws} draws of blocks only {made} tell all parameters apart: something is excited in a few places of the logs alone; give logs that \

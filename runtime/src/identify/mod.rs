@@ -107,7 +107,7 @@ pub struct Identify {
     pub instruments: Vec<Trajectory>,
     /// Values of the shapes that the spec leaves open, in its order; `None`: they are looked for.
     pub shapes: Option<Vec<f64>>,
-    /// Of [`Method::Ls`], [`Method::Wls`] and [`Method::Robust`]: how often blocks of the logs are drawn for intervals; 0 for none.
+    /// Of [`Method::Ls`], [`Method::Wls`] and [`Method::Robust`]: how often blocks of the logs are drawn for intervals, 100 times or more; 0 for none.
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
     pub essential: bool,

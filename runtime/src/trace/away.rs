@@ -11,6 +11,7 @@ use crate::identify::{Solution, Stack, leave_out_turns};
 use super::gate::{Judged, MATERIAL_PERCENT};
 use super::gram::{Gram, HeldOut};
 use super::search::{Search, State};
+use super::step::Stepped;
 use super::structure::Structure;
 
 /// Of a joint's rows: where turns reach all but this share, rows away from them are no judges.
@@ -20,6 +21,8 @@ pub(super) const LEAST_LEFT: f64 = 0.25;
 #[derive(Default)]
 pub(super) struct Looks {
     structure: OnceLock<Vec<Structure>>,
+    pub(super) without_steps: OnceLock<Vec<Structure>>,
+    pub(super) steps: OnceLock<Vec<Vec<Option<Stepped>>>>,
     away: OnceLock<Option<Away>>,
 }
 

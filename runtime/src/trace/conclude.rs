@@ -25,17 +25,16 @@ pub(super) struct Told {
     pub(super) turn_speeds: Vec<f64>,
 }
 
-/// The verdict on a finished search.
+/// The verdict on a finished search; `is_beyond` is whether it found nothing and leaves more than differs from period to period.
 pub(super) fn verdict(
     state: &State,
     before: Vec<Structure>,
     after: Vec<Structure>,
     values: &Told,
     tried: Vec<Tried>,
+    is_beyond: bool,
 ) -> Verdict {
     let found = findings(state, &values.std);
-    // Of a quiet arm a model with what was found may leave more than noise all the same.
-    let is_beyond = found.is_empty() && values.floor.iter().any(|floor| floor.exceeded().is_some());
     // Nor is all well where a law that is not the right one takes much off.
     let is_doubtful = found.is_empty() && doubtful(&tried).is_some();
     let is_settled = !is_beyond && !unsettled(&before, &after, state);

@@ -74,8 +74,9 @@ impl Search<'_> {
     }
 
     /// The same but for torques that step once: what no law that follows the motion or the load takes off.
-    pub(super) fn structure_without_steps(&self, state: &State) -> Vec<Structure> {
-        self.structure_with(state, &|_, _| 0.0)
+    pub(super) fn structure_without_steps<'a>(&self, state: &'a State) -> &'a [Structure] {
+        let found = || self.structure_with(state, &|_, _| 0.0);
+        state.looks.without_steps.get_or_init(found)
     }
 
     /// Structure per joint of the present model, of whose residual steps take so much off.

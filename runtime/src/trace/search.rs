@@ -237,14 +237,16 @@ impl<'a> Trace<'a> {
         let after = search.structure(&state).to_vec();
         let before = self.since.clone().unwrap_or(before);
         let values = search.told(&state);
+        let is_named = self.since.is_some() || state.accepted.iter().any(|effect| !effect.is_small);
+        // Of a quiet arm a model without a finding may leave more than noise all the same.
+        let is_beyond = |joint: &usize| !is_named && values.floor[*joint].exceeded().is_some();
         let is_told = |joint: &usize| {
-            let is_named = state.accepted.iter().any(|effect| !effect.is_small);
-            let is_beyond = !is_named && values.floor[*joint].exceeded().is_some();
-            after[*joint].is_material() || of_terms.contains(joint) || is_beyond
+            after[*joint].is_material() || of_terms.contains(joint) || is_beyond(joint)
         };
-        let told = (0..after.len()).filter(is_told).collect();
-        let left = search.whereabouts(&state, told);
-        let mut verdict = verdict(&state, before, after, &values, tried);
+        let joints = 0..after.len();
+        let left = search.whereabouts(&state, joints.clone().filter(is_told).collect());
+        let any_beyond = joints.into_iter().any(|joint| is_beyond(&joint));
+        let mut verdict = verdict(&state, before, after, &values, tried, any_beyond);
         if !of_terms.is_empty() {
             verdict = verdict.unexplained();
         }

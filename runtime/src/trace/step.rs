@@ -192,7 +192,11 @@ pub(super) struct Stepped {
 
 impl Search<'_> {
     /// The step of each joint's residual in each log, `[joint][log]`.
-    pub(super) fn steps(&self, state: &State) -> Vec<Vec<Option<Stepped>>> {
+    pub(super) fn steps<'a>(&self, state: &'a State) -> &'a [Vec<Option<Stepped>>] {
+        state.looks.steps.get_or_init(|| self.steps_of(state))
+    }
+
+    fn steps_of(&self, state: &State) -> Vec<Vec<Option<Stepped>>> {
         let gram = OnceCell::new();
         let step = |joint: usize, log: usize| {
             let part = Part {

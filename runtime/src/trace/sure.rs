@@ -12,6 +12,9 @@ const TOLD: f64 = 2.0;
 /// The same of a change of the arm, which moves all of the equations, and their noise with them.
 const TOLD_OF_CHANGE: f64 = 3.0;
 
+/// A law without which a joint's errors are twice what they are with it, held out and raw, is there whatever its parameters trade.
+const MOST_PERCENT: f64 = 50.0;
+
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
     /// torque linearized in the shapes. None of what another unknown can stand for, and of changes of the arm.
@@ -51,9 +54,15 @@ impl Search<'_> {
 
 impl Search<'_> {
     /// Whether the logs tell any of a law's parameters, or at least that it is not zero, with its shapes open. Where shapes and parameters can
-    /// be traded for each other all along, the law fits as anything with so many parameters does.
+    /// be traded for each other all along, the law fits as anything with so many parameters does, unless it is most of what is missing.
     pub(super) fn is_told(&self, state: &State, judged: &Judged) -> bool {
         let trial = &judged.trial;
+        let evidence = &judged.evidence;
+        let falls = evidence.held_out_percent.iter().zip(&evidence.raw_percent);
+        let is_most = |(held_out, raw): (&f64, &f64)| held_out.min(*raw) > MOST_PERCENT;
+        if judged.changed.is_none() && falls.into_iter().any(is_most) {
+            return true;
+        }
         let is_beyond = |times: f64| {
             move |(value, std): (&f64, &Option<f64>)| {
                 std.is_some_and(|std| value.abs() > times * std)

@@ -79,11 +79,11 @@ fn intervals_hold_the_truth_about_as_often_as_they_say() {
 #[test]
 fn draws_are_the_same_each_time() {
     let stack = stack(3, 4.0);
-    let (solution, first) = bootstrap(&stack, 50);
-    let (_, second) = bootstrap(&stack, 50);
+    let (solution, first) = bootstrap(&stack, 100);
+    let (_, second) = bootstrap(&stack, 100);
     assert_eq!(first, second);
     let first = first.expect("long enough");
-    assert_eq!((first.draws, first.intervals.len()), (50, 2));
+    assert_eq!((first.draws, first.intervals.len()), (100, 2));
     for (interval, value) in first.intervals.iter().zip(&solution.estimate) {
         let [low, high] = interval.expect("excited");
         assert!(low < *value && *value < high);
@@ -92,12 +92,23 @@ fn draws_are_the_same_each_time() {
 
 #[test]
 fn errors_alike_over_the_whole_log_have_no_blocks() {
-    let (_, found) = bootstrap(&stack(1, 3000.0), 50);
+    let (_, found) = bootstrap(&stack(1, 3000.0), 100);
     let error = found.expect_err("one block");
     assert!(
         matches!(error, IdentifyError::FewBlocks { blocks: 6, .. }),
         "{error}"
     );
+}
+
+#[test]
+fn few_draws_have_no_interval() {
+    let (_, found) = bootstrap(&stack(3, 4.0), 99);
+    let error = found.expect_err("99 draws");
+    let least = IdentifyError::Draws {
+        draws: 99,
+        least: 100,
+    };
+    assert_eq!(error, least);
 }
 
 #[test]

@@ -6,11 +6,24 @@ use super::{SWEEPS, minimize};
 /// Shape parameters of one effect are tried in all combinations of their grids where there are at most so many.
 const MOST_COMBINATIONS: usize = 400;
 
-/// Valleys of one effect that are followed to their ground: that of the lowest grid point may be another than the deepest.
+/// Starts of one effect that are followed to their ground: that of the lowest grid point may be another than the deepest.
 const STARTS: usize = 3;
 
-/// Combinations of grid points from which a search goes on, the best first: those from which every step along one axis leads up, [`STARTS`] at
-/// most. Of too many combinations, the best along one axis after the other.
+/// Further starts, where a valley runs out at an end of a range: a narrow one between grid points has none of them for its ground.
+const SPARE: usize = 6;
+
+/// Further starts are so many steps along axes apart.
+const APART: usize = 2;
+
+/// Where searches begin, the best first.
+pub(super) struct Starts {
+    /// Grid points from which every step along one axis leads up, [`STARTS`] at most.
+    pub(super) bottoms: Vec<Vec<f64>>,
+    /// Other grid points, [`SPARE`] at most.
+    spare: Vec<Vec<f64>>,
+}
+
+/// Combinations of grid points from which a search goes on. Of too many combinations, the best along one axis after the other.
 ///
 /// # Errors
 /// Those of `at`.
@@ -18,7 +31,7 @@ pub(super) fn starts<E>(
     grids: &[&[f64]],
     mut now: Vec<f64>,
     at: &mut impl FnMut(&[f64]) -> Result<f64, E>,
-) -> Result<Vec<Vec<f64>>, E> {
+) -> Result<Starts, E> {
     let product = grids.iter().map(|grid| grid.len()).product::<usize>();
     if product > MOST_COMBINATIONS {
         for _ in 0..SWEEPS {
@@ -30,7 +43,10 @@ pub(super) fn starts<E>(
                 })?;
             }
         }
-        return Ok(vec![now]);
+        return Ok(Starts {
+            bottoms: vec![now],
+            spare: Vec::new(),
+        });
     }
     let value = |place: &[usize]| -> Vec<f64> {
         let pairs = grids.iter().zip(place);
@@ -48,33 +64,51 @@ pub(super) fn starts<E>(
         heights.push((at(&value(&place))?, place));
     }
     heights.sort_by(|x, y| x.0.total_cmp(&y.0));
-    let is_next = |one: &[usize], other: &[usize]| {
+    let steps = |one: &[usize], other: &[usize]| -> usize {
         let steps = one.iter().zip(other).map(|(x, y)| x.abs_diff(*y));
-        steps.sum::<usize>() == 1
+        steps.sum()
     };
-    let bottoms = heights.iter().enumerate().filter(|(k, (_, place))| {
-        let lower = &heights[..*k];
-        !lower.iter().any(|(_, other)| is_next(place, other))
-    });
-    let bottoms = bottoms.map(|(_, (_, place))| value(place));
-    Ok(bottoms.take(STARTS).collect())
+    let places: Vec<Vec<usize>> = heights.into_iter().map(|(_, place)| place).collect();
+    let is_bottom = |k: &usize| {
+        let mut lower = places[..*k].iter();
+        !lower.any(|other| steps(&places[*k], other) == 1)
+    };
+    let mut taken: Vec<usize> = (0..product).filter(is_bottom).take(STARTS).collect();
+    let bottoms = taken.len();
+    for k in 0..product {
+        let is_apart = |other: &usize| steps(&places[k], &places[*other]) >= APART;
+        if taken.len() < bottoms + SPARE && taken.iter().all(is_apart) {
+            taken.push(k);
+        }
+    }
+    let mut values = taken.into_iter().map(|k| value(&places[k]));
+    Ok(Starts {
+        bottoms: values.by_ref().take(bottoms).collect(),
+        spare: values.collect(),
+    })
 }
 
-/// The lowest of what searches from several starts find.
+/// The lowest of what searches from [`STARTS`] starts find; from all, where that is at an end of a range.
 ///
 /// # Errors
 /// Those of `at`.
 pub(super) fn lowest<E>(
     grids: &[&[f64]],
-    starts: &[Vec<f64>],
+    starts: &Starts,
     at: &mut impl FnMut(&[f64]) -> Result<f64, E>,
 ) -> Result<Vec<f64>, E> {
+    let is_at_an_end = |found: &[f64]| {
+        let mut axes = grids.iter().zip(found);
+        axes.any(|(grid, value)| *value <= grid[0] || *value >= grid[grid.len() - 1])
+    };
     let mut best = (f64::INFINITY, Vec::new());
-    for start in starts {
+    for (number, start) in starts.bottoms.iter().chain(&starts.spare).enumerate() {
+        if number >= STARTS && !is_at_an_end(&best.1) {
+            break;
+        }
         let mut found = simplex(grids, start, at)?;
         // A simplex that meets an end of a range falls flat there; another one stands up from it.
-        let mut axes = grids.iter().zip(&found);
-        if axes.any(|(grid, value)| *value <= grid[0] || *value >= grid[grid.len() - 1]) {
+        if is_at_an_end(&found) {
             found = simplex(grids, &found, at)?;
         }
         let cost = at(&found)?;
@@ -89,6 +123,33 @@ pub(super) fn lowest<E>(
 mod tests {
     use super::*;
 
+    fn one(start: Vec<f64>) -> Starts {
+        Starts {
+            bottoms: vec![start],
+            spare: Vec::new(),
+        }
+    }
+
+    /// A plain that falls to a corner, and a narrow valley deep in it that no grid point sees.
+    #[test]
+    fn a_narrow_valley_is_found_where_the_wide_one_runs_out_at_an_end() {
+        let grid: Vec<f64> = (0..5).map(f64::from).collect();
+        let grids: [&[f64]; 2] = [&grid, &grid];
+        let mut cost = |x: &[f64]| {
+            let away = (x[0] - 1.5).hypot(x[1] - 2.6);
+            Ok::<_, ()>(-0.1 * (x[0] + x[1]) - 3.0 * (-away * away / 0.18).exp())
+        };
+        let starts = starts(&grids, vec![2.0, 2.0], &mut cost).expect("no errors");
+        assert_eq!(starts.bottoms[0], [4.0, 4.0]);
+        let found = lowest(&grids, &starts, &mut cost).expect("no errors");
+        assert!(
+            (found[0] - 1.5).abs() < 0.05 && (found[1] - 2.6).abs() < 0.05,
+            "{found:?}"
+        );
+        let alone = lowest(&grids, &one(vec![4.0, 4.0]), &mut cost).expect("no errors");
+        assert_eq!(alone, [4.0, 4.0]);
+    }
+
     #[test]
     fn too_many_combinations_are_tried_along_the_axes() {
         let grid: Vec<f64> = (0..40).map(f64::from).collect();
@@ -97,7 +158,7 @@ mod tests {
             calls += 1;
             Ok::<_, ()>((x[0] - 6.0).abs() + (x[1] - 31.0).abs())
         });
-        let found = &found.expect("the cost has no errors")[0];
+        let found = &found.expect("the cost has no errors").bottoms[0];
         assert!((found[0] - 6.0).abs() < 0.02 && (found[1] - 31.0).abs() < 0.02);
         assert!(calls < 400, "{calls}");
     }
@@ -113,11 +174,12 @@ mod tests {
         let mut cost =
             |x: &[f64]| Ok::<_, ()>(-well(x, [2.0, 2.0], 8.0) - 3.0 * well(x, [6.5, 6.5], 0.3));
         let starts = starts(&grids, vec![4.0, 4.0], &mut cost).expect("no errors");
-        assert_eq!(starts[0], [2.0, 2.0]);
-        assert!(starts.len() > 1 && starts.len() <= STARTS);
+        assert_eq!(starts.bottoms[0], [2.0, 2.0]);
+        assert!(starts.bottoms.len() > 1 && starts.bottoms.len() <= STARTS);
         let found = lowest(&grids, &starts, &mut cost).expect("no errors");
         assert!((found[0] - 6.5).abs() < 0.02, "{found:?}");
-        let alone = lowest(&grids, &starts[..1], &mut cost).expect("no errors");
+        let first = one(starts.bottoms[0].clone());
+        let alone = lowest(&grids, &first, &mut cost).expect("no errors");
         assert!((alone[0] - 2.0).abs() < 0.1, "{alone:?}");
     }
 
@@ -129,7 +191,7 @@ mod tests {
             let (d, v, r) = (x[0].ln() - 0.02_f64.ln(), x[1].ln(), x[2]);
             Ok::<_, ()>(50.0 * (v + 0.4 * r).powi(2) + d * d + (r - 1.7).powi(2))
         };
-        let found = lowest(&grids, &[vec![1e-2, 1.0, 2.0]], &mut cost).expect("no errors");
+        let found = lowest(&grids, &one(vec![1e-2, 1.0, 2.0]), &mut cost).expect("no errors");
         assert!(
             (found[2] - 1.7).abs() < 0.05 && (found[0] / 0.02 - 1.0).abs() < 0.05,
             "{found:?}"
@@ -140,6 +202,6 @@ mod tests {
     fn a_plain_is_one_start() {
         let grid = [1.0, 2.0, 3.0];
         let found = starts(&[&grid, &grid], vec![1.0, 1.0], &mut |_| Ok::<_, ()>(7.0));
-        assert_eq!(found.expect("no errors").len(), 1);
+        assert_eq!(found.expect("no errors").bottoms.len(), 1);
     }
 }
