@@ -130,7 +130,7 @@ mod tests {
         }
     }
 
-    /// A plain that falls to a corner, and a narrow valley deep in it that no grid point sees.
+    /// A plain that falls to a corner, and a narrow valley deep in it: spare starts are for what ends in the corner.
     #[test]
     fn a_narrow_valley_is_found_where_the_wide_one_runs_out_at_an_end() {
         let grid: Vec<f64> = (0..5).map(f64::from).collect();
@@ -139,15 +139,37 @@ mod tests {
             let away = (x[0] - 1.5).hypot(x[1] - 2.6);
             Ok::<_, ()>(-0.1 * (x[0] + x[1]) - 3.0 * (-away * away / 0.18).exp())
         };
-        let starts = starts(&grids, vec![2.0, 2.0], &mut cost).expect("no errors");
-        assert_eq!(starts.bottoms[0], [4.0, 4.0]);
-        let found = lowest(&grids, &starts, &mut cost).expect("no errors");
+        let mut from = |spare: &[[f64; 2]]| {
+            let starts = Starts {
+                bottoms: vec![vec![4.0, 4.0]; STARTS],
+                spare: spare.iter().map(|start| start.to_vec()).collect(),
+            };
+            lowest(&grids, &starts, &mut cost).expect("no errors")
+        };
+        assert_eq!(from(&[]), [4.0, 4.0]);
+        let found = from(&[[2.0, 3.0]]);
         assert!(
             (found[0] - 1.5).abs() < 0.05 && (found[1] - 2.6).abs() < 0.05,
             "{found:?}"
         );
-        let alone = lowest(&grids, &one(vec![4.0, 4.0]), &mut cost).expect("no errors");
-        assert_eq!(alone, [4.0, 4.0]);
+    }
+
+    #[test]
+    fn spare_starts_are_apart() {
+        let grid: Vec<f64> = (0..5).map(f64::from).collect();
+        let found = starts(&[&grid, &grid], vec![2.0, 2.0], &mut |x| {
+            Ok::<_, ()>(-x[0] - x[1])
+        });
+        let found = found.expect("no errors");
+        assert_eq!(found.bottoms, [[4.0, 4.0]]);
+        assert_eq!(found.spare.len(), SPARE);
+        let all: Vec<&Vec<f64>> = found.bottoms.iter().chain(&found.spare).collect();
+        for (k, one) in all.iter().enumerate() {
+            for other in &all[..k] {
+                let steps = (one[0] - other[0]).abs() + (one[1] - other[1]).abs();
+                assert!(steps >= APART as f64, "{one:?} {other:?}");
+            }
+        }
     }
 
     #[test]
