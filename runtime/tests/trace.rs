@@ -308,7 +308,7 @@ impl Columns for Traded {
 }
 
 impl Candidate for Traded {
-    fn kind(&self) -> &str {
+    fn kind(&self) -> &'static str {
         "traded"
     }
 

@@ -29,7 +29,7 @@ mod untold;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_model::identify::{Errors, Estimate, Identify, IdentifyError, Method};
+use robot_model::identify::{Bootstrap, Errors, Estimate, Identify, IdentifyError, Method};
 use robot_model::log::{Fault, Log};
 use robot_model::signal::{Bands, SignalError};
 
@@ -107,7 +107,7 @@ pub(crate) struct IdentifyArguments {
     #[arg(long)]
     partial: bool,
     /// Draw blocks of the logs so often, 100 times or more, for intervals that need no formula; of `ls`, `wls`, `robust`.
-    #[arg(long, value_name = "DRAWS", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(100..=100_000))]
+    #[arg(long, value_name = "DRAWS", allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(i64::from(Bootstrap::LEAST_DRAWS)..=100_000))]
     bootstrap: Option<u32>,
     /// Find the parameters that the logs tell from zero, and identify those alone, too; of `ls`, `wls`, `robust`.
     #[arg(long)]

@@ -122,7 +122,7 @@ fn said_of_unlike(closed: &Loop) -> Option<String> {
     let names = closed.before.arm.joints();
     let joints = unlike(closed).into_iter().map(|joint| {
         format!(
-            "{}: {:.1} % of its torque, {:.1} % there",
+            "{}: {:.1} % of its torque is left, of the traced ones {:.1} %",
             names[joint], unseen[joint], fitted[joint]
         )
     });

@@ -28,9 +28,6 @@ const LEAST_BLOCKS: usize = 6;
 /// Most blocks: more say nothing more, and take longer.
 const MOST_BLOCKS: usize = 200;
 
-/// Fewer draws have no 95 % of which a few are outside.
-const LEAST_DRAWS: usize = 100;
-
 /// A draw whose least pivot is below this share of that of all blocks does not tell all, and the least share of draws that do.
 const LEAST_PIVOT: f64 = 0.02;
 const LEAST_SHARE: f64 = 0.9;
@@ -65,6 +62,11 @@ pub struct Bootstrap {
     pub intervals: Vec<Option<[f64; 2]>>,
 }
 
+impl Bootstrap {
+    /// Fewest draws: of fewer there are not a few outside of 95 %.
+    pub const LEAST_DRAWS: u32 = 100;
+}
+
 /// The sums of one block.
 struct Block {
     information: Mat<f64>,
@@ -78,11 +80,9 @@ pub(super) fn intervals(
     weights: &[Vec<f64>],
     draws: usize,
 ) -> Result<Bootstrap, IdentifyError> {
-    if draws < LEAST_DRAWS {
-        return Err(IdentifyError::Draws {
-            draws,
-            least: LEAST_DRAWS,
-        });
+    let least = Bootstrap::LEAST_DRAWS as usize;
+    if draws < least {
+        return Err(IdentifyError::Draws { draws, least });
     }
     let residuals = stack.residuals(&solution.estimate);
     let alike = stack.correlation_times(&residuals);

@@ -18,7 +18,7 @@ const APART: usize = 2;
 /// Where searches begin, the best first.
 pub(super) struct Starts {
     /// Grid points from which every step along one axis leads up, [`STARTS`] at most.
-    pub(super) bottoms: Vec<Vec<f64>>,
+    bottoms: Vec<Vec<f64>>,
     /// Other grid points, [`SPARE`] at most.
     spare: Vec<Vec<f64>>,
 }
