@@ -129,9 +129,7 @@ impl Merge {
             let opened = opened?;
             let path = opened.path;
             let factor = opened.factor(&*form)?;
-            for doubt in twice(path, &factor, &read) {
-                progress.note(&format!("note: {doubt}"));
-            }
+            progress.notes(twice(path, &factor, &read));
             // Without its rows a factor is known again all the same.
             let mut known = factor.clone();
             for block in &mut known.blocks {
@@ -151,9 +149,7 @@ impl Merge {
         if !self.partial {
             told_apart(&estimate)?;
         }
-        for doubt in factor_doubts(&estimate, &*form) {
-            progress.note(&format!("note: {doubt}"));
-        }
+        progress.notes(factor_doubts(&estimate, &*form));
         let mut faults = Vec::new();
         let validation = match &self.validate {
             None => None,

@@ -1,5 +1,6 @@
 //! Progress of long work, on standard error: on a terminal with the time it takes, and the time that is left where that is known.
 
+use std::fmt::Display;
 use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -129,6 +130,13 @@ impl Progress {
             Some(bar) => bar.println(what),
             None if self.is_silent => {}
             None => output::say(what),
+        }
+    }
+
+    /// Says doubts, each for itself.
+    pub(crate) fn notes(&self, doubts: impl IntoIterator<Item = impl Display>) {
+        for doubt in doubts {
+            self.note(&format!("note: {doubt}"));
         }
     }
 

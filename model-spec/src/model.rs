@@ -2,7 +2,8 @@
 //!
 //! In: an [`Ast`](crate::ast) without errors. Out: [`Model`]. Invariants gained: names are unique and resolved, units are
 //! SI, every joint has one frame convention (folded into [`Placement`]), effects refer to joints by index. Nothing
-//! downstream validates again. A `Model` cannot be built by hand: only `check` makes one, and [`Model::with`] another of it.
+//! downstream validates again. A `Model` cannot be built by hand: only `check` makes one, and [`Model::with`] and [`Model::freeing`] another of
+//! it.
 
 mod effect;
 mod explained;
@@ -65,6 +66,18 @@ impl Model {
             instance: 1 + alike.count(),
             line: 0,
         });
+        model
+    }
+
+    /// The same robot with the bodies of these links of its chain left to identification, whatever the spec says of them.
+    #[must_use]
+    pub fn freeing(&self, links: &[usize]) -> Self {
+        let mut model = self.clone();
+        if let Body::Chain(chain) = &mut model.body {
+            for &link in links {
+                chain.links[link].inertial = Inertial::Unknown;
+            }
+        }
         model
     }
 

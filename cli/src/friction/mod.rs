@@ -100,9 +100,7 @@ impl Friction {
             bristles: bristles.as_ref(),
             is_fitted: self.parameters.is_none(),
         };
-        for doubt in found.doubts() {
-            progress.note(&format!("note: {doubt}"));
-        }
+        progress.notes(found.doubts());
         drop(progress);
         if let Some(file) = figure {
             file.commit(figure::svg(&found).as_bytes())?;

@@ -8,7 +8,9 @@ mod drive_gains;
 pub(crate) mod factor_file;
 pub(crate) mod far;
 pub(crate) mod fit;
+mod fixed;
 mod large;
+mod leftover;
 mod likeness;
 mod nominal;
 pub(crate) mod noted;
@@ -226,9 +228,7 @@ impl IdentifyArguments {
         if estimate.is_without_turns && !self.rows.leave_out_turns && !is_of_instruments {
             doubts.push(doubts::AWAY_FROM_TURNS.to_owned());
         }
-        for doubt in doubts {
-            progress.note(&format!("note: {doubt}"));
-        }
+        progress.notes(doubts);
         faults.extend(self.late_channels(&estimate, &progress));
 
         let found = OfEquations {
@@ -296,9 +296,7 @@ impl IdentifyArguments {
         let slow = validate.iter().filter_map(|log| too_slow(&estimate, log));
         let doubts = doubts.into_iter().chain(slow);
         let doubts = doubts.chain(factor_doubts(&estimate, form));
-        for doubt in doubts {
-            progress.note(&format!("note: {doubt}"));
-        }
+        progress.notes(doubts);
         let found = OfEquations {
             estimate: &estimate,
             train: &train,

@@ -4,45 +4,56 @@ use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
 
 use super::fit::Fit;
-use super::{IdentifyArguments, brief, coarse, doubts, nominal, steps, twice, untold};
+use super::{
+    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, steps, twice, untold,
+};
 use crate::Error;
+use crate::output::names;
 
 /// That all parameters have values, or the ways out.
 pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
+    estimate.separated().map_err(|error| {
+        let error = error.to_string();
+        // Where sums have lines of their own, so has what follows.
+        let between = if error.contains('\n') { "\n" } else { "; " };
+        let ways = "move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
+             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`";
+        let clauses = [Some(error), standing(estimate), drowned(estimate), Some(ways.to_owned())];
+        let clauses: Vec<String> = clauses.into_iter().flatten().collect();
+        Error::Argument(clauses.join(between))
+    })
+}
+
+/// Joints that tell nothing since they hardly move.
+fn standing(estimate: &Estimate) -> Option<String> {
     let rows = |of: &[usize], joint: usize| of.get(joint).copied().unwrap_or_default();
     let joints = estimate.joints.iter().enumerate();
     // Nearly all of its rows, so that what is left is its way from here to there.
     let standing = joints.filter(|(k, _)| {
         10 * (rows(&estimate.turns, *k) + rows(&estimate.held, *k)) > 9 * estimate.samples
     });
-    let standing: Vec<String> = standing.map(|(_, joint)| format!("`{joint}`")).collect();
-    let standing = match standing.len() {
-        0 => String::new(),
-        1 => format!(
-            "; {} stands or turns nearly all the time, where dry friction holds it with what no law says",
-            standing[0]
-        ),
-        _ => format!(
-            "; {} stand or turn nearly all the time, where dry friction holds them with what no law says",
-            standing.join(", ")
-        ),
+    let standing: Vec<&str> = standing.map(|(_, joint)| joint.as_str()).collect();
+    let verbs = match standing.len() {
+        0 => return None,
+        1 => "stands or turns nearly all the time, where dry friction holds it",
+        _ => "stand or turn nearly all the time, where dry friction holds them",
     };
-    let drowned = match estimate.drowned {
-        0 => String::new(),
-        count => format!(
-            "; {} noise of the positions alone: lower `--bands` leave less of it, and `iv` needs none",
-            match count {
-                1 => "one of these directions is".to_owned(),
-                _ => format!("{count} of these directions are"),
-            }
-        ),
+    Some(format!(
+        "{} {verbs} with what no law says",
+        names(&standing)
+    ))
+}
+
+/// Directions of which all that is seen is noise.
+fn drowned(estimate: &Estimate) -> Option<String> {
+    let of_which = match estimate.drowned {
+        0 => return None,
+        1 => "one of these directions is".to_owned(),
+        count => format!("{count} of these directions are"),
     };
-    estimate.separated().map_err(|error| {
-        Error::Argument(format!(
-            "{error}{standing}{drowned}; move the joints concerned (`excite` makes a motion for them), write what is known into the spec, let its nominal values \
-             part the sums (`--method ridge`; `physical` finds an arm that makes them), or take what the logs tell: `--partial`"
-        ))
-    })
+    Some(format!(
+        "{of_which} noise of the positions alone: lower `--bands` leave less of it, and `iv` needs none"
+    ))
 }
 
 /// That a log is not judged in the band of the fit, since it comes too slowly for that.
@@ -86,6 +97,10 @@ impl IdentifyArguments {
         let negative = doubts::negative(estimate, form.unknowns());
         let explained = doubts::explained(estimate, validation);
         let is_odd = negative.is_some() || !explained.is_empty();
+        let fixed = fixed::doubt(form, estimate, logs);
+        let is_told = fixed.is_some() || !explained.is_empty();
+        let leftover = (!is_told).then(|| leftover::doubt(estimate)).flatten();
+        let is_misfit = fixed.is_some() || leftover.is_some();
         all.extend(negative.into_iter().chain(explained));
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(nominal::pulled(estimate));
@@ -94,10 +109,14 @@ impl IdentifyArguments {
         all.extend(doubts::at_turns(form.arm(), estimate));
         let held = doubts::held_torques(form.model(), estimate);
         all.extend(held.or_else(|| steps::doubt(&estimate.joints, logs)));
-        all.extend(brief::doubt(estimate));
+        // Errors that a misfit makes are alike along the whole motion, and longer logs would have no more of them.
+        if !is_misfit {
+            all.extend(brief::doubt(estimate));
+        }
+        all.extend(leftover);
         let resting = doubts::resting(form.model(), logs);
         all.extend(coarse::doubt(estimate, form.model(), logs, &resting));
-        let apart = doubts::hardly_apart(estimate, form.model(), logs);
+        let apart = fixed.or_else(|| doubts::hardly_apart(estimate, form.model(), logs));
         match apart {
             Some(apart) => all.push(apart),
             None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),

@@ -74,26 +74,26 @@ impl IdentifyArguments {
             doubts::beyond_noise(&compiled.model, &logs, &rmse(found)).is_none()
         };
         let other = self.output_error.search.is_none();
+        let other = other.then_some(Search::TrustRegion);
         let found = starts::search(
-            &settings,
-            &beginning,
-            &starts,
-            &fitted,
-            other.then_some(Search::TrustRegion),
-            &is_there,
-            &progress,
-        )
-        .map_err(|error| beginning.refused(&compiled, &error))?;
+            &settings, &beginning, &starts, &fitted, other, &is_there, &progress,
+        );
+        let found = found.map_err(|error| beginning.refused(&compiled, &error))?;
         settings.hold = found.hold;
         let asked = std::mem::replace(&mut settings.window, found.window);
-        let mut said = beginning.doubts(&form, &logs, &found);
-        said.extend(shorter_windows(asked, found.window));
-        said.extend(hold::doubt(&beginning.names, &found));
-        said.extend(mended_torques(&settings, &faults));
-        said.extend(twice::doubts(&self.logs, self.validate.as_deref()));
-        for doubt in said {
-            progress.note(&format!("note: {doubt}"));
-        }
+        let held = if self.output_error.hold.is_some() && !is_there(&found) {
+            hold::asked(&settings, &beginning, &fitted, &found, &progress)
+        } else {
+            None
+        };
+        let said = beginning.doubts(&form, &logs, &found).into_iter();
+        let said = said
+            .chain(held)
+            .chain(shorter_windows(asked, found.window))
+            .chain(hold::doubt(&beginning.names, &found))
+            .chain(mended_torques(&settings, &faults))
+            .chain(twice::doubts(&self.logs, self.validate.as_deref()));
+        progress.notes(said);
         let linear = beginning.linear.as_ref();
         let linear = linear.map(|linear| of_simulation(&compiled, linear, &found));
         let errors = |logs: &[Log]| -> Result<Option<Errors>, Error> {
@@ -114,14 +114,12 @@ impl IdentifyArguments {
                 torque: errors(log)?,
             })
         };
-        let validation = match validate.as_ref().map(judge) {
-            Some(Err(error)) => {
-                // What was found is not lost with it.
-                progress.note(&format!("note: not validated: {error}"));
-                None
-            }
-            judged => judged.transpose()?,
-        };
+        // What was found is not lost with a log on which the arm runs away.
+        let judged = validate.as_ref().map(judge);
+        if let Some(Err(error)) = &judged {
+            progress.note(&format!("note: not validated: {error}"));
+        }
+        let validation = judged.and_then(Result::ok);
         let report = OutputReport {
             compiled: &compiled,
             names: &beginning.names,

@@ -150,9 +150,7 @@ impl IdentifyArguments {
         explained.extend(doubts::at_ends(&found.estimate.shapes, form.shapes()));
         let fitted = [self.logs.as_slice(), &self.payload].concat();
         let same = twice::doubts(&fitted, self.validate.as_deref());
-        for doubt in doubts.into_iter().flatten().chain(explained).chain(same) {
-            progress.note(&format!("note: {doubt}"));
-        }
+        progress.notes(doubts.into_iter().flatten().chain(explained).chain(same));
         let validation = logs.validate.as_ref();
         let validation = validation.map(|log| form.errors(&found.loaded, log));
         let mut faults = logs.faults.clone();

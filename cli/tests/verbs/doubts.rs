@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::{CART, Folder, PENDULUM, cart_log, json, moved};
+use crate::common::{CART, Folder, PENDULUM, cart_log, cart_with, json, moved, tones};
 
 const FRICTION: &str = "{\"upper.viscous_friction.fv\": 0.5, \"lower.viscous_friction.fv\": 0.2}";
 
@@ -201,4 +201,50 @@ fn an_audit_of_a_possible_arm_looks_at_its_bodies() {
         "{}",
         run.stdout
     );
+}
+
+#[test]
+fn a_fixed_body_that_is_another_than_the_arm_has_is_noted() {
+    let folder = folder(1.0);
+    let fixed = |mass: &str| {
+        let spec = folder
+            .read("true.robot")
+            .replace("link upper {", "link upper: fixed {");
+        spec.replace(
+            "link lower { mass = 1;",
+            &format!("link lower: fixed {{ mass = {mass};"),
+        )
+    };
+    folder.write("as_it_is.robot", &fixed("1"));
+    folder.write("heavy.robot", &fixed("1.2"));
+    assert_eq!(notes(&folder, &["as_it_is.robot", "log.csv"]), "");
+    let said = notes(&folder, &["heavy.robot", "log.csv"]);
+    let told = "note: what the spec has `fixed` of `lower` does not fit these logs: with that body left free there is left of the torque ";
+    assert!(said.contains(told), "{said}");
+    assert!(!said.contains("move all joints further"), "{said}");
+}
+
+#[test]
+fn torque_that_is_left_and_goes_on_from_row_to_row_is_noted() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let pushed = |force: f64| {
+        cart_with(
+            200,
+            25,
+            &tones(0.3),
+            |q, _| if q > 0.15 { force } else { 0.0 },
+        )
+    };
+    folder.write("free.csv", &pushed(0.0));
+    folder.write("pushed.csv", &pushed(2.0));
+    assert_eq!(notes(&folder, &["cart.robot", "free.csv"]), "");
+    let said = notes(&folder, &["cart.robot", "pushed.csv"]);
+    assert!(
+        said.contains(
+            "there is left of the torque what goes on from row to row, as noise does not: `rail` "
+        ),
+        "{said}"
+    );
+    assert!(!said.contains("the logs are"), "{said}");
 }

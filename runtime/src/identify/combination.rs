@@ -185,19 +185,33 @@ impl Estimate {
         if !mixed.is_empty() {
             let combinations: Vec<String> =
                 self.combinations.iter().map(|x| format!("`{x}`")).collect();
+            // So many are read one a line.
+            let [before, between] = if combinations.len() > IN_A_LINE {
+                ["\n  ", "\n  "]
+            } else {
+                [" ", ", "]
+            };
             why.push(format!(
-                "{} cannot be told from others, only {}",
+                "{} cannot be told from others, only{before}{}",
                 list(&mixed),
-                combinations.join(", ")
+                combinations.join(between)
             ));
         }
+        let between = if self.combinations.len() > IN_A_LINE {
+            "\n"
+        } else {
+            "; "
+        };
         Err(IdentifyError::NotSeparated {
             rank: self.rank,
             unknowns: self.parameters.len(),
-            why: why.join("; "),
+            why: why.join(between),
         })
     }
 }
+
+/// Combinations that are told in one line.
+const IN_A_LINE: usize = 2;
 
 fn list(names: &[&String]) -> String {
     let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();

@@ -50,25 +50,34 @@ impl Beginning {
         let mut others = Vec::new();
         let fitted = linear.as_ref().ok();
         let fitted = fitted.filter(|estimate| estimate.unexcited.is_empty());
-        let of_fit = |estimate: &Estimate| {
+        let shapes_of = |estimate: &Estimate| {
             let mut shapes = robot_model_codegen::base::shape_values(&compiled.model);
             for (&k, (_, value)) in free.iter().zip(&estimate.shapes) {
                 shapes[k] = *value;
             }
-            (estimate.values(), shapes)
+            shapes
+        };
+        let of_shapes = |shapes: &[f64]| {
+            let with = Identify {
+                shapes: Some(free.iter().map(|&k| shapes[k]).collect()),
+                ..identify.clone()
+            };
+            let estimate = form.fit(&with, logs).ok()?;
+            estimate.unexcited.is_empty().then(|| estimate.values())
         };
         let (beta, shapes) = match (start, fitted) {
             (Some(file), fitted) => match parameters::resolve(compiled, Some(file)) {
                 Ok(values) => both(values),
                 Err(lack) => {
-                    let over = fitted.map(of_fit);
-                    let over = over.map(|fitted| parameters::over(compiled, file, fitted));
+                    let shapes = fitted.map(shapes_of);
+                    let over =
+                        shapes.map(|shapes| parameters::over(compiled, file, shapes, &of_shapes));
                     over.transpose()?.flatten().ok_or(lack)?
                 }
             },
             (None, Some(estimate)) => {
                 others = starts::starts(form, estimate, logs);
-                of_fit(estimate)
+                (estimate.values(), shapes_of(estimate))
             }
             (None, None) => both(parameters::resolve(compiled, None).map_err(|lack| {
                 let why = match &linear {

@@ -1,7 +1,10 @@
 //! Whether logs tell how torque goes between samples, where that changes what is found.
 
-use robot_model::identify::output_error::{Hold, OutputEstimate};
+use robot_model::identify::output_error::{Hold, OutputError, OutputEstimate, Recording};
 use robot_model::identify::table_value;
+
+use super::{Beginning, rmse};
+use crate::progress::Progress;
 
 /// By which share errors are larger in the other way, at most, where logs do not settle it.
 const UNSETTLED: f64 = 0.1;
@@ -24,10 +27,8 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
         format!("{name} {} for {}", table_value(*other), table_value(*value))
     });
     let moved: Vec<String> = moved.collect();
-    let [chosen, option] = match rival.hold {
-        Hold::Sample => ["taken as its mean between samples", "sample"],
-        Hold::Mean => ["held from each sample to the next", "mean"],
-    };
+    let chosen = said(other(rival.hold));
+    let option = option(rival.hold);
     (!moved.is_empty()).then(|| {
         format!(
             "torque is {chosen}, as that fits best; with `--hold {option}` positions are off by {:.1} % more, and there is {}: the logs hardly tell \
@@ -36,4 +37,65 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
             moved.join(", ")
         )
     })
+}
+
+/// By which share errors have to be less in the other way for what a user asked for to be doubted.
+const FAR_BETTER: f64 = 0.1;
+
+/// Iterations that tell whether the other way leads further down.
+const A_FEW: usize = 10;
+
+/// That errors which are no noise are far less in the other way than in the one that was asked for.
+pub(super) fn asked(
+    settings: &OutputError,
+    beginning: &Beginning,
+    recordings: &[Recording],
+    found: &OutputEstimate,
+    progress: &Progress,
+) -> Option<String> {
+    let hold = other(settings.hold?);
+    let settings = OutputError {
+        hold: Some(hold),
+        window: found.window,
+        iterations: Some(A_FEW),
+        ..settings.clone()
+    };
+    progress.step("asking whether torque goes between samples in the other way");
+    let (plant, names) = (&beginning.plant, &beginning.names);
+    // An arm that runs away was not driven so.
+    let rival = settings.fit(plant, names, &found.values, recordings, &mut |_| ());
+    let rival = rival.ok()?;
+    let pairs = rmse(&rival).into_iter().zip(rmse(found));
+    let ratios: Vec<f64> = pairs.map(|(rival, own)| (rival / own).ln()).collect();
+    let ratio = (ratios.iter().sum::<f64>() / ratios.len() as f64).exp();
+    (ratio < 1.0 - FAR_BETTER).then(|| {
+        format!(
+            "torque is {}, as `--hold` says; with `--hold {}` positions are off by {:.0} % less, so the drive does that, or what is found makes \
+             up for half a sample",
+            said(other(hold)),
+            option(hold),
+            100.0 * (1.0 - ratio)
+        )
+    })
+}
+
+const fn other(hold: Hold) -> Hold {
+    match hold {
+        Hold::Sample => Hold::Mean,
+        Hold::Mean => Hold::Sample,
+    }
+}
+
+const fn said(hold: Hold) -> &'static str {
+    match hold {
+        Hold::Mean => "taken as its mean between samples",
+        Hold::Sample => "held from each sample to the next",
+    }
+}
+
+const fn option(hold: Hold) -> &'static str {
+    match hold {
+        Hold::Mean => "mean",
+        Hold::Sample => "sample",
+    }
 }

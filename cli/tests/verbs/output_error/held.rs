@@ -12,65 +12,55 @@ const SPEC: &str = "robot Upright {
     effects { viscous_friction on all; }
 }";
 
-/// A torque that jumps, logged at 30 Hz, and an inertia that shows in what the arm does within a sample of such a jump alone: half a sample
-/// is half of it.
-#[test]
-fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
+/// A folder with the arm, and a wanted motion of 17 s.
+fn folder(wanted: impl Fn(f64) -> f64) -> Folder {
     let folder = Folder::new();
     folder.write("arm.robot", SPEC);
     folder.write(
         "true.json",
         r#"{"J": 0.0467, "G": 0.5626, "th.viscous_friction.fv": 1.621}"#,
     );
-    let (mut torque, mut wanted) = (String::from("time,tau1\n"), String::from("time,q1\n"));
+    folder.write("wanted.csv", &table("q1", wanted));
+    folder
+}
+
+/// A column over 17 s at 100 Hz.
+fn table(column: &str, value: impl Fn(f64) -> f64) -> String {
+    let mut text = format!("time,{column}\n");
     for k in 0..=1700 {
         let t = 0.01 * f64::from(k);
-        let wave = (std::f64::consts::TAU * t / 3.3 + 0.3).sin();
-        writeln!(torque, "{t:.2},{}", 1.8 * wave.signum()).expect("a string takes all");
-        writeln!(wanted, "{t:.2},0").expect("a string takes all");
+        writeln!(text, "{t:.2},{}", value(t)).expect("a string takes all");
     }
-    folder.write("torque.csv", &torque);
-    folder.write("wanted.csv", &wanted);
-    let simulate = [
-        "simulate",
-        "arm.robot",
-        "--parameters",
-        "true.json",
-        "--out",
-        "log.csv",
-    ];
-    let motion = [
-        "--trajectory",
-        "wanted.csv",
-        "--torque",
-        "torque.csv",
-        "--duration",
-        "17",
-    ];
-    let rates = [
-        "--rate",
-        "300",
-        "--log-rate",
-        "30",
-        "--position-noise",
-        "2e-3",
-        "--seed",
-        "3",
-    ];
-    folder.succeed(&[&simulate[..], &motion, &rates].concat());
-    let notes = |more: &[&str]| {
-        let identify = [
-            "identify",
-            "arm.robot",
-            "log.csv",
-            "--method",
-            "output-error",
-        ];
-        let run = folder.run(&[&identify[..], more].concat());
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
-        run.stderr
-    };
-    let said = notes(&[]);
+    text
+}
+
+/// Writes its log, the end of the command given.
+fn simulate(folder: &Folder, more: &str) {
+    let simulate = "simulate arm.robot --parameters true.json --trajectory wanted.csv --out log.csv --duration 17 --seed 3";
+    let all: Vec<&str> = simulate.split(' ').chain(more.split(' ')).collect();
+    folder.succeed(&all);
+}
+
+/// What is said of its log by output error.
+fn notes(folder: &Folder, more: &[&str]) -> String {
+    let identify = "identify arm.robot log.csv --method output-error".split(' ');
+    let all: Vec<&str> = identify.chain(more.iter().copied()).collect();
+    let run = folder.run(&all);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.stderr
+}
+
+/// An inertia that shows in what the arm does within a sample of a jump alone: half a sample is half of it.
+#[test]
+fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
+    let folder = folder(|_| 0.0);
+    let jumping = |t: f64| 1.8 * (std::f64::consts::TAU * t / 3.3 + 0.3).sin().signum();
+    folder.write("torque.csv", &table("tau1", jumping));
+    simulate(
+        &folder,
+        "--torque torque.csv --rate 300 --log-rate 30 --position-noise 2e-3",
+    );
+    let said = notes(&folder, &[]);
     let (_, values) = said.split_once(" and there is J ").expect("a note");
     let [other, own] = [0, 2].map(|k| values.split([' ', ':']).nth(k));
     let number = |text: Option<&str>| text.and_then(|text| text.parse::<f64>().ok());
@@ -87,5 +77,20 @@ fn an_inertia_that_hangs_on_what_torque_does_between_samples_is_noted() {
         "{said}"
     );
     // Who has said it is not asked.
-    assert!(!notes(&["--hold", "mean"]).contains("--hold"));
+    assert!(!notes(&folder, &["--hold", "mean"]).contains("--hold"));
+}
+
+/// The simulated log has means of the torque between its samples.
+#[test]
+fn a_hold_that_is_asked_for_and_fits_worse_is_noted() {
+    let folder = folder(|t| 0.6 * (1.7 * t).sin() + 0.3 * (4.1 * t + 1.0).sin());
+    simulate(
+        &folder,
+        "--rate 100 --log-rate 100 --frequency 15 --position-noise 1e-5",
+    );
+    let told = "torque is held from each sample to the next, as `--hold` says; with `--hold mean` positions are off by ";
+    let said = notes(&folder, &["--hold", "sample"]);
+    assert!(said.contains(told), "{said}");
+    let said = notes(&folder, &["--hold", "mean"]);
+    assert!(!said.contains("as `--hold` says"), "{said}");
 }
