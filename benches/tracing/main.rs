@@ -171,7 +171,7 @@ fn run(options: &Options) -> Vec<Row> {
                 100.0 * case.share,
                 case.seed
             );
-            let text = match judged(options, case, &label) {
+            let text = match judged(options, case, &format!("{:03} {label}", number + 1)) {
                 Ok(Some(row)) => {
                     let text = told(&row);
                     rows.lock().expect("no panic").push((number, row));
@@ -198,13 +198,13 @@ fn run(options: &Options) -> Vec<Row> {
     rows.into_iter().map(|(_, row)| row).collect()
 }
 
-/// One experiment, kept where that is wanted.
-fn judged(options: &Options, case: &Case, label: &str) -> Result<Option<Row>, String> {
+/// One experiment, kept under its name where that is wanted.
+fn judged(options: &Options, case: &Case, name: &str) -> Result<Option<Row>, String> {
     let Some(experiment) = case.run()? else {
         return Ok(None);
     };
     if let Some(folder) = &options.keep {
-        let name = label.replace(" % seed ", "_").replace(' ', "_");
+        let name = name.replace(" % seed ", "_").replace(' ', "_");
         let kept = experiment.keep(&folder.join(name));
         kept.map_err(|error| error.to_string())?;
     }

@@ -19,6 +19,10 @@ const LEAST_FALL: f64 = 0.99;
 const TIMES_AS_MUCH: f64 = 3.0;
 const MUCH_PERCENT: f64 = 5.0;
 
+/// A law that takes this share off a joint's error on the logs that were fitted takes more than this part of it off on any log that shows it.
+const FALL: f64 = 0.2;
+const PART: f64 = 0.25;
+
 const PUT: &str = "a string takes all";
 
 /// One line an alternative, and for the spec at a path, of a text, the command that designs the motion for the first doubt that has one.
@@ -67,6 +71,7 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
         .chain(impossible(closed));
     of_logs
         .chain(not_borne_out(closed))
+        .chain(hardly_borne_out(closed))
         .chain(said_of_unlike(closed))
 }
 
@@ -140,6 +145,45 @@ fn not_borne_out(closed: &Loop) -> Option<String> {
     let is_against = closed.outcome() == Outcome::Explained && borne_out(closed) == Some(false);
     is_against.then(|| {
         "no joint's error on the log of `--validate` is smaller with it by a hundredth: that log does not bear it out, so take it for a guess until another log does".to_owned()
+    })
+}
+
+/// That what was found does far less on the log that was not fitted: a law that looks like another one along one motion does not along the
+/// next.
+fn hardly_borne_out(closed: &Loop) -> Option<String> {
+    if closed.outcome() != Outcome::Explained || borne_out(closed) != Some(true) {
+        return None;
+    }
+    let after = closed.changed.as_ref()?;
+    let (unseen, unseen_after) = (
+        closed.before.validation.as_ref()?,
+        after.validation.as_ref()?,
+    );
+    let fall = |before: &[f64], after: &[f64]| -> Vec<f64> {
+        let pairs = before.iter().zip(after);
+        pairs.map(|(before, after)| 1.0 - after / before).collect()
+    };
+    let fitted = fall(
+        &closed.before.estimate.relative_percent,
+        &after.estimate.relative_percent,
+    );
+    let unseen = fall(&unseen.relative_percent, &unseen_after.relative_percent);
+    let joint = (0..fitted.len()).max_by(|&a, &b| fitted[a].total_cmp(&fitted[b]))?;
+    said_of_falls(
+        closed.before.arm.joints().get(joint)?,
+        fitted[joint],
+        unseen[joint],
+    )
+}
+
+fn said_of_falls(joint: &str, fitted: f64, unseen: f64) -> Option<String> {
+    (fitted > FALL && unseen < PART * fitted).then(|| {
+        format!(
+            "it takes {:.0} % off {joint}'s error on the traced logs, and {:.0} % off that on the log of `--validate`: either that log hardly \
+             shows it, or it is another law that looks like it along the traced motion; trace a log of another motion, too",
+            100.0 * fitted,
+            100.0 * unseen.max(0.0)
+        )
     })
 }
 
@@ -248,5 +292,22 @@ fn joints(closed: &Loop, joints: &[usize]) -> String {
     match joints.as_slice() {
         [joint] => (*joint).to_owned(),
         several => format!("({})", several.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::said_of_falls;
+
+    #[test]
+    fn a_law_that_does_far_less_on_another_motion_is_told() {
+        let told = said_of_falls("elbow", 0.6, 0.14).expect("an approximation");
+        assert!(
+            told.starts_with("it takes 60 % off elbow's error on the traced logs, and 14 % off"),
+            "{told}"
+        );
+        assert_eq!(said_of_falls("elbow", 0.6, 0.4), None);
+        // Little that is hardly there.
+        assert_eq!(said_of_falls("elbow", 0.1, 0.01), None);
     }
 }
