@@ -48,6 +48,9 @@ pub struct Row {
     /// What was said.
     pub outcome: String,
     pub said: Vec<String>,
+    /// Largest share of the raw error's power that still follows the motion on a joint of what was said.
+    #[serde(default)]
+    pub left_share: f64,
     /// Error with what was said over that of the true model, on data that were not fitted, of the worst joint.
     pub after_over_truth: Option<f64>,
     pub seconds: f64,
@@ -158,6 +161,7 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
         mark: judged(closed.outcome(), &said),
         outcome: closed.outcome().name().to_owned(),
         said: said.iter().map(label).collect(),
+        left_share: left_share(&closed),
         after_over_truth: best.map(|best| {
             let ratios = after
                 .iter()
@@ -172,6 +176,17 @@ pub fn judge(case: &Case, experiment: &Experiment, with_baselines: bool) -> Resu
             .map(|answer| first(answer, faults, &judged))
             .collect(),
     })
+}
+
+/// Structure that is left on joints of findings; of those that act on the arm as a whole on any.
+fn left_share(closed: &Loop) -> f64 {
+    let after = &closed.verdict.after;
+    let joints = closed.verdict.findings.iter().flat_map(|finding| {
+        let all = 0..after.len();
+        all.filter(|joint| finding.joints.is_empty() || finding.joints.contains(joint))
+    });
+    let shares = joints.map(|joint| after[joint].share);
+    shares.fold(0.0, f64::max)
 }
 
 /// A baseline's answer by what it says first, where a fault of the logs comes before all else. It has no word for what no effect explains.
