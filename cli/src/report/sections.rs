@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Model;
-use robot_model_spec::parameter::Owner;
+use robot_model_spec::parameter::{InertialElement, Owner};
 
-use super::{Drawn, Page};
+use super::{Drawn, Map, Page};
 use crate::identify::report::Parameter;
 use crate::output::{decimals, significant};
 
@@ -163,6 +163,18 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
         page.text("All inertial parameters are fixed by the spec.");
         return;
     }
+    if let Some(map) = map(compiled) {
+        let legend = [("after", "filled: added"), ("before", "open: subtracted")];
+        let elements = InertialElement::ALL.map(InertialElement::name).join(", ");
+        page.figures(
+            &[map],
+            &legend,
+            &format!(
+                "Which parameters of links are in which base parameter: a row is a base parameter, a column of a link one of {elements}, from \
+                 left to right; the larger a square, the larger its factor."
+            ),
+        );
+    }
     page.table(
         "Torques tell these sums of the links' parameters, and no more.",
         &["base parameter", "sum"],
@@ -178,6 +190,34 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
             silent.join(", ")
         ));
     }
+}
+
+/// The same drawn, of a chain.
+fn map(compiled: &Compiled) -> Option<String> {
+    let links = &compiled.model.chain()?.links;
+    let columns = InertialElement::ALL.len();
+    let column = |standard: usize| match compiled.standard[standard].owner {
+        Owner::Link { link, element } => {
+            let place = InertialElement::ALL.iter().position(|one| *one == element);
+            place.map(|place| columns * link + place)
+        }
+        _ => None,
+    };
+    let base = compiled.base.names.iter().zip(&compiled.base.combinations);
+    let rows = base.filter_map(|(name, sum)| {
+        let squares = sum
+            .iter()
+            .filter_map(|&(k, factor)| Some((column(k)?, factor)));
+        let squares: Vec<(usize, f64)> = squares.collect();
+        (!squares.is_empty()).then_some((name.as_str(), squares))
+    });
+    let map = Map {
+        label: "which parameters of the links each base parameter is a sum of; the table below has the numbers",
+        links: links.iter().map(|link| link.name.as_str()).collect(),
+        columns,
+        rows: rows.collect(),
+    };
+    Some(map.svg())
 }
 
 /// Figures of every joint, those of some open.
