@@ -202,7 +202,7 @@ pub struct Diagnostics {
 }
 
 /// A [`Diagnostic`] whose spans have become byte ranges of the text.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Entry {
     message: String,
     labels: Vec<(Range<usize>, String)>,
@@ -229,6 +229,8 @@ impl Diagnostics {
             })
             .collect();
         entries.sort_by_key(|entry| entry.labels.first().map_or(0, |(range, _)| range.start));
+        // What is wrong of one place is wrong for every joint that reads it.
+        entries.dedup();
         Self {
             source_name: source_name.to_owned(),
             text: text.to_owned(),

@@ -14,7 +14,7 @@ use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
 use crate::ast::{Expr, LogChannel, LogColumn};
-use crate::check::{check_settings, check_unit};
+use crate::check::{MOST_JOINTS, check_settings, check_unit};
 use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{LogColumns, Model};
 use crate::parse::parse_value;
@@ -59,7 +59,7 @@ pub fn log_settings(
     text: &str,
 ) -> Result<LogSettings, Diagnostics> {
     let refuse = |errors| Diagnostics::new(source_name, text, errors);
-    let channels = parse(text).map_err(refuse)?;
+    let channels = parse(text, model.joints.len()).map_err(refuse)?;
     let mut errors = Vec::new();
     let columns = check_settings(&channels, model, &mut errors);
     if !errors.is_empty() {
@@ -108,15 +108,15 @@ pub fn log_column_unit(
     kind: ColumnKind,
 ) -> Result<Option<f64>, Diagnostics> {
     let refuse = |errors| Diagnostics::new(source_name, text, errors);
-    let channels = parse(text).map_err(refuse)?;
+    let channels = parse(text, MOST_JOINTS).map_err(refuse)?;
     let mut columns = channels.iter().flat_map(|channel| &channel.columns);
     let found = columns.find(|own| own.name.value().trim() == column);
     let unit = found.map(|own| check_unit(own, kind)).transpose();
     unit.map_err(|error| refuse(vec![error]))
 }
 
-/// The channels of a file, as a `log` block would have them.
-fn parse(text: &str) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
+/// The channels of a file, as a `log` block of a robot with so many joints would have them.
+fn parse(text: &str, joints: usize) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
     if text.len() > LARGEST {
         let error = Diagnostic::in_text(0..0, "the file is no file of log settings: too large", "");
         let help = format!("write what a `log` block says, in at most {LARGEST} bytes");
@@ -130,6 +130,7 @@ fn parse(text: &str) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
     })?;
     let mut reader = Reader {
         text,
+        joints,
         errors: Vec::new(),
     };
     let channels = reader.file(document.get_ref());
@@ -143,6 +144,7 @@ fn parse(text: &str) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
 /// Makes channels of a table.
 struct Reader<'a> {
     text: &'a str,
+    joints: usize,
     errors: Vec<Diagnostic>,
 }
 
@@ -235,7 +237,11 @@ impl Reader<'_> {
                     .push(error.help(suggest::help(key.get_ref(), KEYS)));
             }
         }
-        let mut columns: Vec<LogColumn> = match (table.get("column"), table.get("columns")) {
+        let named = (table.get("column"), table.get("columns"));
+        let unit = table.get("unit");
+        let standard = unit.and_then(|_| self.standard(channel, value));
+        let mut columns: Vec<LogColumn> = match named {
+            (None, None) if standard.is_some() => standard.unwrap_or_default(),
             (Some(one), None) => self.column(one).into_iter().collect(),
             (None, Some(several)) => self.several(several),
             (one, _) => {
@@ -251,10 +257,24 @@ impl Reader<'_> {
                 return Vec::new();
             }
         };
-        if let Some(unit) = table.get("unit") {
+        if let Some(unit) = unit {
             self.units(unit, &mut columns);
         }
         columns
+    }
+
+    /// The columns that a channel has where nobody names them; none of an input, which is of the arm or of a joint.
+    fn standard(&self, channel: &str, value: &Value) -> Option<Vec<LogColumn>> {
+        let names = match channel {
+            "time" => vec![channel.to_owned()],
+            "q" | "dq" | "tau" => (1..=self.joints).map(|k| format!("{channel}{k}")).collect(),
+            _ => return None,
+        };
+        let column = |name: String| LogColumn {
+            name: LitStr::new(&name, span_of(value.span())),
+            unit: None,
+        };
+        Some(names.into_iter().map(column).collect())
     }
 
     fn several(&mut self, value: &Value) -> Vec<LogColumn> {

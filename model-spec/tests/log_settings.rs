@@ -1,7 +1,7 @@
 //! Columns of logs in a file beside the spec: the same as in its `log`.
 
 use robot_model_spec::model::LogColumns;
-use robot_model_spec::{Model, load, log_settings};
+use robot_model_spec::{ColumnKind, Model, load, log_column_unit, log_settings};
 
 const SPEC: &str = "robot Gantry {
     gravity = [0, 0, -9.81];
@@ -47,6 +47,29 @@ fn a_file_says_what_a_block_says() {
     wanted.line = None;
     assert_eq!(columns("", FILE), wanted);
     assert_eq!(wanted.all().count(), 8);
+}
+
+#[test]
+fn a_unit_alone_is_that_of_the_standard_columns() {
+    let told = columns(
+        "",
+        "[log]\ntime = { unit = 'ms' }\ndq = { unit = ['mm/s', 'rpm'] }",
+    );
+    let named = "[log]\ntime = { column = 'time', unit = 'ms' }\ndq = { columns = ['dq1', 'dq2'], unit = ['mm/s', 'rpm'] }";
+    assert_eq!(told, columns("", named));
+    let unit = |column| {
+        let file = "[log]\ntau = { unit = 'mA' }\n";
+        log_column_unit("robot-model.toml", file, column, ColumnKind::Current).expect("a unit")
+    };
+    assert_eq!((unit("tau2"), unit("i2")), (Some(1e-3), None));
+}
+
+/// A unit that no joint has is one mistake, of however many joints.
+#[test]
+fn a_mistake_of_one_place_is_told_once() {
+    let file = "[log]\nq = { unit = 'degr' }";
+    let errors = log_settings(&model(""), "robot-model.toml", file).expect_err("no unit");
+    assert_eq!(errors.len(), 1, "{errors}");
 }
 
 #[test]

@@ -51,7 +51,7 @@ impl CheckedJoint {
 }
 
 /// Equations grow with the cube of the number of joints: with this many they take a minute, and no arm has as many.
-const MOST_JOINTS: usize = 40;
+pub(crate) const MOST_JOINTS: usize = 40;
 
 /// Joints of a chain, or coordinates of energies.
 pub(super) fn check_number<'a>(

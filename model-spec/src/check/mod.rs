@@ -19,6 +19,8 @@ mod used;
 mod value;
 mod words;
 
+#[cfg(feature = "log-settings")]
+pub(crate) use chain::MOST_JOINTS;
 pub(crate) use definition::check_definition;
 #[cfg(feature = "log-settings")]
 pub(crate) use log::{check_settings, check_unit};
