@@ -49,6 +49,15 @@ impl IdentifyArguments {
         let arm = &form.0;
         let link = self.payload_link.as_deref();
         let found = identify.fit_drive_gains(arm, &logs.unloaded, &logs.loaded, link, known)?;
+        let free = KnownPayload {
+            center: None,
+            ..*known
+        };
+        let free = known.center.and_then(|center| {
+            let free = identify.fit_drive_gains(arm, &logs.unloaded, &logs.loaded, link, &free);
+            elsewhere(center, &free.ok()?, known.mass)
+        });
+        progress.notes(free);
         let all = |logs: &[Log]| logs.iter().map(|log| found.rescaled(log)).collect();
         let logs = Logs {
             unloaded: all(&logs.unloaded),
@@ -59,11 +68,7 @@ impl IdentifyArguments {
         let carried = &found.carried;
         let judged = self.judged(form, carried, &logs, &progress)?;
         let gains: Vec<Gain> = gains(&found, arm.joints(), arm.actuator_gain()).collect();
-        for gain in &gains {
-            if let Some(doubt) = doubt(gain) {
-                progress.note(&format!("note: {doubt}"));
-            }
-        }
+        progress.notes(gains.iter().filter_map(doubt));
         let own = of_arm(carried, &judged.train);
         let mut payload = judged.report(&own, carried);
         let [place, std] = center(&found, known);
@@ -108,6 +113,28 @@ fn center(found: &Driven, known: &KnownPayload) -> [[Option<f64>; 3]; 2] {
     }
     let moments = found.carried.first_moments();
     [0, 1].map(|which| moments.map(|moment| Some(moment?[which] / known.mass)))
+}
+
+/// Deviations from which on a center of mass is another than the one that is given.
+const ANOTHER: f64 = 5.0;
+
+/// That logs have the payload's center elsewhere where they are asked.
+fn elsewhere(given: [f64; 3], free: &Driven, mass: f64) -> Option<String> {
+    let axes = ["x", "y", "z"].iter().zip(given);
+    let moments = axes.zip(free.carried.first_moments());
+    let told = moments.filter_map(|((axis, given), moment)| {
+        let [place, std] = moment?.map(|moment| moment / mass);
+        ((place - given).abs() > ANOTHER * std)
+            .then(|| format!("{axis} = {place:.4} +- {std:.1e} for {given}"))
+    });
+    let told: Vec<String> = told.collect();
+    (!told.is_empty()).then(|| {
+        format!(
+            "the logs themselves have the payload's center of mass elsewhere, m: {}; is `--payload-center` in the frame of the link, and the mass \
+             that of what it carries? Gains are off with it; without it they are told beside the center",
+            told.join(", ")
+        )
+    })
 }
 
 /// Gains that are hard to believe.

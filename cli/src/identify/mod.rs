@@ -14,6 +14,7 @@ mod leftover;
 mod likeness;
 mod nominal;
 pub(crate) mod noted;
+mod one_sine;
 pub(crate) mod options;
 mod output_error;
 mod page;

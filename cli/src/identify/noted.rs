@@ -5,7 +5,8 @@ use robot_model::log::Log;
 
 use super::fit::Fit;
 use super::{
-    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, steps, twice, untold,
+    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, one_sine, steps, twice,
+    untold,
 };
 use crate::Error;
 use crate::output::names;
@@ -114,6 +115,7 @@ impl IdentifyArguments {
             all.extend(brief::doubt(estimate));
         }
         all.extend(leftover);
+        all.extend(one_sine::doubt(logs));
         let resting = doubts::resting(form.model(), logs);
         all.extend(coarse::doubt(estimate, form.model(), logs, &resting));
         let apart = fixed.or_else(|| doubts::hardly_apart(estimate, form.model(), logs));

@@ -12,7 +12,7 @@ use super::page::{Evidence, OnLog};
 use super::report::{Parameter, Report, counted, report, shares};
 use super::results::Results;
 use super::table::table;
-use super::{IdentifyArguments, doubts, twice};
+use super::{IdentifyArguments, doubts, leftover, twice};
 use crate::Error;
 use crate::output::Files;
 use crate::progress::Progress;
@@ -147,6 +147,9 @@ impl IdentifyArguments {
             doubts::hardly_apart(&found.estimate, form.model(), &all),
         ];
         let mut explained = doubts::explained(&found.estimate, None);
+        if explained.is_empty() {
+            explained.extend(leftover::doubt(&found.estimate));
+        }
         explained.extend(doubts::at_ends(&found.estimate.shapes, form.shapes()));
         let fitted = [self.logs.as_slice(), &self.payload].concat();
         let same = twice::doubts(&fitted, self.validate.as_deref());

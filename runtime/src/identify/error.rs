@@ -169,6 +169,12 @@ pub enum IdentifyError {
         "total least squares has no estimate here: the torque says nothing of the columns; identify by another method"
     )]
     NoTotal,
+    /// Columns that are no further apart than the errors that total least squares gives them.
+    #[error(
+        "total least squares has no estimate here: it gives every column errors as large in proportion as those of the torque, and some columns \
+         differ by no more than that, as the constant one of an offset may from that of gravity; identify by another method, by `iv` where columns have errors"
+    )]
+    TotalApart,
     /// The spec gives no nominal value.
     #[error(
         "the spec gives no nominal value to go to; write those of CAD (`link name {{ mass = ..; com = ..; inertia = ..; }}`), or identify by another method"

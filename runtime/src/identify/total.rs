@@ -75,7 +75,10 @@ impl Total {
             .map_err(|_| IdentifyError::NoTotal)?;
         let alone = alone.last().map_or(0.0, |least| least.powi(2));
         let v = found.V().col(count);
-        if least > MOST_SHARE * alone || v[count] == 0.0 {
+        if least > MOST_SHARE * alone {
+            return Err(IdentifyError::TotalApart);
+        }
+        if v[count] == 0.0 {
             return Err(IdentifyError::NoTotal);
         }
         Ok(Self {
@@ -246,5 +249,18 @@ mod tests {
         silent.joints[0].target.fill(0.0);
         let found = make(&mut solution, &silent, Weights::Residual);
         assert_eq!(found, Err(IdentifyError::NoTotal));
+    }
+
+    #[test]
+    fn columns_that_errors_hide_have_no_total_estimate() {
+        let mut alike = stack(5);
+        let first = alike.joints[0].columns[0].1.clone();
+        let other = &mut alike.joints[0].columns[1].1;
+        for (other, first) in other.iter_mut().zip(first) {
+            *other = first + 0.01 * *other;
+        }
+        let mut solution = fit(&alike, Method::Wls);
+        let found = make(&mut solution, &alike, Weights::Residual);
+        assert_eq!(found, Err(IdentifyError::TotalApart));
     }
 }
