@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_model::calibrate::{CalibrateError, Commanded, Measured, MotorVoltage, Windows};
+use robot_model::calibrate::{
+    CalibrateError, Commanded, Measured, MotorVoltage, Windows, with_inductance,
+};
 use robot_model_spec::ColumnKind;
 use serde::Serialize;
 
@@ -22,14 +24,16 @@ const ALIKE: f64 = 0.98;
 /// Percent that noise of the velocity may hide before it is noted.
 const ATTENUATED: f64 = 2.0;
 
+/// From a share for a second to percent for a millisecond.
+const PERCENT_OF_MS: f64 = 0.1;
+
 /// Pieces that are printed.
 const SHOWN: usize = 12;
 
 /// The back electromotive force of a motor, and its resistance where its voltage is logged.
 ///
-/// With `--voltage`: `v = R i + k w + v0` by least squares, or by instruments where current or velocity are noisy; the inductance is
-/// left out. Without: the voltage was commanded between constants, and `k` is the factor that makes `u + k w` constant in pieces, where
-/// `u` is `--current`: amperes, or the voltage across a known resistance. Velocities of `--position` are means over five samples, as are
+/// With `--voltage`: `v = R i + k w + v0` by least squares, or by instruments where current or velocity are noisy. Without: the voltage was commanded between constants, and `k` is the factor that makes `u + k w` constant in pieces, where
+/// `u` is `--current`: amperes, or the voltage across a known resistance. The winding's inductance is in neither but by `--time-constant`. Velocities of `--position` are means over five samples, as are
 /// the others then.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
@@ -53,6 +57,14 @@ pub(crate) struct BackEmf {
     /// The column of time, s.
     #[arg(long, value_name = "COLUMN", default_value = "time")]
     time: String,
+    /// Electric time constant of the winding, L/R, s; without it the inductance is left out.
+    #[arg(
+        long,
+        value_name = "S",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
+    time_constant: f64,
     #[command(flatten)]
     log_settings: LogSettings,
     /// Write the result as JSON.
@@ -76,6 +88,8 @@ struct VoltageReport {
     offset_interval: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     least_squares: Option<[f64; 3]>,
+    /// Shares by which resistance and back-EMF are too large for each second of an electric time constant that is left out.
+    by_time_constant: [f64; 2],
     residual_std: f64,
     current_velocity_r: f64,
     samples: usize,
@@ -87,6 +101,8 @@ struct CommandedReport {
     back_emf_std: f64,
     back_emf_interval: [f64; 2],
     attenuation_percent: f64,
+    /// Share by which the back-EMF is too large for each second of an electric time constant that is left out.
+    by_time_constant: f64,
     residual_std: f64,
     samples: usize,
     held_percent: f64,
@@ -135,6 +151,14 @@ impl BackEmf {
         let [time, current, moved, voltage @ ..] = &table.columns[..] else {
             unreachable!("as many columns as were asked for");
         };
+        if self.time_constant.is_nan() || self.time_constant < 0.0 {
+            return Err(Error::Argument(format!(
+                "`--time-constant` is L/R of the winding in seconds, not {}",
+                self.time_constant
+            )));
+        }
+        let current = with_inductance(time, current, self.time_constant).map_err(refused)?;
+        let current = &current;
         let motion = match &self.velocity {
             Some(_) => Motion::Logged(moved.clone()),
             None => Motion::Windows(Windows::new(time, moved).map_err(refused)?),
@@ -166,7 +190,7 @@ fn of_voltage(curves: &Curves) -> Result<Results, CalibrateError> {
     let [current, velocity, voltage] = &curves.of[..] else {
         unreachable!("a voltage beside current and velocity");
     };
-    let found = MotorVoltage::fit(current, velocity, voltage)?;
+    let found = MotorVoltage::fit(&curves.time, current, velocity, voltage)?;
     note_voltage(&found);
     Ok(Results {
         json: output::json(&voltage_report(&found)),
@@ -306,6 +330,7 @@ fn voltage_report(found: &MotorVoltage) -> VoltageReport {
         offset_std: found.offset.std,
         offset_interval: found.offset.interval,
         least_squares: found.least_squares,
+        by_time_constant: found.by_time_constant,
         residual_std: found.residual_std,
         current_velocity_r: found.alike,
         samples: found.samples,
@@ -323,6 +348,7 @@ fn commanded_report(found: &Commanded) -> CommandedReport {
         back_emf_std: found.back_emf.std,
         back_emf_interval: found.back_emf.interval,
         attenuation_percent: found.attenuation,
+        by_time_constant: found.by_time_constant,
         residual_std: found.residual_std,
         samples: found.samples,
         held_percent: found.held,
@@ -337,12 +363,15 @@ fn voltage_summary(found: &MotorVoltage) -> String {
     let line =
         |name: &str, value: &Measured, unit: &str| format!("{name:<12}{}\n", measured(value, unit));
     format!(
-        "{}{}{}residual    {} V, {}; the inductance is left out\n",
+        "{}{}{}residual    {} V, {}\n\
+         inductance  {:+.2} % of the resistance and {:+.2} % of the back-EMF for each ms of L/R beyond `--time-constant`\n",
         line("resistance", &found.resistance, "ohm"),
         line("back-EMF", &found.back_emf, "V s/rad"),
         line("offset", &found.offset, "V"),
         significant(found.residual_std, 3),
         counted(found.samples, "sample"),
+        PERCENT_OF_MS * found.by_time_constant[0],
+        PERCENT_OF_MS * found.by_time_constant[1],
     )
 }
 
@@ -358,6 +387,7 @@ fn commanded_summary(found: &Commanded) -> String {
         "back-EMF    {}\n\
          voltage     {} over {:.1} % of the samples, which explain {:.2} % of it; {:.1} % of its change is in jumps\n\
          residual    {} in units of u; noise of the velocity makes the back-EMF smaller by {:.2} % at most\n\
+         inductance  {:+.2} % of the back-EMF for each ms of L/R beyond `--time-constant`\n\
          levels      {}\n",
         measured(&found.back_emf, "units of u per rad/s"),
         counted(found.pieces.len(), "constant"),
@@ -366,6 +396,7 @@ fn commanded_summary(found: &Commanded) -> String {
         found.by_jumps,
         significant(found.residual_std, 3),
         found.attenuation,
+        PERCENT_OF_MS * found.by_time_constant,
         levels.join(", "),
     )
 }

@@ -11,6 +11,7 @@
 
 use std::ops::Range;
 
+use super::inductance;
 use super::pieces::pieces;
 use super::statistics::{mean, scatter};
 use super::voltage::vary;
@@ -57,6 +58,9 @@ pub struct Commanded {
     pub residual_std: f64,
     /// By how many percent noise of the velocity may have made `k` too small, at most: were all that is left of it.
     pub attenuation: f64,
+    /// By which share `k` is too large for each second of the winding's electric time constant, whose voltage is left out; a `u`
+    /// [`with_inductance`](super::with_inductance) has it.
+    pub by_time_constant: f64,
     /// Samples in pieces.
     pub samples: usize,
     /// `v`, one a sample or window.
@@ -255,12 +259,7 @@ impl Series<'_> {
         if spread <= ROUNDING * scatter(self.w) {
             return None;
         }
-        let product = kept.iter().map(|piece| {
-            let center = mean(&self.w[piece.clone()]);
-            let pairs = self.w[piece.clone()].iter().zip(&self.u[piece.clone()]);
-            pairs.map(|(w, u)| (w - center) * u).sum::<f64>()
-        });
-        Some(-product.sum::<f64>() / spread)
+        Some(-along(self.w, self.u, kept) / spread)
     }
 
     /// The result, unless it is none.
@@ -325,8 +324,10 @@ impl Series<'_> {
             end: time[range.end - 1],
             level,
         };
+        let slopes = inductance::slopes(time, self.u);
         Ok(Commanded {
             back_emf: Measured::new(k, std, freedom),
+            by_time_constant: along(self.w, &slopes, kept) / (spread * k),
             pieces: kept.iter().zip(levels).map(piece).collect(),
             held,
             explained,
@@ -361,6 +362,16 @@ fn freedom(kept: &[Range<usize>]) -> f64 {
 fn about_constants(values: &[f64], kept: &[Range<usize>]) -> f64 {
     let pieces = kept.iter().map(|piece| scatter(&values[piece.clone()]));
     pieces.sum()
+}
+
+/// Products with the velocity about its mean of each piece.
+fn along(w: &[f64], values: &[f64], kept: &[Range<usize>]) -> f64 {
+    let products = kept.iter().map(|piece| {
+        let center = mean(&w[piece.clone()]);
+        let pairs = w[piece.clone()].iter().zip(&values[piece.clone()]);
+        pairs.map(|(w, value)| (w - center) * value).sum::<f64>()
+    });
+    products.sum()
 }
 
 /// Variance of the noise from the steps of a series, without the tenth that is largest, where the jumps are.

@@ -21,6 +21,7 @@
 mod branches;
 mod commanded;
 mod error;
+mod inductance;
 mod pieces;
 mod regression;
 mod static_gain;
@@ -30,6 +31,7 @@ mod windows;
 
 pub use commanded::{Commanded, Piece};
 pub use error::CalibrateError;
+pub use inductance::with_inductance;
 pub(crate) use regression::{NORMAL, quantile};
 pub use static_gain::{Hysteresis, StaticGain, Term};
 pub use voltage::MotorVoltage;

@@ -1,8 +1,9 @@
 //! A motor that turns while its voltage is logged.
 
+use super::inductance::slopes;
 use super::regression::Regression;
 use super::statistics::{correlation, stands};
-use super::windows::REACH;
+use super::windows::{REACH, check_time};
 use super::{CalibrateError, Measured, check};
 
 /// Fewest samples.
@@ -15,8 +16,8 @@ const AWAY: usize = 2 * REACH + 1;
 /// these too small, by instruments: `resistance` and `back_emf` of means of the samples five before and five after, which do not know of a
 /// sample's noise. That it does is seen where both differ by more than three deviations of their difference (Durbin, Wu, Hausman).
 ///
-/// The voltage of the inductance, `L di/dt`, is left out: it matters where the current changes within the motor's electric time
-/// constant. Deviations are those of errors that are alike from sample to sample: `n` times the spectral density at frequency zero of
+/// The voltage of the inductance, `L di/dt`, is left out: what it makes of the values is in [`Self::by_time_constant`], and a current
+/// [`with_inductance`](super::with_inductance) has it. Deviations are those of errors that are alike from sample to sample: `n` times the spectral density at frequency zero of
 /// what each sample moves the estimate by (Newey & West 1987; den Haan & Levin 1997).
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -27,6 +28,8 @@ pub struct MotorVoltage {
     pub back_emf: Measured,
     /// V.
     pub offset: Measured,
+    /// By which share resistance and back-EMF are too large for each second of the winding's electric time constant.
+    pub by_time_constant: [f64; 2],
     /// Resistance, back-EMF and offset by least squares, where those above are by instruments.
     pub least_squares: Option<[f64; 3]>,
     /// Standard deviation of the voltage that is left, V.
@@ -40,27 +43,34 @@ pub struct MotorVoltage {
 }
 
 impl MotorVoltage {
-    /// From current (A), velocity (rad/s) and voltage (V), `[sample]`; where the velocity is that of
+    /// From time (s), current (A), velocity (rad/s) and voltage (V), `[sample]`; where the velocity is that of
     /// [`Windows`](super::Windows), the others are means over the same.
     ///
     /// # Errors
-    /// [`CalibrateError`] for channels of different lengths, values that are not finite, fewer than 16 samples, a current or a
-    /// velocity that does not vary, both in proportion.
+    /// [`CalibrateError`] for channels of different lengths, values that are not finite, fewer than 16 samples, time that does not rise or has
+    /// a gap, a current or a velocity that does not vary, both in proportion.
     ///
     /// # Examples
     /// ```
     /// use robot_model::calibrate::MotorVoltage;
+    /// let time: Vec<f64> = (0..100).map(|k| 0.01 * f64::from(k)).collect();
     /// let current: Vec<f64> = (0..100).map(|k| (0.3 * f64::from(k)).sin()).collect();
     /// let velocity: Vec<f64> = (0..100).map(|k| 5.0 * (0.11 * f64::from(k)).cos()).collect();
     /// let pairs = current.iter().zip(&velocity);
     /// let voltage: Vec<f64> = pairs.map(|(i, w)| 2.0 * i + 0.05 * w + 0.1).collect();
-    /// let motor = MotorVoltage::fit(&current, &velocity, &voltage)?;
+    /// let motor = MotorVoltage::fit(&time, &current, &velocity, &voltage)?;
     /// assert!((motor.resistance.value - 2.0).abs() < 1e-12);
     /// assert!((motor.back_emf.value - 0.05).abs() < 1e-12);
     /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
     /// ```
-    pub fn fit(current: &[f64], velocity: &[f64], voltage: &[f64]) -> Result<Self, CalibrateError> {
-        check(&[current, velocity, voltage], LEAST)?;
+    pub fn fit(
+        time: &[f64],
+        current: &[f64],
+        velocity: &[f64],
+        voltage: &[f64],
+    ) -> Result<Self, CalibrateError> {
+        check(&[time, current, velocity, voltage], LEAST)?;
+        check_time(time)?;
         vary(current, velocity)?;
         let ones = vec![1.0; current.len()];
         let columns: [&[f64]; 3] = [current, velocity, &ones];
@@ -72,7 +82,14 @@ impl MotorVoltage {
             let terms = columns.iter().zip(&fit.values);
             terms.map(|(column, value)| column[k] * value).sum()
         };
+        // Least squares of what is left out by what is not: the error of each value.
+        let of_slopes = Regression::new(&columns, &slopes(time, current));
+        let by_time_constant = of_slopes.map_or([0.0; 2], |slopes| {
+            let [resistance, back_emf] = [fit.values[0], fit.values[1]];
+            [slopes.values[0], resistance * slopes.values[1] / back_emf]
+        });
         Ok(Self {
+            by_time_constant,
             resistance: fit.of_correlated_errors(0),
             back_emf: fit.of_correlated_errors(1),
             offset: fit.of_correlated_errors(2),

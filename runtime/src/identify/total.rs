@@ -256,9 +256,13 @@ mod tests {
         let mut alike = stack(5);
         let first = alike.joints[0].columns[0].1.clone();
         let other = &mut alike.joints[0].columns[1].1;
-        for (other, first) in other.iter_mut().zip(first) {
+        for (other, first) in other.iter_mut().zip(&first) {
             *other = first + 0.01 * *other;
         }
+        // Noise of another stack beside what both columns are.
+        let noise = stack(6).joints[0].target.clone();
+        let pairs = first.iter().zip(&noise);
+        alike.joints[0].target = pairs.map(|(first, noise)| first + 0.3 * noise).collect();
         let mut solution = fit(&alike, Method::Wls);
         let found = make(&mut solution, &alike, Weights::Residual);
         assert_eq!(found, Err(IdentifyError::TotalApart));

@@ -3,8 +3,14 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::*;
+use crate::calibrate::with_inductance;
 
 const TRUTH: [f64; 3] = [1.7, 0.045, 0.2];
+
+/// 15 s at 100 Hz.
+fn times() -> Vec<f64> {
+    (0..1500).map(|k| 0.01 * f64::from(k)).collect()
+}
 
 /// A motor that swings slowly, with noise that stays alike over some ten samples.
 fn log(noise: f64, seed: u64) -> [Vec<f64>; 3] {
@@ -29,7 +35,7 @@ fn log(noise: f64, seed: u64) -> [Vec<f64>; 3] {
 #[test]
 fn a_motor_without_noise_is_found() {
     let [current, velocity, voltage] = log(0.0, 1);
-    let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+    let found = MotorVoltage::fit(&times(), &current, &velocity, &voltage).expect("a motor");
     let values = [found.resistance, found.back_emf, found.offset];
     for (value, truth) in values.into_iter().zip(TRUTH) {
         assert!((value.value - truth).abs() < 1e-12, "{value:?}");
@@ -46,7 +52,7 @@ fn intervals_know_noise_that_stays_alike() {
     let mut held = [0; 3];
     for seed in 0..DRAWS {
         let [current, velocity, voltage] = log(0.05, u64::from(seed));
-        let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+        let found = MotorVoltage::fit(&times(), &current, &velocity, &voltage).expect("a motor");
         let values = [found.resistance, found.back_emf, found.offset];
         for ((value, truth), held) in values.into_iter().zip(TRUTH).zip(&mut held) {
             let [low, high] = value.interval;
@@ -75,7 +81,7 @@ fn noise_of_the_current_makes_no_resistance_smaller() {
             channel.iter().map(white).collect()
         };
         let (current, velocity) = (noisy(&current, 0.37), noisy(&velocity, 2.1));
-        let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+        let found = MotorVoltage::fit(&times(), &current, &velocity, &voltage).expect("a motor");
         let [least_squares, ..] = found.least_squares.expect("noise that is seen");
         assert!(least_squares < 0.86 * TRUTH[0], "{least_squares}");
         for (value, truth) in [found.resistance, found.back_emf, found.offset]
@@ -95,7 +101,7 @@ fn a_current_without_noise_is_its_own_instrument() {
     const DRAWS: u64 = 100;
     let instrumented = (0..DRAWS).filter(|&seed| {
         let [current, velocity, voltage] = log(0.05, seed);
-        let found = MotorVoltage::fit(&current, &velocity, &voltage).expect("a motor");
+        let found = MotorVoltage::fit(&times(), &current, &velocity, &voltage).expect("a motor");
         found.least_squares.is_some()
     });
     let instrumented = instrumented.count();
@@ -106,15 +112,38 @@ fn a_current_without_noise_is_its_own_instrument() {
 fn what_does_not_vary_is_refused() {
     let [current, velocity, voltage] = log(0.0, 1);
     let stands = vec![2.0; current.len()];
-    let error = MotorVoltage::fit(&stands, &velocity, &voltage).unwrap_err();
+    let error = MotorVoltage::fit(&times(), &stands, &velocity, &voltage).unwrap_err();
     assert!(error.to_string().starts_with("the current is the same"));
-    let error = MotorVoltage::fit(&current, &stands, &voltage).unwrap_err();
+    let error = MotorVoltage::fit(&times(), &current, &stands, &voltage).unwrap_err();
     assert!(error.to_string().starts_with("the velocity is the same"));
     let twice: Vec<f64> = current.iter().map(|i| 2.0 * i + 1.0).collect();
-    let error = MotorVoltage::fit(&current, &twice, &voltage).unwrap_err();
+    let error = MotorVoltage::fit(&times(), &current, &twice, &voltage).unwrap_err();
     assert_eq!(error, CalibrateError::NotApart);
     let short = [1.0, 2.0, 3.0];
-    let error = MotorVoltage::fit(&short, &short, &short).unwrap_err();
+    let error = MotorVoltage::fit(&times(), &short, &short, &short).unwrap_err();
     let (samples, least) = (3, 16);
     assert_eq!(error, CalibrateError::TooFew { samples, least });
+}
+
+/// What the inductance of 8.5 mH, 5 ms, adds to the voltage is told before it is known, and gone with it.
+#[test]
+fn what_an_inductance_makes_of_the_values_is_told() {
+    const TIME_CONSTANT: f64 = 5e-3;
+    let [current, velocity, voltage] = log(0.0, 1);
+    let time = times();
+    let whole = with_inductance(&time, &current, TIME_CONSTANT).expect("a current");
+    let more = whole
+        .iter()
+        .zip(&current)
+        .map(|(whole, own)| TRUTH[0] * (whole - own));
+    let voltage: Vec<f64> = voltage.iter().zip(more).map(|(v, more)| v + more).collect();
+    let plain = MotorVoltage::fit(&time, &current, &velocity, &voltage).expect("a motor");
+    let [resistance, back_emf] = plain.by_time_constant.map(|share| share * TIME_CONSTANT);
+    assert!(back_emf.abs() > 1e-4, "{back_emf}");
+    let expected = [TRUTH[0] * (1.0 + resistance), TRUTH[1] / (1.0 - back_emf)];
+    for (found, expected) in [plain.resistance, plain.back_emf].into_iter().zip(expected) {
+        assert!((found.value / expected - 1.0).abs() < 1e-5, "{found:?}");
+    }
+    let known = MotorVoltage::fit(&time, &whole, &velocity, &voltage).expect("a motor");
+    assert!((known.back_emf.value - TRUTH[1]).abs() < 1e-12, "{known:?}");
 }
