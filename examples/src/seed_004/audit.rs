@@ -1,12 +1,16 @@
 //! Table 1, asked whether a device can have it.
 
-use super::device::{SPEC, by_name, compiled, within};
+use robot_model::{Mechanics as _, RobotModel as _, Vector};
+
+use super::device::{SPEC, by_name, compiled, phantom, within};
 use super::fits::STIFF;
 use super::plant::Plant;
+use super::results::Results;
 use super::rig;
+use super::sensors::{RATE, samples};
 use super::sines::{ROOM, Room, Sines};
-use super::truth::{Pi, piece_wise, table_1};
-use crate::paper::{Audited, Error};
+use super::truth::{CONFIGURATIONS, LEAST_EIGENVALUE, Pi, piece_wise, table_1};
+use crate::paper::{Audited, Error, Row};
 
 /// What the tool says of a set of parameters of a spec.
 ///
@@ -31,6 +35,62 @@ pub struct Audits {
     pub moved: Vec<String>,
     /// The same of the piece-wise column, without friction.
     pub piece_wise_moved: String,
+    /// How many instants of that motion the compiled device has no acceleration at, of each installation.
+    pub without_acceleration: Vec<usize>,
+    /// The same of the piece-wise column.
+    pub piece_wise_without: usize,
+    /// Where the inertia of the installations fails.
+    pub fails: Vec<Fails>,
+}
+
+/// Parts of the inertia of an installation over the workspace.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fails {
+    /// Least angle of joint 2 from which on `M11` is negative at some angle of joint 3, and at every one of these, degrees; none where
+    /// there is no such angle.
+    pub m11_from: [Option<f64>; 2],
+    /// Least eigenvalue of the block of joints 2 and 3, kg m^2.
+    pub block: f64,
+}
+
+/// Limits of joints 2 and 3 in the spec, degrees.
+const LIMITS: [[i32; 2]; 2] = [[-30, 100], [-30, 75]];
+
+/// Every degree of the workspace.
+fn fails(pi: &Pi) -> Fails {
+    let arm = phantom(pi);
+    let inertia = |two: i32, three: i32| {
+        let [two, three] = [two, three].map(|degrees| f64::from(degrees).to_radians());
+        arm.mass_matrix(&Vector::from([0.0, two, three]))
+    };
+    let [[low_2, high_2], [low_3, high_3]] = LIMITS;
+    let negative = |two: i32| (low_3..=high_3).map(move |three| inertia(two, three)[(0, 0)] < 0.0);
+    let upward = || (0..=high_2).map(|two| (two, negative(two)));
+    let at_some = upward().find(|(_, all)| all.clone().any(|is| is));
+    let at_every = upward().find(|(_, all)| all.clone().all(|is| is));
+    let blocks = (low_2..=high_2).flat_map(|two| (low_3..=high_3).map(move |three| (two, three)));
+    let block = blocks.map(|(two, three)| {
+        let whole = inertia(two, three);
+        let block = whole.fixed_view::<2, 2>(1, 1).clone_owned();
+        block.symmetric_eigenvalues().min()
+    });
+    Fails {
+        m11_from: [at_some, at_every].map(|found| found.map(|(two, _)| f64::from(two))),
+        block: block.fold(f64::INFINITY, f64::min),
+    }
+}
+
+/// Seconds for which the installations are moved through the workspace.
+const MOVED: f64 = 40.0;
+
+/// Instants of a motion at which the compiled device has no acceleration, whatever the torque.
+fn without_acceleration(pi: &Pi, motion: &Sines) -> usize {
+    let arm = phantom(pi);
+    let instants = (0..samples(MOVED)).filter(|&k| {
+        let [q, dq, _] = motion.at(k as f64 / RATE).map(Vector::from);
+        arm.forward_dynamics(&q, &dq, &Vector::zeros()).is_none()
+    });
+    instants.count()
 }
 
 /// Asks.
@@ -49,23 +109,107 @@ pub fn all() -> Result<Audits, Error> {
         pi
     };
     // The limits of the spec.
+    let [[low_2, high_2], [low_3, high_3]] = LIMITS;
     let whole = Room {
-        low: [-60.0, -30.0, -30.0].map(f64::to_radians),
-        high: [60.0, 100.0, 75.0].map(f64::to_radians),
+        low: [-60, low_2, low_3].map(|degrees| f64::from(degrees).to_radians()),
+        high: [60, high_2, high_3].map(|degrees| f64::from(degrees).to_radians()),
     };
     let motion = Sines::new(10, &whole, 4);
     let moved = |pi: Pi| {
         let plant = Plant::new(pi, motion.at(0.0)[0]);
-        let run = rig::run(plant, &motion, &STIFF, 40.0, 45);
+        let run = rig::run(plant, &motion, &STIFF, MOVED, 45);
         run.err()
             .map_or_else(String::new, |error| error.to_string())
     };
     Ok(Audits {
         moved: (0..5).map(|k| moved(table_1(k))).collect(),
         piece_wise_moved: moved(piece_wise()),
+        without_acceleration: (0..5)
+            .map(|k| without_acceleration(&table_1(k), &motion))
+            .collect(),
+        piece_wise_without: without_acceleration(&piece_wise(), &motion),
+        fails: (0..5).map(|k| fails(&table_1(k))).collect(),
         printed: each(SPEC, |pi| pi)?,
         in_room: each(&room, |pi| pi)?,
         positive: each(SPEC, positive)?,
         piece_wise: audited(SPEC, &piece_wise())?,
     })
+}
+
+/// Items 4.definite.
+pub(super) fn rows(results: &Results) -> Vec<Row> {
+    let audits = &results.audits;
+    let least = |all: &[Audited]| -> String {
+        let all: Vec<String> = all
+            .iter()
+            .map(|one| format!("{:.2}", 1e3 * one.least_eigenvalue()))
+            .collect();
+        all.join(", ")
+    };
+    let failed = super::rows::count(&audits.printed, "inertia");
+    let fails: Vec<String> = (audits.fails.iter().zip(CONFIGURATIONS))
+        .map(|(fails, name)| match fails.m11_from {
+            [Some(some), Some(every)] => format!("{name} {some:.0} (every {every:.0})"),
+            [Some(some), None] => format!("{name} {some:.0}"),
+            [None, _] => format!("{name} nowhere"),
+        })
+        .collect();
+    let blocks: Vec<String> = (audits.fails.iter())
+        .map(|fails| format!("{:.2}", 1e3 * fails.block))
+        .collect();
+    let stopped = audits.moved.iter().filter(|said| !said.is_empty()).count();
+    let without = audits.without_acceleration.iter();
+    let without: Vec<String> = without.map(usize::to_string).collect();
+    let instants = samples(MOVED);
+    let below = audits
+        .in_room
+        .iter()
+        .all(|one| one.least_eigenvalue() < LEAST_EIGENVALUE);
+    vec![
+        Row::wrong_in_print(
+            "4.definite",
+            "inertia over the workspace (joints 2 and 3 within limits of ours, as the paper has none), table 1",
+            format!("positive definite, at least {LEAST_EIGENVALUE:.1e} kg m^2"),
+            format!(
+                "least eigenvalues times 1000 of {}: {}; where motions here stay: {}; piece-wise {:.2}; M11 is negative from so many degrees of joint 2 on, at \
+                 some angle of joint 3: {}; least eigenvalues of the block of joints 2 and 3 times 1000: {}",
+                CONFIGURATIONS.join(", "),
+                least(&audits.printed),
+                least(&audits.in_room),
+                1e3 * audits.piece_wise.least_eigenvalue(),
+                fails.join(", "),
+                blocks.join(", "),
+            ),
+            failed == 5 && below && super::rows::count(&audits.in_room, "inertia") == 0,
+            "no installation has a positive definite inertia over the workspace, and none as much as printed in a part of it",
+        ),
+        Row::wrong_in_print(
+            "4.definite.motion",
+            "the installations moved through the workspace: by the compiled device, and by the simulated one",
+            "positive definite for the entire workspace",
+            format!(
+                "the compiled device has no acceleration at {} of {instants} instants, with the piece-wise column at {}; simulated, {} of 5 go \
+                 through, the others get to where no motion follows from a torque; the piece-wise column {}",
+                without.join(", "),
+                audits.piece_wise_without,
+                5 - stopped,
+                if audits.piece_wise_moved.is_empty() {
+                    "goes through"
+                } else {
+                    "does not"
+                }
+            ),
+            audits.without_acceleration.iter().all(|count| *count > 0)
+                && audits.piece_wise_without == 0
+                && stopped == 5
+                && audits.piece_wise_moved.is_empty(),
+            &format!(
+                "where the inertia is not positive definite the device cannot go; motions here stay within {:.0} to {:.0} degrees of joint 2 and {:.0} to {:.0} of joint 3",
+                ROOM.low[1].to_degrees(),
+                ROOM.high[1].to_degrees(),
+                ROOM.low[2].to_degrees(),
+                ROOM.high[2].to_degrees()
+            ),
+        ),
+    ]
 }
