@@ -9,6 +9,7 @@ use common::agrees;
 
 use robot_model::trace::Outcome;
 use robot_model_examples::Paper;
+use robot_model_examples::seed_004::audit::Fails;
 use robot_model_examples::seed_004::equation_13::Left;
 use robot_model_examples::seed_004::results::{COUPLED, Results, results};
 use robot_model_examples::seed_004::shares::{
@@ -41,12 +42,13 @@ fn the_page_says_what_the_program_says() {
         "4.2.L",
         "4.viscous",
         "4.definite",
+        "4.definite.where",
         "4.definite.motion",
         "4.8.gravity",
         "4.10",
     ];
     agrees(paper, "seed_004", PAGE, [&not_reached, &impossible]);
-    assert_eq!(paper.rows.len(), 29);
+    assert_eq!(paper.rows.len(), 30);
 }
 
 #[test]
@@ -151,6 +153,22 @@ fn table_one_is_no_device_over_the_workspace() {
         "{without:?}"
     );
     assert_eq!(audits.piece_wise_without, 0);
+    // By hand at theta3 = 0: M11 = pi1 + pi3 + pi2 cos(2 theta2) of UR and USD; the block of USD+GCW where theta2 - theta3 is 90 degrees.
+    let from = |k: usize| audits.fails[k].m11_from[0].expect("an angle");
+    for (k, by_hand) in [(0, 69.5), (3, 57.7)] {
+        assert!(
+            (by_hand - 3.0..=by_hand + 1.0).contains(&from(k)),
+            "{k}: {}",
+            from(k)
+        );
+    }
+    assert!(
+        (1e3 * audits.fails[4].block + 0.11).abs() < 0.005,
+        "{:?}",
+        audits.fails[4]
+    );
+    assert!(audits.fails[..4].iter().all(|fails| fails.block > 0.0));
+    assert!(audits.fails.iter().all(Fails::is_any) && !audits.piece_wise_fails.is_any());
 }
 
 #[test]

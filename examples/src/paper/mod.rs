@@ -4,6 +4,7 @@ mod audited;
 mod drawing;
 mod figure;
 mod integrator;
+mod looks;
 pub mod numbers;
 mod page;
 mod program;

@@ -44,7 +44,8 @@ impl Regrouping {
         let (kept, dropped) = (units(kept), units(dropped));
         let printed = dropped.iter().zip(&kept);
         let printed = printed.map(|(dropped, kept)| format!("(load/{dropped})*({kept}/load)"));
-        let repaired = kept.iter();
+        // A sum of as many terms: the language reads no longer ones than are good for a person.
+        let repaired = dropped.iter();
         let repaired = repaired.map(|_| format!("({}/load)*(load/{})", kept[0], dropped[0]));
         let sums = |k: &DMatrix<f64>, is_plain: bool| {
             let columns = (0..dropped.len()).filter(|&j| k.column(j).amax() > ROUNDING);

@@ -10,7 +10,7 @@ use super::fits::{self, Installation};
 use super::shares::{self, Balance, Shares};
 use super::sines::{ROOM, Sines};
 use super::tracing::{self, Traces};
-use super::truth::{COMMAND_GAIN, CONTROL_GAINS, WEIGHTS, piece_wise, table_1};
+use super::truth::{COMMAND_GAIN, CONTROL_GAINS, SINES, WEIGHTS, piece_wise, table_1};
 use crate::paper::Error;
 
 /// One setting of section 4.3 with identified and with piece-wise parameters.
@@ -67,7 +67,7 @@ pub struct Results {
 /// # Errors
 /// Those of the libraries.
 pub fn results() -> Result<Results, Error> {
-    let motion = Sines::new(10, &ROOM, 4);
+    let motion = Sines::new(SINES, &ROOM, 4);
     let installations = fits::all(&motion)?;
     let known = |k: usize| device::values(&installations[k].estimate);
     let largest = |k: usize| -> Result<[f64; 2], Error> {

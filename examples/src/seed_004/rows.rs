@@ -6,7 +6,7 @@ use robot_model::trace::{Outcome, Verdict};
 use super::fits::{Installation, SECONDS};
 use super::results::{COUPLED, Results};
 use super::sensors::CONVERTER;
-use super::truth::{CONFIGURATIONS, FASTEST, FREQUENCIES, TABLE_2};
+use super::truth::{CONFIGURATIONS, FASTEST, FREQUENCIES, SINES, TABLE_2};
 use super::{applications, device, equation_13, equations, tracing};
 use crate::paper::Row;
 
@@ -54,6 +54,7 @@ fn identified(results: &Results) -> Vec<Row> {
         .iter()
         .map(|one| one.estimate.rank.to_string())
         .collect();
+    let unknowns = results.installations[0].estimate.parameters.len();
     let tones = results.motion.frequencies();
     let low = tones.iter().map(|[low, _]| format!("{low:.2}"));
     let low: Vec<String> = low.collect();
@@ -84,13 +85,13 @@ fn identified(results: &Results) -> Vec<Row> {
         Row::holds(
             "4.4",
             "ten sines a joint, 0.11 to 5 rad/s, under a PD controller",
-            "condition not given",
+            "at least n/2 sines for n unknowns; condition not given",
             format!(
-                "lowest {}, highest {} rad/s; condition number with unit columns at most {worst:.1}",
+                "{unknowns} unknowns; lowest {}, highest {} rad/s; condition number with unit columns at most {worst:.1}",
                 low.join(", "),
                 high.join(", ")
             ),
-            worst < 20.0 && are_printed,
+            worst < 20.0 && are_printed && 2 * SINES >= unknowns,
             "the regressor is badly conditioned, or the tones are others",
         ),
         Row::holds(
