@@ -171,7 +171,7 @@ fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor, order:
     let [x, y] = at.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
     let px = FINE.cast_signed();
     let right = x + SAMPLE.cast_signed();
-    let middle = (x + right) / 2;
+    let middle = x + (right - x) / 2;
     let swatch = |share: f64| {
         let corners = [(x, y - 4 * px), (right, y + 4 * px)];
         Rectangle::new(corners, color.mix(share).filled())

@@ -78,6 +78,8 @@ fn factor(dag: &mut Dag, factor: Factor) -> ExprId {
 /// # Errors
 /// A product of constants that is none of the spec's, and what is too long to be multiplied out.
 pub fn left(compiled: &Compiled, equations: [&[Term]; 2]) -> Result<[Vec<String>; 2], Error> {
+    // Each of the paper's products by itself, and not those sums of them that a motion tells.
+    let compiled = compiled.ungrouped();
     let mut dag = compiled.dag.clone();
     let names = Names {
         parameters: compiled.standard.iter().map(|p| p.name.clone()).collect(),

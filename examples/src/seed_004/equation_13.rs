@@ -5,7 +5,9 @@ use robot_model::motion::Motion;
 use robot_model_cli::interpreted::InterpretedMomentum;
 
 use super::device::{self, SPEC};
-use super::equations::{Comparison, Off, Place, SIGN, is_sign, names, printed_filtered};
+use super::equations::{
+    Comparison, Off, Place, SIGN, Transposed, is_sign, names, printed_filtered,
+};
 use super::fits::{self, Installation};
 use super::plant::Three;
 use super::truth::{CORNER, NAMES};
@@ -44,7 +46,7 @@ impl Printed {
     fn entries_of(
         &self,
         motion: &Motion,
-        part: impl Fn(&[super::equations::Transposed; 3], Place) -> f64,
+        part: impl Fn(&[Transposed; 3], Place) -> f64,
     ) -> Vec<Entry> {
         let at =
             |channels: &[Vec<f64>], k: usize| -> Three { std::array::from_fn(|j| channels[j][k]) };
