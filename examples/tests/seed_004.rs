@@ -154,12 +154,11 @@ fn table_one_is_no_device_over_the_workspace() {
     );
     assert_eq!(audits.piece_wise_without, 0);
     // By hand at theta3 = 0: M11 = pi1 + pi3 + pi2 cos(2 theta2) of UR and USD; the block of USD+GCW where theta2 - theta3 is 90 degrees.
-    let from = |k: usize| audits.fails[k].m11_from[0].expect("an angle");
     for (k, by_hand) in [(0, 69.5), (3, 57.7)] {
+        let from = f64::from(audits.fails[k].m11_from.expect("an angle"));
         assert!(
-            (by_hand - 3.0..=by_hand + 1.0).contains(&from(k)),
-            "{k}: {}",
-            from(k)
+            (by_hand - 3.0..=by_hand + 1.0).contains(&from),
+            "{k}: {from}"
         );
     }
     assert!(
