@@ -1,4 +1,4 @@
-//! A paper's program, as it is called: what it prints, draws and writes.
+//! The papers' programs, as they are called: what they print, draw and write.
 
 use std::fs;
 use std::path::Path;
@@ -6,8 +6,25 @@ use std::process::Command;
 
 use robot_model_examples::paper::have_same_words;
 
-const PROGRAM: &str = env!("CARGO_BIN_EXE_seed_000");
-const PAGE: &str = include_str!("../../docs/papers/seed_000.md");
+/// A name, the program and its page.
+macro_rules! program {
+    ($name:literal) => {
+        (
+            $name,
+            env!(concat!("CARGO_BIN_EXE_", $name)),
+            include_str!(concat!("../../docs/papers/", $name, ".md")),
+        )
+    };
+}
+
+/// Programs by their names, with their pages.
+const PROGRAMS: [(&str, &str, &str); 5] = [
+    program!("seed_000"),
+    program!("seed_001"),
+    program!("seed_002"),
+    program!("seed_003"),
+    program!("seed_004"),
+];
 
 /// A page without the rows of tables that count.
 fn without_places(page: &str) -> String {
@@ -20,17 +37,16 @@ fn without_places(page: &str) -> String {
 }
 
 /// Everything of a page that is the program's is cut out of it before, and is there again behind.
-#[test]
-fn a_program_prints_draws_and_writes_its_page_anew() {
+fn prints_draws_and_writes_its_page_anew((name, program, shown): (&str, &str, &str)) {
     let folder = tempfile::tempdir().expect("a folder");
     let (figures, page) = (folder.path().join("drawn"), folder.path().join("page.md"));
     fs::create_dir(folder.path().join("figures")).expect("a folder");
-    let worn = PAGE
+    let worn = shown
         .replace("| reached |", "| not reached |")
         .replace("- outcome: reached", "- outcome: not known");
-    assert_ne!(worn, PAGE);
+    assert_ne!(worn, shown);
     fs::write(&page, worn).expect("a page");
-    let run = Command::new(PROGRAM)
+    let run = Command::new(program)
         .arg("--figures")
         .arg(&figures)
         .arg("--page")
@@ -46,7 +62,7 @@ fn a_program_prints_draws_and_writes_its_page_anew() {
     assert!(said.contains("Item by item") && said.contains("outcome: impossible as printed"));
     // Numbers of searches that end nowhere hang on rounding, and with them how many places they have.
     let written = fs::read_to_string(&page).expect("a page");
-    let [written, wanted] = [&*written, PAGE].map(without_places);
+    let [written, wanted] = [&*written, shown].map(without_places);
     assert!(have_same_words(&written, &wanted), "{written}");
     let count = |of: &Path| {
         let files = fs::read_dir(of).expect("a folder");
@@ -55,9 +71,16 @@ fn a_program_prints_draws_and_writes_its_page_anew() {
             .filter(|file| file.extension().is_some_and(|end| end == "svg"))
             .count()
     };
-    let shown = PAGE.matches("(figures/seed_000_").count();
+    let shown = shown.matches(&format!("(figures/{name}_")).count();
     assert!(shown > 0 && count(&folder.path().join("figures")) == shown);
     assert!(count(&figures) >= shown);
+}
+
+#[test]
+fn every_program_prints_draws_and_writes_its_page_anew() {
+    for program in PROGRAMS {
+        prints_draws_and_writes_its_page_anew(program);
+    }
 }
 
 #[test]
@@ -65,7 +88,8 @@ fn a_folder_that_cannot_be_made_is_an_error_of_one_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let blocked = folder.path().join("a file");
     fs::write(&blocked, "").expect("a file");
-    let run = Command::new(PROGRAM)
+    let [(_, program, _), ..] = PROGRAMS;
+    let run = Command::new(program)
         .arg("--figures")
         .arg(blocked.join("drawn"))
         .output()

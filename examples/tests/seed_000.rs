@@ -5,7 +5,7 @@ mod common;
 use std::sync::OnceLock;
 
 use robot_model_examples::seed_000::{
-    ARM, BACK_EMF, Findings, Fit, TABLE_1, TABLE_2, cost, pairs, start,
+    ARM, BACK_EMF, Beside, Findings, Fit, TABLE_1, TABLE_2, cost, mended, pairs, start,
 };
 
 use common::agrees;
@@ -149,6 +149,12 @@ fn the_misprint_is_found_and_goes_away_when_it_is_mended() {
     assert_eq!(wrong[0].name, "c2");
     let printed = start();
     assert!((printed[3] - wrong[0].off - 3.87).abs() < 0.006);
+    // So says the motion of the arm.
+    let [refused, repaired] = &found().start_told;
+    assert_eq!((refused.len(), repaired.len()), (3, 3));
+    assert!(refused.iter().all(Beside::is_refused), "{refused:?}");
+    assert!(!repaired.iter().any(Beside::is_refused), "{repaired:?}");
+    assert!((mended(&wrong[0])[3] - 3.87).abs() < 0.006);
     let mended = [printed[0], printed[1], printed[2], 3.87];
     let pairs = pairs(mended, ARM).expect("a spec");
     assert_eq!(pairs.len(), 4);

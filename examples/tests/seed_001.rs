@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 use robot_model::identify::output_error::{Ending, OutputEstimate};
 use robot_model_examples::seed_001::rows::Results;
 use robot_model_examples::seed_001::truth::{BOUNDS, ESTIMATED, HEIGHTS, NAMES};
-use robot_model_examples::seed_001::{audit, paper, releases, results};
+use robot_model_examples::seed_001::{audit, paper, releases, results, symbols};
 
 use common::agrees;
 
@@ -35,6 +35,19 @@ fn equations_from_energies_and_from_frames_are_those_of_the_paper() {
     let own = &found().differences;
     assert!(own.energies < 1e-13, "{own:?}");
     assert!(own.chain < 1e-13, "{own:?}");
+    assert_eq!(own.left, [vec![""; 0], vec![""; 0]]);
+    // A sign of Coriolis' that is turned is left, and said.
+    let mut first = symbols::PRINTED[0].to_vec();
+    let (coefficient, product, _) = &mut first[9];
+    assert_eq!((*coefficient, *product), (-2.0, "m2*l1*c2"));
+    *coefficient = 2.0;
+    let compiled = &found().model.compiled;
+    let [turned, other] = symbols::left(compiled, [&first, symbols::PRINTED[1]]).expect("terms");
+    assert_eq!((turned.len(), other.len()), (1, 0));
+    assert!(
+        turned[0].contains("dq1") && turned[0].contains("sin(q2)"),
+        "{turned:?}"
+    );
     assert_eq!(own.base, ["I1r", "I2r", "m1*c1r", "m2*c2", "m2*l1*c2"]);
 }
 

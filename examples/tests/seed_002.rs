@@ -63,8 +63,10 @@ fn the_law_jumps_drives_and_has_neither_fall_nor_position() {
     // Without square and cube it brakes.
     assert_eq!(results.ours[0].findings("friction").len(), 6);
     assert_eq!(results.ours[1].findings("friction"), [""; 0]);
-    assert_eq!(results.missing[0], ["stribeck"]);
-    assert_eq!(results.missing[1], [""; 0]);
+    assert_eq!(results.missing_fall[0], ["stribeck"]);
+    assert_eq!(results.missing_fall[1], [""; 0]);
+    assert_eq!(results.missing_position[0], ["position_dependent_friction"]);
+    assert_eq!(results.missing_position[1], [""; 0]);
     assert_eq!(results.reads_position, [false, true]);
     // The law that begins at rest is the printed one from `eps` on.
     let [printed, repaired] = [law::PRINTED, law::CONTINUOUS]
@@ -89,6 +91,26 @@ fn base_parameters_are_seventy_both_ways() {
     // `R2 R1^-1` does not exist; lengths of columns belong into `R1^-1 R2`.
     assert_eq!(base.printed, [26, 70]);
     assert!(base.regrouped[0] < 1e-12 && base.regrouped[1] > 0.1);
+    // So say the dimensions of a spec.
+    let [order, repaired] = &base.regrouping.order;
+    let said = order.as_deref().unwrap_or_default();
+    assert!(
+        said.starts_with("terms of different dimensions do not add"),
+        "{said}"
+    );
+    assert_eq!(*repaired, None);
+    let [lengths, repaired] = &base.regrouping.lengths;
+    assert!(lengths.refused.len() > 5, "{lengths:?}");
+    for said in &lengths.refused {
+        assert!(
+            said.starts_with("terms of different dimensions do not add"),
+            "{said}"
+        );
+    }
+    assert_eq!(
+        (repaired.columns, &*repaired.refused),
+        (lengths.columns, &[][..])
+    );
 }
 
 #[test]

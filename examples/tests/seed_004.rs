@@ -9,8 +9,12 @@ use common::agrees;
 
 use robot_model::trace::Outcome;
 use robot_model_examples::Paper;
-use robot_model_examples::seed_004::results::{Results, results};
-use robot_model_examples::seed_004::shares::{gravity_of_joint_3, is_as_said, sentences};
+use robot_model_examples::seed_004::audit::Fails;
+use robot_model_examples::seed_004::equation_13::Left;
+use robot_model_examples::seed_004::results::{COUPLED, Results, results};
+use robot_model_examples::seed_004::shares::{
+    Shares, gravity_of_joint_3, is_as_said, sentences, shares as shares_of,
+};
 use robot_model_examples::seed_004::truth::{LEAST_EIGENVALUE, WEIGHTS, table_1};
 use robot_model_examples::seed_004::{paper, tracing};
 
@@ -38,12 +42,13 @@ fn the_page_says_what_the_program_says() {
         "4.2.L",
         "4.viscous",
         "4.definite",
+        "4.definite.where",
         "4.definite.motion",
         "4.8.gravity",
         "4.10",
     ];
     agrees(paper, "seed_004", PAGE, [&not_reached, &impossible]);
-    assert_eq!(paper.rows.len(), 29);
+    assert_eq!(paper.rows.len(), 30);
 }
 
 #[test]
@@ -141,6 +146,28 @@ fn table_one_is_no_device_over_the_workspace() {
     let are_stopped = |said: &String| said.contains("not positive definite");
     assert!(audits.moved.iter().all(are_stopped), "{:?}", audits.moved);
     assert_eq!(audits.piece_wise_moved, "");
+    // Nor has the compiled device an acceleration everywhere along that motion.
+    let without = &audits.without_acceleration;
+    assert!(
+        without.len() == 5 && without.iter().all(|count| *count > 0),
+        "{without:?}"
+    );
+    assert_eq!(audits.piece_wise_without, 0);
+    // By hand at theta3 = 0: M11 = pi1 + pi3 + pi2 cos(2 theta2) of UR and USD; the block of USD+GCW where theta2 - theta3 is 90 degrees.
+    for (k, by_hand) in [(0, 69.5), (3, 57.7)] {
+        let from = f64::from(audits.fails[k].m11_from.expect("an angle"));
+        assert!(
+            (by_hand - 3.0..=by_hand + 1.0).contains(&from),
+            "{k}: {from}"
+        );
+    }
+    assert!(
+        (1e3 * audits.fails[4].block + 0.11).abs() < 0.005,
+        "{:?}",
+        audits.fails[4]
+    );
+    assert!(audits.fails[..4].iter().all(|fails| fails.block > 0.0));
+    assert!(audits.fails.iter().all(Fails::is_any) && !audits.piece_wise_fails.is_any());
 }
 
 #[test]
@@ -187,15 +214,29 @@ fn identified_parameters_control_better_and_feel_better() {
 /// Table 1 says otherwise than the text, and would not with other values.
 #[test]
 fn gravity_on_joint_3_is_not_as_the_text_has_it() {
-    let shares = gravity_of_joint_3(table_1);
+    let shares = gravity_of_joint_3(&RESULTS.0.shares);
     for (share, by_hand) in shares.iter().zip([0.63, 0.42, 1.02]) {
         assert!((share - by_hand).abs() < 0.01, "{shares:?}");
     }
     assert!(!is_as_said(shares));
-    let repaired = |column: usize| {
+    let repaired = (0..5).map(|column: usize| {
         let mut pi = table_1(column);
         pi[7] = table_1(0)[7] * [1.0, 0.05, 0.5, 1.0, -0.05][column];
-        pi
-    };
-    assert!(is_as_said(gravity_of_joint_3(repaired)));
+        shares_of(&pi, &RESULTS.0.motion)
+    });
+    let repaired: Vec<Shares> = repaired.collect();
+    assert!(is_as_said(gravity_of_joint_3(&repaired)));
+}
+
+#[test]
+fn identification_leaves_torque_by_13_as_printed_and_none_once_it_is_mended() {
+    let left = &RESULTS.0.left_by_13;
+    assert!(left.sign[2] > 1.0, "{left:?}");
+    assert_eq!(Left::joints(&left.filters), [1, 2], "{left:?}");
+    assert!(left.is_repaired(), "{left:?}");
+    // That is what is left by the compiler's own columns.
+    let derived = &RESULTS.0.installations[COUPLED].rms;
+    for (mended, derived) in left.repaired.iter().zip(derived) {
+        assert!((mended - derived).abs() < 1e-6, "{left:?} {derived}");
+    }
 }

@@ -7,6 +7,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 
 use super::figure::{Figure, Mark, Series};
+use super::looks::{Shape, quoted};
 
 /// The drawing has whole numbers for places: so many of them to a pixel.
 const FINE: u32 = 10;
@@ -17,12 +18,16 @@ const HEIGHT: u32 = 420 * FINE;
 const LINE: u32 = 18 * FINE;
 /// Where the key begins and ends, and the swatch before a name.
 const EDGE: u32 = 64 * FINE;
-const SWATCH: u32 = 22 * FINE;
+const SWATCH: u32 = 44 * FINE;
+/// What is drawn of a series there.
+const SAMPLE: u32 = 36 * FINE;
 /// A letter of the key is so wide, or less.
 const LETTER: u32 = 7 * FINE;
 const TITLE: (&str, u32) = ("sans-serif", 16 * FINE);
 const SMALL: (&str, u32) = ("sans-serif", 12 * FINE);
 const DOT: u32 = 2 * FINE;
+/// Of dots that are no disks.
+const BIG: u32 = 3 * FINE;
 
 const GRID: RGBColor = RGBColor(225, 225, 225);
 /// Told apart by those who do not see all colors (Okabe & Ito 2008).
@@ -50,13 +55,13 @@ impl Figure {
     #[must_use]
     pub fn parts_of(&self, svg: &str, place: usize) -> usize {
         let (mark, in_key) = match self.series[place].mark {
-            Mark::Line | Mark::Broad | Mark::Boxes => ("<polyline", 0),
-            Mark::Dots => ("<circle", 1),
+            Mark::Line | Mark::Broad => ("<polyline", 1),
+            Mark::Boxes => ("<polyline", 0),
+            Mark::Dots => (Shape::of(self.order(place)).element(), 1),
             Mark::Bars => ("<rect", 1),
             Mark::Band => ("<polygon", 0),
         };
-        let RGBColor(red, green, blue) = COLORS[place % COLORS.len()];
-        let color = format!("\"#{red:02X}{green:02X}{blue:02X}\"");
+        let color = quoted(COLORS[place % COLORS.len()]);
         let parts = svg.split('<').map(|part| format!("<{part}"));
         let own = parts.filter(|part| part.starts_with(mark) && part.contains(&color));
         own.count().saturating_sub(in_key)
@@ -74,11 +79,14 @@ impl Figure {
             root.fill(&WHITE).expect(DRAWN);
             let (axes, below) = root.split_vertically(HEIGHT);
             self.axes(&axes);
-            for ((series, (x, line)), color) in self.series.iter().zip(key).zip(colors()) {
-                entry(&below, series, [x, line * LINE + LINE / 2], color);
+            for (k, ((x, line), color)) in key.into_iter().zip(colors()).enumerate() {
+                let at = [x, line * LINE + LINE / 2];
+                entry(&below, &self.series[k], at, color, self.order(k));
             }
             root.present().expect(DRAWN);
         }
+        let colors: Vec<RGBColor> = colors().take(self.series.len()).collect();
+        let text = self.dashed(&text, &colors);
         // The page has it in pixels; inside, places stay as fine as they are drawn.
         let [fine, own] = [FINE, 1].map(|fine| {
             let (width, height) = (size.0 * fine / FINE, size.1 * fine / FINE);
@@ -116,9 +124,8 @@ impl Figure {
             .label_style(SMALL)
             .draw()
             .expect(DRAWN);
-        for (series, color) in self.series.iter().zip(colors()) {
-            let place = bars.iter().position(|bar| std::ptr::eq(*bar, series));
-            draw(&mut chart, series, color, [place.unwrap_or(0), bars.len()]);
+        for (k, (series, color)) in self.series.iter().zip(colors()).enumerate() {
+            draw(&mut chart, series, color, [self.order(k), bars.len()]);
         }
     }
 
@@ -159,27 +166,43 @@ fn places(series: &[Series]) -> Vec<(u32, u32)> {
     series.iter().map(place).collect()
 }
 
-fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor) {
+/// The name of a series, behind what it looks like; `order` of its kind are drawn before it.
+fn entry(area: &Area<'_>, series: &Series, at: [u32; 2], color: RGBColor, order: usize) {
     let [x, y] = at.map(|place| i32::try_from(place).unwrap_or(i32::MAX));
     let px = FINE.cast_signed();
-    let right = x + 14 * px;
-    let swatch = |half: i32, share: f64| {
-        let corners = [(x, y - half * px), (right, y + half * px)];
+    let right = x + SAMPLE.cast_signed();
+    let middle = x + (right - x) / 2;
+    let swatch = |share: f64| {
+        let corners = [(x, y - 4 * px), (right, y + 4 * px)];
         Rectangle::new(corners, color.mix(share).filled())
     };
+    let line = |style: ShapeStyle| PathElement::new(vec![(x, y), (right, y)], style);
     match series.mark {
-        Mark::Line => area.draw(&swatch(1, 1.0)),
-        Mark::Broad => area.draw(&swatch(3, PALE)),
-        Mark::Bars => area.draw(&swatch(4, 1.0)),
-        Mark::Band | Mark::Boxes => area.draw(&swatch(4, PALE)),
-        Mark::Dots => area.draw(&Circle::new((x + 7 * px, y), DOT, color.filled())),
+        Mark::Line => area.draw(&line(color.stroke_width(2 * FINE))),
+        Mark::Broad => area.draw(&line(color.mix(PALE).stroke_width(7 * FINE))),
+        Mark::Bars => area.draw(&swatch(1.0)),
+        Mark::Band | Mark::Boxes => area.draw(&swatch(PALE)),
+        Mark::Dots => match Shape::of(order) {
+            Shape::Disk => area.draw(&Circle::new((middle, y), DOT, color.filled())),
+            Shape::Triangle => area.draw(&TriangleMarker::new((middle, y), BIG, color.filled())),
+            Shape::Ring => area.draw(&Circle::new((middle, y), BIG, color.stroke_width(FINE))),
+        },
     }
     .expect(DRAWN);
+    if series.mark == Mark::Bars {
+        let step = (right - x) / (i32::try_from(order).unwrap_or(i32::MAX - 1) + 1);
+        for stripe in (1..).take(order) {
+            let x = x + stripe * step;
+            let ends = vec![(x, y - 4 * px), (x, y + 4 * px)];
+            area.draw(&PathElement::new(ends, WHITE.stroke_width(FINE)))
+                .expect(DRAWN);
+        }
+    }
     let name = Text::new(series.name.clone(), (right + 5 * px, y - 6 * px), SMALL);
     area.draw(&name).expect(DRAWN);
 }
 
-/// Draws a series; of bars, it is one of several at the same places.
+/// Draws a series, before which so many of its kind are drawn; of bars, it is one of several at the same places.
 fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]: [usize; 2]) {
     let points = finite(&series.points);
     match series.mark {
@@ -191,18 +214,36 @@ fn draw(chart: &mut Chart<'_, '_>, series: &Series, color: RGBColor, [place, of]
             let line = LineSeries::new(points, color.mix(PALE).stroke_width(7 * FINE));
             chart.draw_series(line).expect(DRAWN);
         }
-        Mark::Dots => {
-            let dots = points.map(|at| Circle::new(at, DOT, color.filled()));
-            chart.draw_series(dots).expect(DRAWN);
-        }
+        Mark::Dots => match Shape::of(place) {
+            Shape::Disk => {
+                let dots = points.map(|at| Circle::new(at, DOT, color.filled()));
+                chart.draw_series(dots).expect(DRAWN);
+            }
+            Shape::Triangle => {
+                let dots = points.map(|at| TriangleMarker::new(at, BIG, color.filled()));
+                chart.draw_series(dots).expect(DRAWN);
+            }
+            Shape::Ring => {
+                let dots = points.map(|at| Circle::new(at, BIG, color.stroke_width(FINE)));
+                chart.draw_series(dots).expect(DRAWN);
+            }
+        },
         Mark::Bars => {
             let width = 2.0 * HALF * step(series) / of as f64;
             let left = place as f64 * width - HALF * step(series);
-            let bars = points.map(|(x, y)| {
+            let bars = points.clone().map(|(x, y)| {
                 let corners = [(x + left, 0.0), (x + left + width, y)];
                 Rectangle::new(corners, color.filled())
             });
             chart.draw_series(bars).expect(DRAWN);
+            let stripes = points.flat_map(|(x, y)| {
+                let at = move |stripe: usize| {
+                    x + left + width * (stripe + 1) as f64 / (place + 1) as f64
+                };
+                (0..place).map(move |stripe| vec![(at(stripe), 0.0), (at(stripe), y)])
+            });
+            let stripes = stripes.map(|line| PathElement::new(line, WHITE.stroke_width(FINE)));
+            chart.draw_series(stripes).expect(DRAWN);
         }
         Mark::Band => {
             let outline: Vec<(f64, f64)> = points.collect();
@@ -245,7 +286,7 @@ fn step(series: &Series) -> f64 {
     if least.is_finite() { least } else { 1.0 }
 }
 
-fn finite(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> {
+fn finite(points: &[(f64, f64)]) -> impl Iterator<Item = (f64, f64)> + Clone {
     let points = points.iter().copied();
     points.filter(|(x, y)| x.is_finite() && y.is_finite())
 }

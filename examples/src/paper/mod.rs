@@ -4,6 +4,7 @@ mod audited;
 mod drawing;
 mod figure;
 mod integrator;
+mod looks;
 pub mod numbers;
 mod page;
 mod program;
@@ -22,7 +23,7 @@ pub use numbers::have_same_words;
 pub use program::main;
 pub use row::{Row, Status};
 pub use sensor::{normal, rounded};
-pub use spec::{compiled, interpreted};
+pub use spec::{compiled, interpreted, refused};
 pub use table::Table;
 pub use wanted::{WANTED, lacking, wanted};
 

@@ -24,7 +24,7 @@ pub use data::Data;
 pub use drive::{GAIN, Static, calibrated, noise_gain, white_gain};
 pub use fits::{Fit, Tables, cost};
 pub use law::{LAWS, Law};
-pub use misprint::{Pair, pairs, start};
+pub use misprint::{Beside, Pair, mended, pairs, start};
 pub use plant::Experiment;
 pub use scale::{FACTORS, Told, costs_by_factor, told};
 pub use sensitivity::{Change, carried, changes};
@@ -67,6 +67,8 @@ pub struct Findings {
     pub noise_gain: f64,
     /// Numbers of Table 1 that are off, and their table.
     pub misprints: (crate::paper::Table, Vec<Pair>),
+    /// The start of Table 1 beside what output error tells of ratios, as printed and with the number put right.
+    pub start_told: [Vec<Beside>; 2],
     /// What model (5.2) tells of its parameters.
     pub told: Vec<Told>,
     /// Costs of a wrong law by the factor of measured velocities in the input.
@@ -81,7 +83,16 @@ impl Findings {
     pub fn new() -> Result<Self, Error> {
         let experiment = Experiment::run(EXPERIMENT);
         let data = Data::new(&experiment)?;
+        let misprints = misprint::table()?;
+        let told = told(&data)?;
+        // The number that is off, where there is one.
+        let repaired = misprints.1.first().map_or_else(start, mended);
+        let held = &told[0].found;
         Ok(Self {
+            start_told: [
+                misprint::beside(start(), held)?,
+                misprint::beside(repaired, held)?,
+            ],
             tables: Tables::of(&data)?,
             changes: changes(&experiment, &data)?,
             carried: carried(OTHERS)?,
@@ -91,8 +102,8 @@ impl Findings {
             rates: [upright_rate(12.0, 2.59)?, upright_rate(12.0, 35.0)?],
             statics: calibrated(GAUGE)?,
             noise_gain: noise_gain(STANDING),
-            misprints: misprint::table()?,
-            told: told(&data)?,
+            misprints,
+            told,
             by_factor: costs_by_factor(&data)?,
             data,
             experiment,

@@ -252,40 +252,6 @@ fn measurements(found: &Findings) -> Vec<Row> {
     ]
 }
 
-/// The number of Table 1 that is off.
-fn misprint(found: &Findings) -> Row {
-    let wrong = &found.misprints.1;
-    let is_that = wrong.len() == 1 && wrong[0].name == "c2" && (wrong[0].off - 1.0).abs() < 0.02;
-    Row::wrong_in_print(
-        "0.misprint",
-        "c2 where Table 1 starts, law (6.3) (arithmetic with the numbers of Table 2, no check of the tool)",
-        "4.87",
-        wrong
-            .iter()
-            .map(|pair| {
-                let start = super::start();
-                format!(
-                    "{} makes {:.2} .. {:.2} of it for {:.2}: {:+.2}, so {:.2}",
-                    pair.name,
-                    pair.made[0],
-                    pair.made[1],
-                    pair.printed,
-                    pair.off,
-                    start[3] - pair.off
-                )
-            })
-            .collect::<Vec<_>>()
-            .join("; "),
-        is_that,
-        &format!(
-            "{:.2} - {BACK_EMF} * {} is {:.2}; all other numbers of both starts agree with Table 2 within rounding",
-            ARM[3],
-            ARM[1],
-            ARM[3] - BACK_EMF * ARM[1]
-        ),
-    )
-}
-
 /// What is wrong, and what to beware of.
 fn audit(found: &Findings) -> Vec<Row> {
     let [held, straight, measured, short] = &found.told[..] else {
@@ -310,7 +276,7 @@ fn audit(found: &Findings) -> Vec<Row> {
     let (few, many) = (found.by_factor[0].1, found.by_factor[3].1);
     let deviation = measured.found.std[1].unwrap_or(f64::INFINITY);
     vec![
-        misprint(found),
+        super::misprint::row(found),
         Row::wrong_in_print(
             "0.scale",
             "alpha and beta of Table 2 by themselves",

@@ -13,6 +13,7 @@ use robot_model_codegen::Compiled;
 
 use super::model::{Model, chain};
 use super::plant::torque;
+use super::symbols;
 use super::truth::{CAD, ESTIMATED, Physical};
 use crate::paper::Error;
 
@@ -26,6 +27,8 @@ pub struct Differences {
     pub energies: f64,
     /// Of those from frames.
     pub chain: f64,
+    /// Terms that are left of each joint in symbols, where the printed equations are taken from those from energies.
+    pub left: [Vec<String>; 2],
     /// Names of the base parameters of the rigid body, from energies.
     pub base: Vec<String>,
 }
@@ -54,6 +57,7 @@ pub fn differences() -> Result<Differences, Error> {
     Ok(Differences {
         energies,
         chain: frames,
+        left: symbols::left(&model.compiled, symbols::PRINTED)?,
         base: names.filter(|name| !of_effects(name)).cloned().collect(),
     })
 }

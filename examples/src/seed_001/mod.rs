@@ -13,6 +13,7 @@ pub mod plant;
 pub mod releases;
 pub mod rows;
 pub mod search;
+pub mod symbols;
 pub mod tables;
 pub mod truth;
 pub mod validation;

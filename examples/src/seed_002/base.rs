@@ -11,6 +11,7 @@ use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Operand;
 
+use super::regrouping::Regrouping;
 use super::stacked::{Standard, stack};
 use crate::paper::Error;
 
@@ -45,6 +46,8 @@ pub struct Base {
     pub regrouped: [f64; 2],
     /// Columns and rows of the matrices as printed, `R2 R1^-1`.
     pub printed: [usize; 2],
+    /// What the dimensions of a spec say of (15).
+    pub regrouping: Regrouping,
 }
 
 /// Six sines a joint, with phases and sizes by chance.
@@ -209,5 +212,6 @@ pub fn base(compiled: &Compiled) -> Result<Base, Error> {
         k: (&k - &symbolic).amax(),
         regrouped: [left(&k), left(&of_unit)],
         printed: [r2.ncols(), inverse.nrows()],
+        regrouping: Regrouping::of(compiled, [&form.kept, &dropped], [&of_unit, &k]),
     })
 }

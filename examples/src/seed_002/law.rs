@@ -118,49 +118,87 @@ pub fn beside(effects: &str) -> String {
     PRINTED.replace(DECLARED, &format!("{DECLARED} {effects}"))
 }
 
-/// Rise of friction at low speeds, N m, and the speed within which it is gone, rad/s: a negative slope, as is claimed to be fitted.
+/// What a joint's friction has beside the printed law, which is claimed to have it, too.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Besides {
+    /// It falls at low speeds.
+    Falls,
+    /// It depends on the position.
+    Position,
+}
+
+/// Rise of friction at low speeds, N m, and the speed within which it is gone, rad/s.
 const RISE: f64 = 3.0;
 const FALL: f64 = 0.1;
 
-/// Names of what the tracer finds where a joint's friction falls at low speeds and the spec is this one; none where nothing is
-/// missing.
-///
-/// # Errors
-/// Those of the libraries.
-pub fn missing_where_friction_falls(spec: &str) -> Result<Vec<String>, Error> {
+/// Size of the friction that depends on the position, N m, and its periods a turn.
+const WAVE: f64 = 2.0;
+const PERIODS: f64 = 12.0;
+
+impl Besides {
+    /// The standard effect of that kind.
+    #[must_use]
+    pub fn effect(self) -> &'static str {
+        match self {
+            Self::Falls => "stribeck",
+            Self::Position => "position_dependent_friction",
+        }
+    }
+
+    fn torque(self, q: f64, v: f64) -> f64 {
+        match self {
+            Self::Falls => RISE * (-(v / FALL).powi(2)).exp() * v.signum(),
+            Self::Position => WAVE * (PERIODS * q).cos() * v.signum(),
+        }
+    }
+
+    /// Names of what the tracer finds on a joint that has this, by the printed law alone and by one with its effect beside; none where
+    /// nothing is missing.
+    ///
+    /// # Errors
+    /// Those of the libraries.
+    pub fn missing(self) -> Result<[Vec<String>; 2], Error> {
+        let log = self.log()?;
+        let declared = beside(&format!("{} on j;", self.effect()));
+        Ok([missing(PRINTED, &log)?, missing(&declared, &log)?])
+    }
+
+    /// Half a minute of joint 3 in slow and fast waves.
+    fn log(self) -> Result<Log, Error> {
+        const JOINT: usize = 2;
+        let mut random = ChaCha8Rng::seed_from_u64(5);
+        let waves = [(0.5, 0.07), (0.25, 0.19), (0.08, 0.53)];
+        let wave = |t: f64, order: i32| -> f64 {
+            let turn = f64::from(order) * TAU / 4.0;
+            let terms = waves.map(|(size, hz)| {
+                let w = TAU * hz;
+                size * w.powi(order) * (w * t + turn).sin()
+            });
+            terms.iter().sum()
+        };
+        let time: Vec<f64> = (0..6000).map(|k| 5e-3 * f64::from(k)).collect();
+        let q = time.iter().map(|&t| wave(t, 0)).collect();
+        let torque = |t: f64, noise: f64| {
+            let (q, v, dv) = (wave(t, 0), wave(t, 1), wave(t, 2));
+            dv + friction(JOINT, v) + self.torque(q, v) + 0.1 * noise
+        };
+        let tau = time.iter().map(|&t| torque(t, normal(&mut random)));
+        let tau = tau.collect();
+        Ok(Log::from_samples("a joint", time, vec![q], vec![tau])?)
+    }
+}
+
+fn missing(spec: &str, log: &Log) -> Result<Vec<String>, Error> {
     let arm = interpreted("law.robot", spec)?;
     let candidates = arm.candidates();
     let candidates = candidates.iter().map(|one| one as &dyn Candidate).collect();
-    let verdict = Trace::new(candidates).run(&arm, &[falling()?], &mut |_| ())?;
+    let log = std::slice::from_ref(log);
+    let verdict = Trace::new(candidates).run(&arm, log, &mut |_| ())?;
     if verdict.outcome == Outcome::Unexplained {
         return Ok(vec!["unexplained".to_owned()]);
     }
     let findings = verdict.findings.into_iter();
     Ok(findings.map(|finding| finding.effect).collect())
-}
-
-/// Half a minute of joint 3 in slow and fast waves: its friction with a rise at low speeds.
-fn falling() -> Result<Log, Error> {
-    const JOINT: usize = 2;
-    let mut random = ChaCha8Rng::seed_from_u64(5);
-    let waves = [(0.5, 0.07), (0.25, 0.19), (0.08, 0.53)];
-    let wave = |t: f64, order: i32| -> f64 {
-        let turn = f64::from(order) * TAU / 4.0;
-        let terms = waves.map(|(size, hz)| {
-            let w = TAU * hz;
-            size * w.powi(order) * (w * t + turn).sin()
-        });
-        terms.iter().sum()
-    };
-    let time: Vec<f64> = (0..6000).map(|k| 5e-3 * f64::from(k)).collect();
-    let q = time.iter().map(|&t| wave(t, 0)).collect();
-    let torque = |t: f64, noise: f64| {
-        let (v, dv) = (wave(t, 1), wave(t, 2));
-        dv + friction(JOINT, v) + RISE * (-(v / FALL).powi(2)).exp() * v.signum() + 0.1 * noise
-    };
-    let tau = time.iter().map(|&t| torque(t, normal(&mut random)));
-    let tau = tau.collect();
-    Ok(Log::from_samples("a joint", time, vec![q], vec![tau])?)
 }
 
 /// The simulated arm's friction of a joint over its speed, for a figure.

@@ -13,6 +13,7 @@ mod figures;
 pub mod guiding;
 pub mod law;
 pub mod plant;
+pub mod regrouping;
 pub mod results;
 mod rows;
 pub mod stacked;

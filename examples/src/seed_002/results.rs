@@ -10,7 +10,7 @@ use super::base::{Base, base};
 use super::excitation::{Objectives, designs, objectives, request, violation, wanted};
 use super::experiment::{RIPPLE_2, measure, test_motion};
 use super::guiding::{Conventional, Guided, Modified, guide, identified};
-use super::law;
+use super::law::{self, Besides};
 use super::stacked::Standard;
 use super::streaming::{Streamed, stream, sums_of_squares};
 use super::table_one::{ours, printed};
@@ -28,7 +28,9 @@ pub struct Results {
     /// Speeds at which friction begins to fall, rad/s.
     pub peaks: [f64; 6],
     /// What the tracer misses where friction falls at low speeds, with the printed law, and with `stribeck` beside it.
-    pub missing: [Vec<String>; 2],
+    pub missing_fall: [Vec<String>; 2],
+    /// The same where friction depends on the position, and `position_dependent_friction`.
+    pub missing_position: [Vec<String>; 2],
     /// Whether friction reads positions: the printed law, and one with `position_dependent_friction` beside it.
     pub reads_position: [bool; 2],
     /// Base parameters.
@@ -143,10 +145,8 @@ pub fn results() -> Result<Results, Error> {
             each(|k| law::jump(law::CONTINUOUS, k))?,
         ],
         peaks: each(law::peak)?,
-        missing: [
-            law::missing_where_friction_falls(law::PRINTED)?,
-            law::missing_where_friction_falls(&law::beside("stribeck on j;"))?,
-        ],
+        missing_fall: Besides::Falls.missing()?,
+        missing_position: Besides::Position.missing()?,
         reads_position: [
             law::reads_position(law::PRINTED)?,
             law::reads_position(&law::beside("position_dependent_friction on j;"))?,

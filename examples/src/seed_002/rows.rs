@@ -2,7 +2,8 @@
 
 use super::arm_rows;
 use super::excitation::{Objectives, against_differences};
-use super::law::speeds;
+use super::law::{Besides, speeds};
+use super::regrouping::Regrouping;
 use super::results::Results;
 use super::table_two::{drop, mean, mean_drop, squares};
 use super::truth::{EPS, HARMONICS, SAMPLES, TABLE_2};
@@ -79,21 +80,28 @@ fn law(results: &Results) -> Vec<Row> {
             "the law is to fit it",
             format!(
                 "where friction falls at low speeds the tracer names {}; with it declared, {}",
-                names(&results.missing[0]),
-                names(&results.missing[1])
+                names(&results.missing_fall[0]),
+                names(&results.missing_fall[1])
             ),
-            results.missing[0] == ["stribeck"] && results.missing[1].is_empty(),
+            results.missing_fall[0] == [Besides::Falls.effect()]
+                && results.missing_fall[1].is_empty(),
             "no term of the law falls at low speed",
         ),
         Row::wrong_in_print(
             "2.1.displacement",
-            "friction over the angle (a comparison, no check of the tool)",
+            "friction over the angle",
             "abstract: angular displacement is considered",
             format!(
-                "the compiled torque reads positions: {}; with `position_dependent_friction` beside it: {}",
-                results.reads_position[0], results.reads_position[1]
+                "where friction depends on the angle the tracer names {}; with it declared, {}; the compiled torque reads positions: {}; \
+                 with it declared: {}",
+                names(&results.missing_position[0]),
+                names(&results.missing_position[1]),
+                results.reads_position[0],
+                results.reads_position[1]
             ),
-            results.reads_position == [false, true],
+            results.missing_position[0] == [Besides::Position.effect()]
+                && results.missing_position[1].is_empty()
+                && results.reads_position == [false, true],
             "no term of the law has the position in it",
         ),
         Row::wrong_in_print(
@@ -120,9 +128,13 @@ fn names(found: &[String]) -> String {
     }
 }
 
+/// Of an equation whose dimensions fit.
+const PASSES: &str = "passes";
+
 fn base(results: &Results) -> Vec<Row> {
     let base = &results.base;
     let ranks = [base.symbolic, base.identified, base.numeric];
+    let Regrouping { order, lengths } = &base.regrouping;
     vec![
         Row::holds(
             "2.2",
@@ -156,24 +168,41 @@ fn base(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "2.3.k",
-            "the matrix that regroups (15), a comparison and no check of the tool",
+            "the matrix that regroups (15), by the dimensions of a spec",
             "k = R2 R1^-1, W2 = k W1",
             format!(
-                "R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 and W2 = W1 k {:.0e} of W2 is left",
-                base.printed[0], base.printed[1], base.regrouped[0]
+                "an entry of R2 R1^-1, of columns with their units: {}; of R1^-1 R2: {}; R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 \
+                 and W2 = W1 k {:.0e} of W2 is left",
+                order[0].as_deref().unwrap_or(PASSES),
+                order[1].as_deref().unwrap_or(PASSES),
+                base.printed[0],
+                base.printed[1],
+                base.regrouped[0]
             ),
-            base.printed[0] != base.printed[1] && base.regrouped[0] < 1e-10,
+            order[0].is_some()
+                && order[1].is_none()
+                && base.printed[0] != base.printed[1]
+                && base.regrouped[0] < 1e-10,
             "the product does not exist: it is R1^-1 R2, and W2 = W1 k",
         ),
         Row::wrong_in_print(
             "2.3.lengths",
-            "k of normalized columns, used on measured ones (15), a comparison and no check of the tool",
+            "k of normalized columns, used on measured ones (15), by the dimensions of a spec",
             "the same k",
             format!(
-                "{:.2} of W2 is left, and {:.0e} where lengths are put back",
-                base.regrouped[1], base.regrouped[0]
+                "of {} columns of W2 {} are no sums of columns of W1, as {}; {} where lengths are put back; {:.2} of W2 is left, and {:.0e} \
+                 with lengths",
+                lengths[0].columns,
+                lengths[0].refused.len(),
+                lengths[0].refused.first().map_or(PASSES, String::as_str),
+                lengths[1].refused.len(),
+                base.regrouped[1],
+                base.regrouped[0]
             ),
-            base.regrouped[1] > 0.1 && base.regrouped[0] < 1e-10,
+            !lengths[0].refused.is_empty()
+                && lengths[1].refused.is_empty()
+                && base.regrouped[1] > 0.1
+                && base.regrouped[0] < 1e-10,
             "R is of columns of unit length: k has to get the lengths back",
         ),
     ]

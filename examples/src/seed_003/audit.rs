@@ -7,7 +7,7 @@ use robot_model_cli::audit::Check;
 use super::experiments::{self, Found, SENSORS, Sensors};
 use super::plant::{Friction, PRINTED};
 use super::{nearest, rig, tool, truth};
-use crate::paper::Error;
+use crate::paper::{Error, refused};
 
 /// What a check says of the paper as printed and repaired: nothing where it passes.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,17 +60,7 @@ pub const EQUATION_22: [(&str, &str); 2] = equation!("22");
 /// What the check of dimensions says of an equation.
 #[must_use]
 pub fn dimensions(equation: [(&str, &str); 2]) -> Finding {
-    let said = |(name, text): (&str, &str)| {
-        let errors = robot_model_spec::load(name, text).err()?;
-        let messages: Vec<&str> = errors.messages().collect();
-        let rendered = errors.render(false);
-        let labels = rendered
-            .lines()
-            .filter_map(|line| line.split("this is ").nth(1));
-        let labels: Vec<&str> = labels.collect();
-        Some(format!("{}: {}", messages.join("; "), labels.join(" and ")))
-    };
-    let [printed, repaired] = equation.map(said);
+    let [printed, repaired] = equation.map(|(name, text)| refused(name, text));
     Finding { printed, repaired }
 }
 

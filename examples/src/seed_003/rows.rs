@@ -274,7 +274,8 @@ fn mixed(mixed: &Mixed) -> Row {
         ),
         false,
         if is_there {
-            "the tool's output error has squares alone, for which it has exact slopes; the program's search does without"
+            "the tool's output error has squares alone, for which it has exact slopes; the largest error has none where two samples share it, which \
+             is where (23) is least, and the program's search does without"
         } else {
             "searches from two starts end apart, or no lower than squares, or off by more than 10 %"
         },

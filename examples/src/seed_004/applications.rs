@@ -1,7 +1,7 @@
 //! Items of section 4: shares, weights, control, forces.
 
 use super::results::Results;
-use super::truth::{CROSSOVER, WEIGHTS, table_1};
+use super::truth::{CROSSOVER, WEIGHTS};
 use crate::paper::Row;
 
 pub(super) fn rows(results: &Results) -> Vec<Row> {
@@ -14,7 +14,7 @@ fn uses(results: &Results) -> Vec<Row> {
     let said = sentences.iter();
     let said = said.map(|(said, [held, of])| format!("{said} ({held} of {of})"));
     let said: Vec<String> = said.collect();
-    let gravity = super::shares::gravity_of_joint_3(table_1);
+    let gravity = super::shares::gravity_of_joint_3(&results.shares);
     let [sensor, upright, turned] = gravity;
     let crossover = super::shares::crossover();
     let [printed, repaired] = &results.balances;
@@ -38,11 +38,11 @@ fn uses(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "4.8.gravity",
-            "what section 4.1 says of gravity on joint 3, beside table 1 (a comparison, no check of the tool): |pi8| over that of UR with a force sensor, and with a gimbal and counterweight in UR and USD",
+            "what section 4.1 says of gravity on joint 3 beside torques that are taken apart (`dissect`) with table 1: over that of UR with a force sensor, and with a gimbal and counterweight in UR and USD",
             "half of it; nearly none",
             format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
             !super::shares::is_as_said(gravity),
-            "gravity on joint 3 is pi8 sin(theta3), so that these are its shares along any motion",
+            "gravity on joint 3 is pi8 sin(theta3), so that it is as much along any motion, and not with table 1 as the text has it",
         ),
         Row::holds(
             "4.9",

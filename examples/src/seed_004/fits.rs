@@ -1,8 +1,8 @@
 //! Sections 3.1 and 3.2: five installations, identified through `Y_L` with friction and without it.
 
+use robot_model::columns::MomentumArm;
 use robot_model::identify::{Beyond, Estimate, Identify};
 use robot_model::log::Log;
-use robot_model_cli::interpreted::InterpretedMomentum;
 
 use super::device::{self, SPEC};
 use super::plant::{Plant, Three};
@@ -97,7 +97,7 @@ pub fn all(motion: &Sines) -> Result<Vec<Installation>, Error> {
 ///
 /// # Errors
 /// Those of identification.
-pub fn fit(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
+pub fn fit(model: &dyn MomentumArm, log: &Log) -> Result<Estimate, Error> {
     let identify = Identify {
         leave_out_turns: true,
         ..on_time()
@@ -109,7 +109,7 @@ pub fn fit(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
 ///
 /// # Errors
 /// Those of identification.
-pub fn fit_with_turns(model: &InterpretedMomentum, log: &Log) -> Result<Estimate, Error> {
+pub fn fit_with_turns(model: &dyn MomentumArm, log: &Log) -> Result<Estimate, Error> {
     Ok(on_time().fit_filtered(model, std::slice::from_ref(log), Some(CORNER))?)
 }
 
@@ -117,7 +117,7 @@ pub fn fit_with_turns(model: &InterpretedMomentum, log: &Log) -> Result<Estimate
 ///
 /// # Errors
 /// Those of the filters.
-pub fn rms(estimate: &Estimate, model: &InterpretedMomentum, log: &Log) -> Result<Three, Error> {
+pub fn rms(estimate: &Estimate, model: &dyn MomentumArm, log: &Log) -> Result<Three, Error> {
     let errors = estimate.filtered_errors(model, log)?;
     Ok(std::array::from_fn(|j| errors.relative_percent[j]))
 }

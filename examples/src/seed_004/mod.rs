@@ -9,6 +9,7 @@ pub mod audit;
 pub mod contact;
 pub mod control;
 pub mod device;
+pub mod equation_13;
 pub mod equations;
 mod figures;
 pub mod fits;

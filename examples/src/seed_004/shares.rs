@@ -26,10 +26,10 @@ pub struct Shares {
     pub off: f64,
 }
 
-/// Of one installation along a motion, whose fastest joint reaches [`FASTEST`].
+/// Of a device with these parameters along a motion, whose fastest joint reaches [`FASTEST`].
 #[must_use]
-pub fn shares(installation: usize, motion: &Sines) -> Shares {
-    let arm = phantom(&table_1(installation));
+pub fn shares(pi: &Pi, motion: &Sines) -> Shares {
+    let arm = phantom(pi);
     let samples = 2000;
     let states = |motion: &Sines| -> Vec<[Three; 3]> {
         let at = |k| motion.at(f64::from(k) * 20.0 / RATE);
@@ -118,11 +118,12 @@ pub fn sentences(all: &[Shares]) -> Vec<(&'static str, [usize; 2])> {
     ]
 }
 
-/// Gravity on joint 3 over that of UR, `|pi8|` along any motion: with a force sensor, and with the gimbal's counterweight, upright and upside
-/// down; `table` gives the parameters of an installation by its column of table 1.
+/// Gravity on joint 3 over that of UR along one motion, of all five: with a force sensor, and with the gimbal's counterweight, upright and
+/// upside down.
 #[must_use]
-pub fn gravity_of_joint_3(table: impl Fn(usize) -> Pi) -> Three {
-    [2, 1, 4].map(|column| (table(column)[7] / table(0)[7]).abs())
+pub fn gravity_of_joint_3(all: &[Shares]) -> Three {
+    let gravity = |installation: usize| all[installation].rms[2][2];
+    [2, 1, 4].map(|installation| gravity(installation) / gravity(0))
 }
 
 /// Whether that is as section 4.1 has it: half of it, and nearly none.

@@ -71,6 +71,9 @@ pub const TABLE_2: [[f64; 5]; 3] = [
 /// Corner of `L(s)`, rad/s: section 3.1.
 pub const CORNER: f64 = 10.0;
 
+/// Sines of the position command of each joint, section 3.1.
+pub const SINES: usize = 10;
+
 /// Lowest and highest frequency of the sines, rad/s: section 3.1.
 pub const FREQUENCIES: [f64; 2] = [0.11, 5.0];
 

@@ -8,7 +8,7 @@ use robot_model_examples::paper::lacking;
 const LIST: &str = include_str!("../../../docs/papers/README.md");
 
 /// The page and the list of papers say what the program says; `outcomes` are the items that are not reached, and those that are impossible
-/// as printed. Every series of every figure is drawn, and the page's own figures are the program's.
+/// as printed. Every series of every figure is drawn, colors do not tell them apart alone, and the page's own figures are the program's.
 pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
     assert_eq!(paper.differences(page), [""; 0]);
     assert_eq!(paper.counted_otherwise(LIST, name), None);
@@ -21,6 +21,7 @@ pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
         assert!(line.chars().count() <= 110, "{line}");
     }
     for figure in &paper.figures {
+        assert_eq!(figure.look_alike(), [""; 0], "{}", figure.name);
         let svg = figure.svg();
         for (place, series) in figure.series.iter().enumerate() {
             let parts = figure.parts_of(&svg, place);
