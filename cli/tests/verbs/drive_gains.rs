@@ -111,6 +111,21 @@ fn a_weighed_payload_tells_the_gains_of_all_drives() {
 }
 
 #[test]
+fn a_payload_that_is_elsewhere_is_noted() {
+    let folder = driven("");
+    let notes = |center: &str| {
+        let known = ["--payload-mass", "0.8", "--payload-center", center];
+        let run = folder.run(&[&IDENTIFY[..], &known].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    let told = "the logs themselves have the payload's center of mass elsewhere, m: x = 0.1";
+    assert!(!notes("0.15,0.025,0").contains("elsewhere"));
+    let said = notes("0.05,0.025,0");
+    assert!(said.contains(told), "{said}");
+}
+
+#[test]
 fn a_payload_that_tells_no_gain_is_refused() {
     let folder = driven("");
     let said = |more: &[&str]| folder.refuse(&[&IDENTIFY[..], more].concat());

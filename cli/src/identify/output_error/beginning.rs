@@ -11,17 +11,12 @@ use robot_model_codegen::Compiled;
 
 use super::super::doubts;
 use super::super::fit::{ByAcceleration, Fit};
-use super::{refused, rmse, starts};
+use super::{law, refused, rmse, starts};
 use crate::Error;
 use crate::audit;
 use crate::interpreted::InterpretedPlant;
 use crate::output;
 use crate::parameters::{self, Values};
-
-/// Percent of a torque by which a simulated controller's is off, and how many times what the equations leave of the logged one, from where on
-/// it is another controller.
-const OFF_PERCENT: f64 = 10.0;
-const OFF_TIMES: f64 = 3.0;
 
 /// Where the search starts, and what least squares says where it has a say.
 pub(super) struct Beginning {
@@ -130,32 +125,6 @@ impl Beginning {
         ))
     }
 
-    /// Torques that a simulated controller does not give, where least squares says that the arm may well have taken them.
-    fn of_another_controller(
-        &self,
-        form: &ByAcceleration,
-        found: &OutputEstimate,
-    ) -> Option<String> {
-        let simulated = found.fit.torque.as_ref()?;
-        let equations = self.linear.as_ref()?;
-        let joints = form.model().joints.iter().zip(simulated);
-        let off = joints
-            .zip(&equations.relative_percent)
-            .filter_map(|((joint, torque), left)| {
-                let percent = torque.relative_percent?;
-                let is_off = percent > OFF_PERCENT && percent > OFF_TIMES * left;
-                is_off.then(|| format!("`{}` {percent:.0} %, {left:.0} %", joint.name))
-            });
-        let off: Vec<String> = off.collect();
-        (!off.is_empty()).then(|| {
-            format!(
-                "torques of the simulated controller are off, far beyond what the equations leave of the logged ones ({}): its gains, its rate or \
-                 its reference are others than those of the experiment, and values of the arm make up for them",
-                off.join("; ")
-            )
-        })
-    }
-
     /// What is odd about what was found from it.
     pub(super) fn doubts(
         &self,
@@ -180,10 +149,14 @@ impl Beginning {
             let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
             Some((told, unknown))
         });
+        let torques = found.fit.torque.iter().flatten();
+        let left: Vec<Option<f64>> = torques.map(|torque| torque.relative_percent).collect();
         let doubts = [
             doubts::below_zero(told),
             doubts::beyond_noise(form.model(), logs, &rmse(found)),
-            self.of_another_controller(form, found),
+            self.linear
+                .as_ref()
+                .and_then(|linear| law::doubt(&linear.joints, &left, &linear.relative_percent)),
         ];
         doubts.into_iter().flatten().collect()
     }

@@ -75,3 +75,45 @@ pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
         joints: laws.collect::<Result<_, Error>>()?,
     })
 }
+
+/// Percent of a torque by which a simulated controller's is off, and how many times what the equations leave of the logged one, from where on
+/// it is another controller.
+const OFF_PERCENT: f64 = 10.0;
+const OFF_TIMES: f64 = 3.0;
+
+/// Torques that a simulated controller does not give, percent of each joint's, where the equations say that the arm may well have taken the
+/// logged ones.
+pub(super) fn doubt(joints: &[String], off: &[Option<f64>], left: &[f64]) -> Option<String> {
+    let all = joints.iter().zip(off).zip(left);
+    let far = all.filter_map(|((joint, off), left)| {
+        let off = (*off)?;
+        let is_far = off > OFF_PERCENT && off > OFF_TIMES * left;
+        is_far.then(|| format!("`{joint}` {off:.0} % for {left:.0} %"))
+    });
+    let far: Vec<String> = far.collect();
+    (!far.is_empty()).then(|| {
+        format!(
+            "torques of the simulated controller are off by far more than what the equations leave of the logged ones: {}; its gains, its rate or \
+             its reference are others than those of the experiment, and values of the arm make up for them",
+            far.join(", ")
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::doubt;
+
+    #[test]
+    fn torques_of_another_controller_are_told() {
+        let joints = ["one", "two"].map(str::to_owned);
+        let said = doubt(&joints, &[Some(35.0), Some(5.0)], &[1.0, 1.0]).expect("far off");
+        assert!(
+            said.contains("`one` 35 % for 1 %;") && !said.contains("`two`"),
+            "{said}"
+        );
+        // What the model lacks is in both, and without a controller there is nothing to be off.
+        assert_eq!(doubt(&joints, &[Some(35.0), None], &[20.0, 20.0]), None);
+        assert_eq!(doubt(&joints, &[], &[1.0, 1.0]), None);
+    }
+}

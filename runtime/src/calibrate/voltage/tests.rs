@@ -120,7 +120,7 @@ fn what_does_not_vary_is_refused() {
     let error = MotorVoltage::fit(&times(), &current, &twice, &voltage).unwrap_err();
     assert_eq!(error, CalibrateError::NotApart);
     let short = [1.0, 2.0, 3.0];
-    let error = MotorVoltage::fit(&times(), &short, &short, &short).unwrap_err();
+    let error = MotorVoltage::fit(&short, &short, &short, &short).unwrap_err();
     let (samples, least) = (3, 16);
     assert_eq!(error, CalibrateError::TooFew { samples, least });
 }
