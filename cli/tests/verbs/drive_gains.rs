@@ -120,8 +120,8 @@ fn a_payload_that_is_elsewhere_is_noted() {
         run.stderr
     };
     let told = "the logs themselves have the payload's center of mass elsewhere, m: x = 0.1";
-    assert!(!notes("0.15,0.025,0").contains("elsewhere"));
-    let said = notes("0.05,0.025,0");
+    assert!(!notes("0.15,-0.0625,0").contains("elsewhere"));
+    let said = notes("0.05,-0.0625,0");
     assert!(said.contains(told), "{said}");
 }
 
