@@ -59,7 +59,7 @@ pub fn log_settings(
     text: &str,
 ) -> Result<LogSettings, Diagnostics> {
     let refuse = |errors| Diagnostics::new(source_name, text, errors);
-    let channels = parse(text, model.joints.len()).map_err(refuse)?;
+    let channels = parse(text, Some(model.joints.len())).map_err(refuse)?;
     let mut errors = Vec::new();
     let columns = check_settings(&channels, model, &mut errors);
     if !errors.is_empty() {
@@ -108,15 +108,15 @@ pub fn log_column_unit(
     kind: ColumnKind,
 ) -> Result<Option<f64>, Diagnostics> {
     let refuse = |errors| Diagnostics::new(source_name, text, errors);
-    let channels = parse(text, MOST_JOINTS).map_err(refuse)?;
+    let channels = parse(text, None).map_err(refuse)?;
     let mut columns = channels.iter().flat_map(|channel| &channel.columns);
     let found = columns.find(|own| own.name.value().trim() == column);
     let unit = found.map(|own| check_unit(own, kind)).transpose();
     unit.map_err(|error| refuse(vec![error]))
 }
 
-/// The channels of a file, as a `log` block of a robot with so many joints would have them.
-fn parse(text: &str, joints: usize) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
+/// The channels of a file, as a `log` block of a robot with so many joints would have them, if that is known.
+fn parse(text: &str, joints: Option<usize>) -> Result<Vec<LogChannel>, Vec<Diagnostic>> {
     if text.len() > LARGEST {
         let error = Diagnostic::in_text(0..0, "the file is no file of log settings: too large", "");
         let help = format!("write what a `log` block says, in at most {LARGEST} bytes");
@@ -144,7 +144,7 @@ fn parse(text: &str, joints: usize) -> Result<Vec<LogChannel>, Vec<Diagnostic>> 
 /// Makes channels of a table.
 struct Reader<'a> {
     text: &'a str,
-    joints: usize,
+    joints: Option<usize>,
     errors: Vec<Diagnostic>,
 }
 
@@ -218,7 +218,16 @@ impl Reader<'_> {
     /// `{ column = "name", unit = ".." }` in a list
     fn one_of(&mut self, channel: &str, value: &Value, table: &DeTable) -> Option<LogColumn> {
         let mut columns = self.with_units(channel, value, table);
-        if columns.len() > 1 {
+        let is_unnamed = ["column", "columns"]
+            .iter()
+            .all(|key| !table.contains_key(*key));
+        if is_unnamed && !columns.is_empty() {
+            let error = Diagnostic::in_text(value.span(), "a unit alone in a list of columns", "");
+            let help = format!(
+                "write `{channel} = {{ unit = [\"deg\", \"mm\"] }}` for all, or `column = \"name\"` here"
+            );
+            self.errors.push(error.help(help));
+        } else if columns.len() > 1 {
             let error = Diagnostic::in_text(value.span(), "several columns in one place", "");
             let help = "write one column here, `{ column = \"name\", unit = \"deg\" }`, or one table for all";
             self.errors.push(error.help(help));
@@ -239,7 +248,7 @@ impl Reader<'_> {
         }
         let named = (table.get("column"), table.get("columns"));
         let unit = table.get("unit");
-        let standard = unit.and_then(|_| self.standard(channel, value));
+        let standard = unit.and_then(|unit| self.standard(channel, value, unit));
         let mut columns: Vec<LogColumn> = match named {
             (None, None) if standard.is_some() => standard.unwrap_or_default(),
             (Some(one), None) => self.column(one).into_iter().collect(),
@@ -264,10 +273,16 @@ impl Reader<'_> {
     }
 
     /// The columns that a channel has where nobody names them; none of an input, which is of the arm or of a joint.
-    fn standard(&self, channel: &str, value: &Value) -> Option<Vec<LogColumn>> {
+    fn standard(&self, channel: &str, value: &Value, unit: &Value) -> Option<Vec<LogColumn>> {
+        let joints = match (self.joints, unit.get_ref()) {
+            (Some(joints), _) => joints,
+            // Whoever has no robot looks for a column by its name.
+            (None, DeValue::Array(list)) => list.len(),
+            (None, _) => MOST_JOINTS,
+        };
         let names = match channel {
             "time" => vec![channel.to_owned()],
-            "q" | "dq" | "tau" => (1..=self.joints).map(|k| format!("{channel}{k}")).collect(),
+            "q" | "dq" | "tau" => (1..=joints).map(|k| format!("{channel}{k}")).collect(),
             _ => return None,
         };
         let column = |name: String| LogColumn {

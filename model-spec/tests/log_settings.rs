@@ -62,6 +62,11 @@ fn a_unit_alone_is_that_of_the_standard_columns() {
         log_column_unit("robot-model.toml", file, column, ColumnKind::Current).expect("a unit")
     };
     assert_eq!((unit("tau2"), unit("i2")), (Some(1e-3), None));
+    let listed = "[log]\ntau = { unit = ['mA', 'A'] }\ndq = { unit = ['mm/s', 'rpm'] }\n";
+    let unit = |column| {
+        log_column_unit("robot-model.toml", listed, column, ColumnKind::Current).expect("a unit")
+    };
+    assert_eq!((unit("tau2"), unit("i2")), (Some(1.0), None));
 }
 
 /// A unit that no joint has is one mistake, of however many joints.

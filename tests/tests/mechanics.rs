@@ -351,7 +351,7 @@ fn specs_offset() -> f64 {
     model.chain().expect("a chain").links[1].placement.offset
 }
 
-/// The PHANTOM's tip and its Jacobian, equation (21) of Tafazoli et al. (2004) turned into the base frame's axes.
+/// The PHANTOM's tip and its Jacobian, equation (21) of Taati, Tahmasebi and Hashtrudi-Zaad turned into the base frame's axes.
 #[test]
 fn the_tip_of_the_phantom_moves_as_its_jacobian_says() {
     let phantom = emitted::phantom::Phantom::from_base(&Vector::zeros());

@@ -1,34 +1,21 @@
 //! `calibrate back-emf`: the voltage of a motor that turns.
 
+mod said;
+
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_model::calibrate::{
-    CalibrateError, Commanded, Measured, MotorVoltage, Windows, with_inductance,
-};
+use robot_model::calibrate::{CalibrateError, Commanded, MotorVoltage, Windows, with_inductance};
 use robot_model_spec::ColumnKind;
 use serde::Serialize;
 
 use crate::Error;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Files, counted};
+use crate::output::{self, Files};
 
 use super::figure;
 use super::table::Table;
-use super::words::measured;
-use crate::output::significant;
-
-/// Correlation of current and velocity from which on they are called hardly apart.
-const ALIKE: f64 = 0.98;
-
-/// Percent that noise of the velocity may hide before it is noted.
-const ATTENUATED: f64 = 2.0;
-
-/// From a share for a second to percent for a millisecond.
-const PERCENT_OF_MS: f64 = 0.1;
-
-/// Pieces that are printed.
-const SHOWN: usize = 12;
+use said::{commanded_summary, note_commanded, note_voltage, voltage_summary};
 
 /// The back electromotive force of a motor, and its resistance where its voltage is logged.
 ///
@@ -88,8 +75,8 @@ struct VoltageReport {
     offset_interval: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     least_squares: Option<[f64; 3]>,
-    /// Shares by which resistance and back-EMF are too large for each second of an electric time constant that is left out.
-    by_time_constant: [f64; 2],
+    /// Shares by which resistance and back-EMF are too large for each second of an electric time constant that is left out; none by instruments.
+    by_time_constant: Option<[f64; 2]>,
     residual_std: f64,
     current_velocity_r: f64,
     samples: usize,
@@ -151,7 +138,7 @@ impl BackEmf {
         let [time, current, moved, voltage @ ..] = &table.columns[..] else {
             unreachable!("as many columns as were asked for");
         };
-        if self.time_constant.is_nan() || self.time_constant < 0.0 {
+        if !self.time_constant.is_finite() || self.time_constant < 0.0 {
             return Err(Error::Argument(format!(
                 "`--time-constant` is L/R of the winding in seconds, not {}",
                 self.time_constant
@@ -236,48 +223,6 @@ impl Motion {
     }
 }
 
-fn note_voltage(found: &MotorVoltage) {
-    if found.alike.abs() > ALIKE {
-        output::say(&format!(
-            "note: current and velocity go together (r = {:.4}), so resistance and back-EMF are hardly told apart; let the motor speed \
-             up and slow down",
-            found.alike
-        ));
-    }
-    if let Some([resistance, back_emf, _]) = found.least_squares {
-        output::say(&format!(
-            "note: noise of the current or of the velocity makes least squares find {} ohm and {} V s/rad; values are by instruments, \
-             which samples beside each one are",
-            significant(resistance, 4),
-            significant(back_emf, 4)
-        ));
-    }
-    for (what, value) in [
-        ("resistance", found.resistance),
-        ("back-EMF", found.back_emf),
-    ] {
-        if value.interval[1] < 0.0 {
-            output::say(&format!(
-                "note: the {what} is below zero: current, velocity and voltage are to be positive in the same direction"
-            ));
-        }
-    }
-}
-
-fn note_commanded(found: &Commanded) {
-    if found.back_emf.interval[1] < 0.0 {
-        output::say(
-            "note: the back-EMF is below zero: current and velocity are to be positive in the same direction",
-        );
-    }
-    if found.attenuation > ATTENUATED {
-        output::say(&format!(
-            "note: noise of the velocity may have made the back-EMF too small, by {:.1} % at most; log finer or longer",
-            found.attenuation
-        ));
-    }
-}
-
 fn with_voltage(curves: &Curves, found: &MotorVoltage) -> Vec<figure::Curve> {
     let curve = |name, values: &[f64], over: Option<&[f64]>| figure::Curve {
         name,
@@ -357,46 +302,4 @@ fn commanded_report(found: &Commanded) -> CommandedReport {
         levels: found.pieces.iter().map(level).collect(),
         switches: found.switches(),
     }
-}
-
-fn voltage_summary(found: &MotorVoltage) -> String {
-    let line =
-        |name: &str, value: &Measured, unit: &str| format!("{name:<12}{}\n", measured(value, unit));
-    format!(
-        "{}{}{}residual    {} V, {}\n\
-         inductance  {:+.2} % of the resistance and {:+.2} % of the back-EMF for each ms of L/R beyond `--time-constant`\n",
-        line("resistance", &found.resistance, "ohm"),
-        line("back-EMF", &found.back_emf, "V s/rad"),
-        line("offset", &found.offset, "V"),
-        significant(found.residual_std, 3),
-        counted(found.samples, "sample"),
-        PERCENT_OF_MS * found.by_time_constant[0],
-        PERCENT_OF_MS * found.by_time_constant[1],
-    )
-}
-
-fn commanded_summary(found: &Commanded) -> String {
-    let shown = found.pieces.iter().take(SHOWN);
-    let mut levels: Vec<String> = shown
-        .map(|piece| format!("{} from {:.3} s", significant(piece.level, 4), piece.start))
-        .collect();
-    if found.pieces.len() > SHOWN {
-        levels.push(format!("and {} more", found.pieces.len() - SHOWN));
-    }
-    format!(
-        "back-EMF    {}\n\
-         voltage     {} over {:.1} % of the samples, which explain {:.2} % of it; {:.1} % of its change is in jumps\n\
-         residual    {} in units of u; noise of the velocity makes the back-EMF smaller by {:.2} % at most\n\
-         inductance  {:+.2} % of the back-EMF for each ms of L/R beyond `--time-constant`\n\
-         levels      {}\n",
-        measured(&found.back_emf, "units of u per rad/s"),
-        counted(found.pieces.len(), "constant"),
-        found.held,
-        found.explained,
-        found.by_jumps,
-        significant(found.residual_std, 3),
-        found.attenuation,
-        PERCENT_OF_MS * found.by_time_constant,
-        levels.join(", "),
-    )
 }

@@ -55,7 +55,10 @@ impl IdentifyArguments {
         };
         let free = known.center.and_then(|center| {
             let free = identify.fit_drive_gains(arm, &logs.unloaded, &logs.loaded, link, &free);
-            elsewhere(center, &free.ok()?, known.mass)
+            let free = free.ok()?;
+            is_moved(&found, &free)
+                .then(|| elsewhere(center, &free, known.mass))
+                .flatten()
         });
         progress.notes(free);
         let all = |logs: &[Log]| logs.iter().map(|log| found.rescaled(log)).collect();
@@ -113,6 +116,20 @@ fn center(found: &Driven, known: &KnownPayload) -> [[Option<f64>; 3]; 2] {
     }
     let moments = found.carried.first_moments();
     [0, 1].map(|which| moments.map(|moment| Some(moment?[which] / known.mass)))
+}
+
+/// Share by which a gain has to be another for a center to matter.
+const MOVED: f64 = 0.01;
+
+/// Whether gains are others without the center that was given.
+fn is_moved(found: &Driven, free: &Driven) -> bool {
+    let pairs = found
+        .gains
+        .iter()
+        .flatten()
+        .zip(free.gains.iter().flatten());
+    let mut shares = pairs.map(|(one, other)| (one.value / other.value - 1.0).abs());
+    shares.any(|share| share > MOVED)
 }
 
 /// Deviations from which on a center of mass is another than the one that is given.

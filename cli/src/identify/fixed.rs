@@ -8,19 +8,23 @@ use robot_model_spec::model::Inertial;
 use super::fit::{Fit, of_form};
 use crate::output::names;
 
-/// By which share the error of a joint has to be less where a body is free, for its fixed numbers to be doubted whatever noise is. Ten more
-/// unknowns take a few percent of any error, and a part of what other effects leave.
+/// By which share the error of a joint has to be less where a body is free, for its fixed numbers to be doubted: ten more unknowns take a few
+/// percent of any error, and a part of what other effects leave. So many independent samples have to say that it is no chance: deviations of
+/// what as many unknowns take off by chance.
 const LESS: f64 = 0.25;
+const DEVIATIONS: f64 = 3.0;
 
-/// The same where what is left is noise, of which so many independent samples say that it is no chance: deviations of what as many unknowns
-/// take off by chance.
-const LESS_OF_NOISE: f64 = 0.05;
-const DEVIATIONS: f64 = 8.0;
+/// The same of a smaller share.
+const LITTLE_LESS: f64 = 0.05;
+const MANY_DEVIATIONS: f64 = 8.0;
+
+/// Bodies that leave no more than so many times the least do as well, as those of which the logs tell the same sums.
+const AS_WELL: f64 = 1.05;
 
 /// What is left of a joint's torque, percent, below which nobody asks why.
 const NOTHING: f64 = 0.1;
 
-/// The body without whose numbers the least is left of the torques, or all that are fixed where no single one does; least squares are asked
+/// The bodies without whose numbers the least is left of the torques, or all that are fixed where no single one does; least squares are asked
 /// whatever the method is.
 pub(super) fn doubt(form: &dyn Fit, estimate: &Estimate, logs: &[Log]) -> Option<String> {
     let model = form.model();
@@ -48,37 +52,52 @@ pub(super) fn doubt(form: &dyn Fit, estimate: &Estimate, logs: &[Log]) -> Option
     }
     let single = fixed
         .iter()
-        .filter_map(|&link| Some(([link], free(&[link])?)));
-    let sum = |one: &Estimate| one.relative_percent.iter().sum::<f64>();
-    let best = single
-        .min_by(|(_, one), (_, other)| sum(one).total_cmp(&sum(other)))
-        .filter(|(_, after)| is_less(&before, after));
-    let (bodies, after) = match &best {
-        Some((link, after)) => (link.as_slice(), after),
-        None => (fixed.as_slice(), &all),
+        .filter_map(|&link| Some((link, free(&[link])?)));
+    let single: Vec<(usize, Estimate)> = single
+        .filter(|(_, after)| is_less(&before, after))
+        .collect();
+    let left = single.iter().map(|(_, after)| sum(after));
+    let least = left.fold(f64::INFINITY, f64::min);
+    let best = single.iter();
+    let best: Vec<&(usize, Estimate)> = best
+        .filter(|(_, after)| sum(after) <= AS_WELL * least)
+        .collect();
+    let is_together = best.is_empty();
+    let bodies = if is_together {
+        fixed
+    } else {
+        best.iter().map(|(link, _)| *link).collect()
     };
     let bodies: Vec<&str> = bodies.iter().map(|&k| links[k].name.as_str()).collect();
-    let [before, after] = [&before, after].map(|one| one.relative_percent.as_slice());
-    Some(said(&bodies, &estimate.joints, before, after))
+    let after = best.first().map_or(&all, |(_, after)| after);
+    let percents = [&before, after].map(|one| one.relative_percent.as_slice());
+    Some(said(&bodies, is_together, &estimate.joints, percents))
+}
+
+fn sum(estimate: &Estimate) -> f64 {
+    estimate.relative_percent.iter().sum()
 }
 
 /// Whether an estimate with more unknowns leaves so much less that what the other has for them is not so.
 fn is_less(before: &Estimate, after: &Estimate) -> bool {
-    let more = after.rank.saturating_sub(before.rank) as f64;
+    let more = after.rank.saturating_sub(before.rank).max(1) as f64;
     let [left, less] = [before, after].map(|one| one.relative_percent.as_slice());
     let independent = after.effective_samples.as_deref().unwrap_or_default();
-    relieved(left, less, LESS).next().is_some()
-        || relieved(left, less, LESS_OF_NOISE).next().is_some()
-            && is_no_chance(left, less, independent, more)
+    let chance = chance(left, less, independent, more);
+    [(LESS, DEVIATIONS), (LITTLE_LESS, MANY_DEVIATIONS)]
+        .into_iter()
+        .any(|(share, deviations)| {
+            relieved(left, less, share).next().is_some() && chance > deviations
+        })
 }
 
-/// Twice the logarithm of a ratio of likelihoods beside the chi-squared distribution of as many more unknowns.
-fn is_no_chance(before: &[f64], after: &[f64], independent: &[f64], more: f64) -> bool {
+/// Deviations beyond the mean of the chi-squared distribution of as many more unknowns, of twice the logarithm of a ratio of likelihoods.
+fn chance(before: &[f64], after: &[f64], independent: &[f64], more: f64) -> f64 {
     let all = before.iter().zip(after).zip(independent);
     let gains = all
         .filter(|((before, after), _)| **before > NOTHING && **after > 0.0)
         .map(|((before, after), independent)| 2.0 * independent * (before / after).ln());
-    gains.sum::<f64>() > more + DEVIATIONS * (2.0 * more).sqrt()
+    (gains.sum::<f64>() - more) / (2.0 * more).sqrt()
 }
 
 /// Joints whose error is less by more than a share of it.
@@ -95,22 +114,28 @@ fn relieved<'a>(
         .map(|(joint, _)| joint)
 }
 
-fn said(bodies: &[&str], joints: &[String], before: &[f64], after: &[f64]) -> String {
-    let errors = relieved(before, after, LESS_OF_NOISE).map(|k| {
+fn said(
+    bodies: &[&str],
+    is_together: bool,
+    joints: &[String],
+    [before, after]: [&[f64]; 2],
+) -> String {
+    let errors = relieved(before, after, LITTLE_LESS).map(|k| {
         format!(
             "{:.1} % for {:.1} % of `{}`",
             after[k], before[k], joints[k]
         )
     });
     let errors: Vec<String> = errors.collect();
-    let [verb, body] = if bodies.len() == 1 {
-        ["does", "that body"]
-    } else {
-        ["do", "these bodies"]
+    let free = match (bodies.len(), is_together) {
+        (1, _) => "that the spec has `fixed` left free",
+        (_, true) => "that the spec has `fixed` all left free",
+        (_, false) => "that the spec has `fixed` left free, any one of them",
     };
     format!(
-        "what the spec has `fixed` of {} {verb} not fit these logs: with {body} left free there is left of the torque {}; see whether its numbers, \
-         frame and units are those of the arm and whether it carries more, or leave them to identification with `nominal` for `fixed`; `trace` tells it from other effects",
+        "these logs fit better with {} {free}: there is left of the torque {}; see whether its numbers, frame and units are those of the arm and \
+         whether it carries more, or write `nominal` for `fixed`; another effect, as a rotor's inertia, may be what is missing, and `trace` \
+         tells them apart",
         names(bodies),
         errors.join(", ")
     )
@@ -121,26 +146,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_joint_that_is_far_better_without_the_numbers_tells() {
-        let tells = |before: &[f64], after: &[f64]| relieved(before, after, LESS).count() > 0;
-        assert!(tells(&[9.0, 4.0], &[8.9, 2.0]));
-        assert!(!tells(&[9.0, 4.0], &[8.0, 3.5]));
+    fn joints_that_are_far_better_are_told_with_the_body() {
+        let better = |before: &[f64], after: &[f64]| relieved(before, after, LESS).count();
+        assert_eq!(better(&[9.0, 4.0], &[8.9, 2.0]), 1);
+        assert_eq!(better(&[9.0, 4.0], &[8.0, 3.5]), 0);
         // Rounding is less of next to nothing.
-        assert!(!tells(&[1e-6, 1e-6], &[1e-9, 1e-9]));
+        assert_eq!(better(&[1e-6, 1e-6], &[1e-9, 1e-9]), 0);
         let joints = ["one", "two"].map(str::to_owned);
-        let told = said(&["cup"], &joints, &[9.0, 4.0], &[8.9, 2.0]);
-        assert!(
-            told.contains("`fixed` of `cup` does not fit")
-                && told.contains("2.0 % for 4.0 % of `two`;"),
-            "{told}"
-        );
+        let told = said(&["cup"], false, &joints, [&[9.0, 4.0], &[8.9, 2.0]]);
+        let wanted = "these logs fit better with `cup` that the spec has `fixed` left free: there is left of the torque 2.0 % for 4.0 % of `two`;";
+        assert!(told.starts_with(wanted), "{told}");
     }
 
     /// Ten more unknowns take a tenth off 50 independent samples, and hardly anything off 1000.
     #[test]
     fn a_little_less_of_much_noise_is_no_chance() {
         let [before, after] = [[4.0, 2.0], [3.6, 2.0]];
-        assert!(is_no_chance(&before, &after, &[1000.0, 1000.0], 10.0));
-        assert!(!is_no_chance(&before, &after, &[50.0, 50.0], 10.0));
+        assert!(chance(&before, &after, &[1000.0, 1000.0], 10.0) > MANY_DEVIATIONS);
+        assert!(chance(&before, &after, &[50.0, 50.0], 10.0) < DEVIATIONS);
     }
 }

@@ -115,14 +115,14 @@ impl IdentifyArguments {
             all.extend(brief::doubt(estimate));
         }
         all.extend(leftover);
-        all.extend(one_sine::doubt(logs));
+        all.extend(one_sine::doubt(estimate, logs));
         let resting = doubts::resting(form.model(), logs);
         all.extend(coarse::doubt(estimate, form.model(), logs, &resting));
-        let apart = fixed.or_else(|| doubts::hardly_apart(estimate, form.model(), logs));
-        match apart {
-            Some(apart) => all.push(apart),
-            None => all.extend(untold::doubts(estimate, form.compiled(), &resting)),
+        let apart = doubts::hardly_apart(estimate, form.model(), logs);
+        if apart.is_none() && fixed.is_none() {
+            all.extend(untold::doubts(estimate, form.compiled(), &resting));
         }
+        all.extend(fixed.into_iter().chain(apart));
         all
     }
 }

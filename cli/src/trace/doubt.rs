@@ -168,7 +168,9 @@ fn hardly_borne_out(closed: &Loop) -> Option<String> {
         &after.estimate.relative_percent,
     );
     let unseen = fall(&unseen.relative_percent, &unseen_after.relative_percent);
-    let joint = (0..fitted.len()).max_by(|&a, &b| fitted[a].total_cmp(&fitted[b]))?;
+    // A joint without any error has no fall.
+    let joints = (0..fitted.len()).filter(|&k| fitted[k].is_finite() && unseen[k].is_finite());
+    let joint = joints.max_by(|&a, &b| fitted[a].total_cmp(&fitted[b]))?;
     said_of_falls(
         closed.before.arm.joints().get(joint)?,
         fitted[joint],

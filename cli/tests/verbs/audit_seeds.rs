@@ -11,7 +11,7 @@ fn spec(name: &str) -> String {
     std::fs::read_to_string(format!("{root}/{name}.robot")).expect("in the repository")
 }
 
-/// Tafazoli et al. 2004, Table 1, times 1000: our name, then the columns of [`CONFIGURATIONS`].
+/// Taati, Tahmasebi, Hashtrudi-Zaad, Table 1, times 1000: our name, then the columns of [`CONFIGURATIONS`].
 const TABLE: [(&str, [f64; 5]); 14] = [
     ("Ibase_yyr", [1.42, 3.40, 1.02, 1.20, 3.04]),
     ("Ibe_yyr", [1.35, 4.43, 2.16, 1.61, 3.29]),

@@ -219,7 +219,7 @@ fn a_fixed_body_that_is_another_than_the_arm_has_is_noted() {
     folder.write("heavy.robot", &fixed("1.2"));
     assert_eq!(notes(&folder, &["as_it_is.robot", "log.csv"]), "");
     let said = notes(&folder, &["heavy.robot", "log.csv"]);
-    let told = "note: what the spec has `fixed` of `lower` does not fit these logs: with that body left free there is left of the torque ";
+    let told = "note: these logs fit better with `lower` that the spec has `fixed` left free: there is left of the torque ";
     assert!(said.contains(told), "{said}");
     assert!(!said.contains("move all joints further"), "{said}");
 }

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use crate::common::{Folder, json};
 
-/// The PHANTOM by its energies, in the eight lumped parameters of Tafazoli et al.
+/// The PHANTOM by its energies, in the eight lumped parameters of Taati et al.
 const TRUE: &str = "
 robot Phantom {
     coordinates theta1, theta2, theta3;

@@ -13,14 +13,17 @@ pub const WANTED: [(&str, &str); 59] = [
     ("0.6", "2.40 and 0.34 1/s"),
     ("0.7", "searches fail"),
     ("0.8", "the directional law is fastest and leaves least"),
-    ("0.9", "largest distances: (5.1) parts where (5.2) stays"),
+    (
+        "0.9",
+        "largest distances: 13 rad of (5.1) from 0.01 rad/s more, 0.50 rad of (5.2) from 1 rad/s more",
+    ),
     ("0.10", "r, and the gain with its interval"),
     ("0.11", "1.5 within 0.05"),
     ("0.12", "that of 1/ts"),
     ("0.misprint", "one number is off by 1, all others agree"),
     (
         "0.scale",
-        "flagged with a condition above 1e3, and ratios told",
+        "flagged with a condition above 1e3, which we take for that of the squares, and ratios told",
     ),
     ("1.1", "a difference of zero, whatever the state"),
     ("1.2", "the start of searches"),
@@ -34,7 +37,7 @@ pub const WANTED: [(&str, &str); 59] = [
     ("1.7", "both metrics by these names, with unit tests"),
     (
         "1.8",
-        "54 to 56 % before in the first seconds, 99 % and more after, without noise",
+        "54 to 56 % before, which we take for that of the first seconds, 99 % and more after, without noise",
     ),
     ("1.9", "99 % and more after, without noise"),
     (
@@ -64,7 +67,7 @@ pub const WANTED: [(&str, &str); 59] = [
         "3.3",
         "static parameters within 2 %, dynamic ones within 10 %",
     ),
-    ("3.7", "a cost of the tool"),
+    ("3.7", "available"),
     (
         "3.8",
         "curve, loop and stick-slip of one model, the latter below a critical speed only",

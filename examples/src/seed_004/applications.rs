@@ -42,7 +42,7 @@ fn uses(results: &Results) -> Vec<Row> {
             "half of it; nearly none",
             format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
             !super::shares::is_as_said(gravity),
-            "gravity on joint 3 is pi8 sin(theta3), so that it is as much along any motion, and not with table 1 as the text has it",
+            "gravity on joint 3 is pi8 sin(theta3), so that along one motion it is as pi8 is, and not with table 1 as the text has it",
         ),
         Row::holds(
             "4.9",
@@ -57,7 +57,7 @@ fn uses(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "4.10",
-            "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m",
+            "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m; by the library, the command line has no verb for it",
             format!("{:?}, {:?}", WEIGHTS.moments, WEIGHTS.recommended),
             format!(
                 "{:.4}, {:.4}; {:.3}, {:.3}; with {:.4} m {:.4}; {:.3}, {:.3}",
@@ -149,7 +149,7 @@ fn contact(results: &Results) -> Vec<Row> {
     vec![
         Row::holds(
             "4.12",
-            "force at the end point, FS: RMS error against the registered sensor, with the model and without",
+            "force at the end point, FS: RMS error against the registered sensor, with the model and without; by the library, the command line has no verb for it",
             "with the model slightly better",
             format!(
                 "{:.3} and {:.3} N; frame registered within {:.3}",

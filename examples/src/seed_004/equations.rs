@@ -316,7 +316,7 @@ pub fn rows(found: &Comparison, equation_4: &[Verdict; 2]) -> Vec<Row> {
             "(4), pi4 on joint 3: sign of 1/2 dtheta2^2 cos(theta2 - theta3)",
             "+",
             format!(
-                "differs from the derived one: {}; the tracer, with (4) as the model of a motion {FASTER} times as fast: {traced}",
+                "differs from the derived one: {}; the tracer, with (4) as the model of UR with viscous friction that brakes, on a motion {FASTER} times as fast: {traced}",
                 names(&found.regressor)
             ),
             found.regressor == [SIGN] && found.regressor_sign < ROUNDING && is_traced,

@@ -1,4 +1,4 @@
-// PHANTOM Premium 1.5A by equation (4) of Tafazoli et al. as it is printed: in the row of pi4 the torque of joint 3 has
+// PHANTOM Premium 1.5A by equation (4) of Taati et al. as it is printed: in the row of pi4 the torque of joint 3 has
 // + dtheta2^2 cos(theta2 - theta3) / 2. Lagrange's equations have a minus there, so no energy has this row, and it is an effect.
 effect parallelogram(i, j, k) {
     /// Lumped parameter, kg m^2.

@@ -10,7 +10,7 @@ use super::{CalibrateError, check, windows};
 /// `time_constant` in s.
 ///
 /// # Errors
-/// [`CalibrateError`] for channels of different lengths, values that are not finite, fewer than three samples, time that does not rise or has a
+/// [`CalibrateError`] for channels of different lengths, values of these that are not finite, fewer than three samples, time that does not rise or has a
 /// gap.
 ///
 /// # Examples
@@ -29,7 +29,7 @@ pub fn with_inductance(
     current: &[f64],
     time_constant: f64,
 ) -> Result<Vec<f64>, CalibrateError> {
-    check(&[time, current, &[time_constant].repeat(time.len())], 3)?;
+    check(&[time, current], 3)?;
     windows::check_time(time)?;
     let pairs = current.iter().zip(slopes(time, current));
     Ok(pairs.map(|(i, slope)| i + time_constant * slope).collect())

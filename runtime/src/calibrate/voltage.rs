@@ -28,8 +28,9 @@ pub struct MotorVoltage {
     pub back_emf: Measured,
     /// V.
     pub offset: Measured,
-    /// By which share resistance and back-EMF are too large for each second of the winding's electric time constant.
-    pub by_time_constant: [f64; 2],
+    /// By which share resistance and back-EMF are too large for each second of the winding's electric time constant; none where they are by
+    /// instruments.
+    pub by_time_constant: Option<[f64; 2]>,
     /// Resistance, back-EMF and offset by least squares, where those above are by instruments.
     pub least_squares: Option<[f64; 3]>,
     /// Standard deviation of the voltage that is left, V.
@@ -74,20 +75,24 @@ impl MotorVoltage {
         vary(current, velocity)?;
         let ones = vec![1.0; current.len()];
         let columns: [&[f64]; 3] = [current, velocity, &ones];
-        let all = Regression::new(&columns, voltage).ok_or(CalibrateError::NotApart)?;
-        let instrumented = by_neighbors(&columns, voltage);
+        let kept = away_from_switches(voltage);
+        let some = |channel: &[f64]| -> Vec<f64> { kept.iter().map(|&k| channel[k]).collect() };
+        let own = columns.map(some);
+        let own = own.each_ref().map(Vec::as_slice);
+        let all = Regression::new(&own, &some(voltage)).ok_or(CalibrateError::NotApart)?;
+        let instrumented = by_neighbors(&columns, voltage, &kept);
         let is_instrumented = instrumented.is_some();
+        // Least squares of what is left out by what is not: the error of each value.
+        let of_slopes = Regression::new(&own, &some(&slopes(time, current)));
+        let by_time_constant = of_slopes.filter(|_| !is_instrumented).map(|slopes| {
+            let [resistance, back_emf] = [all.values[0], all.values[1]];
+            [slopes.values[0], resistance * slopes.values[1] / back_emf]
+        });
         let fit = instrumented.unwrap_or_else(|| all.clone());
         let fitted = |k: usize| {
             let terms = columns.iter().zip(&fit.values);
             terms.map(|(column, value)| column[k] * value).sum()
         };
-        // Least squares of what is left out by what is not: the error of each value.
-        let of_slopes = Regression::new(&columns, &slopes(time, current));
-        let by_time_constant = of_slopes.map_or([0.0; 2], |slopes| {
-            let [resistance, back_emf] = [fit.values[0], fit.values[1]];
-            [slopes.values[0], resistance * slopes.values[1] / back_emf]
-        });
         Ok(Self {
             by_time_constant,
             resistance: fit.of_correlated_errors(0),
@@ -102,20 +107,56 @@ impl MotorVoltage {
     }
 }
 
-/// By instruments, where least squares on the same samples finds another resistance or back-EMF.
-fn by_neighbors(columns: &[&[f64]; 3], voltage: &[f64]) -> Option<Regression> {
-    let samples = AWAY..voltage.len().checked_sub(AWAY)?;
+/// A switch of the voltage: a step from one sample to the next of so many middle ones, and of such a share of its range.
+const SWITCH: f64 = 10.0;
+const WIDE: f64 = 0.05;
+
+/// Samples that are beside no switch of the voltage, where a current is of either side of it; all where there would be too few.
+fn away_from_switches(voltage: &[f64]) -> Vec<usize> {
+    let steps: Vec<f64> = voltage
+        .windows(2)
+        .map(|pair| (pair[1] - pair[0]).abs())
+        .collect();
+    let mut sorted = steps.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let (low, high) = voltage
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| {
+            (low.min(*v), high.max(*v))
+        });
+    let least = (SWITCH * sorted[sorted.len() / 2]).max(WIDE * (high - low));
+    let is_beside = |k: usize| {
+        let mut beside = [k.checked_sub(1), Some(k)].into_iter().flatten();
+        beside.any(|step| steps.get(step).is_some_and(|step| *step > least))
+    };
+    let kept: Vec<usize> = (0..voltage.len()).filter(|&k| !is_beside(k)).collect();
+    if kept.len() < LEAST {
+        return (0..voltage.len()).collect();
+    }
+    kept
+}
+
+/// By instruments, where least squares on the same samples, some of the `kept` ones, finds another resistance or back-EMF.
+fn by_neighbors(columns: &[&[f64]; 3], voltage: &[f64], kept: &[usize]) -> Option<Regression> {
+    let inside = AWAY..voltage.len().checked_sub(AWAY)?;
+    let samples: Vec<usize> = kept
+        .iter()
+        .copied()
+        .filter(|k| inside.contains(k))
+        .collect();
     if samples.len() < LEAST {
         return None;
     }
+    let some = |channel: &[f64]| -> Vec<f64> { samples.iter().map(|&k| channel[k]).collect() };
     let mean = |column: &[f64], k: usize| 0.5 * (column[k - AWAY] + column[k + AWAY]);
-    let neighbors = columns.map(|column| samples.clone().map(|k| mean(column, k)).collect());
+    let neighbors = columns.map(|column| samples.iter().map(|&k| mean(column, k)).collect());
     let instruments: [Vec<f64>; 3] = neighbors;
     let instruments = instruments.each_ref().map(Vec::as_slice);
-    let columns = columns.map(|column| &column[samples.clone()]);
-    let voltage = &voltage[samples];
-    let least_squares = Regression::new(&columns, voltage)?;
-    let found = Regression::by_instruments(&columns, &instruments, voltage)?;
+    let columns = columns.map(some);
+    let columns = columns.each_ref().map(Vec::as_slice);
+    let voltage = some(voltage);
+    let least_squares = Regression::new(&columns, &voltage)?;
+    let found = Regression::by_instruments(&columns, &instruments, &voltage)?;
     let is_another = |unknown| least_squares.is_another(unknown, &found);
     (is_another(0) || is_another(1)).then_some(found)
 }

@@ -13,7 +13,7 @@ pub enum Criterion {
     Condition,
     /// `-ln(lambda_min) / 2`: the longest axis of the ellipsoid.
     EOptimal,
-    /// `-sum ln A_jj / n`, Hadamard's bound of the determinant (Jia et al. 2021, equation 29, whose product of sums is this
+    /// `-sum ln A_jj / n`, Hadamard's bound of the determinant (Liu et al., A New Joint Friction Model, equation 29, whose product of sums is this
     /// sum of logarithms): the lengths of the columns alone. It does not see columns that look alike, and with columns
     /// of unit length it is constant.
     Hadamard,

@@ -9,8 +9,8 @@ pub struct Errors {
     /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut, of less than four
     /// seconds a quarter at either end; N m or N.
     pub rmse: Vec<f64>,
-    /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated: RMS% of Tafazoli et
-    /// al. 2004 (equation 15). Without long rests of joints with dry friction, as where it is fitted: that holds them with a torque that no
+    /// `100 || tau - prediction || / || tau ||` per joint, both filtered by the shared low-pass and decimated: RMS% of Taati,
+    /// Tahmasebi, Hashtrudi-Zaad (equation 15). Without long rests of joints with dry friction, as where it is fitted: that holds them with a torque that no
     /// model knows.
     pub relative_percent: Vec<f64>,
     /// Mean of `|tau - prediction|` per joint, raw samples as for `rmse`; N m or N.

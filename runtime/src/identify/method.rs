@@ -83,7 +83,7 @@ pub enum Weights {
     /// their own (Gautier 1997).
     #[default]
     Residual,
-    /// The length of its torque, `|| tau_j ||` (Jia et al. 2021, equations 20-22).
+    /// The length of its torque, `|| tau_j ||` (Liu et al., A New Joint Friction Model, equations 20-22).
     TorqueNorm,
     /// The largest size of its torque, `max |tau_j|`.
     MaxTorque,

@@ -1,5 +1,5 @@
 // PHANTOM Premium 1.5A: a haptic device with a parallelogram, so its energies are written. Geometry and bodies of
-// Cavusoglu, Feygin and Tendick 2002; what a log can tell of them are the eight lumped parameters of Tafazoli et al. (2004),
+// Cavusoglu, Feygin and Tendick 2002; what a log can tell of them are the eight lumped parameters of Taati, Tahmasebi and Hashtrudi-Zaad,
 // equation (5), which the compiler finds by itself.
 robot Phantom {
     coordinates th1, th2, th3;

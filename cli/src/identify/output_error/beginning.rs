@@ -10,7 +10,7 @@ use robot_model::simulate::Adjustable;
 use robot_model_codegen::Compiled;
 
 use super::super::doubts;
-use super::super::fit::{ByAcceleration, Fit};
+use super::super::fit::{ByAcceleration, Fit, errors_of_all};
 use super::{law, refused, rmse, starts};
 use crate::Error;
 use crate::audit;
@@ -149,15 +149,15 @@ impl Beginning {
             let unknown = unknowns.iter().find(|unknown| unknown.name == told.0)?;
             Some((told, unknown))
         });
-        let torques = found.fit.torque.iter().flatten();
-        let left: Vec<Option<f64>> = torques.map(|torque| torque.relative_percent).collect();
-        let doubts = [
-            doubts::below_zero(told),
-            doubts::beyond_noise(form.model(), logs, &rmse(found)),
-            self.linear
-                .as_ref()
-                .and_then(|linear| law::doubt(&linear.joints, &left, &linear.relative_percent)),
-        ];
+        let beyond = doubts::beyond_noise(form.model(), logs, &rmse(found));
+        // A torque whose positions are right has noise.
+        let torques = found.fit.torque.as_ref().filter(|_| beyond.is_some());
+        let controller = torques.and_then(|torques| {
+            let equations = self.linear.as_ref()?;
+            let left = errors_of_all(equations, form, logs).ok()?;
+            law::doubt(&equations.joints, torques, &left.rmse)
+        });
+        let doubts = [doubts::below_zero(told), beyond, controller];
         doubts.into_iter().flatten().collect()
     }
 }

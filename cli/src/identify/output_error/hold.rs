@@ -1,6 +1,6 @@
 //! Whether logs tell how torque goes between samples, where that changes what is found.
 
-use robot_model::identify::output_error::{Hold, OutputError, OutputEstimate, Recording};
+use robot_model::identify::output_error::{Ending, Hold, OutputError, OutputEstimate, Recording};
 use robot_model::identify::table_value;
 
 use super::{Beginning, rmse};
@@ -42,7 +42,7 @@ pub(super) fn doubt(names: &[String], found: &OutputEstimate) -> Option<String> 
 /// By which share errors have to be less in the other way for what a user asked for to be doubted.
 const FAR_BETTER: f64 = 0.1;
 
-/// Iterations that tell whether the other way leads further down.
+/// Iterations of each part of a search that tell whether the other way leads further down.
 const A_FEW: usize = 10;
 
 /// That errors which are no noise are far less in the other way than in the one that was asked for.
@@ -54,6 +54,10 @@ pub(super) fn asked(
     progress: &Progress,
 ) -> Option<String> {
     let hold = other(settings.hold?);
+    // A search that has not come to its end would only be given more time.
+    if found.ending != Ending::Converged {
+        return None;
+    }
     let settings = OutputError {
         hold: Some(hold),
         window: found.window,

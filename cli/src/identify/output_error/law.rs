@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use robot_model::identify::output_error::{JointLaw, Law, Tap};
+use robot_model::identify::output_error::{Distance, JointLaw, Law, Tap};
 use robot_model_spec::model::Joint;
 use serde::Deserialize;
 
@@ -76,25 +76,30 @@ pub(super) fn read(path: &Path, joints: &[Joint]) -> Result<Law, Error> {
     })
 }
 
-/// Percent of a torque by which a simulated controller's is off, and how many times what the equations leave of the logged one, from where on
-/// it is another controller.
+/// Percent of a torque by which a simulated controller's is off, and how many times what the equations leave of raw samples of the logged one,
+/// from where on it is another controller.
 const OFF_PERCENT: f64 = 10.0;
 const OFF_TIMES: f64 = 3.0;
 
-/// Torques that a simulated controller does not give, percent of each joint's, where the equations say that the arm may well have taken the
+/// Torques that a simulated controller does not give, where the equations, of which `left` stays, say that the arm may well have taken the
 /// logged ones.
-pub(super) fn doubt(joints: &[String], off: &[Option<f64>], left: &[f64]) -> Option<String> {
+pub(super) fn doubt(joints: &[String], off: &[Distance], left: &[f64]) -> Option<String> {
     let all = joints.iter().zip(off).zip(left);
     let far = all.filter_map(|((joint, off), left)| {
-        let off = (*off)?;
-        let is_far = off > OFF_PERCENT && off > OFF_TIMES * left;
-        is_far.then(|| format!("`{joint}` {off:.0} % for {left:.0} %"))
+        let percent = off.relative_percent?;
+        let is_far = percent > OFF_PERCENT && off.rmse > OFF_TIMES * left;
+        is_far.then(|| {
+            format!(
+                "`{joint}` {percent:.0} % for {:.0} %",
+                percent * left / off.rmse
+            )
+        })
     });
     let far: Vec<String> = far.collect();
     (!far.is_empty()).then(|| {
         format!(
-            "torques of the simulated controller are off by far more than what the equations leave of the logged ones: {}; its gains, its rate or \
-             its reference are others than those of the experiment, and values of the arm make up for them",
+            "torques of the simulated controller are off by far more than what the equations leave of the logged ones: {}; where its gains, its \
+             rate or its reference are others than those of the experiment, values of the arm make up for them",
             far.join(", ")
         )
     })
@@ -102,18 +107,22 @@ pub(super) fn doubt(joints: &[String], off: &[Option<f64>], left: &[f64]) -> Opt
 
 #[cfg(test)]
 mod tests {
-    use super::doubt;
+    use super::*;
 
     #[test]
     fn torques_of_another_controller_are_told() {
         let joints = ["one", "two"].map(str::to_owned);
-        let said = doubt(&joints, &[Some(35.0), Some(5.0)], &[1.0, 1.0]).expect("far off");
+        // Percent of a torque of 1 and -1.
+        let off = |percent: f64| {
+            let off = 0.01 * percent;
+            Distance::new(&[(1.0, 1.0 + off), (-1.0, off - 1.0)])
+        };
+        let said = doubt(&joints, &[off(35.0), off(5.0)], &[0.01, 0.01]).expect("far off");
         assert!(
             said.contains("`one` 35 % for 1 %;") && !said.contains("`two`"),
             "{said}"
         );
-        // What the model lacks is in both, and without a controller there is nothing to be off.
-        assert_eq!(doubt(&joints, &[Some(35.0), None], &[20.0, 20.0]), None);
-        assert_eq!(doubt(&joints, &[], &[1.0, 1.0]), None);
+        // What the model lacks, or noise of the torque, is in both.
+        assert_eq!(doubt(&joints, &[off(35.0), off(35.0)], &[0.2, 0.3]), None);
     }
 }
