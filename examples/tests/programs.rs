@@ -6,25 +6,21 @@ use std::process::Command;
 
 use robot_model_examples::paper::have_same_words;
 
-/// A name, the program and its page.
-macro_rules! program {
-    ($name:literal) => {
-        (
-            $name,
-            env!(concat!("CARGO_BIN_EXE_", $name)),
-            include_str!(concat!("../../docs/papers/", $name, ".md")),
-        )
-    };
+/// A test of each program with its page.
+macro_rules! programs {
+    ($($name:ident),*) => {$(
+        #[test]
+        fn $name() {
+            prints_draws_and_writes_its_page_anew(
+                stringify!($name),
+                env!(concat!("CARGO_BIN_EXE_", stringify!($name))),
+                include_str!(concat!("../../docs/papers/", stringify!($name), ".md")),
+            );
+        }
+    )*};
 }
 
-/// Programs by their names, with their pages.
-const PROGRAMS: [(&str, &str, &str); 5] = [
-    program!("seed_000"),
-    program!("seed_001"),
-    program!("seed_002"),
-    program!("seed_003"),
-    program!("seed_004"),
-];
+programs!(seed_000, seed_001, seed_002, seed_003, seed_004);
 
 /// A page without the rows of tables that count.
 fn without_places(page: &str) -> String {
@@ -37,7 +33,7 @@ fn without_places(page: &str) -> String {
 }
 
 /// Everything of a page that is the program's is cut out of it before, and is there again behind.
-fn prints_draws_and_writes_its_page_anew((name, program, shown): (&str, &str, &str)) {
+fn prints_draws_and_writes_its_page_anew(name: &str, program: &str, shown: &str) {
     let folder = tempfile::tempdir().expect("a folder");
     let (figures, page) = (folder.path().join("drawn"), folder.path().join("page.md"));
     fs::create_dir(folder.path().join("figures")).expect("a folder");
@@ -77,19 +73,11 @@ fn prints_draws_and_writes_its_page_anew((name, program, shown): (&str, &str, &s
 }
 
 #[test]
-fn every_program_prints_draws_and_writes_its_page_anew() {
-    for program in PROGRAMS {
-        prints_draws_and_writes_its_page_anew(program);
-    }
-}
-
-#[test]
 fn a_folder_that_cannot_be_made_is_an_error_of_one_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let blocked = folder.path().join("a file");
     fs::write(&blocked, "").expect("a file");
-    let [(_, program, _), ..] = PROGRAMS;
-    let run = Command::new(program)
+    let run = Command::new(env!("CARGO_BIN_EXE_seed_000"))
         .arg("--figures")
         .arg(blocked.join("drawn"))
         .output()

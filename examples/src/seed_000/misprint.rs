@@ -226,7 +226,7 @@ pub(super) fn row(found: &Findings) -> Row {
     });
     Row::wrong_in_print(
         "0.misprint",
-        "c2 where Table 1 starts, law (6.3), beside what output error tells of the arm of Table 2",
+        "c2 where Table 1 starts, law (6.3), beside what output error tells of an arm that is simulated with Table 2",
         "4.87",
         format!(
             "ratios in model (5.2) for those that output error tells, and how far off: {}; with the number mended {}; {}",

@@ -168,7 +168,7 @@ fn base(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "2.3.k",
-            "the matrix that regroups (15), by the dimensions of a spec",
+            "the matrix that regroups (15), by the dimensions of a spec (a comparison with what fits by its making, no check of the tool)",
             "k = R2 R1^-1, W2 = k W1",
             format!(
                 "an entry of R2 R1^-1, of columns with their units: {}; of R1^-1 R2: {}; R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 \
@@ -187,7 +187,7 @@ fn base(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "2.3.lengths",
-            "k of normalized columns, used on measured ones (15), by the dimensions of a spec",
+            "k of normalized columns, used on measured ones (15), by the dimensions of a spec (a comparison with what fits by its making, no check of the tool)",
             "the same k",
             format!(
                 "of {} columns of W2 {} are no sums of columns of W1, as {}; {} where lengths are put back; {:.2} of W2 is left, and {:.0e} \

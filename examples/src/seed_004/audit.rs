@@ -85,6 +85,9 @@ fn fails(pi: &Pi) -> Result<Fails, Error> {
     let mut m11_from = None;
     if is_m11_negative(high_2)? {
         let (mut passes, mut fails) = (0, high_2);
+        if is_m11_negative(passes)? {
+            fails = passes;
+        }
         while fails - passes > 1 {
             let middle = passes + (fails - passes) / 2;
             if is_m11_negative(middle)? {
