@@ -75,7 +75,7 @@ struct VoltageReport {
     offset_interval: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     least_squares: Option<[f64; 3]>,
-    /// Shares by which resistance and back-EMF are too large for each second of an electric time constant that is left out; none by instruments.
+    /// Shares by which resistance and back-EMF are too large for each second of an electric time constant that is left out.
     by_time_constant: Option<[f64; 2]>,
     residual_std: f64,
     current_velocity_r: f64,

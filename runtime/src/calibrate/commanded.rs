@@ -25,9 +25,6 @@ const LEAST: usize = 32;
 /// Fewest samples of a piece; shorter ones are transitions, and count for nothing.
 const SHORTEST: usize = 8;
 
-/// Samples beside a switch that count for nothing: they are of either side of it.
-const GUARD: usize = 1;
-
 /// What a jump has to be worth: so many times the variance of the noise, times `ln n`. White noise asks for 2; noise of windows
 /// or filters, which is alike over some samples, for several times that, and switches are larger still.
 const PRICE: f64 = 16.0;
@@ -105,7 +102,7 @@ impl Commanded {
     pub fn find(time: &[f64], u: &[f64], velocity: &[f64]) -> Result<Self, CalibrateError> {
         check(&[time, u, velocity], LEAST)?;
         check_time(time)?;
-        Self::search(time, u, velocity)
+        Self::search(time, u, velocity, 0)
     }
 
     /// From `u` at each sample of a motion, whose velocities are those of windows. Samples beside switches are left out.
@@ -129,7 +126,7 @@ impl Commanded {
             return Err(CalibrateError::Lengths);
         }
         check(&[u], LEAST + 2 * REACH)?;
-        Self::search(&windows.time, &windows.means(u), &windows.velocity)
+        Self::search(&windows.time, &windows.means(u), &windows.velocity, 1)
     }
 
     /// When the voltage was switched, s: in the middle between two pieces.
@@ -155,9 +152,9 @@ impl Commanded {
         pairs.map(|two| 0.5 * (two[0].end + two[1].start)).collect()
     }
 
-    fn search(time: &[f64], u: &[f64], w: &[f64]) -> Result<Self, CalibrateError> {
+    fn search(time: &[f64], u: &[f64], w: &[f64], guard: usize) -> Result<Self, CalibrateError> {
         vary(u, w)?;
-        let series = Series { u, w };
+        let series = Series { u, w, guard };
         let distances = std::iter::successors(Some(1), |distance| Some(2 * distance));
         let trials = distances
             .take_while(|distance| *distance <= u.len() / 8)
@@ -174,6 +171,8 @@ impl Commanded {
 struct Series<'a> {
     u: &'a [f64],
     w: &'a [f64],
+    /// Samples beside a switch that count for nothing.
+    guard: usize,
 }
 
 /// What a start has led to.
@@ -247,9 +246,9 @@ impl Series<'_> {
     fn kept(&self, found: &[Range<usize>]) -> Vec<Range<usize>> {
         let long = found.iter().filter(|piece| piece.len() >= SHORTEST);
         let inside = |piece: &Range<usize>| {
-            let start = piece.start + if piece.start == 0 { 0 } else { GUARD };
+            let start = piece.start + if piece.start == 0 { 0 } else { self.guard };
             let is_last = piece.end == self.u.len();
-            start..piece.end - if is_last { 0 } else { GUARD }
+            start..piece.end - if is_last { 0 } else { self.guard }
         };
         long.map(inside).collect()
     }

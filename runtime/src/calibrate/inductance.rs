@@ -35,12 +35,32 @@ pub fn with_inductance(
     Ok(pairs.map(|(i, slope)| i + time_constant * slope).collect())
 }
 
-/// Differences of the samples beside each one, over their time; at the ends of the first and last two.
+/// A difference that is so many times the other one beside its sample, and the middle one, is a switch.
+const SWITCH: f64 = 10.0;
+
+/// Differences of the samples beside each one, over their time; at the ends, and beside a switch, where the slope is another on either side, that of
+/// the quiet side alone.
 pub(super) fn slopes(time: &[f64], values: &[f64]) -> Vec<f64> {
-    let last = time.len().saturating_sub(1);
-    let slope = |k: usize| {
-        let (before, behind) = (k.saturating_sub(1), (k + 1).min(last));
-        (values[behind] - values[before]) / (time[behind] - time[before])
+    let ahead: Vec<f64> = (1..time.len())
+        .map(|k| (values[k] - values[k - 1]) / (time[k] - time[k - 1]))
+        .collect();
+    let mut sizes: Vec<f64> = ahead.iter().map(|slope| slope.abs()).collect();
+    sizes.sort_unstable_by(f64::total_cmp);
+    let middle = sizes.get(sizes.len() / 2).copied().unwrap_or_default();
+    let slope = |k: usize| match (k.checked_sub(1).map(|k| ahead[k]), ahead.get(k)) {
+        (Some(before), Some(&behind)) => {
+            let [small, large] = if before.abs() < behind.abs() {
+                [before, behind]
+            } else {
+                [behind, before]
+            };
+            if large.abs() > SWITCH * middle.max(small.abs()) {
+                small
+            } else {
+                (values[k + 1] - values[k - 1]) / (time[k + 1] - time[k - 1])
+            }
+        }
+        (one, other) => one.or(other.copied()).unwrap_or_default(),
     };
     (0..time.len()).map(slope).collect()
 }

@@ -28,8 +28,8 @@ pub struct MotorVoltage {
     pub back_emf: Measured,
     /// V.
     pub offset: Measured,
-    /// By which share resistance and back-EMF are too large for each second of the winding's electric time constant; none where they are by
-    /// instruments.
+    /// By which share resistance and back-EMF are too large for each second of the winding's electric time constant; none where the current
+    /// tells nothing of its slopes.
     pub by_time_constant: Option<[f64; 2]>,
     /// Resistance, back-EMF and offset by least squares, where those above are by instruments.
     pub least_squares: Option<[f64; 3]>,
@@ -80,15 +80,18 @@ impl MotorVoltage {
         let own = columns.map(some);
         let own = own.each_ref().map(Vec::as_slice);
         let all = Regression::new(&own, &some(voltage)).ok_or(CalibrateError::NotApart)?;
-        let instrumented = by_neighbors(&columns, voltage, &kept);
+        let slopes = slopes(time, current);
+        let [instrumented, by_instruments] = by_neighbors(&columns, [voltage, &slopes], &kept);
         let is_instrumented = instrumented.is_some();
-        // Least squares of what is left out by what is not: the error of each value.
-        let of_slopes = Regression::new(&own, &some(&slopes(time, current)));
-        let by_time_constant = of_slopes.filter(|_| !is_instrumented).map(|slopes| {
-            let [resistance, back_emf] = [all.values[0], all.values[1]];
+        let (fit, of_slopes) = match instrumented {
+            Some(fit) => (fit, by_instruments),
+            None => (all.clone(), Regression::new(&own, &some(&slopes))),
+        };
+        // What is left out by what is not: the error of each value.
+        let by_time_constant = of_slopes.map(|slopes| {
+            let [resistance, back_emf] = [fit.values[0], fit.values[1]];
             [slopes.values[0], resistance * slopes.values[1] / back_emf]
         });
-        let fit = instrumented.unwrap_or_else(|| all.clone());
         let fitted = |k: usize| {
             let terms = columns.iter().zip(&fit.values);
             terms.map(|(column, value)| column[k] * value).sum()
@@ -111,7 +114,8 @@ impl MotorVoltage {
 const SWITCH: f64 = 10.0;
 const WIDE: f64 = 0.05;
 
-/// Samples that are beside no switch of the voltage, where a current is of either side of it; all where there would be too few.
+/// Samples that are beside no switch of the voltage, nor one behind it: there a current, or its slope, is of either side of it; all where there
+/// would be too few.
 fn away_from_switches(voltage: &[f64]) -> Vec<usize> {
     let steps: Vec<f64> = voltage
         .windows(2)
@@ -126,7 +130,9 @@ fn away_from_switches(voltage: &[f64]) -> Vec<usize> {
         });
     let least = (SWITCH * sorted[sorted.len() / 2]).max(WIDE * (high - low));
     let is_beside = |k: usize| {
-        let mut beside = [k.checked_sub(1), Some(k)].into_iter().flatten();
+        let mut beside = [k.checked_sub(2), k.checked_sub(1), Some(k)]
+            .into_iter()
+            .flatten();
         beside.any(|step| steps.get(step).is_some_and(|step| *step > least))
     };
     let kept: Vec<usize> = (0..voltage.len()).filter(|&k| !is_beside(k)).collect();
@@ -136,29 +142,35 @@ fn away_from_switches(voltage: &[f64]) -> Vec<usize> {
     kept
 }
 
-/// By instruments, where least squares on the same samples, some of the `kept` ones, finds another resistance or back-EMF.
-fn by_neighbors(columns: &[&[f64]; 3], voltage: &[f64], kept: &[usize]) -> Option<Regression> {
-    let inside = AWAY..voltage.len().checked_sub(AWAY)?;
-    let samples: Vec<usize> = kept
-        .iter()
-        .copied()
-        .filter(|k| inside.contains(k))
-        .collect();
+/// By instruments, where least squares on the same samples, some of the `kept` ones, finds another resistance or back-EMF; and slopes of the
+/// current by the same.
+fn by_neighbors(
+    columns: &[&[f64]; 3],
+    [voltage, slopes]: [&[f64]; 2],
+    kept: &[usize],
+) -> [Option<Regression>; 2] {
+    let inside = AWAY..voltage.len().saturating_sub(AWAY);
+    let samples = kept.iter().copied().filter(|k| inside.contains(k));
+    let samples: Vec<usize> = samples.collect();
     if samples.len() < LEAST {
-        return None;
+        return [None, None];
     }
     let some = |channel: &[f64]| -> Vec<f64> { samples.iter().map(|&k| channel[k]).collect() };
     let mean = |column: &[f64], k: usize| 0.5 * (column[k - AWAY] + column[k + AWAY]);
-    let neighbors = columns.map(|column| samples.iter().map(|&k| mean(column, k)).collect());
-    let instruments: [Vec<f64>; 3] = neighbors;
+    let instruments: [Vec<f64>; 3] =
+        columns.map(|column| samples.iter().map(|&k| mean(column, k)).collect());
     let instruments = instruments.each_ref().map(Vec::as_slice);
     let columns = columns.map(some);
     let columns = columns.each_ref().map(Vec::as_slice);
-    let voltage = some(voltage);
-    let least_squares = Regression::new(&columns, &voltage)?;
-    let found = Regression::by_instruments(&columns, &instruments, &voltage)?;
-    let is_another = |unknown| least_squares.is_another(unknown, &found);
-    (is_another(0) || is_another(1)).then_some(found)
+    let [voltage, slopes] = [voltage, slopes].map(some);
+    let by_instruments =
+        |target: &[f64]| Regression::by_instruments(&columns, &instruments, target);
+    let least_squares = Regression::new(&columns, &voltage);
+    let found = by_instruments(&voltage).filter(|found| {
+        let is_another = |own: Regression| own.is_another(0, found) || own.is_another(1, found);
+        least_squares.is_some_and(is_another)
+    });
+    [found, by_instruments(&slopes)]
 }
 
 /// Refuses a current or a velocity that does not vary.

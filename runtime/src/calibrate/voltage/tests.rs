@@ -139,18 +139,17 @@ fn what_an_inductance_makes_of_the_values_is_told() {
     let voltage: Vec<f64> = voltage.iter().zip(more).map(|(v, more)| v + more).collect();
     let plain = MotorVoltage::fit(&time, &current, &velocity, &voltage).expect("a motor");
     let known = MotorVoltage::fit(&time, &whole, &velocity, &voltage).expect("a motor");
-    let told = plain.by_time_constant.expect("least squares");
+    let told = plain.by_time_constant.expect("slopes");
     let [resistance, back_emf] = told.map(|share| share * TIME_CONSTANT);
     assert!(back_emf.abs() > 1e-3, "{back_emf}");
     let expected = [
         known.resistance.value * (1.0 + resistance),
         known.back_emf.value / (1.0 - back_emf),
     ];
-    for (found, expected) in [plain.resistance, plain.back_emf].into_iter().zip(expected) {
-        assert!(
-            (found.value / expected - 1.0).abs() < 5e-4,
-            "{found:?} for {expected}"
-        );
+    let found = [plain.resistance, plain.back_emf].map(|found| found.value);
+    for ((found, expected), within) in found.into_iter().zip(expected).zip([1e-3, 3e-4]) {
+        let off = found / expected - 1.0;
+        assert!(off.abs() < within, "{found} for {expected}");
     }
 }
 
@@ -183,7 +182,7 @@ fn a_voltage_that_is_switched_tells_the_same() {
     let plain = MotorVoltage::fit(&time, &current, &velocity, &voltage).expect("a motor");
     let told = plain
         .by_time_constant
-        .expect("least squares")
+        .expect("slopes")
         .map(|share| share * TIME_CONSTANT);
     let off = [plain.resistance.value / 2.0, plain.back_emf.value / 0.08].map(|ratio| ratio - 1.0);
     for (told, off) in told.into_iter().zip(off) {
