@@ -120,15 +120,15 @@ mod tests {
         for name in ["upper", "lower", "upper.mxr", "upper.my"] {
             assert!(svg.contains(name), "{name}: {svg}");
         }
-        let squares = |ink: &str| {
+        let squares = |ink: &str, is_filled: bool| {
             let lines = svg.lines().filter(|line| line.starts_with("<rect"));
-            lines.filter(|line| line.contains(ink)).count()
+            let own = lines.filter(|line| line.contains(ink));
+            own.filter(|line| line.contains("fill=\"none\"") != is_filled)
+                .count()
         };
-        assert_eq!(
-            (squares("var(--after)"), squares("var(--before)")),
-            (3, 1),
-            "{svg}"
-        );
+        let counts = ["var(--after)", "var(--before)"]
+            .map(|ink| [true, false].map(|is_filled| squares(ink, is_filled)));
+        assert_eq!(counts, [[3, 0], [0, 1]], "{svg}");
         assert!(side(1.0) > side(0.5) && side(0.5) > side(0.02));
         assert!((side(1e-9) - SMALL).abs() < 1e-12 && (side(30.0) - LARGE).abs() < 1e-12);
     }
