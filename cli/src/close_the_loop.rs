@@ -1,7 +1,7 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{Errors, Estimate, Identified, Identify};
+use robot_model::identify::{AtTurns, Errors, Estimate, Identified, Identify};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
@@ -99,7 +99,7 @@ pub fn close(
     let sound = Log::all_with_turn_speeds(&sound, &speeds);
     let mut on_time = sound.clone();
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
-    let before = Stage::identify(declared, &sound, turned.as_ref(), &Identify::default())?;
+    let before = Stage::identify(declared, &sound, turned.as_ref(), None)?;
     let (arm, estimate) = (&before.arm, &before.estimate);
     if let Some(slow) = turned.as_ref().and_then(|log| too_slow(estimate, log)) {
         progress.note(&format!("note: {slow}"));
@@ -130,20 +130,11 @@ pub fn close(
     } else {
         progress.step("identifying the amended model");
         let arm = compiled(source_name, &amended)?;
-        // The same band as before, so that the errors are those of the same samples. Where links follow logged torques, whose noise
-        // is differentiated twice, the band in which that was traced.
-        let rates = sound.iter().map(Log::rate_hz);
-        let bands = if arm.follows_load() {
-            Bands::for_rate(rates.fold(f64::INFINITY, f64::min))
-        } else {
-            estimate.bands
-        };
-        let identify = Identify {
-            bands: Some(bands),
-            ..Identify::default()
-        };
+        // The same band as before, so that the errors are those of the same samples, but for links that follow the load, which have
+        // their own.
+        let bands = (!arm.follows_load()).then_some(estimate.bands);
         let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);
-        Some(Stage::identify(arm, &sound, unseen.as_ref(), &identify)?)
+        Some(Stage::identify(arm, &sound, unseen.as_ref(), bands)?)
     };
     Ok(Loop {
         before,
@@ -204,14 +195,28 @@ fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, Error> {
 }
 
 impl Stage {
+    /// Errors before and after are of the same rows, so those at turns stay, but for open curves of friction, which they would bend.
     fn identify(
         arm: InterpretedArm,
         logs: &[Log],
         validate: Option<&Log>,
-        identify: &Identify,
+        bands: Option<Bands>,
     ) -> Result<Self, Error> {
+        let at_turns = if arm.dry_shapes().is_empty() {
+            AtTurns::Kept
+        } else {
+            AtTurns::Judged
+        };
+        let identify = Identify {
+            bands,
+            at_turns,
+            ..Identify::default()
+        };
         let estimate = identify.fit(&arm, logs)?.with_best_motion(&arm, logs)?;
-        let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
+        let mut of_all_rows = estimate.clone();
+        of_all_rows.is_without_turns = false;
+        let errors = |log| of_all_rows.errors(&arm, log);
+        let validation = validate.map(errors).transpose()?;
         Ok(Self {
             arm,
             estimate,

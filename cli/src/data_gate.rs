@@ -183,6 +183,7 @@ pub(crate) fn delay(
     let on_time: Vec<Log> = logs.iter().map(|log| earlier(log, seconds)).collect();
     let same_band = Identify {
         bands: Some(estimate.bands),
+        at_turns: estimate.at_turns(),
         ..Identify::default()
     };
     let after = same_band.fit(arm, &on_time).ok()?;

@@ -9,7 +9,7 @@ use crate::Error;
 use crate::identify::factor_file;
 use crate::identify::fit::of_form;
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
-use crate::identify::options::WeightsArgument;
+use crate::identify::options::{TurnOptions, WeightsArgument};
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
 use crate::log_settings::LogSettings;
@@ -45,9 +45,8 @@ pub(crate) struct Merge {
     /// Write the factor of all.
     #[arg(long, value_name = "FILE")]
     factor: Option<PathBuf>,
-    /// Leave out rows where joints with dry friction turn, as `identify` does. Without it their effect is in deviations.
-    #[arg(long)]
-    leave_out_turns: bool,
+    #[command(flatten)]
+    turns: TurnOptions,
     /// Take what can be had where the factors do not tell all parameters apart: sums of them, each with a value of its own.
     #[arg(long)]
     partial: bool,
@@ -92,7 +91,7 @@ impl Merge {
             method,
             weights: self.weights.into(),
             prior: self.prior.unwrap_or(default.prior),
-            leave_out_turns: self.leave_out_turns,
+            at_turns: self.turns.asked(),
             ..default
         })
     }

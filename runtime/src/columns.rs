@@ -197,6 +197,19 @@ pub trait Arm: Columns {
         &[]
     }
 
+    /// Whether links stand elsewhere by what their transmissions carry, which is known by torques as noisy as they are logged, and that twice
+    /// differentiated: the bands of a fit are then those of [`Bands::for_rate`](crate::signal::Bands::for_rate) and no wider.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert!(!axis::axis().follows_load()); // a stiff one
+    /// ```
+    fn follows_load(&self) -> bool {
+        false
+    }
+
     /// Joints whose columns say what a drive at its limit does not deliver, from 0: samples of [clipped](crate::log::Log::clipped) torque
     /// are left out of the fit of all others.
     ///

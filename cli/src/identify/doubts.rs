@@ -171,8 +171,16 @@ pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String>
 }
 
 /// Why fewer rows are fitted than there are.
-pub(super) const AWAY_FROM_TURNS: &str = "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer \
-     there than its law says, and open shapes of friction would be bent after that";
+pub(super) fn away_from_turns(arm: &dyn Arm) -> String {
+    let bent = if arm.dry_shapes().is_empty() {
+        "deviations are a third smaller, or more, without what they move values by; `--keep-turns` keeps them"
+    } else {
+        "open shapes of friction would be bent after that"
+    };
+    format!(
+        "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer there than its law says, and {bent}"
+    )
+}
 
 /// Share of the last step of a grid within which a search that goes to its end comes.
 const AT_END: f64 = 0.02;

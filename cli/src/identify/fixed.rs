@@ -38,6 +38,7 @@ pub(super) fn doubt(form: &dyn Fit, estimate: &Estimate, logs: &[Log]) -> Option
         method: Method::Wls,
         bands: Some(estimate.bands),
         shapes: Some(estimate.shapes.iter().map(|(_, value)| *value).collect()),
+        at_turns: estimate.at_turns(),
         beyond: Beyond::Deviations,
         ..Identify::default()
     };

@@ -219,6 +219,10 @@ impl IdentifyArguments {
             .map(|log| form.errors(&estimate, log))
             .transpose()?;
         progress.step("asking whether columns are as the spec says");
+        let identify = Identify {
+            at_turns: estimate.at_turns(),
+            ..identify
+        };
         let reading = readings::others(form, &identify, &logs, &estimate);
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref(), reading);
         doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
@@ -226,8 +230,8 @@ impl IdentifyArguments {
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
         doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));
         let is_of_instruments = estimate.hausman.is_some();
-        if estimate.is_without_turns && !self.rows.leave_out_turns && !is_of_instruments {
-            doubts.push(doubts::AWAY_FROM_TURNS.to_owned());
+        if estimate.is_without_turns && !self.rows.turns.leave_out_turns && !is_of_instruments {
+            doubts.push(doubts::away_from_turns(form.arm()));
         }
         progress.notes(doubts);
         faults.extend(self.late_channels(&estimate, &progress));
@@ -250,7 +254,7 @@ impl IdentifyArguments {
             weights: self.weights.into(),
             bands: self.bands,
             prior: self.prior.unwrap_or(default.prior),
-            leave_out_turns: self.rows.leave_out_turns,
+            at_turns: self.rows.turns.asked(),
             ..default
         }
     }

@@ -1,7 +1,7 @@
 //! Options of `identify`, and which of them belong together.
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{Method, Weights};
+use robot_model::identify::{AtTurns, Method, Weights};
 use robot_model::signal::Bands;
 
 use super::IdentifyArguments;
@@ -76,12 +76,32 @@ pub(super) enum FormArgument {
     Filtered,
 }
 
+/// What becomes of rows where joints with dry friction turn; without an option they are left out where that makes deviations a third smaller.
+#[derive(Debug, Args)]
+pub(crate) struct TurnOptions {
+    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says.
+    #[arg(long, conflicts_with = "keep_turns")]
+    pub leave_out_turns: bool,
+    /// Keep these rows: by how much they move an estimate is in its deviations.
+    #[arg(long)]
+    pub keep_turns: bool,
+}
+
+impl TurnOptions {
+    pub(crate) const fn asked(&self) -> AtTurns {
+        match (self.leave_out_turns, self.keep_turns) {
+            (true, _) => AtTurns::LeftOut,
+            (_, true) => AtTurns::Kept,
+            _ => AtTurns::Judged,
+        }
+    }
+}
+
 /// Which rows of logs are fitted.
 #[derive(Debug, Args)]
 pub(super) struct RowOptions {
-    /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says. Without it their effect is in deviations, and only open curves of friction are looked for without them.
-    #[arg(long)]
-    pub leave_out_turns: bool,
+    #[command(flatten)]
+    pub turns: TurnOptions,
     /// Take logs as they are: spikes and holds are left where they stand.
     #[arg(long)]
     pub as_logged: bool,
@@ -200,7 +220,8 @@ impl IdentifyArguments {
             ("--essential", self.essential),
             ("--payload", !self.payload.is_empty()),
             ("--partial", self.partial),
-            ("--leave-out-turns", self.rows.leave_out_turns),
+            ("--leave-out-turns", self.rows.turns.leave_out_turns),
+            ("--keep-turns", self.rows.turns.keep_turns),
         ];
         match others.into_iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),

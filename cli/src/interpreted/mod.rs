@@ -138,11 +138,6 @@ impl InterpretedArm {
         &self.compiled
     }
 
-    /// Whether links stand elsewhere by what their transmissions carry, which is known by torques as noisy as they are logged.
-    pub(crate) fn follows_load(&self) -> bool {
-        self.measured.uses_rigid_torque()
-    }
-
     /// Values of all shape parameters: the spec's, and those given for the free ones.
     fn all_shapes(&self, free: &[f64]) -> Vec<f64> {
         let mut values = self.given.clone();
@@ -217,6 +212,10 @@ impl Arm for InterpretedArm {
 
     fn dry_shapes(&self) -> &[usize] {
         &self.dry_shapes
+    }
+
+    fn follows_load(&self) -> bool {
+        self.measured.uses_rigid_torque()
     }
 
     fn saturated_joints(&self) -> &[usize] {

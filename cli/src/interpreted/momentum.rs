@@ -173,6 +173,10 @@ impl Arm for InterpretedMomentum {
         self.arm.dry_shapes()
     }
 
+    fn follows_load(&self) -> bool {
+        self.arm.follows_load()
+    }
+
     fn saturated_joints(&self) -> &[usize] {
         self.arm.saturated_joints()
     }

@@ -1,7 +1,7 @@
 //! Sections 3.1 and 3.2: five installations, identified through `Y_L` with friction and without it.
 
 use robot_model::columns::MomentumArm;
-use robot_model::identify::{Beyond, Estimate, Identify};
+use robot_model::identify::{AtTurns, Beyond, Estimate, Identify};
 use robot_model::log::Log;
 
 use super::device::{self, SPEC};
@@ -99,7 +99,7 @@ pub fn all(motion: &Sines) -> Result<Vec<Installation>, Error> {
 /// Those of identification.
 pub fn fit(model: &dyn MomentumArm, log: &Log) -> Result<Estimate, Error> {
     let identify = Identify {
-        leave_out_turns: true,
+        at_turns: AtTurns::LeftOut,
         ..on_time()
     };
     Ok(identify.fit_filtered(model, std::slice::from_ref(log), Some(CORNER))?)

@@ -26,13 +26,17 @@ const STEP_HZ: f64 = 3.0;
 /// Least squares gains from every frequency at which the model's torque is larger than noise and model error, and loses at
 /// every other. The band ends at the first 3 Hz in which the power of the modeled torque falls below twice that of the
 /// residual, on the joint where that is first, and lies within 10 Hz .. 50 Hz and below a tenth of the sample rate. The
-/// motion's own filters stay wider: the smooth one a little, as every hertz of it adds noise to accelerations.
+/// motion's own filters stay wider: the smooth one a little, as every hertz of it adds noise to accelerations. Of arms whose links
+/// [follow the load](Arm::follows_load) they are those of the rate alone.
 pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate: &[f64]) -> Bands {
     let rate_hz = logs
         .iter()
         .map(|log| log.rate_hz)
         .fold(f64::INFINITY, f64::min);
     let base = Bands::for_rate(rate_hz);
+    if arm.follows_load() {
+        return base;
+    }
     let highest = WIDEST_HZ.min(0.1 * rate_hz);
     let count = ((highest - 2.0) / STEP_HZ).max(1.0).ceil();
     let edges: Vec<f64> = (0..=whole_steps(count))

@@ -16,6 +16,15 @@ pub(super) struct Solved {
     /// What the shapes add to the deviations of linear unknowns, for methods that know of these alone; nothing where there are none.
     pub of_shapes: Vec<f64>,
     pub stack: Stack,
+    /// Whether rows at turns move the solution further than what they tell is worth, see [`turns::widen`].
+    pub is_surer_without_turns: bool,
+}
+
+/// Standard deviations, and whether they would be smaller without rows at turns.
+#[derive(Default)]
+struct Widened {
+    std: Vec<f64>,
+    is_surer_without_turns: bool,
 }
 
 impl Solution {
@@ -40,8 +49,11 @@ impl Identify {
         let is_rough = self.beyond < Beyond::Deviations;
         // Values that are given are no estimates.
         if shapes.is_empty() || self.shapes.is_some() || is_rough {
+            let mut is_surer_without_turns = false;
             if !is_rough {
-                solution.std = self.deviations(&stack, &solution);
+                let widened = self.widened(&stack, &solution, hac::deviations);
+                solution.std = widened.std;
+                is_surer_without_turns = widened.is_surer_without_turns;
             }
             return Solved {
                 solution,
@@ -49,6 +61,7 @@ impl Identify {
                 shapes,
                 of_shapes: Vec::new(),
                 stack,
+                is_surer_without_turns,
             };
         }
         let whole = shapes::with_slopes(
@@ -64,12 +77,15 @@ impl Identify {
         stack.truncate(linear);
         let mut of_shapes = Vec::new();
         let lost = (0..linear).any(|k| told[k].is_none() && !solution.unexcited.contains(&k));
+        let Widened {
+            std: alone,
+            is_surer_without_turns,
+        } = self.widened(&stack, &solution, hac::deviations);
         let shape_std = if lost {
             // A shape does what a linear unknown does: beside it nothing is known of either.
-            solution.std = self.deviations(&stack, &solution);
+            solution.std = alone;
             vec![None; shapes.len()]
         } else {
-            let alone = self.deviations(&stack, &solution);
             let std = told[..linear].iter();
             solution.std = std.map(|std| std.unwrap_or(0.0)).collect();
             let pairs = solution.std.iter().zip(&alone);
@@ -83,6 +99,7 @@ impl Identify {
             shape_std,
             of_shapes,
             stack,
+            is_surer_without_turns,
         }
     }
 
@@ -102,12 +119,13 @@ impl Identify {
 
     /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.
     pub(super) fn deviations(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
-        self.widened(stack, solution, hac::deviations)
+        self.widened(stack, solution, hac::deviations).std
     }
 
     /// Those whose residual is no noise all along, as it follows what is looked for: of the products with columns alone.
     pub(super) fn deviations_of_products(&self, stack: &Stack, solution: &Solution) -> Vec<f64> {
         self.widened(stack, solution, hac::deviations_of_products)
+            .std
     }
 
     fn widened(
@@ -115,14 +133,17 @@ impl Identify {
         stack: &Stack,
         solution: &Solution,
         deviations: fn(&Stack, &Solution, &[Vec<f64>]) -> Vec<f64>,
-    ) -> Vec<f64> {
+    ) -> Widened {
         let weights = self.row_weights(stack, solution);
         let mut std = deviations(stack, solution, &weights);
-        if self.has_turns(stack) {
+        let is_surer_without_turns = self.has_turns(stack) && {
             let [all, away] = turns::with_and_without(stack, &weights);
-            turns::widen(&all, &away, &solution.scale, &mut std);
+            turns::widen(&all, &away, &solution.scale, &mut std)
+        };
+        Widened {
+            std,
+            is_surer_without_turns,
         }
-        std
     }
 
     /// Another solution in the place of one of least squares; what rows at turns move it by is a part of its deviations.
@@ -151,7 +172,7 @@ impl Identify {
 
     /// Whether rows at turns are in estimates.
     pub(super) fn has_turns(&self, stack: &Stack) -> bool {
-        !self.leave_out_turns && stack.turns.iter().any(|rows| !rows.is_empty())
+        !self.leaves_out_turns() && stack.turns.iter().any(|rows| !rows.is_empty())
     }
 
     /// Intervals from blocks that are drawn, where they are wanted; what rows at turns move estimates by widens them as it does deviations.

@@ -16,7 +16,7 @@ use rand_distr::{Distribution, StandardNormal};
 
 use super::least_squares::{Excited, Solution};
 use super::stack::{Stack, torque_of};
-use super::{Beyond, Identify, IdentifyError, Method, logs::update_load};
+use super::{AtTurns, Beyond, Identify, IdentifyError, Method, logs::update_load};
 use crate::columns::Arm;
 use crate::log::Log;
 use crate::signal::{Bands, Prepared, position_noise, prepare};
@@ -57,12 +57,12 @@ impl Identify {
         }
         // At turns other rows might be left out.
         let all = Self {
-            leave_out_turns: false,
+            at_turns: AtTurns::Kept,
             ..self.clone()
         };
         let other = all.rows(arm, &noisy, &shapes);
         drop(noisy);
-        stack.noise = if self.leave_out_turns {
+        stack.noise = if self.leaves_out_turns() {
             changes(&all.rows(arm, prepared, &shapes), &other)
         } else {
             changes(&stack, &other)

@@ -8,7 +8,7 @@ use super::instruments::Hausman;
 use super::late::{Delay, Late};
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::{Bootstrap, Combination, Essential, Method};
+use super::{AtTurns, Bootstrap, Combination, Essential, Method};
 
 /// Which equations the parameters were identified with; both have the same parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,8 +95,7 @@ pub struct Estimate {
     pub hausman: Option<Hausman>,
     /// Rows per joint where it turns, see [`Arm::dry_joints`]; whether they are fitted says [`Self::is_without_turns`].
     pub turns: Vec<usize>,
-    /// Whether these rows are left out: because of [`Identify::leave_out_turns`](super::Identify::leave_out_turns), or because the arm has
-    /// [`Arm::dry_shapes`] that other rows tell.
+    /// Whether these rows are left out, see [`AtTurns`](super::AtTurns), also of relative errors on other logs.
     pub is_without_turns: bool,
     /// Rows per joint that are left out because dry friction holds it nearly all the time.
     pub held: Vec<usize>,
@@ -208,6 +207,26 @@ impl Estimate {
         border
             .into_iter()
             .any(|held| held.trim_matches('`') == name)
+    }
+
+    /// What a further fit asks for that is to have the rows of this one.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// # use pendulum::{measure, pendulum};
+    /// # use robot_model::identify::{AtTurns, Identify};
+    /// let estimate = Identify::default().fit(&pendulum(), &[measure(0.0)])?;
+    /// assert_eq!(estimate.at_turns(), AtTurns::Kept); // it has no dry friction
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    #[must_use]
+    pub const fn at_turns(&self) -> AtTurns {
+        if self.is_without_turns {
+            AtTurns::LeftOut
+        } else {
+            AtTurns::Kept
+        }
     }
 
     /// Values of the unknowns, in the arm's order.

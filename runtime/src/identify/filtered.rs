@@ -92,7 +92,7 @@ impl Identify {
             None => self.choose_filtered_bands(arm, logs, corner)?,
         };
         let filtered = FilteredArm {
-            starts_anew: self.leave_out_turns,
+            starts_anew: self.leaves_out_turns(),
             ..FilteredArm::new(arm, bands, corner)
         };
         let mut prepared = filtered.prepare_all(logs)?;
@@ -105,6 +105,12 @@ impl Identify {
         };
         let shapes = solved.1.clone();
         let solved = self.deviated(&filtered, &prepared, solved);
+        let without = self.surer_without(&solved, &|identify| {
+            identify.fit_filtered_rows(arm, logs, corner)
+        });
+        if let Some(without) = without {
+            return Ok(without);
+        }
         let estimate = self.estimate(&filtered, form, bands, solved, &|| {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
             Ok(instruments::rows(&filtered, &wanted, &shapes))

@@ -73,6 +73,14 @@ impl Rows {
         }
     }
 
+    /// Takes a share of its length for the length of a column.
+    pub fn shorten(&mut self, column: usize, share: f64) {
+        self.length[column] *= share;
+        for rows in &mut self.joints {
+            rows.col_mut(column).iter_mut().for_each(|x| *x /= share);
+        }
+    }
+
     /// `sum_j W_j' V_j` with other columns of the same samples.
     pub fn product(&self, other: &Self) -> Mat<f64> {
         let pairs = self.joints.iter().zip(&other.joints);

@@ -1,6 +1,7 @@
 //! How an estimate is made.
 
 use super::stack::{Stack, norm};
+use super::{Bootstrap, Essential, Hausman, Possible};
 
 /// How parameters are found from rows of torque and columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -142,4 +143,14 @@ pub enum Beyond {
     /// explained.
     #[default]
     Delays,
+}
+
+/// What a method leaves beside the solution.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Beside {
+    pub bootstrap: Option<Bootstrap>,
+    pub essential: Option<Essential>,
+    pub possible: Option<Possible>,
+    pub outliers: Option<Vec<usize>>,
+    pub hausman: Option<Hausman>,
 }

@@ -71,6 +71,7 @@ pub use least_squares::{Factors, RANK_TOLERANCE, Solution};
 use least_squares::{check_counts, check_excited};
 use logs::update_load;
 pub(crate) use logs::{check_logs, load_motion, missing_input, prepare_all, slowest_bands};
+use method::Beside;
 pub use method::{Beyond, Method, Weights};
 pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
@@ -78,6 +79,7 @@ pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 pub use table::{is_shape_told, relative_deviation, table_value};
+pub use turns::AtTurns;
 pub(crate) use turns::{away as away_from_turns, leave_out as leave_out_turns};
 
 use crate::columns::{Arm, Nominal};
@@ -111,9 +113,8 @@ pub struct Identify {
     pub bootstrap: usize,
     /// Of the same methods: whether to look for the parameters that are essential.
     pub essential: bool,
-    /// Whether to leave out rows around the turns of [`Arm::dry_joints`]. By how much they move an estimate is in the deviations
-    /// otherwise, but for arms with [`Arm::dry_shapes`] that other rows tell: these are fitted without them in any case.
-    pub leave_out_turns: bool,
+    /// What becomes of rows around the turns of [`Arm::dry_joints`].
+    pub at_turns: AtTurns,
     /// What is asked beyond the parameters.
     pub beyond: Beyond,
 }
@@ -129,20 +130,10 @@ impl Default for Identify {
             shapes: None,
             bootstrap: 0,
             essential: false,
-            leave_out_turns: false,
+            at_turns: AtTurns::default(),
             beyond: Beyond::default(),
         }
     }
-}
-
-/// What a method leaves beside the solution.
-#[derive(Debug, Clone, Default)]
-struct Beside {
-    bootstrap: Option<Bootstrap>,
-    essential: Option<Essential>,
-    possible: Option<Possible>,
-    outliers: Option<Vec<usize>>,
-    hausman: Option<Hausman>,
 }
 
 impl Identify {
@@ -175,6 +166,10 @@ impl Identify {
         let solved = self.without_drowned(arm, of_logs, prepare, solved)?;
         let shapes = solved.1.clone();
         let solved = self.deviated(arm, &prepared, solved);
+        let without = self.surer_without(&solved, &|identify| identify.fit_rows(arm, logs));
+        if let Some(without) = without {
+            return Ok(without);
+        }
         let found = solved.solution.estimate.clone();
         let late = self.delays_in(arm, of_logs, &solved.stack, (&shapes, &found));
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
@@ -216,9 +211,10 @@ impl Identify {
             shape_std,
             of_shapes,
             mut stack,
+            ..
         } = solved;
         let mut beside = Beside::default();
-        let mut is_without_turns = self.leave_out_turns;
+        let mut is_without_turns = self.leaves_out_turns();
         if matches!(self.method, Method::Ls | Method::Wls | Method::Robust) {
             beside.bootstrap = self.draw(&stack, &solution)?;
             let mut essential = || essential::find(self, stack.clone(), &solution);
@@ -325,7 +321,7 @@ impl Identify {
         let mut stack = Stack::new(arm, logs, shapes);
         clipped::leave_out(&mut stack, arm, logs);
         turns::find(&mut stack, arm, logs);
-        if self.leave_out_turns {
+        if self.leaves_out_turns() {
             turns::leave_out(&mut stack);
         }
         stack

@@ -10,6 +10,7 @@
 //! [`start_anew`]).
 
 use super::clipped::{clear_rows, rows_at};
+use super::deviated::Solved;
 use super::least_squares::{Factors, Solution};
 use super::stack::Stack;
 use super::{Estimate, Identify, IdentifyError, is_shape_told};
@@ -24,6 +25,10 @@ use standing::Motion;
 
 /// What the shared filter spreads a turn over, on either side, in periods of its cutoff.
 const SPREAD: f64 = 0.75;
+
+/// By how many times deviations are smaller without rows at turns where these are left out: real friction is no jump, and what rows at turns
+/// say of it is not given up for less.
+const SURER: f64 = 1.5;
 
 /// Notes which rows of a stack of the logs the turns of dry joints reach. Those of a joint that stands nearly all the time are left out,
 /// and those of long rests: dry friction holds it with a torque that nobody knows, and steps of its encoder are no motion.
@@ -52,13 +57,22 @@ pub(super) fn of_joint(stack: &Stack, logs: &[Prepared], joint: usize) -> Vec<us
     logs.iter().enumerate().flat_map(of_log).collect()
 }
 
-/// Which samples of a log are left out, since the dry friction of a joint holds it.
-pub(super) fn held(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
-    if arm.dry_joints().contains(&joint) {
-        Standing::of(log, joint).held
-    } else {
-        Vec::new()
+/// Which samples of a log are left out, since the dry friction of a joint holds it, or reached by its turns, where these are left out.
+pub(super) fn left_out(
+    arm: &dyn Arm,
+    log: &Prepared,
+    joint: usize,
+    is_without_turns: bool,
+) -> Vec<bool> {
+    if !arm.dry_joints().contains(&joint) {
+        return Vec::new();
     }
+    let Standing { turns, mut held } = Standing::of(log, joint);
+    if is_without_turns {
+        let pairs = held.iter_mut().zip(turns);
+        pairs.for_each(|(held, turns)| *held |= turns);
+    }
+    held
 }
 
 /// Which samples of a log say what a model of a joint is worth: those away from its turns, at which its dry friction does not hold it.
@@ -97,6 +111,20 @@ impl Standing {
     }
 }
 
+/// What becomes of rows around the turns of [joints with dry friction](Arm::dry_joints).
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum AtTurns {
+    /// Left out where they move an estimate further than what they tell is worth: where deviations are a third smaller without them, in the
+    /// geometric mean over the unknowns. Also for arms with [`Arm::dry_shapes`] that other rows tell. Kept otherwise.
+    #[default]
+    Judged,
+    /// By how much they move an estimate is in its deviations.
+    Kept,
+    /// Other rows alone are fitted.
+    LeftOut,
+}
+
 impl Identify {
     /// Fits an arm with [`Arm::dry_shapes`] without rows at turns: there a joint stands longer than its law says, and a search would bend
     /// the law after that. With these rows where no others tell all that is looked for.
@@ -105,13 +133,11 @@ impl Identify {
         arm: &dyn Arm,
         fit: &dyn Fn(&Self) -> Result<Estimate, IdentifyError>,
     ) -> Result<Estimate, IdentifyError> {
-        if self.leave_out_turns || self.shapes.is_some() || arm.dry_shapes().is_empty() {
+        if self.at_turns != AtTurns::Judged || self.shapes.is_some() || arm.dry_shapes().is_empty()
+        {
             return fit(self);
         }
-        let away = Self {
-            leave_out_turns: true,
-            ..self.clone()
-        };
+        let away = self.without_turns();
         let is_told = |found: &Estimate, shape: usize| {
             let std = found.shape_std[shape];
             std.is_some_and(|std| is_shape_told(found.shapes[shape].1, std))
@@ -123,8 +149,40 @@ impl Identify {
             {
                 Ok(found)
             }
-            _ => fit(self),
+            _ => fit(&Self {
+                at_turns: AtTurns::Kept,
+                ..self.clone()
+            }),
         }
+    }
+
+    /// The same without rows at turns.
+    pub(super) fn without_turns(&self) -> Self {
+        Self {
+            at_turns: AtTurns::LeftOut,
+            ..self.clone()
+        }
+    }
+
+    /// Whether rows at turns are left out whatever they say.
+    pub(super) fn leaves_out_turns(&self) -> bool {
+        self.at_turns == AtTurns::LeftOut
+    }
+
+    /// The fit without rows at turns in the place of one with them, where that is to be judged, is less sure, and tells no more.
+    pub(super) fn surer_without(
+        &self,
+        with: &Solved,
+        fit: &dyn Fn(&Self) -> Result<Estimate, IdentifyError>,
+    ) -> Option<Estimate> {
+        if !with.is_surer_without_turns || self.at_turns != AtTurns::Judged {
+            return None;
+        }
+        let found = fit(&self.without_turns()).ok()?;
+        let mut shapes = with.shape_std.iter().zip(&found.shape_std);
+        let tells_shapes = shapes.all(|(with, without)| with.is_none() || without.is_some());
+        let untold = with.solution.unexcited.len();
+        (tells_shapes && found.unexcited.len() == untold).then_some(found)
     }
 }
 
@@ -180,20 +238,28 @@ pub(super) fn with_and_without(stack: &Stack, weights: &[Vec<f64>]) -> [Factors;
 /// Deviations with what rows at turns move a solution of least squares by, unknown by unknown: factors of all rows and of those away
 /// from turns are solved with the same `scale` of each joint. Of the difference `d`, whose variance is that of the solution without
 /// them less that with them, `d^2` less that variance counts. Unknowns that other rows do not tell keep their deviations.
-pub(super) fn widen(all: &Factors, away: &Factors, scale: &[f64], std: &mut [f64]) {
+///
+/// Tells whether the solution without these rows is the surer one: other rows tell as many unknowns, and its deviations are smaller by
+/// [`SURER`] in the geometric mean.
+pub(super) fn widen(all: &Factors, away: &Factors, scale: &[f64], std: &mut [f64]) -> bool {
     let ones = vec![1.0; scale.len()];
     let [with, without] = [all, away].map(|factors| factors.solve(scale, &ones));
-    widen_between(&with, &without, std);
+    widen_between(&with, &without, std)
 }
 
 /// The same of two solutions by one method, with all rows and without those at turns.
-pub(super) fn widen_between(with: &Solution, without: &Solution, std: &mut [f64]) {
+pub(super) fn widen_between(with: &Solution, without: &Solution, std: &mut [f64]) -> bool {
+    let (mut logarithms, mut told) = (0.0, 0.0);
     for (k, std) in std.iter_mut().enumerate() {
-        if with.is_told(k) && without.is_told(k) && with.std[k] > 0.0 {
+        if with.is_told(k) && without.is_told(k) && with.std[k] > 0.0 && *std > 0.0 {
             let difference = with.estimate[k] - without.estimate[k];
             let less_told = (without.std[k] / with.std[k]).powi(2) - 1.0;
+            let noise_without = *std * (1.0 + less_told.max(0.0)).sqrt();
             let beyond = difference.powi(2) - std.powi(2) * less_told.max(0.0);
             *std = std.hypot(beyond.max(0.0).sqrt());
+            logarithms += (*std / noise_without).ln();
+            told += 1.0;
         }
     }
+    logarithms > told * SURER.ln() && without.unexcited == with.unexcited
 }

@@ -9,7 +9,14 @@ use crate::identify::estimate::Estimate;
 use crate::identify::fitted::Fitted;
 use crate::identify::least_squares::Factors;
 use crate::identify::stack::percent;
-use crate::identify::{Identify, IdentifyError};
+use crate::identify::{AtTurns, Identify, IdentifyError};
+
+/// The blocks that are fitted, and how.
+struct Chosen<'a> {
+    used: &'a Factor,
+    solved: Solved,
+    is_without_turns: bool,
+}
 
 impl Factor {
     /// The factor of all blocks, joint by joint.
@@ -43,8 +50,8 @@ impl Factor {
     }
 
     /// What all these logs together say, by [`Method::Ls`](crate::identify::Method::Ls), `Wls`, `Ridge` or `Physical`; of `identify` the
-    /// method, its weights, the prior and [`Identify::leave_out_turns`] are read. Without the latter, by how much rows at turns move the
-    /// estimate is in its deviations. In the filtered form that is by how much a filter moves it that starts anew behind each turn.
+    /// method, its weights, the prior and [`Identify::at_turns`] are read. In the filtered form rows at turns move the estimate by as much as
+    /// a filter does that starts anew behind each turn.
     ///
     /// # Errors
     /// [`IdentifyError::OtherFactor`] for another arm, [`IdentifyError::NotReduced`] for what needs the rows themselves,
@@ -63,7 +70,7 @@ impl Factor {
     /// # Ok::<(), robot_model::identify::IdentifyError>(())
     /// ```
     pub fn estimate(&self, arm: &dyn Arm, identify: &Identify) -> Result<Estimate, IdentifyError> {
-        let (method, leave_out_turns) = (identify.method, identify.leave_out_turns);
+        let method = identify.method;
         let own = Self::new(arm, self.bands)?;
         Self {
             form: self.form,
@@ -72,16 +79,20 @@ impl Factor {
         .check(self)?;
         let has_turns = self.blocks.iter().any(|block| block.away.is_some());
         let away = has_turns.then(|| self.without_turns());
-        let used = away.as_ref().filter(|_| leave_out_turns).unwrap_or(self);
         if self.blocks.is_empty() {
             return Err(IdentifyError::NoLog);
         }
-        let widened_by = away.as_ref().filter(|_| !leave_out_turns);
+        let Chosen {
+            used,
+            solved,
+            is_without_turns,
+        } = self.chosen(arm, identify, away.as_ref())?;
         let Solved {
             solution,
             lone,
             possible,
-        } = used.solved(arm, identify, widened_by)?;
+            ..
+        } = solved;
         let fitted = Fitted {
             relative_percent: used.relative_percent(&solution.estimate),
             samples: self.samples(),
@@ -96,10 +107,39 @@ impl Factor {
         Ok(Estimate {
             blocks: Some(used.blocks.len()),
             of_one_block: lone.iter().map(|&k| self.unknowns[k].clone()).collect(),
-            is_without_turns: leave_out_turns,
+            is_without_turns,
             possible,
             ..estimate
         })
+    }
+
+    /// The blocks that are fitted, of all and of those `away` from turns.
+    fn chosen<'a>(
+        &'a self,
+        arm: &dyn Arm,
+        identify: &Identify,
+        away: Option<&'a Self>,
+    ) -> Result<Chosen<'a>, IdentifyError> {
+        let without = |used| -> Result<Chosen<'a>, IdentifyError> {
+            Ok(Chosen {
+                used,
+                solved: used.solved(arm, identify, None)?,
+                is_without_turns: true,
+            })
+        };
+        if identify.leaves_out_turns() {
+            return without(away.unwrap_or(self));
+        }
+        let solved = self.solved(arm, identify, away)?;
+        let surer = away.filter(|_| solved.is_surer_without_turns);
+        match surer.filter(|_| identify.at_turns == AtTurns::Judged) {
+            Some(away) => without(away),
+            None => Ok(Chosen {
+                used: self,
+                solved,
+                is_without_turns: false,
+            }),
+        }
     }
 
     /// Sum of squared residuals of a joint.

@@ -12,6 +12,8 @@ pub(super) struct Solved {
     /// Unknowns that one block alone tells.
     pub lone: Vec<usize>,
     pub possible: Option<Possible>,
+    /// Whether rows at turns move the solution further than what they tell is worth, see [`turns::widen`].
+    pub is_surer_without_turns: bool,
 }
 
 impl Factor {
@@ -28,9 +30,9 @@ impl Factor {
         let (factors, mut solution) = self.told(identify)?;
         let worth = self.worth(&solution);
         let lone = self.deviations(&mut solution);
-        if let Some(away) = away {
-            turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std);
-        }
+        let is_surer_without_turns = away.is_some_and(|away| {
+            turns::widen(&factors, &away.whole(), &solution.scale, &mut solution.std)
+        });
         let mut possible = None;
         if identify.method == Method::Physical {
             let percent = self.relative_percent(&solution.estimate);
@@ -41,6 +43,7 @@ impl Factor {
             solution,
             lone,
             possible,
+            is_surer_without_turns,
         })
     }
 
@@ -62,14 +65,15 @@ impl Factor {
         };
         let mut solution = near(self)?;
         // Where other rows do not tell, deviations stay as they are.
-        if let Some(Ok(without)) = away.map(near) {
+        let is_surer_without_turns = away.map(near).is_some_and(|without| {
             let with = solution.clone();
-            turns::widen_between(&with, &without, &mut solution.std);
-        }
+            without.is_ok_and(|without| turns::widen_between(&with, &without, &mut solution.std))
+        });
         Ok(Solved {
             solution,
             lone: Vec::new(),
             possible: None,
+            is_surer_without_turns,
         })
     }
 

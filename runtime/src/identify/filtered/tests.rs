@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::columns::{Arm, Columns, Entry, Shape, Unknown};
+use crate::identify::AtTurns;
 use crate::motion::Motion;
 
 mod factors;
@@ -140,9 +141,9 @@ fn log(from: f64) -> Log {
 fn what_holds_a_joint_that_stands_is_not_in_the_rows_behind_it() {
     let wheel = Wheel::new();
     let logs = [log(0.0)];
-    let off = |leave_out_turns: bool| {
+    let off = |at_turns: AtTurns| {
         let identify = Identify {
-            leave_out_turns,
+            at_turns,
             ..Identify::default()
         };
         let found = identify.fit_filtered(&wheel, &logs, Some(CORNER));
@@ -150,7 +151,7 @@ fn what_holds_a_joint_that_stands_is_not_in_the_rows_behind_it() {
         let off = found.iter().zip(TRUTH).map(|(x, truth)| x / truth - 1.0);
         off.fold(0.0, |most: f64, off| most.max(off.abs()))
     };
-    let [kept, left_out] = [false, true].map(off);
+    let [kept, left_out] = [AtTurns::Kept, AtTurns::LeftOut].map(off);
     assert!(kept > 0.02, "{kept}");
     assert!(left_out < 0.002, "{left_out}");
 }

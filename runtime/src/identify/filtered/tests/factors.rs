@@ -1,7 +1,7 @@
 //! Factors of the filtered form say what the rows say.
 
 use super::*;
-use crate::identify::{Factor, FactorBlock, Method};
+use crate::identify::{AtTurns, Factor, FactorBlock, Method};
 
 const BANDS: Bands = Bands {
     shared_hz: 10.0,
@@ -17,11 +17,11 @@ fn factor(wheel: &Wheel, log: &Log) -> Factor {
     factor
 }
 
-fn ask(method: Method, leave_out_turns: bool) -> Identify {
+fn ask(method: Method, at_turns: AtTurns) -> Identify {
     Identify {
         method,
         bands: Some(BANDS),
-        leave_out_turns,
+        at_turns,
         ..Identify::default()
     }
 }
@@ -33,9 +33,9 @@ fn merged_factors_are_what_both_logs_say_with_turns_and_without() {
     let [mut both, other] = [&logs[0], &logs[1]].map(|log| factor(&wheel, log));
     both.merge(other).expect("of one arm, form and corner");
     let mut values = Vec::new();
-    for leave_out_turns in [false, true] {
+    for at_turns in [AtTurns::Kept, AtTurns::LeftOut] {
         for method in [Method::Ls, Method::Wls] {
-            let identify = ask(method, leave_out_turns);
+            let identify = ask(method, at_turns);
             let found = both.estimate(&wheel, &identify).expect("told");
             let direct = identify.fit_filtered(&wheel, &logs, Some(CORNER));
             let direct = direct.expect("told");
@@ -49,9 +49,9 @@ fn merged_factors_are_what_both_logs_say_with_turns_and_without() {
             assert_eq!(found.samples, direct.samples);
             assert_eq!(found.turns, direct.turns);
             assert!(found.turns[0] > 100, "{:?}", found.turns);
-            assert_eq!(found.is_without_turns, leave_out_turns);
+            assert_eq!(found.is_without_turns, at_turns == AtTurns::LeftOut);
         }
-        values.push(both.estimate(&wheel, &ask(Method::Wls, leave_out_turns)));
+        values.push(both.estimate(&wheel, &ask(Method::Wls, at_turns)));
     }
     // What the filter remembers of turns moves the estimate, and that is in its deviations.
     let [with, without] = [0, 1].map(|k| values[k].clone().expect("told"));
@@ -63,6 +63,16 @@ fn merged_factors_are_what_both_logs_say_with_turns_and_without() {
     }
     assert!((with.values()[0] / TRUTH[0] - 1.0).abs() > 0.01);
     assert!((without.values()[0] / TRUTH[0] - 1.0).abs() < 0.002);
+    // So it is the surer one without them, which both ways find.
+    let judged = ask(Method::Wls, AtTurns::Judged);
+    let merged = both.estimate(&wheel, &judged).expect("told");
+    let direct = judged.fit_filtered(&wheel, &logs, Some(CORNER));
+    for found in [merged, direct.expect("told")] {
+        assert!(found.is_without_turns);
+        for (found, without) in found.values().iter().zip(without.values()) {
+            assert!((found / without - 1.0).abs() < 1e-9, "{found} {without}");
+        }
+    }
 }
 
 /// `L` starts in each piece where the filters of the motion have settled, so a wheel without friction comes out of pieces as of the whole.
