@@ -109,7 +109,7 @@ fn pieces_of_a_log_approximate_nothing() {
     let whole = self::factor(&wheel, &piece(0..10_000 + overlap));
     let close = factor.samples().abs_diff(whole.samples());
     assert!(close < 10, "{} {}", factor.samples(), whole.samples());
-    let found = factor.estimate(&wheel, &ask(Method::Wls, false));
+    let found = factor.estimate(&wheel, &ask(Method::Wls, AtTurns::Kept));
     let found = found.expect("told").values();
     for (found, truth) in found.iter().zip([inertia, viscous, 0.0]) {
         assert!((found - truth).abs() < 1e-4 * viscous, "{found} {truth}");
