@@ -14,6 +14,8 @@ struct Table {
     names: Vec<String>,
     /// `[column][row]`
     columns: Vec<Vec<f64>>,
+    /// Line of each row.
+    lines: Vec<u64>,
 }
 
 fn refused(path: &Path, reason: &str) -> Error {
@@ -57,9 +59,11 @@ fn read(path: &Path) -> Result<Table, Error> {
         }
     }
     let mut columns = vec![Vec::new(); names.len()];
+    let mut lines = Vec::new();
     for record in reader.records() {
         let record = record.map_err(unreadable)?;
         let line = record.position().map_or(0, csv::Position::line);
+        lines.push(line);
         for ((field, column), name) in record.iter().zip(&mut columns).zip(&names) {
             match field.parse::<f64>() {
                 Ok(value) if value.is_finite() => column.push(value),
@@ -72,7 +76,11 @@ fn read(path: &Path) -> Result<Table, Error> {
             }
         }
     }
-    Ok(Table { names, columns })
+    Ok(Table {
+        names,
+        columns,
+        lines,
+    })
 }
 
 impl Table {
@@ -111,7 +119,19 @@ impl Table {
 
     fn time(&mut self, path: &Path, form: &str) -> Result<Vec<f64>, Error> {
         let time = self.take("time");
-        time.ok_or_else(|| refused(path, &format!("it has no column `time`; write `{form}`")))
+        let time =
+            time.ok_or_else(|| refused(path, &format!("it has no column `time`; write `{form}`")))?;
+        let mut pairs = time.windows(2).zip(self.lines.iter().skip(1));
+        match pairs.find(|(pair, _)| pair[1] <= pair[0]) {
+            None => Ok(time),
+            Some((pair, line)) => {
+                let reason = format!(
+                    "the row is of {} s, the one before it of {} s; sort the rows by time, and keep one of each",
+                    pair[1], pair[0]
+                );
+                Err(refused_at(path, *line, &reason))
+            }
+        }
     }
 
     /// A column of a joint that the arm does not have, or that is not read.

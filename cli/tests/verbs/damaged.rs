@@ -1,5 +1,5 @@
 //! A thousand damaged logs and a thousand damaged specs: none crashes the program, none leaves a part of a file, and each refusal
-//! names the place.
+//! names the place. What is taken without a word is a sound file: another order of lines, a shorter log, a number that an arm can have.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -12,7 +12,8 @@ use robot_model_fuzz::damage::Damage;
 use robot_model_fuzz::json::{SPEC, VALUES, VERBS, judge};
 use robot_model_fuzz::kind::Kind;
 
-use crate::common::{CART, Folder, Run, cart_log, json};
+use crate::common::{Folder, Run, cart_log, json};
+use crate::turns::dry_cart;
 
 const COUNT: u64 = 1000;
 
@@ -80,6 +81,13 @@ impl Fates {
     }
 }
 
+/// A damaged copy that is not the file itself, as lines that are exchanged with themselves would leave it.
+fn other(file: &str, mut damaged: impl FnMut() -> Vec<u8>) -> Vec<u8> {
+    std::iter::repeat_with(&mut damaged)
+        .find(|damaged| damaged != file.as_bytes())
+        .expect("some damage does something")
+}
+
 /// Number, damage and dice of each file.
 fn damages() -> impl Iterator<Item = (u64, Damage, ChaCha8Rng)> {
     (0..COUNT).map(|number| {
@@ -91,11 +99,17 @@ fn damages() -> impl Iterator<Item = (u64, Damage, ChaCha8Rng)> {
 #[test]
 fn a_thousand_damaged_logs() {
     let log = cart_log(4, 2.0, 0.0);
+    // As a user has it who knows the arm: what it weighs, and how far and fast it goes.
+    let known = "link = cart; position = -0.5 .. 0.5; velocity = 1; torque = 60; }
+    link cart { mass = 3; com = [0, 0, 0]; inertia = [0.01, 0, 0, 0.01, 0, 0.01]; }";
+    let spec = dry_cart().replace("link = cart; }", known);
+    assert!(spec.contains(known), "{spec}");
     let mut fates = Fates::default();
     for (number, damage, mut dice) in damages() {
         let folder = Folder::new();
-        folder.write("arm.robot", CART);
-        std::fs::write(folder.path("log.csv"), damage.of_table(&log, &mut dice)).expect("a file");
+        folder.write("arm.robot", &spec);
+        let damaged = other(&log, || damage.of_table(&log, &mut dice));
+        std::fs::write(folder.path("log.csv"), damaged).expect("a file");
         let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
         fates.add(&folder, number, damage, &run, &["fit.json"]);
         if run.code == Some(0) {
@@ -111,6 +125,9 @@ fn a_thousand_damaged_logs() {
         }
     }
     fates.judge("logs");
+    let [taken, noted, _] = fates.counts[&Damage::Units];
+    assert_eq!(taken, 0, "another unit is told");
+    assert!(noted > 0, "{noted}");
 }
 
 /// `--> arm.robot:LINE:COLUMN`, or the file where it is no text.
@@ -132,8 +149,9 @@ fn a_thousand_damaged_specs() {
     let mut fates = Fates::default();
     for (number, damage, mut dice) in damages() {
         let folder = Folder::new();
-        let spec = crate::common::PENDULUM;
-        std::fs::write(folder.path("arm.robot"), damage.of_text(spec, &mut dice)).expect("a file");
+        let spec = crate::common::MEASURED_PENDULUM;
+        let damaged = other(spec, || damage.of_text(spec, &mut dice));
+        std::fs::write(folder.path("arm.robot"), damaged).expect("a file");
         let run = folder.run(&[
             "emit",
             "arm.robot",
@@ -150,6 +168,12 @@ fn a_thousand_damaged_specs() {
         }
     }
     fates.judge("specs");
+    let [_, _, refused] = fates.counts[&Damage::Units];
+    assert!(
+        refused > 80,
+        "units of another dimension are refused: {refused}"
+    );
+    assert_eq!(fates.counts[&Damage::Huge][..2], [0, 0]);
 }
 
 /// Gives a file to every verb that reads JSON; how many took it.

@@ -335,6 +335,10 @@ fn what_cannot_be_simulated_is_told() {
         said.contains("wanted.csv:3: `x` in column `q1` is no finite number"),
         "{said}"
     );
+    folder.write("wanted.csv", "time,q1\n0,1\n1,2\n1,3\n2,4\n");
+    let said = refuse("dry.robot", &[]);
+    let told = "wanted.csv:4: the row is of 1 s, the one before it of 1 s; sort the rows";
+    assert!(said.contains(told), "{said}");
     folder.write("wanted.csv", "time,q1,q2\n0,1,1\n1,2,2\n2,3,3\n3,4,4\n");
     let said = refuse("dry.robot", &[]);
     assert!(

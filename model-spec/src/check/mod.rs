@@ -14,6 +14,7 @@ mod link;
 mod log;
 mod resolve;
 mod setting;
+mod size;
 mod unit;
 mod used;
 mod value;

@@ -3,13 +3,14 @@
 use proc_macro2::Span;
 use syn::Ident;
 
+use super::size;
 use super::unit::{self, Dimension};
 use crate::ast::{BinaryOp, Expr, ExprKind, Unit, Value};
 use crate::diagnostic::Diagnostic;
 use crate::model::Function;
 use crate::suggest;
 
-type Checked<T> = Result<T, Diagnostic>;
+pub(super) type Checked<T> = Result<T, Diagnostic>;
 
 /// A number in SI units. A bare number has no dimension of its own and takes the one that is expected.
 #[derive(Debug, Clone, Copy)]
@@ -138,43 +139,11 @@ pub(super) fn in_dimension(expr: &Expr, expected: Dimension) -> Checked<f64> {
             "write it in {}; a bare number is in SI units",
             expected.units()
         ))),
-        None if expected == Dimension::ANGLE && quantity.value.abs() > LARGEST_BARE_ANGLE => {
-            Err(degrees_meant(expr.span, quantity.value))
+        found => {
+            size::check(quantity.value, expected, found.is_none(), expr.span)?;
+            Ok(quantity.value)
         }
-        _ if expected == Dimension::LENGTH && quantity.value.abs() > LARGEST_LENGTH => {
-            Err(millimeters_meant(expr.span, quantity.value))
-        }
-        _ => Ok(quantity.value),
     }
-}
-
-/// Two turns. A larger number without a unit was meant in degrees.
-const LARGEST_BARE_ANGLE: f64 = 2.0 * std::f64::consts::TAU;
-
-/// In m. Squares of lengths stand beside each other in inertias: a double holds eight digits of both only if they differ by
-/// four at most.
-const LARGEST_LENGTH: f64 = 1000.0;
-
-fn millimeters_meant(span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        span,
-        format!("a length of {value} m"),
-        "longer than any arm",
-    )
-    .help(format!(
-        "a bare number is in m: write `{value} mm` if that is meant; lengths end at 1000 m"
-    ))
-}
-
-fn degrees_meant(span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        span,
-        format!("an angle of {value} rad"),
-        format!("{:.1} turns", value / std::f64::consts::TAU),
-    )
-    .help(format!(
-        "a bare number is in rad: write `{value} deg`, or `{value} rad` if it is meant"
-    ))
 }
 
 /// The value of an expression without parameters or signals.

@@ -28,6 +28,22 @@ robot Pendulum {
 }
 ";
 
+/// The same with units, limits and friction.
+pub const MEASURED_PENDULUM: &str = "\
+robot Pendulum {
+    gravity = [0 m/s^2, -9.81 m/s^2, 0 m/s^2];
+    convention = standard_dh;
+    joint upper: revolute { a = 500 mm; alpha = 0 deg; d = 0 m; position = -170 deg .. 170 deg; velocity = 180 deg/s; torque = 60 Nm; }
+    joint lower: revolute { a = 40 cm; alpha = 0 rad; d = 0 mm; position = -2.5 rad .. 2.5 rad; velocity = 30 rpm; torque = 20 Nm; }
+    link upper { mass = 2 kg; com = [-250 mm, 0 m, 0 m]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+    link lower { mass = 1000 g; com = [-20 cm, 0 m, 0 m]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }
+    effects {
+        coulomb_friction on all;
+        stribeck(vs = 0.1 rad/s) on upper;
+    }
+}
+";
+
 /// A lift with a pendulum on it.
 pub const URDF: &str = r#"<robot name="arm">
   <link name="base"/>
