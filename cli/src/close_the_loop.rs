@@ -1,7 +1,7 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{AtTurns, Errors, Estimate, Identified, Identify};
+use robot_model::identify::{Errors, Estimate, Identified, Identify};
 use robot_model::log::Log;
 use robot_model::signal::Bands;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
@@ -202,14 +202,8 @@ impl Stage {
         validate: Option<&Log>,
         bands: Option<Bands>,
     ) -> Result<Self, Error> {
-        let at_turns = if arm.dry_shapes().is_empty() {
-            AtTurns::Kept
-        } else {
-            AtTurns::Judged
-        };
         let identify = Identify {
             bands,
-            at_turns,
             ..Identify::default()
         };
         let estimate = identify.fit(&arm, logs)?.with_best_motion(&arm, logs)?;

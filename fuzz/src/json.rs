@@ -2,6 +2,7 @@
 //!
 //! The readers are parts of the program, so it is run on each file; what is right is seen from outside.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -9,7 +10,7 @@ use std::process::{Command, Stdio};
 use crate::answer::{Answer, skeleton};
 
 /// What stands in such files.
-pub(crate) const WORDS: [&str; 34] = [
+pub(crate) const WORDS: [&str; 46] = [
     "{",
     "}",
     "[",
@@ -44,19 +45,59 @@ pub(crate) const WORDS: [&str; 34] = [
     "-",
     "0.0",
     "\"factor\"",
+    "\"joints\"",
+    "\"position\"",
+    "\"columns\"",
+    "\"limit\"",
+    "\"qref1\"",
+    "\"balls\"",
+    "\"link\"",
+    "\"radius\"",
+    "\"box\"",
+    "\"planes\"",
+    "\"normal\"",
+    "[1, 5]",
 ];
 
 /// What the files are of.
 pub const SPEC: &str = "robot Cart { gravity = [0, 0, -9.81]; convention = origin; \
-    joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; } \
+    joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; position = -1 .. 1; velocity = 2; } \
     effects { viscous_friction on rail; coulomb_friction on rail; } }\n";
 
 /// Values of its parameters, in a file `values.json` beside it.
 pub const VALUES: &str =
     r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "rail.coulomb_friction.fc": 2}"#;
 
-/// Verbs that read a file `f.json`, beside the spec `arm.robot`.
-pub const VERBS: [&[&str]; 4] = [
+/// What the cart was measured to do in two seconds, in a file `log.csv`, with the position that its drive was asked for.
+#[must_use]
+pub fn log() -> String {
+    let mut log = String::from("time,q1,tau1,qref1\n");
+    for k in 0..200 {
+        let t = 0.01 * f64::from(k);
+        let wave = |size: f64, w: f64| {
+            let (sin, cos) = (w * t).sin_cos();
+            [size * sin, size * w * cos, -size * w * w * sin]
+        };
+        let [one, other] = [wave(0.2, 3.0), wave(0.05, 7.0)];
+        let [q, dq, ddq] = [0, 1, 2].map(|k| one[k] + other[k]);
+        let tau = 3.0 * ddq + 5.0 * dq + 2.0 * dq.signum();
+        writeln!(log, "{t:.2},{q:.6},{tau:.6},{:.6}", q + tau / 800.0).expect("a string takes all");
+    }
+    log
+}
+
+/// Files that stand beside `f.json`.
+#[must_use]
+pub fn others() -> [(&'static str, String); 3] {
+    [
+        ("arm.robot", SPEC.to_owned()),
+        ("values.json", VALUES.to_owned()),
+        ("log.csv", log()),
+    ]
+}
+
+/// Verbs that read a file `f.json`, beside [`others`].
+pub const VERBS: [&[&str]; 8] = [
     &["audit", "arm.robot", "--parameters", "f.json"],
     &["merge", "arm.robot", "f.json", "--json", "out.json"],
     &[
@@ -77,6 +118,51 @@ pub const VERBS: [&[&str]; 4] = [
         "-o",
         "out.urdf",
     ],
+    &[
+        "identify",
+        "arm.robot",
+        "log.csv",
+        "--method",
+        "output-error",
+        "--start",
+        "f.json",
+        "--json",
+        "out.json",
+    ],
+    &[
+        "identify",
+        "arm.robot",
+        "log.csv",
+        "--method",
+        "output-error",
+        "--start",
+        "values.json",
+        "--bounds",
+        "f.json",
+    ],
+    &[
+        "identify",
+        "arm.robot",
+        "log.csv",
+        "--method",
+        "output-error",
+        "--start",
+        "values.json",
+        "--controller",
+        "f.json",
+    ],
+    &[
+        "excite",
+        "arm.robot",
+        "--period",
+        "2",
+        "--harmonics",
+        "2",
+        "--room",
+        "f.json",
+        "--out",
+        "out.csv",
+    ],
 ];
 
 /// Sound files of each form.
@@ -87,7 +173,12 @@ pub fn seeds() -> Vec<Vec<u8>> {
         "unexcited": []}"#;
     let states = r#"{"states": [{"q": [0.1], "dq": [0.2], "ddq": [0.3]}, {"q": [1], "dq": [-2], "ddq": [0]}]}"#;
     let factor = include_str!("factor.json");
-    [identified, states, VALUES, factor]
+    let bounds = r#"{"cart.m": [1, 5], "rail.viscous_friction.fv": [0, 20]}"#;
+    let controller =
+        r#"{"joints": [{"position": [-800], "columns": {"qref1": [800]}, "limit": 400}]}"#;
+    let room = r#"{"balls": [{"link": "cart", "center": [0, 0, 0.1], "radius": 0.08}], "box": {"low": [-2, -2, -1], "high": [2, 2, 2]},
+        "planes": [{"normal": [0, 0, 1], "offset": -0.5}], "apart": 0.03}"#;
+    [identified, states, VALUES, factor, bounds, controller, room]
         .map(|text| text.as_bytes().to_vec())
         .into()
 }
@@ -115,8 +206,9 @@ pub fn program() -> PathBuf {
 #[must_use]
 pub fn answer(program: &Path, file: &[u8]) -> Answer {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    fs::write(folder.path().join("arm.robot"), SPEC).expect("a file");
-    fs::write(folder.path().join("values.json"), VALUES).expect("a file");
+    for (name, text) in others() {
+        fs::write(folder.path().join(name), text).expect("a file");
+    }
     fs::write(folder.path().join("f.json"), file).expect("a file");
     let mut said = Vec::new();
     let mut done = 0;

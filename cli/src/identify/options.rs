@@ -76,23 +76,24 @@ pub(super) enum FormArgument {
     Filtered,
 }
 
-/// What becomes of rows where joints with dry friction turn; without an option they are left out where that makes deviations a third smaller.
+/// What becomes of rows where joints with dry friction turn; without an option by how much they move an estimate is in its deviations, and only
+/// open curves of friction are looked for without them.
 #[derive(Debug, Args)]
 pub(crate) struct TurnOptions {
     /// Leave out rows where joints with dry friction turn: friction there is not what a law of it says.
-    #[arg(long, conflicts_with = "keep_turns")]
+    #[arg(long, conflicts_with = "judge_turns")]
     pub leave_out_turns: bool,
-    /// Keep these rows: by how much they move an estimate is in its deviations.
+    /// Leave out these rows where deviations are a third smaller without what they move the estimate by: for friction that is as its law says.
     #[arg(long)]
-    pub keep_turns: bool,
+    pub judge_turns: bool,
 }
 
 impl TurnOptions {
     pub(crate) const fn asked(&self) -> AtTurns {
-        match (self.leave_out_turns, self.keep_turns) {
+        match (self.leave_out_turns, self.judge_turns) {
             (true, _) => AtTurns::LeftOut,
-            (_, true) => AtTurns::Kept,
-            _ => AtTurns::Judged,
+            (_, true) => AtTurns::Judged,
+            _ => AtTurns::Kept,
         }
     }
 }
@@ -221,7 +222,7 @@ impl IdentifyArguments {
             ("--payload", !self.payload.is_empty()),
             ("--partial", self.partial),
             ("--leave-out-turns", self.rows.turns.leave_out_turns),
-            ("--keep-turns", self.rows.turns.keep_turns),
+            ("--judge-turns", self.rows.turns.judge_turns),
         ];
         match others.into_iter().find(|(_, is_given)| *is_given) {
             None => Ok(()),

@@ -9,7 +9,7 @@ use std::path::Path;
 use rand::SeedableRng as _;
 use rand_chacha::ChaCha8Rng;
 use robot_model_fuzz::damage::Damage;
-use robot_model_fuzz::json::{SPEC, VALUES, VERBS, judge};
+use robot_model_fuzz::json::{SPEC, VERBS, judge, others};
 use robot_model_fuzz::kind::Kind;
 
 use crate::common::{Folder, Run, cart_log, json};
@@ -181,13 +181,15 @@ fn through_all_verbs(file: &[u8], case: &str) -> usize {
     let mut taken = 0;
     for verb in VERBS {
         let folder = Folder::new();
-        folder.write("arm.robot", SPEC);
-        folder.write("values.json", VALUES);
+        for (name, text) in others() {
+            folder.write(name, &text);
+        }
         std::fs::write(folder.path("f.json"), file).expect("a file");
         let run = folder.run(verb);
         judge(&format!("{case}, {}", verb[0]), run.code, &run.stderr);
         let mut files = folder.files();
-        files.retain(|file| !["arm.robot", "values.json", "f.json"].contains(&file.as_str()));
+        let beside = others().map(|(name, _)| name);
+        files.retain(|file| file != "f.json" && !beside.contains(&file.as_str()));
         if run.code == Some(0) {
             taken += 1;
         } else {

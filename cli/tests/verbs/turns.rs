@@ -181,8 +181,8 @@ fn all(folder: &Folder, more: &[&str]) -> Vec<Vec<f64>> {
 fn intervals_hold_the_truth_where_joints_stick_and_encoders_have_steps() {
     let folder = folder("");
     let ways = [
-        (&[][..], 0.98, 1.0),
-        (&["--keep-turns"], 1.0, 1.5),
+        (&[][..], 1.0, 1.5),
+        (&["--judge-turns"], 0.98, 1.0),
         (&["--leave-out-turns"], 0.98, 1.0),
     ];
     for (more, most, bias) in ways {
@@ -302,7 +302,7 @@ fn rows_at_turns_stay_where_they_move_nothing() {
     let folder = Folder::new();
     folder.write("cart.robot", &dry_cart());
     folder.write("log.csv", &cart_log(20, 2.0, 0.0));
-    let run = folder.run(&["identify", "cart.robot", "log.csv"]);
+    let run = folder.run(&["identify", "cart.robot", "log.csv", "--judge-turns"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(
         run.stdout.contains("of these where joints turn"),
@@ -314,7 +314,7 @@ fn rows_at_turns_stay_where_they_move_nothing() {
         "identify",
         "cart.robot",
         "log.csv",
-        "--keep-turns",
+        "--judge-turns",
         "--leave-out-turns",
     ]);
     assert_eq!(refused.code, Some(2), "{}", refused.stderr);
@@ -335,7 +335,7 @@ fn factors_know_what_rows_at_turns_move_estimates_by() {
         folder.succeed(&[arguments, &["--json", "fit.json"]].concat());
         json(&folder.read("fit.json"))
     };
-    for more in [&["--keep-turns"][..], &["--leave-out-turns"], &[]] {
+    for more in [&[][..], &["--leave-out-turns"], &["--judge-turns"]] {
         for count in [1, 2] {
             let logs: Vec<&str> = logs[..count].iter().map(String::as_str).collect();
             let identify = [&["identify", "arm.robot"][..], &logs, &bands, more].concat();
@@ -354,9 +354,8 @@ fn factors_know_what_rows_at_turns_move_estimates_by() {
                     "{more:?}, {count}, {name}: {ratio}"
                 );
                 // Most of these is what rows at turns move them by.
-                let is_moved = more.contains(&"--keep-turns")
-                    && name.starts_with("lo.")
-                    && name.contains("friction");
+                let is_moved =
+                    more.is_empty() && name.starts_with("lo.") && name.contains("friction");
                 let is_close = (0.8..1.2).contains(&ratio);
                 assert!(!is_moved || is_close, "{count}, {name}: {ratio}");
             }

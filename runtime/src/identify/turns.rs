@@ -115,12 +115,13 @@ impl Standing {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AtTurns {
-    /// Left out where they move an estimate further than what they tell is worth: where deviations are a third smaller without them, in the
-    /// geometric mean over the unknowns. Also for arms with [`Arm::dry_shapes`] that other rows tell. Kept otherwise.
+    /// By how much they move an estimate is in its deviations, but for arms with [`Arm::dry_shapes`] that other rows tell: these are fitted
+    /// without them.
     #[default]
-    Judged,
-    /// By how much they move an estimate is in its deviations.
     Kept,
+    /// Left out also where they move an estimate further than what they tell is worth: where deviations are a third smaller without them, in
+    /// the geometric mean over the unknowns. For friction that is a jump: of any other law the difference says what the spec lacks.
+    Judged,
     /// Other rows alone are fitted.
     LeftOut,
 }
@@ -133,8 +134,7 @@ impl Identify {
         arm: &dyn Arm,
         fit: &dyn Fn(&Self) -> Result<Estimate, IdentifyError>,
     ) -> Result<Estimate, IdentifyError> {
-        if self.at_turns != AtTurns::Judged || self.shapes.is_some() || arm.dry_shapes().is_empty()
-        {
+        if self.leaves_out_turns() || self.shapes.is_some() || arm.dry_shapes().is_empty() {
             return fit(self);
         }
         let away = self.without_turns();

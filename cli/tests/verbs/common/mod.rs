@@ -8,7 +8,9 @@ use std::process::Command;
 use serde_json::Value;
 use tempfile::TempDir;
 
-pub use inputs::{CART, PENDULUM, URDF, cart_log, cart_with, folding, moved, tones, white};
+pub use inputs::{
+    CART, MEASURED_PENDULUM, PENDULUM, URDF, cart_log, cart_with, folding, moved, tones, white,
+};
 
 /// What a run left behind.
 pub struct Run {
