@@ -1,6 +1,5 @@
 //! What logs are looked through for before anything is asked of the arm, and what each look found.
 
-use robot_model::columns::Arm;
 use robot_model::identify::{Delay, Estimate};
 use robot_model::log::{Fault, Mended};
 use robot_model::signal::encoder_step;

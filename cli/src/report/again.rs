@@ -21,7 +21,7 @@ pub(crate) fn again(page: &mut Page, inputs: &[PathBuf]) -> Result<(), Error> {
         env!("CARGO_PKG_VERSION")
     ));
     page.preformatted(&invocation());
-    let row = |path: &PathBuf| {
+    let row = |path: &PathBuf| -> Result<Vec<String>, Error> {
         let name = path.display().to_string();
         Ok(match fingerprint(path)? {
             Some((bytes, crc)) => vec![name, bytes.to_string(), format!("{crc:08x}")],

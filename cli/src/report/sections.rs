@@ -228,7 +228,7 @@ pub(crate) fn figures(
 ) {
     let mut legend = vec![("measured", "measured")];
     legend.extend(models);
-    let last = models.last().map_or("model", |(_, name)| name);
+    let last = models.last().map_or("model", |(_, name)| *name);
     for (joint, name) in joints.iter().enumerate() {
         page.folded(name, is_open(joint), |page| {
             page.figures(
