@@ -86,8 +86,8 @@ fn turning(closed: &Loop) -> Option<String> {
         format!("w = {before} before, and {after} after")
     };
     Some(format!(
-        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, so its \
-         errors of the same model on the same log are others"
+        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, and may leave \
+         rows at turns out, so its errors of the same model on the same log are others"
     ))
 }
 
