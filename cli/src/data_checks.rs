@@ -140,7 +140,7 @@ pub(crate) fn checks(
 fn late(delay: &Delay) -> String {
     let (ms, std) = (1e3 * delay.seconds, 1e3 * delay.std);
     format!(
-        "{} is {:.2} +- {std:.2} ms {}, {:.0} % of its joint's error",
+        "{} is {:.2} +- {std:.2} ms {}; without that its joint's error is {:.0} % less",
         delay.channel.column(delay.joint),
         ms.abs(),
         if ms > 0.0 { "late" } else { "early" },

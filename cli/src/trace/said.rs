@@ -37,6 +37,9 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
 pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
     let why = match closed.outcome() {
         Outcome::Explained => "no spec declares what is wrong with these logs",
+        Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
+            "no lead accounts for the structure of what is left"
+        }
         _ => outcome(closed),
     };
     closed
