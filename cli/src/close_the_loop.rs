@@ -10,6 +10,8 @@ use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::load;
 
 use crate::Error;
+pub use crate::data_checks::Check;
+use crate::data_checks::checks;
 use crate::data_gate;
 pub use crate::data_gate::DataFault;
 use crate::identify::doubts;
@@ -27,6 +29,8 @@ pub struct Stage {
     pub estimate: Estimate,
     /// On the validation log, where there is one.
     pub validation: Option<Errors>,
+    /// Speeds below which dry friction did not act in full, one a joint, rad/s or m/s, as logs tell; zero where they do not.
+    pub turn_speeds: Vec<f64>,
 }
 
 /// The loop, closed.
@@ -36,6 +40,8 @@ pub struct Loop {
     pub before: Stage,
     /// What is wrong with the logs; the verdict is of logs without it.
     pub faults: Vec<DataFault>,
+    /// What the logs were looked through for, and what that found.
+    pub checks: Vec<Check>,
     /// The logs without it, which were traced.
     pub traced: Vec<Log>,
     /// The log that was not fitted, with all that effects may read of it.
@@ -115,6 +121,7 @@ pub fn close(
         // What turns look like is asked of them anew.
         on_time = Log::all_with_turn_speeds(&logs, &[]);
     }
+    let checks = checks(arm, &mended, estimate, &faults);
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
     let is_last = faults.iter().any(|fault| fault.is_last);
     let verdict = trace(source_name, text, &on_time, !is_last, progress)?;
@@ -139,6 +146,7 @@ pub fn close(
     Ok(Loop {
         before,
         faults,
+        checks,
         traced: on_time,
         unseen,
         verdict,
@@ -215,6 +223,9 @@ impl Stage {
             arm,
             estimate,
             validation,
+            turn_speeds: logs
+                .first()
+                .map_or_else(Vec::new, |log| log.turn_speeds.clone()),
         })
     }
 }

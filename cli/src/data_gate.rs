@@ -35,6 +35,13 @@ pub struct DataFault {
     pub is_last: bool,
 }
 
+impl DataFault {
+    /// Whether torques went through a filter which positions did not go through.
+    pub(crate) fn is_smoothed(&self) -> bool {
+        self.is_last && self.delay.is_none()
+    }
+}
+
 /// Logs without spikes, bursts, dropouts and held values; what was found is said.
 pub(crate) fn mend(logs: &[Log], progress: &Progress) -> Vec<Mended> {
     let mended = logs.iter().map(|log| log.clone().mended());

@@ -8,6 +8,7 @@ mod calibrate;
 mod check;
 pub mod close_the_loop;
 mod completions;
+mod data_checks;
 mod data_gate;
 mod demo;
 mod diff;

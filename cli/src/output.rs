@@ -65,6 +65,12 @@ impl Files {
         self
     }
 
+    /// All that it reads, as they were given.
+    pub(crate) fn inputs(&self) -> Vec<PathBuf> {
+        let given = self.inputs.iter().map(|(_, as_given)| as_given);
+        given.cloned().collect()
+    }
+
     /// Claims a file to write, which is neither read nor written by the same command otherwise.
     pub(crate) fn claim(&mut self, path: &Path) -> Result<OutFile, Error> {
         let file = OutFile::create(path)?;

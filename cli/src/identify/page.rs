@@ -1,6 +1,6 @@
 //! `identify --report`: what was found, as a page with figures.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use robot_model::columns::Arm;
 use robot_model::identify::{Combination, Errors, Estimate};
@@ -11,7 +11,7 @@ use super::doubts;
 use super::report::{Parameter, counted, identified, shares};
 use crate::Error;
 use crate::output::significant;
-use crate::report::{Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters};
+use crate::report::{Drawn, Ink, Page, Shown, again, base_parameters, figures, parameters};
 
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
@@ -88,8 +88,8 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The page.
-    pub fn page(&self) -> Result<String, Error> {
+    /// The page, of files that were read.
+    pub fn page(&self, inputs: &[PathBuf]) -> Result<String, Error> {
         let mut page = Page::new(
             &format!("Identification of {}", self.compiled.model.name),
             &format!(
@@ -112,9 +112,7 @@ impl<'a> Evidence<'a> {
         self.data(&mut page);
         page.section("As printed");
         page.preformatted(self.printed);
-        page.section("Again");
-        page.text("The same page from the same files:");
-        page.preformatted(&invocation());
+        again(&mut page, inputs)?;
         Ok(page.finish())
     }
 

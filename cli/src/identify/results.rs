@@ -1,6 +1,7 @@
 //! Where `identify` writes what it found.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -15,6 +16,7 @@ use crate::report::ReportFolder;
 pub(super) struct Results {
     json: Option<OutFile>,
     page: Option<ReportFolder>,
+    inputs: Vec<PathBuf>,
     others: Vec<(OutFile, String)>,
 }
 
@@ -23,6 +25,7 @@ impl Results {
         Ok(Self {
             json: files.claim_if(asked.json.as_deref())?,
             page: ReportFolder::claim_if(files, asked.report.as_deref())?,
+            inputs: files.inputs(),
             others: Vec::new(),
         })
     }
@@ -42,7 +45,7 @@ impl Results {
     ) -> Result<(), Error> {
         let page = self
             .page
-            .map(|folder| Ok::<_, Error>((folder, found.page()?)));
+            .map(|folder| Ok::<_, Error>((folder, found.page(&self.inputs)?)));
         let page = page.transpose()?;
         let text = || output::json_with_notes(report, &found.notes);
         let json = self.json.map(|file| (file, text()));

@@ -8,7 +8,7 @@ use super::chart::{DRAWN, GRID, INK, Ink, TEXT, on_page, tick};
 use crate::output::significant;
 
 /// Width of the drawing, and what each joint adds to its height.
-const WIDTH: u32 = 640;
+const WIDTH: u32 = 460;
 const EACH: u32 = 56;
 const AROUND: u32 = 90;
 

@@ -9,7 +9,7 @@ use super::axis::Axis;
 use super::page::escaped;
 use crate::output::significant;
 
-const SIZE: (u32, u32) = (420, 290);
+const SIZE: (u32, u32) = (380, 270);
 
 /// Letters at axes.
 pub(super) const TEXT: (&str, i32) = ("sans-serif", 15);
@@ -140,7 +140,7 @@ impl Chart<'_> {
     }
 }
 
-/// A drawing in the page's colors, with a label; dots of one color are one path, which is a tenth as long.
+/// A drawing in the page's colors, with a label, and as wide as it is drawn where there is room, so that letters of all drawings are alike; dots of one color are one path, which is a tenth as long.
 pub(super) fn on_page(svg: &str, label: &str, (width, height): (u32, u32)) -> String {
     let mut out = String::with_capacity(svg.len() / 4);
     let mut dots: Option<(&str, String)> = None;
@@ -160,7 +160,7 @@ pub(super) fn on_page(svg: &str, label: &str, (width, height): (u32, u32)) -> St
         if line.starts_with("<svg") {
             writeln!(
                 out,
-                "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\">",
+                "<svg role=\"img\" aria-label=\"{}\" viewBox=\"0 0 {width} {height}\" style=\"--width: {width}px\">",
                 escaped(label)
             )
             .expect("a string takes all");

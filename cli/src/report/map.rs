@@ -5,10 +5,14 @@ use plotters::prelude::*;
 use super::axis::Axis;
 use super::chart::{DRAWN, GRID, INK, Ink, TEXT, on_page};
 
-/// Size of a square's cell, room around the drawing, and what a letter of a name takes.
-const CELL: u32 = 11;
+/// Widths of a square's cell, between which all cells of a row are about as wide as paper; its height, which letters have; room around the
+/// drawing, and what a letter of a name takes.
+const NARROWEST: usize = 5;
+const WIDEST: usize = 11;
+const ROW: usize = 770;
+const HEIGHT: usize = 15;
 const AROUND: u32 = 48;
-const LETTER: u32 = 8;
+const LETTER: u32 = 7;
 
 /// Sides of squares as shares of their cells, of factors of 1 and more and of a hundredth and less.
 const LARGE: f64 = 0.9;
@@ -29,11 +33,17 @@ pub(crate) struct Map<'a> {
 impl Map<'_> {
     /// The drawing as SVG inside a page.
     pub(crate) fn svg(&self) -> String {
-        let cells = |count: usize| CELL * u32::try_from(count).unwrap_or(1);
+        let pixels = |count: usize| u32::try_from(count).unwrap_or(1);
         let [columns, rows] = [self.columns * self.links.len(), self.rows.len()];
         let longest = self.rows.iter().map(|(name, _)| name.chars().count()).max();
         let names = LETTER * u32::try_from(longest.unwrap_or(0)).unwrap_or(1) + 16;
-        let size = (cells(columns) + names + 20, cells(rows) + AROUND);
+        let cell = (ROW / columns.max(1)).clamp(NARROWEST, WIDEST);
+        let size = (
+            pixels(cell * columns) + names + 20,
+            pixels(HEIGHT * rows) + AROUND,
+        );
+        // Squares are as high as they are wide.
+        let flat = cell as f64 / HEIGHT as f64;
         // The first row is the uppermost.
         let middle = |row: usize| (rows - row) as f64 - 0.5;
         let of_link = |link: usize| (self.columns * link) as f64 + self.columns as f64 / 2.0;
@@ -61,7 +71,7 @@ impl Map<'_> {
                 .axis_style(INK)
                 .x_label_formatter(&|at| name_at(&self.links, &of_link, *at))
                 .y_label_formatter(&|at| name_at(&names_of_rows, &middle, *at))
-                .label_style((TEXT.0, 12).into_font().color(&INK))
+                .label_style(TEXT.into_font().color(&INK))
                 .draw()
                 .expect(DRAWN);
             let between = links.skip(1).map(|link| {
@@ -74,7 +84,7 @@ impl Map<'_> {
                     .draw_series(factors.iter().map(|&(column, factor)| {
                         let half = side(factor) / 2.0;
                         let (x, y) = (column as f64 + 0.5, middle(row));
-                        let corners = [(x - half, y + half), (x + half, y - half)];
+                        let corners = [(x - half, y + flat * half), (x + half, y - flat * half)];
                         let ink = if factor < 0.0 {
                             Ink::Before
                         } else {

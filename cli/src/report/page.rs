@@ -118,10 +118,15 @@ impl Page {
         self.body.push_str("</tbody></table></div>\n");
     }
 
-    /// A row of figures below one caption, with the colors that they share.
+    /// A row of figures above one caption, with the colors that they share. One alone may be wider than a phone, which then scrolls.
     pub(crate) fn figures(&mut self, drawings: &[String], legend: &[(&str, &str)], caption: &str) {
         self.figures += 1;
-        self.body.push_str("<figure><div class=\"drawings\">\n");
+        let div = if drawings.len() == 1 {
+            "<div class=\"drawings wide\" tabindex=\"0\">"
+        } else {
+            "<div class=\"drawings\">"
+        };
+        writeln!(self.body, "<figure>{div}").expect(PUT);
         for drawing in drawings {
             self.body.push_str(drawing);
             self.body.push('\n');

@@ -6,7 +6,7 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::model::Model;
 use robot_model_spec::parameter::{InertialElement, Owner};
 
-use super::{Drawn, Map, Page};
+use super::{Drawn, Map, Page, comment};
 use crate::identify::report::Parameter;
 use crate::output::{decimals, significant};
 
@@ -57,33 +57,16 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
     );
 }
 
-/// Unit and meaning: the comment in the definition of an effect's parameter, which has its unit; of a base parameter which moment of which
-/// link it is, with the others that it is a sum of.
-fn meaning(compiled: &Compiled, name: &str) -> (&'static str, String) {
-    let model: &Model = &compiled.model;
-    for (number, effect) in model.effects.iter().enumerate() {
-        let prefix = format!("{}.", model.effect_name(number));
-        let Some(own) = name.strip_prefix(&prefix) else {
-            continue;
-        };
-        let linear = effect
-            .definition
-            .linear
-            .iter()
-            .map(|one| (&one.name, &one.doc));
-        let shapes = effect
-            .definition
-            .shapes
-            .iter()
-            .map(|one| (&one.name, &one.doc));
-        if let Some((_, doc)) = linear.chain(shapes).find(|(one, _)| *one == own) {
-            return ("", doc.split_whitespace().collect::<Vec<_>>().join(" "));
-        }
+/// Unit and meaning: of an effect's parameter as the comment in its definition has them, whoever wrote it; of a base parameter which moment
+/// of which link it is, with the others that it is a sum of.
+fn meaning(compiled: &Compiled, name: &str) -> (String, String) {
+    if let Some(told) = of_effect(&compiled.model, name) {
+        return told;
     }
     let base = &compiled.base;
     let place = base.names.iter().position(|one| one == name);
     let Some(place) = place else {
-        return ("", String::new());
+        return (String::new(), String::new());
     };
     let (unit, moment) = moment(&compiled.standard[base.kept[place]].name);
     let is_sum = base.combinations[place].len() > 1;
@@ -93,7 +76,22 @@ fn meaning(compiled: &Compiled, name: &str) -> (&'static str, String) {
         (false, None) => moment,
         (true, sum) => sum.unwrap_or_default(),
     };
-    (unit, meaning)
+    (unit.to_owned(), meaning)
+}
+
+/// Unit and meaning of a parameter of a declared effect.
+fn of_effect(model: &Model, name: &str) -> Option<(String, String)> {
+    let mut effects = model.effects.iter().enumerate();
+    effects.find_map(|(number, effect)| {
+        let prefix = format!("{}.", model.effect_name(number));
+        let own = name.strip_prefix(&prefix)?;
+        let definition = &effect.definition;
+        let linear = definition.linear.iter().map(|one| (&one.name, &one.doc));
+        let shapes = definition.shapes.iter().map(|one| (&one.name, &one.doc));
+        let (_, doc) = linear.chain(shapes).find(|(one, _)| *one == own)?;
+        let joint = effect.joints.first().map(|joint| model.joints[*joint].kind);
+        Some(comment::unit_and_meaning(doc, joint))
+    })
 }
 
 /// Unit and meaning of a link's standard parameter.
@@ -220,49 +218,27 @@ fn map(compiled: &Compiled) -> Option<String> {
     Some(map.svg())
 }
 
-/// Figures of every joint, those of some open.
+/// Figures of every joint, those of some open; the last of the legend is the model whose torque is drawn.
 pub(crate) fn figures(
     page: &mut Page,
     joints: &[String],
     drawn: &Drawn,
-    legend: &[(&str, &str)],
+    models: &[(&str, &str)],
     is_open: &dyn Fn(usize) -> bool,
 ) {
+    let mut legend = vec![("measured", "measured")];
+    legend.extend(models);
+    let last = models.last().map_or("model", |(_, name)| *name);
     for (joint, name) in joints.iter().enumerate() {
         page.folded(name, is_open(joint), |page| {
-            let measured = [("measured", "measured"), *legend.last().unwrap_or(&("after", "model"))];
             page.figures(
-                &[drawn.torque(joint, name)],
-                &measured,
+                &drawn.of_joint(joint, name),
+                &legend,
                 &format!(
-                    "Measured and predicted torque of {name}, raw samples, {}.",
-                    drawn.torque_unit(joint)
-                ),
-            );
-            page.figures(
-                &drawn.errors(joint, name),
-                legend,
-                &format!(
-                    "Measured minus predicted torque of {name}, in the band of the fit, over velocity, position, load and time; \
-                     root of the spectral density of raw samples."
+                    "{name}: torque over time, measured and of the {last}, raw samples; residual, which is measured minus predicted torque, over \
+                     velocity, position, load and time, in the band of the fit; root of its spectral density, raw samples."
                 ),
             );
         });
     }
-}
-
-/// How the program was called, as a shell takes it.
-pub(crate) fn invocation() -> String {
-    let quoted = |argument: String| {
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/=,:+".contains(c);
-        if !argument.is_empty() && argument.chars().all(is_plain) {
-            argument
-        } else {
-            format!("'{}'", argument.replace('\'', r"'\''"))
-        }
-    };
-    let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|one| quoted(one.to_string_lossy().into_owned()));
-    let words = std::iter::once("robot-model".to_owned()).chain(arguments);
-    words.collect::<Vec<_>>().join(" ")
 }

@@ -102,13 +102,14 @@ impl Drawn {
         })
     }
 
-    /// Unit of a joint's torque.
-    pub(crate) fn torque_unit(&self, joint: usize) -> &'static str {
-        self.units[joint].torque
+    /// Measured torque and that of the last model over time, and errors of all models over velocity, position, load, time and frequency.
+    pub(crate) fn of_joint(&self, joint: usize, name: &str) -> Vec<String> {
+        let mut all = vec![self.torque(joint, name)];
+        all.extend(self.errors(joint, name));
+        all
     }
 
-    /// Measured torque and that of the last model over time.
-    pub(crate) fn torque(&self, joint: usize, name: &str) -> String {
+    fn torque(&self, joint: usize, name: &str) -> String {
         let line = |color, values: &[f64]| Series {
             color,
             is_line: true,
@@ -128,8 +129,7 @@ impl Drawn {
         .svg()
     }
 
-    /// Errors of all models over velocity, position, load, time and frequency.
-    pub(crate) fn errors(&self, joint: usize, name: &str) -> Vec<String> {
+    fn errors(&self, joint: usize, name: &str) -> Vec<String> {
         let Units {
             position,
             velocity,

@@ -3,6 +3,7 @@
 mod doubt;
 mod page;
 mod report;
+mod said;
 mod summary;
 mod tried;
 mod whereabouts;
@@ -83,7 +84,9 @@ impl TraceArguments {
         let validate = validate.map(|mended| mended.log);
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
-        let page = report.as_ref().map(|_| page::page(&name, &closed, &text));
+        let page = report
+            .as_ref()
+            .map(|_| page::page(&name, &closed, &text, &files.inputs()));
         let page = page.transpose()?;
         // All contents are ready before the first file appears.
         let prediction = closed

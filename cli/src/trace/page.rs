@@ -1,10 +1,13 @@
 //! The report of a trace.
 
+use std::path::PathBuf;
+
 use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
+use super::said::{errors_of, nothing_added, outcome, sentence};
 use super::tried::rows;
 use super::whereabouts::structure_left;
 use crate::Error;
@@ -12,27 +15,34 @@ use crate::close_the_loop::{Loop, Stage};
 use crate::diff::diff;
 use crate::identify::report::identified;
 use crate::output::significant;
-use crate::report::{
-    Bars, Drawn, Ink, Page, Shown, base_parameters, figures, invocation, parameters,
-};
+use crate::report::{Bars, Drawn, Ink, Page, Shown, again, base_parameters, figures, parameters};
 
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
 
-/// The page on a traced spec at a path, whose text is given.
-pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Error> {
+/// The page on a traced spec at a path, whose text is given, and on files that were read.
+pub(super) fn page(
+    spec: &str,
+    closed: &Loop,
+    text: &str,
+    inputs: &[PathBuf],
+) -> Result<String, Error> {
     let mut page = Page::new(
         &format!("Trace of {}", closed.before.arm.compiled().model.name),
         &format!("What {spec} does not say of the arm, by its logs."),
     );
     page.section("Verdict");
     verdict(&mut page, spec, text, closed);
-    page.section("Errors before and after");
+    page.section(if closed.changed.is_some() {
+        "Errors before and after"
+    } else {
+        "Errors"
+    });
     errors(&mut page, closed);
-    let change = diff(text, &closed.amended);
-    if !change.is_empty() {
-        page.section("Change of the spec");
-        page.preformatted(&change);
+    page.section("Change of the spec");
+    match nothing_added(closed) {
+        Some(why) => page.text(&sentence(&why)),
+        None => page.preformatted(&diff(text, &closed.amended)),
     }
     page.section("Residuals");
     residuals(&mut page, closed)?;
@@ -46,31 +56,18 @@ pub(super) fn page(spec: &str, closed: &Loop, text: &str) -> Result<String, Erro
     parameters(&mut page, compiled, &identified(&after.estimate));
     page.section("Base parameters");
     base_parameters(&mut page, compiled);
-    page.section("Again");
-    page.text("The same page from the same files:");
-    page.preformatted(&invocation());
+    again(&mut page, inputs)?;
     Ok(page.finish())
 }
 
 fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let verdict = &closed.verdict;
-    match closed.outcome() {
-        Outcome::NothingMissing => page.verdict(
-            "good",
-            "Nothing missing",
-            "The declared model leaves no structure that matters.",
-        ),
-        Outcome::Explained => page.verdict(
-            "known",
-            "Explained",
-            "These effects account for what the declared model left.",
-        ),
-        Outcome::Unexplained => page.verdict(
-            "open",
-            "Unexplained",
-            "The residual follows the motion, and no known effect accounts for it.",
-        ),
-    }
+    let (class, word) = match closed.outcome() {
+        Outcome::NothingMissing => ("good", "Nothing missing"),
+        Outcome::Explained => ("known", "Explained"),
+        Outcome::Unexplained => ("open", "Unexplained"),
+    };
+    page.verdict(class, word, &sentence(outcome(closed)));
     let faults = closed.faults.iter();
     let mut items: Vec<String> = faults
         .map(|fault| format!("{}: {}", fault.kind, fault.told))
@@ -118,37 +115,44 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
 }
 
 fn errors(page: &mut Page, closed: &Loop) {
-    let (before, after) = (&closed.before, closed.after());
-    let rows = closed
-        .before
-        .arm
-        .joints()
-        .iter()
-        .enumerate()
-        .map(|(j, name)| {
-            let percent = |values: &[f64]| format!("{:.2} %", values[j]);
-            let mut row = vec![
-                name.clone(),
-                percent(&before.estimate.relative_percent),
-                percent(&after.estimate.relative_percent),
-            ];
-            for stage in [before, after] {
-                let rmse = stage.validation.as_ref().map(|errors| errors.rmse[j]);
-                row.push(rmse.map_or("-".to_owned(), |rmse| significant(rmse, 4)));
-            }
-            for stage in [before, after] {
-                let share = stage.validation.as_ref();
-                let share = share.map(|errors| percent(&errors.relative_percent));
-                row.push(share.unwrap_or_else(|| "-".to_owned()));
-            }
-            let floor = &closed.verdict.noise_floor[j];
-            row.push(format!(
-                "{} +- {}",
-                significant(floor.rms, 3),
-                significant(floor.std, 1)
-            ));
-            row
+    let stages: Vec<(&str, &Stage)> = match &closed.changed {
+        Some(after) => vec![(" before", &closed.before), (" after", after)],
+        None => vec![("", &closed.before)],
+    };
+    let heads = ["fitted", "unseen RMSE", "unseen"].into_iter();
+    let heads = heads.flat_map(|of| stages.iter().map(move |(which, _)| format!("{of}{which}")));
+    let heads: Vec<String> = std::iter::once("joint".to_owned())
+        .chain(heads)
+        .chain(["floor".to_owned()])
+        .collect();
+    let joints = closed.before.arm.joints().iter().enumerate();
+    let rows = joints.map(|(j, name)| {
+        let percent = |values: &[f64]| format!("{:.2} %", values[j]);
+        let or_none = |told: Option<String>| told.unwrap_or_else(|| "-".to_owned());
+        let fitted = stages
+            .iter()
+            .map(|(_, stage)| percent(&stage.estimate.relative_percent));
+        let rmse = stages.iter().map(|(_, stage)| {
+            let errors = stage.validation.as_ref();
+            or_none(errors.map(|errors| significant(errors.rmse[j], 4)))
         });
+        let unseen = stages.iter().map(|(_, stage)| {
+            let errors = stage.validation.as_ref();
+            or_none(errors.map(|errors| percent(&errors.relative_percent)))
+        });
+        let floor = &closed.verdict.noise_floor[j];
+        let floor = format!(
+            "{} +- {}",
+            significant(floor.rms, 3),
+            significant(floor.std, 1)
+        );
+        let cells = fitted.chain(rmse).chain(unseen);
+        std::iter::once(name.clone())
+            .chain(cells)
+            .chain([floor])
+            .collect()
+    });
+    let rows: Vec<Vec<String>> = rows.collect();
     let from = closed.verdict.noise_floor.first().map(|floor| floor.from);
     let floor = match from {
         Some(FloorFrom::Periods) => "what differs from period to period of the motion",
@@ -156,7 +160,7 @@ fn errors(page: &mut Page, closed: &Loop) {
     };
     page.figures(
         &[bars(closed)],
-        &[("before", "declared model"), ("after", "amended model")],
+        &models(closed),
         &format!(
             "Error over torque, in the filtered band, on {}.",
             if closed.before.validation.is_some() {
@@ -166,22 +170,18 @@ fn errors(page: &mut Page, closed: &Loop) {
             }
         ),
     );
+    let of: Vec<String> = errors_of(closed)
+        .iter()
+        .map(|said| sentence(said))
+        .collect();
     page.table(
         &format!(
             "RMSE of raw samples in N m (prismatic joints: N), first and last second cut; relative errors in the filtered band. \
-             The floor is of the fitted logs: {floor}."
+             The floor is of the fitted logs: {floor}. {}",
+            of.join(" ")
         ),
-        &[
-            "joint",
-            "fitted before",
-            "fitted after",
-            "unseen RMSE before",
-            "unseen RMSE after",
-            "unseen before",
-            "unseen after",
-            "floor",
-        ],
-        &rows.collect::<Vec<_>>(),
+        &heads.iter().map(String::as_str).collect::<Vec<_>>(),
+        &rows,
     );
     if closed.before.validation.is_none() {
         page.text("Give --validate for a log that is not fitted.");
@@ -202,12 +202,25 @@ fn bars(closed: &Loop) -> String {
         models.push((Ink::After, percents(closed.after())));
     }
     let bars = Bars {
-        label: "relative errors of every joint before and after the amendment",
+        label: if closed.changed.is_some() {
+            "relative errors of every joint before and after the amendment"
+        } else {
+            "relative errors of every joint, of the declared model"
+        },
         x: "relative error, %",
         joints: closed.before.arm.joints(),
         models,
     };
     bars.svg()
+}
+
+/// Models that are drawn, and their colors: the amended one where something was added.
+fn models(closed: &Loop) -> Vec<(&'static str, &'static str)> {
+    let mut models = vec![("before", "declared model")];
+    if closed.changed.is_some() {
+        models.push(("after", "amended model"));
+    }
+    models
 }
 
 fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
@@ -222,11 +235,9 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
             estimate: &stage.estimate,
         }
     };
-    let mut models = vec![shown(Ink::Before)];
-    let mut legend = vec![("before", "declared model")];
+    let mut drawn = vec![shown(Ink::Before)];
     if closed.changed.is_some() {
-        models.push(shown(Ink::After));
-        legend.push(("after", "amended model"));
+        drawn.push(shown(Ink::After));
     }
     let (log, which) = match &closed.unseen {
         Some(log) => (log, "the log that was not fitted"),
@@ -234,7 +245,7 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
     };
     page.text(&format!("On {which}, {}.", log.source));
     let model = &closed.before.arm.compiled().model;
-    let drawn = Drawn::new(model, &models, log)?;
+    let drawn = Drawn::new(model, &drawn, log)?;
     let named = |joint: usize| {
         let mut found = closed.verdict.findings.iter().chain(&closed.verdict.leads);
         found.any(|finding| finding.joints.contains(&joint))
@@ -249,7 +260,7 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
         page,
         closed.before.arm.joints(),
         &drawn,
-        &legend,
+        &models(closed),
         &|joint| open.contains(&joint),
     );
     Ok(())
@@ -258,7 +269,11 @@ fn residuals(page: &mut Page, closed: &Loop) -> Result<(), Error> {
 fn tried(page: &mut Page, closed: &Loop) {
     let rows = rows(closed, usize::MAX, &|_| true);
     if rows.is_empty() {
-        page.text("Nothing: no effect is left that the spec does not declare.");
+        page.text(if closed.faults.iter().any(|fault| fault.is_last) {
+            "Nothing: logs with such a fault tell no effect."
+        } else {
+            "Nothing: no effect is left that the spec does not declare."
+        });
         return;
     }
     let rows: Vec<Vec<String>> = rows.into_iter().map(|row| row.to_vec()).collect();
@@ -273,16 +288,35 @@ fn tried(page: &mut Page, closed: &Loop) {
 fn data(page: &mut Page, closed: &Loop) {
     if closed.faults.is_empty() {
         page.text("No fault of the logs changes what a joint's error is.");
+    } else {
+        let faults = closed.faults.iter();
+        let told = faults.map(|fault| format!("{}: {}", fault.kind, fault.told));
+        page.list(&told.collect::<Vec<_>>());
     }
+    let checks = closed.checks.iter();
+    let rows = checks.map(|check| vec![check.of.to_owned(), check.found.join("; ")]);
+    page.table(
+        "What the logs that were fitted were looked through for, before anything was asked of the arm",
+        &["looked for", "found"],
+        &rows.collect::<Vec<_>>(),
+    );
     let structure = closed.verdict.before.iter().zip(&closed.verdict.after);
     let joints = closed.before.arm.joints().iter().zip(structure);
     let rows = joints.map(|(name, (before, after))| {
         let percent = |share: f64| format!("{:.0} %", 100.0 * share);
-        vec![name.clone(), percent(before.share), percent(after.share)]
+        let mut row = vec![name.clone(), percent(before.share)];
+        if !closed.verdict.findings.is_empty() {
+            row.push(percent(after.share));
+        }
+        row
     });
+    let mut heads = vec!["joint", "declared model"];
+    if !closed.verdict.findings.is_empty() {
+        heads.push("with the findings");
+    }
     page.table(
         "Share of the error's power that follows the motion",
-        &["joint", "declared model", "with the findings"],
+        &heads,
         &rows.collect::<Vec<_>>(),
     );
 }

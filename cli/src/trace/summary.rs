@@ -7,6 +7,7 @@ use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
+use super::said::{errors_of, outcome};
 use super::tried::tried;
 use super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
@@ -17,19 +18,9 @@ use crate::output::{self, significant};
 pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let verdict = &closed.verdict;
     let mut out = match closed.outcome() {
-        Outcome::NothingMissing => {
-            "nothing missing: the declared model leaves no structure that matters\n".to_owned()
-        }
+        Outcome::NothingMissing => format!("nothing missing: {}\n", outcome(closed)),
         Outcome::Explained => "explained:\n".to_owned(),
-        Outcome::Unexplained if !verdict.leads.is_empty() => {
-            "unexplained: the residual follows the motion; the effects listed here pass the gates but do not account for its \
-             structure, so none is named\n"
-                .to_owned()
-        }
-        Outcome::Unexplained => {
-            "unexplained: the residual follows the motion, and no known effect accounts for it\n"
-                .to_owned()
-        }
+        Outcome::Unexplained => format!("unexplained: {}\n", outcome(closed)),
     };
     for fault in &closed.faults {
         writeln!(out, "  {}: {}", fault.kind, fault.told).expect("a string takes all");
@@ -117,6 +108,9 @@ fn table(closed: &Loop) -> String {
         });
     }
     let mut out = format!("{}\n", output::ERRORS);
+    for said in errors_of(closed) {
+        writeln!(out, "{said}").expect("a string takes all");
+    }
     if columns.len() == 1 {
         out.push_str("(give --validate for a log that is not fitted)\n");
     }

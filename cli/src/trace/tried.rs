@@ -5,7 +5,7 @@ use std::fmt::Write;
 use robot_model::trace::{Finding, Refusal, Tried};
 
 use super::doubt::on_joints;
-use crate::close_the_loop::Loop;
+use crate::close_the_loop::{DataFault, Loop};
 
 /// Rows of a round.
 const MOST: usize = 5;
@@ -72,6 +72,14 @@ fn row(closed: &Loop, one: &Tried) -> [String; 6] {
         passed(closed, one).to_owned()
     } else {
         reasons.join(", ")
+    };
+    let is_found = |fault: &DataFault| {
+        fault.kind == one.kind && (fault.joints.is_empty() || fault.joints == one.joints)
+    };
+    let end = if closed.faults.iter().any(is_found) {
+        format!("found by the data gate and taken out of the logs; what is left of it: {end}")
+    } else {
+        end
     };
     [
         (one.round + 1).to_string(),

@@ -43,6 +43,7 @@ mod output_error;
 mod outputs;
 mod page;
 mod page_of_identify;
+mod page_of_trace;
 mod parameters;
 mod payload;
 mod possible;

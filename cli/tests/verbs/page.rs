@@ -190,7 +190,12 @@ addEventListener("load", () => {
     document.querySelectorAll("details").forEach((part) => { part.open = true; });
     const seen = [...document.querySelectorAll("svg")].map((figure) => {
         const { width, height } = figure.getBoundingClientRect();
-        return width > 100 && height > 100;
+        return width > 100 && height > 40;
+    });
+    // Letters as they are seen, px.
+    const letters = [...document.querySelectorAll("svg")].flatMap((figure) => {
+        const scale = figure.getBoundingClientRect().width / figure.viewBox.baseVal.width;
+        return [...figure.querySelectorAll("text")].map((text) => scale * parseFloat(getComputedStyle(text).fontSize));
     });
     let sorted = 0, unsorted = [];
     for (const table of document.querySelectorAll("table")) {
@@ -207,7 +212,8 @@ addEventListener("load", () => {
         });
     }
     const wider = document.documentElement.scrollWidth > innerWidth;
-    const found = { errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider };
+    const found = { errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider,
+        smallest: Math.min(...letters), largest: Math.max(...letters) };
     const place = document.createElement("pre");
     place.id = "found";
     place.textContent = JSON.stringify(found);
@@ -282,5 +288,51 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
         assert!(found["figures"].as_u64().expect("a number") >= 6, "{found}");
         assert_eq!(found["unseen"], 0, "{found}");
         assert_eq!(found["wider"], false, "{found}, {width} wide");
+        let [smallest, largest] =
+            ["smallest", "largest"].map(|which| found[which].as_f64().expect("a number"));
+        assert!(smallest >= 9.0, "{found}, {width} wide");
+        assert!(largest <= 1.2 * smallest, "{found}, {width} wide");
+    }
+}
+
+/// On paper letters of figures have 6.5 pt: what a page is as wide as says how large they are.
+#[test]
+fn figures_are_readable_on_paper() {
+    /// Of letter paper with Chromium's margins, and of A4, CSS pixels; a point is 4/3 of them.
+    const PAPER: f64 = 718.0;
+    const GAP: f64 = 12.0;
+    let html = traced().read("page/index.html");
+    let page = Html::parse_document(&html);
+    let style = include_str!("../../src/report/page.css");
+    let print = style
+        .split("@media print")
+        .nth(1)
+        .expect("a style of paper");
+    assert!(print.contains(".drawings { grid-template-columns: repeat(2, 1fr); }"));
+    let letters = Selector::parse("text").expect("a selector");
+    for drawings in all(&page, ".drawings") {
+        let figures = drawings.select(&Selector::parse("svg").expect("a selector"));
+        let figures: Vec<ElementRef> = figures.collect();
+        let room = if figures.len() == 1 {
+            PAPER
+        } else {
+            (PAPER - GAP) / 2.0
+        };
+        for figure in figures {
+            let size = figure.value().attr("viewBox").expect("a size");
+            let width: f64 = size
+                .split(' ')
+                .nth(2)
+                .and_then(|width| width.parse().ok())
+                .expect("a width");
+            for text in figure.select(&letters) {
+                let size = text
+                    .value()
+                    .attr("font-size")
+                    .and_then(|size| size.parse::<f64>().ok());
+                let points = 0.75 * size.expect("a size") * (room / width).min(1.0);
+                assert!(points >= 6.5, "{points} pt: {}", text.html());
+            }
+        }
     }
 }

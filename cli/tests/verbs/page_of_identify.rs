@@ -17,7 +17,7 @@ pub(crate) fn identified(more: &[&str]) -> Folder {
 }
 
 /// The cells of the first table whose caption has some words, row by row.
-fn cells(page: &Html, caption: &str) -> Vec<Vec<String>> {
+pub(crate) fn cells(page: &Html, caption: &str) -> Vec<Vec<String>> {
     let [head, rows, row_cells] =
         ["caption", "tbody tr", "th, td"].map(|what| Selector::parse(what).expect("a selector"));
     let mut tables = all(page, "table").into_iter();

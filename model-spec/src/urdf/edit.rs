@@ -142,21 +142,31 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// The comment at the top: a new one, or in the place of that of an earlier export.
+    /// The comment at the top: a new one, or in the place of that of an earlier export; none where there is nothing to be said.
     pub(super) fn note(&mut self, root: Node, notes: &[String]) {
-        let first = root.first_element_child();
-        let indent = first.and_then(|first| self.indent(first)).unwrap_or("");
-        let lines = std::iter::once(MARK.to_owned()).chain(notes.iter().map(|note| comment(note)));
-        let lines: Vec<String> = lines.collect();
-        let text = self.lines(&lines, Some(&format!("{indent}  ")));
-        let text = format!("<!-- {text} -->");
         let is_ours = |node: &Node| {
             node.is_comment()
                 && node
                     .text()
                     .is_some_and(|text| text.trim_start().starts_with(MARK))
         };
-        match root.children().find(is_ours) {
+        let old = root.children().find(is_ours);
+        if notes.is_empty() {
+            // With the line that it is on.
+            let gone = old.map(|old| {
+                let before = self.text[..old.range().start].trim_end().len();
+                (before..old.range().end, String::new())
+            });
+            self.changes.extend(gone);
+            return;
+        }
+        let first = root.first_element_child();
+        let indent = first.and_then(|first| self.indent(first)).unwrap_or("");
+        let lines = std::iter::once(MARK.to_owned()).chain(notes.iter().map(|note| comment(note)));
+        let lines: Vec<String> = lines.collect();
+        let text = self.lines(&lines, Some(&format!("{indent}  ")));
+        let text = format!("<!-- {text} -->");
+        match old {
             Some(old) => self.changes.push((old.range(), text)),
             None => self.insert_first(root, &[text]),
         }

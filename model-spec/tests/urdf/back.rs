@@ -99,6 +99,16 @@ fn numbers_that_are_there_already_change_nothing_but_the_comment_at_the_top() {
     assert_eq!(again.urdf, back.urdf);
 }
 
+/// Nor is a comment left of an earlier export that had something to say.
+#[test]
+fn where_nothing_is_to_be_said_there_is_no_comment() {
+    let silent = |original: &str| written(original, |numbers| numbers.notes.clear()).urdf;
+    assert_eq!(silent(ORIGINAL), ORIGINAL);
+    let noted = written(ORIGINAL, |_| {}).urdf;
+    assert_ne!(noted, ORIGINAL);
+    assert_eq!(silent(&noted), ORIGINAL);
+}
+
 #[test]
 fn a_link_takes_what_is_held_against_it_leaves() {
     let base = written(ORIGINAL, |_| {}).urdf;

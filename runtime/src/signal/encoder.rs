@@ -18,7 +18,18 @@ const MOST_TURN_SHARE: f64 = 0.01;
 
 /// The step of an encoder: a smallest change of a position from sample to sample of which nearly all small changes are whole numbers.
 /// `None` for positions in between, that were filtered or computed.
-fn encoder_step(positions: &[f64]) -> Option<f64> {
+///
+/// # Examples
+/// ```
+/// use robot_model::signal::encoder_step;
+/// let position = |k: i32| 0.7 * (0.01 * f64::from(k)).sin();
+/// let read: Vec<f64> = (0..2000).map(|k| 1e-3 * (1e3 * position(k)).floor()).collect();
+/// let step = encoder_step(&read).expect("an encoder");
+/// assert!((step - 1e-3).abs() < 1e-9);
+/// assert_eq!(encoder_step(&(0..2000).map(position).collect::<Vec<_>>()), None);
+/// ```
+#[must_use]
+pub fn encoder_step(positions: &[f64]) -> Option<f64> {
     let size = positions.iter().fold(0.0_f64, |most, q| most.max(q.abs()));
     let rounding = 1e-12 * size;
     let changes = positions.windows(2).map(|pair| (pair[1] - pair[0]).abs());

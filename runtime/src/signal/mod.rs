@@ -16,6 +16,7 @@ mod shared;
 mod spectrum;
 
 pub use derivative::derivative;
+pub use encoder::encoder_step;
 use encoder::turn_speed;
 pub use error::SignalError;
 pub use filter::LowPass;

@@ -1,0 +1,105 @@
+//! How a trace ended and what its errors are of: sentences that the terminal and the page have in common.
+
+use robot_model::trace::Outcome;
+
+use crate::close_the_loop::{Loop, Stage};
+use crate::output::significant;
+use crate::units::Units;
+
+/// How it ended, without a capital and a full stop.
+pub(super) fn outcome(closed: &Loop) -> &'static str {
+    let (has_effects, has_faults) = (
+        !closed.verdict.findings.is_empty(),
+        !closed.faults.is_empty(),
+    );
+    match closed.outcome() {
+        Outcome::NothingMissing => "the declared model leaves no structure that matters",
+        Outcome::Explained if closed.faults.iter().any(|fault| fault.is_last) => {
+            "what is wrong with the logs comes first, and nothing else was asked of them"
+        }
+        Outcome::Explained if has_effects && has_faults => {
+            "these effects and what is wrong with the logs account for what the declared model left"
+        }
+        Outcome::Explained if has_faults => {
+            "what is wrong with the logs accounts for what the declared model left"
+        }
+        Outcome::Explained => "these effects account for what the declared model left",
+        Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
+            "the residual follows the motion; the effects listed here pass the gates but do not account for its structure, so none is named"
+        }
+        Outcome::Unexplained => {
+            "the residual follows the motion, and no known effect accounts for it"
+        }
+    }
+}
+
+/// Why the spec is as it was; none where it is not.
+pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
+    let why = match closed.outcome() {
+        Outcome::Explained => "no spec declares what is wrong with these logs",
+        Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
+            "no lead accounts for the structure of what is left"
+        }
+        _ => outcome(closed),
+    };
+    closed
+        .changed
+        .is_none()
+        .then(|| format!("nothing was added to the spec: {why}"))
+}
+
+/// With a capital and a full stop.
+pub(super) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string());
+    format!("{}{}.", first.unwrap_or_default(), letters.as_str())
+}
+
+/// What errors before and after are of, beside what [`ERRORS`](crate::output::ERRORS) says: how joints turn round, and bands where they differ.
+pub(super) fn errors_of(closed: &Loop) -> Vec<String> {
+    turning(closed).into_iter().chain(bands(closed)).collect()
+}
+
+/// How slowly joints turn round, where the logs tell.
+fn turning(closed: &Loop) -> Option<String> {
+    let joints = &closed.before.arm.compiled().model.joints;
+    let told = |stage: &Stage| {
+        let speeds = joints.iter().zip(&stage.turn_speeds);
+        let speeds = speeds.filter(|(_, speed)| **speed > 0.0);
+        let speeds = speeds.map(|(joint, speed)| {
+            let unit = Units::of(joint.kind).velocity;
+            format!("{} {unit} on {}", significant(*speed, 2), joint.name)
+        });
+        let speeds: Vec<String> = speeds.collect();
+        if speeds.is_empty() {
+            "0".to_owned()
+        } else {
+            speeds.join(", ")
+        }
+    };
+    let stages = [&closed.before, closed.after()];
+    let mut speeds = stages.iter().flat_map(|stage| &stage.turn_speeds);
+    if !speeds.any(|speed| *speed > 0.0) {
+        return None;
+    }
+    let [before, after] = stages.map(told);
+    let widths = if before == after {
+        format!("w = {after}")
+    } else {
+        format!("w = {before} before, and {after} after")
+    };
+    Some(format!(
+        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, and may leave \
+         rows at turns out, so its errors of the same model on the same log are others"
+    ))
+}
+
+/// The bands of both models, where they are not the same.
+fn bands(closed: &Loop) -> Option<String> {
+    let [before, after] = [&closed.before, closed.after()].map(|stage| stage.estimate.bands);
+    (before != after).then(|| {
+        format!(
+            "bands of the filters (shared, smooth, wide) are {before} before, and {after} after, since links follow the load"
+        )
+    })
+}

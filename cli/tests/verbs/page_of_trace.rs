@@ -1,0 +1,133 @@
+//! What stands on the pages of `trace --report`.
+
+use scraper::Html;
+
+use crate::common::{CART, Folder, cart_log};
+use crate::delays::late;
+use crate::page::{all, text};
+use crate::page_of_identify::cells;
+
+/// The report of a trace of a cart, and its folder.
+fn traced(spec: &str, log: &str) -> (Folder, String) {
+    let folder = Folder::new();
+    folder.write("cart.robot", spec);
+    folder.write("log.csv", log);
+    folder.succeed(&["trace", "cart.robot", "log.csv", "--report", "page"]);
+    let html = folder.read("page/index.html");
+    (folder, html)
+}
+
+/// The paragraph below a heading.
+fn below(html: &str, heading: &str) -> String {
+    let start = html
+        .find(&format!(">{heading}</h2>"))
+        .unwrap_or_else(|| panic!("no {heading}"));
+    let rest = &html[start..];
+    let text = rest
+        .split("<p>")
+        .nth(1)
+        .and_then(|text| text.split("</p>").next());
+    text.expect("a paragraph").to_owned()
+}
+
+#[test]
+fn where_nothing_is_missing_the_page_says_that_nothing_was_added() {
+    let (_, html) = traced(CART, &cart_log(40, 0.0, 0.0));
+    let page = Html::parse_document(&html);
+    assert!(text(all(&page, ".verdict")[0]).starts_with("Nothing missing"));
+    assert_eq!(
+        below(&html, "Change of the spec"),
+        "Nothing was added to the spec: the declared model leaves no structure that matters."
+    );
+    assert!(
+        !html.contains("amended") && !html.contains("after</"),
+        "{html}"
+    );
+    // All that was looked for, with nothing found but the rate.
+    let looks = cells(&page, "looked through for");
+    assert!(looks.len() >= 10, "{looks:?}");
+    for look in &looks {
+        assert!(look[1].starts_with("none found"), "{look:?}");
+    }
+    assert_eq!(looks[0][1], "none found: 200.0 Hz");
+}
+
+#[test]
+fn a_delay_is_said_to_be_found_by_the_data_gate() {
+    let (_, html) = traced(CART, &late(&cart_log(20, 0.0, 0.0), 4));
+    let page = Html::parse_document(&html);
+    let verdict = text(all(&page, ".verdict")[0]);
+    assert!(
+        verdict.ends_with("What is wrong with the logs accounts for what the declared model left."),
+        "{verdict}"
+    );
+    let tried = cells(&page, "Effects that explained most");
+    let delays = tried.iter().filter(|row| row[1] == "time-delay");
+    for row in delays {
+        assert!(row[5].starts_with("found by the data gate"), "{row:?}");
+    }
+    let looks = cells(&page, "looked through for");
+    let look = looks
+        .iter()
+        .find(|look| look[0] == "delays between channels");
+    let found = &look.expect("delays")[1];
+    assert!(
+        found.starts_with("tau1 is 20.0") && found.contains("ms late"),
+        "{found}"
+    );
+}
+
+/// Effects of the library and of one's own, on a joint that slides.
+#[test]
+fn parameters_of_effects_have_units() {
+    let own = "\
+/// Dry friction of my seal.
+effect seal(j) {
+    /// Force of the seal, N m (N for a prismatic joint).
+    linear f >= 0;
+    torque(j) = f * sign(dq(j));
+}
+";
+    let spec = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail;\n        seal on rail;",
+    );
+    let (_, html) = traced(&format!("{own}{spec}"), &cart_log(40, 2.0, 0.0));
+    let page = Html::parse_document(&html);
+    let rows = cells(&page, "Intervals hold the value");
+    let told = |name: &str| {
+        let row = rows.iter().find(|row| row[0] == name);
+        let row = row.unwrap_or_else(|| panic!("{name}: {rows:?}"));
+        [row[5].clone(), row[6].clone()]
+    };
+    assert_eq!(told("rail.seal.f"), ["N", "Force of the seal"]);
+    assert_eq!(
+        told("rail.viscous_friction.fv"),
+        ["N s/m", "Viscous coefficient"]
+    );
+}
+
+/// Another reader sees whether he has the same files, and gets the same page from them.
+#[test]
+fn a_page_says_of_which_files_it_is() {
+    let (folder, html) = traced(CART, &cart_log(20, 0.0, 0.0));
+    let version = format!("by robot-model {}:", env!("CARGO_PKG_VERSION"));
+    assert!(below(&html, "Again").contains(&version), "{html}");
+    let page = Html::parse_document(&html);
+    let files = cells(&page, "Files that were read");
+    let names: Vec<&str> = files.iter().map(|row| row[0].as_str()).collect();
+    assert_eq!(names, ["cart.robot", "log.csv"]);
+    assert_eq!(files[0][1], CART.len().to_string());
+    let again = || {
+        folder.succeed(&["trace", "cart.robot", "log.csv", "--report", "page"]);
+        folder.read("page/index.html")
+    };
+    assert_eq!(again(), html);
+    // One digit of the log.
+    let log = folder.read("log.csv");
+    folder.write("log.csv", &log.replacen("0.1", "0.2", 1));
+    let other = Html::parse_document(&again());
+    let others = cells(&other, "Files that were read");
+    assert_eq!(files[0], others[0]);
+    assert_ne!(files[1][2], others[1][2]);
+}
