@@ -65,7 +65,8 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
             "Explained",
             "These effects account for what the declared model left.",
         ),
-        Outcome::Unexplained => page.verdict(
+        // Unexplained, or an outcome of which this page knows no more.
+        _ => page.verdict(
             "open",
             "Unexplained",
             "The residual follows the motion, and no known effect accounts for it.",
