@@ -9,8 +9,65 @@ use std::path::{Path, PathBuf};
 
 use source::Source;
 
-/// Types whose fields and variants stay as they are until a new major version.
-const EXHAUSTIVE: &[&str] = &[];
+/// Types whose fields and variants stay as they are until a new major version, by why.
+const EXHAUSTIVE: &[&str] = &[
+    // Options and limits, which users fill by `..Default::default()` or beside a constructor.
+    "control::adaptive::Adaptation",
+    "control::friction::Friction",
+    "excite::Request",
+    "excite::limits::Limits",
+    "identify::Identify",
+    "identify::output_error::OutputError",
+    "identify::output_error::law::JointLaw",
+    "identify::output_error::law::Law",
+    "identify::output_error::law::Tap",
+    "log::columns::Column",
+    "log::columns::Columns",
+    "signal::prepare::Bands",
+    "simulate::integrate::tolerances::Tolerances",
+    "simulate::looped::Loop",
+    "simulate::noise::Sensors",
+    // What implementations of traits make, and what they are asked with.
+    "columns::Entry",
+    "columns::Nominal",
+    "columns::Shape",
+    "columns::Unknown",
+    "excite::function::Regressor",
+    "motion::Kinematics",
+    "motion::Motion",
+    "simulate::adjustable::ParameterSlopes",
+    "simulate::controller::Measured",
+    "simulate::plant::Instant",
+    "simulate::plant::Jumps",
+    "simulate::plant::Slopes",
+    // What users hand in.
+    "control::counterbalance::Weight",
+    "control::reference::Reference",
+    "excite::clearance::Ball",
+    "excite::clearance::Room",
+    "excite::clearance::TorqueLimits",
+    "excite::criterion::Rivals",
+    "excite::fourier::Fourier",
+    "friction_curve::rows::Measured",
+    "identify::payload::drive_gains::KnownPayload",
+    "identify::stack::JointRows",
+    "identify::stack::Segment",
+    "identify::stack::Stack",
+    "log::Channel",
+    "log::mcap::written::JointStates",
+    "simulate::motion::Drive",
+    "simulate::trajectory::Desired",
+    // Numbers: a value with its deviation, a dual number, a body, a state.
+    "friction_curve::Value",
+    "friction_curve::law::fall::Fall",
+    "link::Inertial",
+    "link::Link",
+    "scalar::dual::Dual",
+    "state::State",
+    // Two of a kind, and who goes on has to know which: another one would be a new version anyway.
+    "identify::estimate::Form",
+    "identify::output_error::recording::Hold",
+];
 
 /// What nalgebra asks of the entries of its matrices.
 const LEAKS: &[(&str, &str)] = &[("scalar::Scalar", "One"), ("scalar::Scalar", "Zero")];

@@ -240,7 +240,7 @@ impl Source {
             let made = block
                 .trait_
                 .as_ref()
-                .and_then(|(_, made, _)| made.segments.last());
+                .and_then(|(made, _)| made.segments.last());
             if let Some(made) = made {
                 look(module, of, text(&made.arguments));
                 continue;
