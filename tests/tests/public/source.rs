@@ -164,7 +164,7 @@ impl Source {
                             Some((format!("{at}::{}", it.sig.ident), has_example(&it.attrs)))
                         }
                         _ => None,
-                    }))
+                    }));
                 }
                 _ => {}
             }
