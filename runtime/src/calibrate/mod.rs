@@ -56,7 +56,6 @@ const CONFIDENCE: f64 = 0.95;
 /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[non_exhaustive]
 pub struct Measured {
     /// The value, in the unit of its kind.
     pub value: f64,

@@ -58,6 +58,7 @@ const EXHAUSTIVE: &[&str] = &[
     "simulate::motion::Drive",
     "simulate::trajectory::Desired",
     // Numbers: a value with its deviation, a dual number, a body, a state.
+    "calibrate::Measured",
     "friction_curve::Value",
     "friction_curve::law::fall::Fall",
     "link::Inertial",
