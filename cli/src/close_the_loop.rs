@@ -197,7 +197,7 @@ fn trace(
     }
 }
 
-fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, Error> {
+pub(crate) fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, Error> {
     let model = load(source_name, text)?;
     Ok(InterpretedArm::new(clear(compile_model(&model))?))
 }

@@ -52,6 +52,6 @@ pub fn load(source_name: &str, text: &str) -> Result<Model, Diagnostics> {
 ///
 /// # Errors
 /// Every place where the text does not follow the grammar.
-pub fn parse(source_name: &str, text: &str) -> Result<Ast, Diagnostics> {
+pub(crate) fn parse(source_name: &str, text: &str) -> Result<Ast, Diagnostics> {
     parse::parse_text(text).map_err(|errors| Diagnostics::new(source_name, text, errors))
 }

@@ -34,8 +34,10 @@
 //! ```
 
 mod candidate;
+mod momentum;
 
 pub use candidate::{Candidate, Change};
+pub use momentum::MomentumArm;
 
 use crate::identify::PossibleArms;
 use crate::motion::Motion;
@@ -81,25 +83,40 @@ pub struct Entry {
 /// Something that contributes columns to `tau = columns * unknowns + known`.
 ///
 /// # Examples
-/// The arm of the example of [`Arm`]:
-/// ```
-/// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
-/// use robot_model::columns::Columns;
-/// // With izz, mx, fs and kt; vs, and how far the encoder is off, are open. What each multiplies, at 40 degrees:
-/// let (axis, motion) = (axis::axis(), axis::upright());
-/// assert_eq!((axis.unknowns().len(), axis.shapes()[0].name.as_str()), (4, "axis.stribeck.vs"));
-/// let columns: Vec<f64> = axis.entries(&motion, &[0.1, 0.0]).iter().map(|entry| entry.values[0]).collect();
-/// assert_eq!(columns, [3.0, 1.0, (-1.0_f64).exp(), 4.0]); // ddq, sin(q), exp(-(dq / vs)^2), 40 dq
-/// assert!(!axis.uses_rigid_torque());
-/// ```
+/// The module has one of an effect, [`Arm`] of a whole arm; examples of the methods are of that arm.
 pub trait Columns: Sync {
     /// The unknowns, one per column.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Columns;
+    /// let axis = axis::axis();
+    /// let names: Vec<&str> = axis.unknowns().iter().map(|unknown| unknown.name.as_str()).collect();
+    /// assert_eq!(names, ["link.izz", "link.mx", "axis.stribeck.fs", "axis.warm.kt"]);
+    /// ```
     fn unknowns(&self) -> &[Unknown];
 
     /// Shape parameters that are not given a value; often none.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Columns;
+    /// // The Stribeck speed, and how far the encoder is off.
+    /// let axis = axis::axis();
+    /// assert_eq!((axis.shapes().len(), axis.shapes()[0].name.as_str()), (2, "axis.stribeck.vs"));
+    /// ```
     fn shapes(&self) -> &[Shape];
 
     /// Whether [`Self::entries`] reads [`Motion::rigid_torque`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Columns;
+    /// assert!(!axis::axis().uses_rigid_torque()); // no friction that grows with the load
+    /// ```
     fn uses_rigid_torque(&self) -> bool;
 
     /// Channels of the log, beside positions and torques, that [`Self::entries`] reads; often none.
@@ -117,6 +134,16 @@ pub trait Columns: Sync {
 
     /// The columns over a motion; entries that are zero by structure are left out. `shapes` has one value per
     /// [`Self::shapes`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Columns;
+    /// // Of izz, mx, fs and kt at 40 degrees: ddq, sin(q), exp(-(dq / vs)^2), 40 dq.
+    /// let entries = axis::axis().entries(&axis::upright(), &[0.1, 0.0]);
+    /// let columns: Vec<f64> = entries.iter().map(|entry| entry.values[0]).collect();
+    /// assert_eq!(columns, [3.0, 1.0, (-1.0_f64).exp(), 4.0]);
+    /// ```
     fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
 }
 
@@ -126,29 +153,67 @@ pub trait Columns: Sync {
 /// ```
 #[doc = include_str!("../tests/doc/axis.rs")]
 ///
-/// let (axis, motion) = (axis(), upright());
-/// assert_eq!((axis.dof(), axis.joints()[0].as_str(), axis.actuator_gain()[0]), (1, "axis", 50.0));
-/// assert_eq!(axis.known_torque(&motion, &[0.1, 0.0]), [[0.2 * 0.1]]);
-/// // izz ddq + mx sin(q)
-/// let torque = axis.rigid_torque(&motion, &[0.1, 0.0], &[0.5, 9.0, 1.0, 0.0]);
-/// assert_eq!(torque, [[0.5 * 3.0 + 9.0]]);
+/// // 50 tau at vs = 0.1, with izz = 0.5, mx = 9, fs = 1.
+/// let (shapes, estimate) = ([0.1, 0.0], [0.5, 9.0, 1.0, 0.0]);
+/// let entries = axis().entries(&upright(), &shapes);
+/// let unknown: f64 = entries.iter().map(|entry| estimate[entry.column] * entry.values[0]).sum();
+/// let torque = unknown + axis().known_torque(&upright(), &shapes)[0][0];
+/// assert!((torque - (0.5 * 3.0 + 9.0 + (-1.0_f64).exp() + 0.2 * 0.1)).abs() < 1e-12);
 /// ```
 pub trait Arm: Columns {
     /// Degrees of freedom.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().dof(), 1);
+    /// ```
     fn dof(&self) -> usize;
 
     /// Names of the joints, base to tip.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().joints(), ["axis"]);
+    /// ```
     fn joints(&self) -> &[String];
 
     /// Joint torque per unit of the logged channel, one a joint.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// assert_eq!(axis::axis().actuator_gain(), [50.0]); // N m/A: its log has currents
+    /// ```
     fn actuator_gain(&self) -> &[f64];
 
     /// Torque of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none. `shapes` as in
     /// [`Columns::entries`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// // 0.2 N m s/rad at 0.1 rad/s.
+    /// assert_eq!(axis::axis().known_torque(&axis::upright(), &[0.1, 0.0]), [[0.2 * 0.1]]);
+    /// ```
     fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 
     /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.
     /// `shapes` as in [`Columns::entries`]. Links count as standing where the log has their joints.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
+    /// use robot_model::columns::Arm;
+    /// // izz ddq + mx sin(q)
+    /// let torque = axis::axis().rigid_torque(&axis::upright(), &[0.1, 0.0], &[0.5, 9.0, 1.0, 0.0]);
+    /// assert_eq!(torque, [[0.5 * 3.0 + 9.0]]);
+    /// ```
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>>;
 
     /// What the transmissions carried, `[joint][sample]`: the logged torque less that of the declared effects at `estimate`.
@@ -275,40 +340,4 @@ pub trait Arm: Columns {
     fn possible_arms(&self) -> Option<PossibleArms> {
         None
     }
-}
-
-/// An arm whose torque is known without accelerations, as `tau = d/dt (momentum columns) - (drift columns)`.
-///
-/// Both sets of columns belong to [`Columns::unknowns`] of the arm. They read [`Motion`] without `ddq`, which may have no
-/// channels.
-///
-/// # Examples
-/// ```
-/// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
-/// use robot_model::columns::MomentumArm;
-/// use robot_model::motion::{Kinematics, Motion};
-///
-/// // A pendulum: tau = d/dt (izz dq) + mx sin(q) + fv dq
-/// let moving = Kinematics { q: vec![vec![0.5]], dq: vec![vec![2.0]], ddq: Vec::new() };
-/// let motion = Motion { time: vec![0.0], smooth: moving.clone(), wide: moving, ..Motion::default() };
-/// let arm = pendulum::pendulum();
-/// assert_eq!(arm.momentum(&motion, &[])[0].values, [2.0]);
-/// let drift: Vec<f64> = arm.drift(&motion, &[]).iter().map(|entry| entry.values[0]).collect();
-/// assert_eq!(drift, [-0.5_f64.sin(), -2.0]);
-/// // The spec fixes nothing.
-/// assert_eq!((arm.known_momentum(&motion, &[]), arm.known_drift(&motion, &[])), (vec![vec![0.0]], vec![vec![0.0]]));
-/// ```
-pub trait MomentumArm: Arm {
-    /// Columns of the generalized momentum, `Y_p`; entries that are zero by structure are left out.
-    fn momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
-
-    /// Columns of what changes the momentum beside the torque, `Y_h`: for a rigid body `C^T dq - G`.
-    fn drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry>;
-
-    /// Momentum of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none. `shapes` as in
-    /// [`Columns::entries`].
-    fn known_momentum(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
-
-    /// Drift of the parameters that the spec fixes, `[joint][sample]`; zeros where it fixes none.
-    fn known_drift(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 }

@@ -4,6 +4,8 @@
 //! [`Scalar`], parameters in `f64`.
 
 mod arrays;
+#[macro_use]
+mod example;
 mod parameters;
 
 pub use arrays::{as_array, from_rows, in_scalar};
@@ -50,24 +52,6 @@ pub type Matrix<const R: usize, const C: usize> = SMatrix<f64, R, C>;
 /// // m l^2 ddq + fv dq + m g l cos(q); one joint has no Coriolis torque.
 /// let tau = arm.inverse_dynamics(&q, &dq, &ddq);
 /// assert!((tau[0] - (0.5 + 0.3 + 9.81)).abs() < 1e-12);
-/// assert!((arm.bias(&q, &dq)[0] - 9.81).abs() < 1e-12 && arm.coriolis_matrix(&q, &dq)[0].abs() < 1e-12);
-/// assert!((tau - arm.regressor_of(&q, &dq, &ddq) * arm.standard()).norm() < 1e-12);
-/// assert!((tau - Pendulum::base_regressor(&q, &dq, &ddq) * arm.beta()).norm() < 1e-12);
-/// ```
-/// The same pendulum with oil that halves its friction every 20 K, at 40 degrees Celsius:
-#[cfg_attr(feature = "derive", doc = "```")]
-#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-/// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
-/// use robot_model::RobotModel;
-/// let (arm, state) = (arms::warm(), arms::moving());
-/// let tau = arm.inverse_dynamics_at(&state);
-/// assert!((tau[0] - (0.5 * 2.0 + 0.2 * 3.0)).abs() < 1e-12);
-/// let (standard, shapes) = (arm.standard(), arm.shapes());
-/// assert!((tau - arms::Warm::regressor_at(&state, &shapes) * standard).norm() < 1e-12);
-/// // If it halved every 10 K:
-/// let row = arms::Warm::base_regressor_at(&state, &(shapes * 2.0));
-/// let tau = row * arms::Warm::base_parameters(&standard);
-/// assert!((tau[0] - (0.5 * 2.0 + 0.1 * 3.0)).abs() < 1e-12);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no `RobotModel` of these sizes",
@@ -101,19 +85,33 @@ pub trait RobotModel<
     const NOMINAL_SHAPES: [f64; SHAPES];
 
     /// `beta = map * standard`; each in SI units.
+    ///
+    /// # Examples
+    #[doc = two_link!()]
+    /// // 2 kg at the elbow link's frame, the tip, which is 0.4 m from the elbow.
+    /// let mut standard = Vector::zeros();
+    /// standard[10] = 2.0;
+    /// assert_eq!(arms::TwoLink::BASE_PARAMETERS[3], "elbow.mxr");
+    /// assert!((arms::TwoLink::base_parameters(&standard)[3] - 2.0 * 0.4).abs() < 1e-12);
+    /// ```
     fn base_parameters(standard: &Vector<STANDARD>) -> Vector<BASE>;
 
     /// The arm's standard parameters, in SI units. An arm that knows its base parameters only has those that
     /// [`FromParameters::standard_of`] makes of them: the torque is the same.
+    ///
+    /// # Examples
+    #[doc = two_link!()]
+    /// // The forearm has 2.5 kg, 0.2 m behind the tip.
+    /// let standard = arms::two_link().standard();
+    /// assert_eq!(arms::TwoLink::STANDARD_PARAMETERS[10..12], ["elbow.m", "elbow.mx"]);
+    /// assert_eq!((standard[10], standard[11]), (2.5, -0.5));
+    /// ```
     fn standard(&self) -> Vector<STANDARD>;
 
     /// The arm's base parameters, in the order of [`Self::BASE_PARAMETERS`].
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::RobotModel;
+    #[doc = two_link!()]
     /// // Of the elbow's link 2.5 kg at 0.2 m from the joint: its mass is regrouped into the first moment.
     /// assert_eq!(arms::TwoLink::BASE_PARAMETERS[3], "elbow.mxr");
     /// assert!((arms::two_link().beta()[3] - 2.5 * 0.2).abs() < 1e-12);
@@ -123,6 +121,13 @@ pub trait RobotModel<
     }
 
     /// The arm's shape parameters, in the order of [`Self::SHAPE_PARAMETERS`].
+    ///
+    /// # Examples
+    #[doc = warm!()]
+    /// // Oil that halves its friction every 20 K.
+    /// assert_eq!(arms::Warm::SHAPE_PARAMETERS, ["pivot.temperature_viscous.beta"]);
+    /// assert_eq!(arms::warm().shapes()[0], 0.05 * std::f64::consts::LN_2);
+    /// ```
     fn shapes(&self) -> Vector<SHAPES>;
 
     /// Mass matrix `M(q)`, DOF x DOF, kg m^2 (kg for prismatic joints); symmetric.
@@ -133,10 +138,8 @@ pub trait RobotModel<
     /// [`Self::inverse_dynamics`].
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{Mechanics, RobotModel, Vector};
+    #[doc = two_link!()]
+    /// use robot_model::Mechanics;
     /// let (arm, q, dq) = (arms::two_link(), Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
     /// let energy = 0.5 * dq.dot(&(arm.mass_matrix(&q) * dq));
     /// assert!((energy - arm.kinetic_energy(&q, &dq)).abs() < 1e-12);
@@ -144,6 +147,15 @@ pub trait RobotModel<
     fn mass_matrix<S: Scalar>(&self, q: &SVector<S, DOF>) -> SMatrix<S, DOF, DOF>;
 
     /// Coriolis matrix `C(q, dq)`, DOF x DOF, with `dM/dt - 2 C` skew.
+    ///
+    /// # Examples
+    #[doc = two_link!()]
+    /// let (arm, q, dq) = (arms::two_link(), Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
+    /// let step = dq * 1e-6;
+    /// let rate = (arm.mass_matrix(&(q + step)) - arm.mass_matrix(&(q - step))) / 2e-6;
+    /// let skew = rate - arm.coriolis_matrix(&q, &dq) * 2.0;
+    /// assert!(skew.norm() > 0.1 && (skew + skew.transpose()).norm() < 1e-8);
+    /// ```
     fn coriolis_matrix<S: Scalar>(
         &self,
         q: &SVector<S, DOF>,
@@ -153,10 +165,7 @@ pub trait RobotModel<
     /// Gravity torque `G(q)`, N m or N.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// // Stretched: 4 kg at 0.25 m, 2.5 kg at 0.7 m from the shoulder and 0.2 m from the elbow.
     /// let gravity = arms::two_link().gravity(&Vector::from([0.0, 0.0]));
     /// assert!((gravity - Vector::from([9.81 * (4.0 * 0.25 + 2.5 * 0.7), 9.81 * 2.5 * 0.2])).norm() < 1e-12);
@@ -164,15 +173,20 @@ pub trait RobotModel<
     fn gravity<S: Scalar>(&self, q: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Bias torque `C * dq + G`, N m or N.
+    ///
+    /// # Examples
+    #[doc = two_link!()]
+    /// // The forearm hangs square to an upper arm of 0.5 m that turns at 2 rad/s: 0.5 m * 0.5 kg m * (2 rad/s)^2.
+    /// let q = Vector::from([0.0, std::f64::consts::FRAC_PI_2]);
+    /// let bias = arms::two_link().bias(&q, &Vector::from([2.0, 0.0]));
+    /// assert!((bias[1] - 0.5 * 0.5 * 4.0).abs() < 1e-12);
+    /// ```
     fn bias<S: Scalar>(&self, q: &SVector<S, DOF>, dq: &SVector<S, DOF>) -> SVector<S, DOF>;
 
     /// Joint torque `tau = M * ddq + C * dq + G + effects`, N m or N, at time zero and with no measured torque.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// // Stretched, only the elbow moves: izz about the elbow is 0.14 kg m^2, fv 0.6 N m s/rad, fc 0.8 N m.
     /// let (q, dq, ddq) = (Vector::from([0.0, 0.0]), Vector::from([0.0, 3.0]), Vector::from([0.0, 2.0]));
     /// let tau = arms::two_link().inverse_dynamics(&q, &dq, &ddq);
@@ -187,14 +201,18 @@ pub trait RobotModel<
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
-        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::inverse_dynamics_at(
-            self,
-            &State::new(*q, *dq, *ddq),
-        )
+        let state = State::new(*q, *dq, *ddq);
+        RobotModel::<DOF, STANDARD, BASE, SHAPES>::inverse_dynamics_at(self, &state)
     }
 
     /// [`Self::inverse_dynamics`] for effects that depend on more than the motion. `state.rigid_torque` is not read: the
     /// load of load-dependent effects is the arm's own.
+    ///
+    /// # Examples
+    #[doc = warm!()]
+    /// let tau = arms::warm().inverse_dynamics_at(&arms::moving());
+    /// assert!((tau[0] - (0.5 * 2.0 + 0.2 * 3.0)).abs() < 1e-12);
+    /// ```
     fn inverse_dynamics_at<S: Scalar>(
         &self,
         state: &State<DOF, STATES, INPUTS, S>,
@@ -205,10 +223,7 @@ pub trait RobotModel<
     /// Columns of load-dependent effects are those of the arm's own load `M ddq + C dq + G`, and shape parameters are its own.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// let (arm, rest) = (arms::two_link(), Vector::zeros());
     /// // The torque of a change of one parameter: 0.1 kg more at the elbow link's frame, the tip.
     /// let columns = arm.regressor_of(&rest, &rest, &rest);
@@ -224,19 +239,14 @@ pub trait RobotModel<
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
-        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::regressor_of_at(
-            self,
-            &State::new(*q, *dq, *ddq),
-        )
+        let state = State::new(*q, *dq, *ddq);
+        RobotModel::<DOF, STANDARD, BASE, SHAPES>::regressor_of_at(self, &state)
     }
 
     /// [`Self::regressor_of`] for effects that depend on more than the motion.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
-    /// use robot_model::RobotModel;
+    #[doc = warm!()]
     /// // Columns of izz and fv: the oil of 40 degrees has half of the friction at 20.
     /// let row = arms::warm().regressor_of_at(&arms::moving());
     /// assert!((row[9] - 2.0).abs() < 1e-12 && (row[10] - 0.5 * 3.0).abs() < 1e-12);
@@ -253,10 +263,7 @@ pub trait RobotModel<
     /// fixes; as [`Self::regressor_of`].
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// let (arm, rest) = (arms::two_link(), Vector::zeros());
     /// // Stretched and at rest: 2.5 kg at 0.2 m from the elbow.
     /// let tau = arm.base_regressor_of(&rest, &rest, &rest) * arm.beta();
@@ -272,19 +279,14 @@ pub trait RobotModel<
     where
         Self: RobotModel<DOF, STANDARD, BASE, SHAPES>,
     {
-        <Self as RobotModel<DOF, STANDARD, BASE, SHAPES>>::base_regressor_of_at(
-            self,
-            &State::new(*q, *dq, *ddq),
-        )
+        let state = State::new(*q, *dq, *ddq);
+        RobotModel::<DOF, STANDARD, BASE, SHAPES>::base_regressor_of_at(self, &state)
     }
 
     /// [`Self::base_regressor_of`] for effects that depend on more than the motion.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/warm.rs")); }
-    /// use robot_model::RobotModel;
+    #[doc = warm!()]
     /// let arm = arms::warm();
     /// let tau = arm.base_regressor_of_at(&arms::moving()) * arm.beta();
     /// assert!((tau[0] - (0.5 * 2.0 + 0.2 * 3.0)).abs() < 1e-12);
@@ -301,10 +303,8 @@ pub trait RobotModel<
     /// reads.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, State, Vector};
+    #[doc = two_link!()]
+    /// use robot_model::State;
     /// // Stretched and at rest the elbow's gear carries 2.5 kg at 0.2 m.
     /// let loaded = arms::two_link().loaded(&State::at_rest(Vector::from([0.0, 0.0])));
     /// assert!((loaded.rigid_torque[1] - 9.81 * 2.5 * 0.2).abs() < 1e-12);
@@ -325,10 +325,7 @@ pub trait RobotModel<
     /// effects read no load and whose shape parameters are the nominal ones. Of every arm: [`Self::regressor_of`].
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// let (q, dq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, 0.5]));
     /// let columns = arms::TwoLink::regressor(&q, &dq, &Vector::zeros());
     /// assert_eq!(arms::TwoLink::STANDARD_PARAMETERS[22], "elbow.viscous_friction.fv");
@@ -350,6 +347,13 @@ pub trait RobotModel<
     }
 
     /// [`Self::regressor`] for effects that depend on load, time, memory, channels or shape parameters.
+    ///
+    /// # Examples
+    #[doc = warm!()]
+    /// let (arm, state) = (arms::warm(), arms::moving());
+    /// let tau = arms::Warm::regressor_at(&state, &arm.shapes()) * arm.standard();
+    /// assert!((tau - arm.inverse_dynamics_at(&state)).norm() < 1e-12);
+    /// ```
     fn regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,
@@ -359,10 +363,7 @@ pub trait RobotModel<
     /// [`Self::regressor`] at time zero, without load, with nominal shapes.
     ///
     /// # Examples
-    #[cfg_attr(feature = "derive", doc = "```")]
-    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
-    /// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
-    /// use robot_model::{RobotModel, Vector};
+    #[doc = two_link!()]
     /// let (q, dq) = (Vector::from([0.3, -0.8]), Vector::from([1.0, -0.5]));
     /// let columns = arms::TwoLink::base_regressor(&q, &dq, &Vector::zeros());
     /// assert_eq!(arms::TwoLink::BASE_PARAMETERS[9], "elbow.coulomb_friction.fc");
@@ -384,6 +385,14 @@ pub trait RobotModel<
     }
 
     /// [`Self::base_regressor`] for effects that depend on load, time, memory, channels or shape parameters.
+    ///
+    /// # Examples
+    #[doc = warm!()]
+    /// // If the oil halved its friction every 10 K:
+    /// let (arm, state) = (arms::warm(), arms::moving());
+    /// let tau = arms::Warm::base_regressor_at(&state, &(arm.shapes() * 2.0)) * arm.beta();
+    /// assert!((tau[0] - (0.5 * 2.0 + 0.1 * 3.0)).abs() < 1e-12);
+    /// ```
     fn base_regressor_at<S: Scalar>(
         state: &State<DOF, STATES, INPUTS, S>,
         shapes: &Vector<SHAPES>,

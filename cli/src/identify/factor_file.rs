@@ -68,12 +68,10 @@ impl Part {
     }
 
     fn into_rows(self) -> FactorRows {
-        FactorRows {
-            counts: self.counts,
-            rows: self.rows,
-            torque_squares: self.torque_squares,
-            most_torque: self.most_torque,
-        }
+        let mut rows = FactorRows::default();
+        (rows.counts, rows.rows) = (self.counts, self.rows);
+        (rows.torque_squares, rows.most_torque) = (self.torque_squares, self.most_torque);
+        rows
     }
 
     /// What is wrong with rows of so many joints and columns.
@@ -231,11 +229,12 @@ impl Opened<'_> {
         factor.joints = file.joints;
         factor.unknowns = file.unknowns;
         factor.equations = file.equations;
-        let blocks = file.blocks.into_iter().map(|block| FactorBlock {
-            samples: block.samples,
-            prints: block.prints,
-            whole: block.whole.into_rows(),
-            away: block.away.map(Part::into_rows),
+        let blocks = file.blocks.into_iter().map(|read| {
+            let mut block = FactorBlock::default();
+            (block.samples, block.prints) = (read.samples, read.prints);
+            block.whole = read.whole.into_rows();
+            block.away = read.away.map(Part::into_rows);
+            block
         });
         factor.blocks = blocks.collect();
         // Of this arm, and of none that is alike.

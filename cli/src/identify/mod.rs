@@ -210,10 +210,10 @@ impl IdentifyArguments {
             told_apart(&estimate)?;
         }
         let each = errors_of_each(&estimate, form, &logs)?;
-        let train = Errors {
-            relative_percent: estimate.relative_percent.clone(),
-            ..Errors::of_all(&each)
-        };
+        let mut train = Errors::of_all(&each);
+        train
+            .relative_percent
+            .clone_from(&estimate.relative_percent);
         let validation = validate
             .as_ref()
             .map(|log| form.errors(&estimate, log))
@@ -279,10 +279,10 @@ impl IdentifyArguments {
         let mut faults = Vec::new();
         let reduced = streams.reduce(&identify, &mut faults, &progress)?;
         let estimate = reduced.estimate(form.arm(), &identify)?;
-        let train = Errors {
-            relative_percent: estimate.relative_percent.clone(),
-            ..streams.errors(&estimate, &progress)?
-        };
+        let mut train = streams.errors(&estimate, &progress)?;
+        train
+            .relative_percent
+            .clone_from(&estimate.relative_percent);
         let mut read = |path: &PathBuf| self.log(path, form, &mut faults, &progress);
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let validation = validate

@@ -51,13 +51,10 @@ mod tests {
             Log::from_samples(name, time, zeros.clone(), zeros).expect("a log")
         };
         let of = |rmse: [f64; 2], shares: [f64; 2]| {
-            let part = Errors::of_all(&[]);
-            Errors {
-                rmse: rmse.to_vec(),
-                relative_percent: shares.to_vec(),
-                samples: vec![10; 2],
-                ..part
-            }
+            let mut errors = Errors::default();
+            (errors.rmse, errors.relative_percent) = (rmse.to_vec(), shares.to_vec());
+            errors.samples = vec![10; 2];
+            errors
         };
         let errors = |rmse: [f64; 2]| of(rmse, rmse);
         let joints = ["up", "lo"].map(str::to_owned);

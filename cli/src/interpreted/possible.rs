@@ -42,11 +42,8 @@ pub(crate) fn possible_arms(compiled: &Compiled) -> Option<PossibleArms> {
             Inertial::Nominal(nominal) => Some(nominal),
             Inertial::Fixed(_) => return None,
         };
-        Some(PossibleLink {
-            name: link.name.clone(),
-            parameters: std::array::from_fn(|element| count * k + element),
-            nominal,
-        })
+        let places = std::array::from_fn(|element| count * k + element);
+        Some(PossibleLink::new(link.name.clone(), places, nominal))
     });
     let fixed = standard.iter().map(|parameter| match parameter.status {
         Status::Fixed(value) => Some(value),
@@ -99,11 +96,8 @@ pub(crate) fn payloads(compiled: &Compiled) -> Vec<PossibleLink> {
             return None;
         };
         definition.linear[*mass].nonnegative.then_some(())?;
-        Some(PossibleLink {
-            name: compiled.model.effect_name(index),
-            parameters: places.try_into().ok()?,
-            nominal: None,
-        })
+        let name = compiled.model.effect_name(index);
+        Some(PossibleLink::new(name, places.try_into().ok()?, None))
     };
     effects.filter_map(body).collect()
 }

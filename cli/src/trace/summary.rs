@@ -20,7 +20,20 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let mut out = match closed.outcome() {
         Outcome::NothingMissing => format!("nothing missing: {}\n", outcome(closed)),
         Outcome::Explained => "explained:\n".to_owned(),
+<<<<<<< HEAD
         Outcome::Unexplained => format!("unexplained: {}\n", outcome(closed)),
+=======
+        Outcome::Unexplained if !verdict.leads.is_empty() => {
+            "unexplained: the residual follows the motion; the effects listed here pass the gates but do not account for its \
+             structure, so none is named\n"
+                .to_owned()
+        }
+        // Unexplained, or an outcome of which nothing more is known here.
+        _ => {
+            "unexplained: the residual follows the motion, and no known effect accounts for it\n"
+                .to_owned()
+        }
+>>>>>>> api9
     };
     for fault in &closed.faults {
         writeln!(out, "  {}: {}", fault.kind, fault.told).expect("a string takes all");
@@ -176,7 +189,7 @@ mod tests {
     use robot_model::trace::{Alternative, MOST_EFFECTS, Outcome};
 
     use super::summary;
-    use crate::close_the_loop::close;
+    use crate::close_the_loop::{close, compiled};
     use crate::progress::Progress;
 
     const CART: &str = "robot Cart { gravity = [0, 0, -9.81]; convention = origin; \
@@ -212,13 +225,11 @@ mod tests {
         );
 
         // Another law that would do as well asks for another experiment.
-        closed.verdict.alternatives = vec![Alternative {
-            kind: "stribeck".to_owned(),
-            effect: "stribeck".to_owned(),
-            joints: vec![0],
-            instead_of: 0,
-            worse_percent: 0.4,
-        }];
+        let undeclared = compiled("cart.robot", CART).expect("a spec").undeclared();
+        let candidates = undeclared.candidates().into_iter();
+        let mut rivals = candidates.filter(|candidate| candidate.kind() == "stribeck");
+        let rival = rivals.next().expect("a candidate");
+        closed.verdict.alternatives = vec![Alternative::of(rival, 0, 0.4)];
         let told = summary("my arms/cart.robot", &closed, CART);
         assert!(
             told.contains("or stribeck on rail in place of coulomb-friction: +0.4 % error"),

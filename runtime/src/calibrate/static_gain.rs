@@ -32,6 +32,7 @@ pub struct StaticGain {
 
 /// A term that a line does not have.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Term {
     /// Its coefficient.
     pub value: Measured,
@@ -44,9 +45,12 @@ impl Term {
     ///
     /// # Examples
     /// ```
-    /// use robot_model::calibrate::{Measured, Term};
-    /// let value = Measured { value: 2.0, std: 0.1, interval: [1.8, 2.2] };
-    /// assert!(Term { value, p: 1e-6 }.is_told() && !Term { value, p: 0.2 }.is_told());
+    /// use robot_model::calibrate::StaticGain;
+    /// let curvature = |torque: &[f64]| StaticGain::fit(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], torque).map(|line| line.curvature);
+    /// let saturated = curvature(&[0.0, 0.1, 0.19, 0.27, 0.34, 0.4])?.expect("six currents");
+    /// let straight = curvature(&[0.0, 0.11, 0.19, 0.3, 0.41, 0.49])?.expect("six currents");
+    /// assert!(saturated.is_told() && !straight.is_told());
+    /// # Ok::<(), robot_model::calibrate::CalibrateError>(())
     /// ```
     #[must_use]
     pub fn is_told(&self) -> bool {

@@ -31,6 +31,13 @@ use super::{Arm, Columns};
 /// ```
 pub trait Candidate: Columns {
     /// Kebab-case name of what it is, in reports.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// use robot_model::columns::Candidate;
+    /// assert_eq!(pendulum::dry_friction().kind(), "coulomb-friction");
+    /// ```
     fn kind(&self) -> &str;
 
     /// Name in the language of what a spec declares: that of the kind, unless it is one of several laws of this kind.
@@ -46,6 +53,13 @@ pub trait Candidate: Columns {
     }
 
     /// The joints it is tried on, from 0; none where it is of the arm as a whole.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// use robot_model::columns::Candidate;
+    /// assert_eq!(pendulum::dry_friction().joints(), [0]);
+    /// ```
     fn joints(&self) -> &[usize];
 
     /// Whether its columns are made of the torque as logged, whose residual is traced: the noise of that explains itself.
@@ -89,50 +103,54 @@ pub trait Candidate: Columns {
 /// An effect that changes the arm: where links stand against their joints, where gravity comes from.
 ///
 /// # Examples
+/// An encoder that is off, `mx sin(q + lean)`:
 /// ```
-/// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
-/// use robot_model::columns::{Arm, Change, Columns};
+#[doc = include_str!("../../tests/doc/offset.rs")]
 ///
-/// /// An encoder that is off, by up to half a turn: the last shape of an axis, `mx sin(q + lean)`.
-/// struct Offset(axis::Axis);
-///
-/// impl Change for Offset {
-///     fn arm(&self) -> &dyn Arm { &self.0 }
-///     fn neutral(&self) -> &[f64] { &[0.0] }
-///     fn probe(&self) -> &[f64] { &[0.01] }
-///     fn counts(&self, shapes: &[f64], _: f64) -> bool { shapes[0].abs() < 3.1 }
-/// }
-///
-/// let offset = Offset(axis::axis());
-/// let own = |lean: f64| offset.arm().entries(&axis::upright(), &[0.1, lean])[1].values[0];
-/// assert_eq!(own(offset.neutral()[0]), 1.0); // sin(pi / 2)
-/// assert!((own(offset.probe()[0]) - 0.01_f64.cos()).abs() < 1e-12);
-/// assert!(offset.counts(&[0.1], 0.002) && !offset.counts(&[3.2], 0.002));
+/// let own = |lean: f64| offset().arm().entries(&axis::upright(), &[0.1, lean])[1].values[0];
+/// assert_eq!((own(0.0), own(0.2)), (1.0, 0.2_f64.cos())); // sin(pi / 2 + lean)
 /// ```
 pub trait Change: Sync {
     /// The arm with it, whose last shapes are its own.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod offset { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/offset.rs")); }
+    /// use robot_model::columns::{Arm, Change, Columns};
+    /// // How far the encoder is off is the last of its shapes.
+    /// let offset = offset::offset();
+    /// assert_eq!(offset.arm().shapes()[1].name, "axis.encoder_offset.lean");
+    /// ```
     fn arm(&self) -> &dyn Arm;
 
     /// Own shapes at which nothing is changed, or next to nothing.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod offset { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/offset.rs")); }
+    /// use robot_model::columns::Change;
+    /// assert_eq!(offset::offset().neutral(), [0.0]); // an encoder that is right
+    /// ```
     fn neutral(&self) -> &[f64];
 
     /// Own shapes each of which, the others neutral, changes a little.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod offset { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/offset.rs")); }
+    /// use robot_model::columns::Change;
+    /// assert_eq!(offset::offset().probe(), [0.01]); // rad
+    /// ```
     fn probe(&self) -> &[f64];
 
     /// Whether own shapes are a change at all, for logs with samples `period` seconds apart.
     ///
     /// # Examples
     /// ```
-    /// # mod axis { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/axis.rs")); }
-    /// # use robot_model::columns::{Arm, Change};
-    /// # struct Offset(axis::Axis);
-    /// # impl Change for Offset {
-    /// #     fn arm(&self) -> &dyn Arm { &self.0 }
-    /// #     fn neutral(&self) -> &[f64] { &[0.0] }
-    /// #     fn probe(&self) -> &[f64] { &[0.01] }
-    /// # }
-    /// // An offset that does not say otherwise is a change however large it is; a delay would have to be some samples.
-    /// assert!(Offset(axis::axis()).counts(&[0.3], 0.002));
+    /// # mod offset { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/offset.rs")); }
+    /// use robot_model::columns::Change;
+    /// // Up to half a turn, however fast the log is; a delay would have to be some samples.
+    /// assert!(offset::offset().counts(&[0.1], 0.002) && !offset::offset().counts(&[3.2], 0.002));
     /// ```
     fn counts(&self, _shapes: &[f64], _period: f64) -> bool {
         true

@@ -32,6 +32,7 @@ const LENGTH: f64 = 0.2;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[must_use]
+#[non_exhaustive]
 pub struct Contact<const R: usize, const D: usize> {
     /// Along the axes of the base frame, N; at the tip then the moment, N m.
     pub force: Vector<R>,

@@ -11,13 +11,19 @@ const ELEMENTS: [&str; 10] = [
 /// The torque of a declared effect on all joints.
 ///
 /// # Examples
-/// ```
-/// use robot_model::Vector;
-/// use robot_model::control::Share;
-/// let share = Share { name: "elbow.coulomb_friction", torque: Vector::from([0.0, 0.8]) };
-/// assert_eq!(share.torque[1], 0.8);
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// # mod arms { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/two_link.rs")); }
+/// use robot_model::control::Dissection;
+/// use robot_model::{State, Vector};
+/// // The elbow turns at 0.5 rad/s, with 0.6 N m s/rad.
+/// let state = State::new(Vector::zeros(), Vector::from([0.0, 0.5]), Vector::zeros());
+/// let shares = Dissection::new(&arms::two_link(), &state);
+/// let share = shares.effects().find(|share| share.name == "elbow.viscous_friction").expect("it is declared");
+/// assert!((share.torque - Vector::from([0.0, 0.3])).norm() < 1e-12);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Share<const D: usize> {
     /// `JOINT.EFFECT`, of several joints the first one's.
     pub name: &'static str,

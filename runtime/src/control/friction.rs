@@ -12,6 +12,7 @@ use crate::state::State;
 /// assert_eq!(Friction::full().velocity, FrictionVelocity::Desired);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FrictionVelocity {
     /// The desired one: a feed-forward. It does not chatter with the noise of a velocity near zero, and as it closes no loop,
     /// full compensation cannot drive the arm; at a desired standstill it compensates nothing.

@@ -14,15 +14,21 @@ pub type Tell<'a> = &'a mut dyn FnMut(usize, f64, &[(usize, f64)]);
 /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
 /// use robot_model::excite::Clearance;
 /// // The table is at -0.2 m, and the tip at -0.3 m.
-/// let mut told = Vec::new();
-/// room::AboveTable.slacks(&[-0.3], &mut |which, slack, slopes: &[(usize, f64)]| told.push((which, slack, slopes[0])));
-/// let (which, slack, slope) = told[0];
-/// assert!((slack + 0.1).abs() < 1e-12 && slope == (0, 1.0) && room::AboveTable.function().outputs() == 1);
-/// assert_eq!(room::AboveTable.name(which), "height above the table");
-/// assert_eq!(room::AboveTable.amount(slack), "100 mm");
+/// room::AboveTable.slacks(&[-0.3], &mut |which, slack, _: &[(usize, f64)]| {
+///     assert_eq!(room::AboveTable.name(which), "height above the table");
+///     assert_eq!(room::AboveTable.amount(slack), "100 mm");
+/// });
 /// ```
 pub trait Clearance: std::fmt::Debug + Sync {
     /// What the limit is on, with slopes that can be followed.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Clearance;
+    /// // A limit on one number, the height.
+    /// assert_eq!(room::AboveTable.function().outputs(), 1);
+    /// ```
     fn function(&self) -> &dyn Function;
 
     /// What is verified in the end: the same without anything smoothed.
@@ -42,12 +48,37 @@ pub trait Clearance: std::fmt::Debug + Sync {
     }
 
     /// Tells each limit at an instant; `values` has one number an output.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Clearance;
+    /// // The table is at -0.2 m: 0.1 m are missing, and any height is one slack.
+    /// let mut told = Vec::new();
+    /// room::AboveTable.slacks(&[-0.3], &mut |which, slack, slopes: &[(usize, f64)]| told.push((which, slack, slopes[0])));
+    /// let (which, slack, slope) = told[0];
+    /// assert!(told.len() == 1 && which == 0 && (slack + 0.1).abs() < 1e-12 && slope == (0, 1.0));
+    /// ```
     fn slacks(&self, values: &[f64], tell: Tell<'_>);
 
     /// A limit by its number, for people.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Clearance;
+    /// assert_eq!(room::AboveTable.name(0), "height above the table");
+    /// ```
     fn name(&self, which: usize) -> String;
 
     /// A slack that is missing, for people.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Clearance;
+    /// assert_eq!(room::AboveTable.amount(-0.1), "100 mm");
+    /// ```
     fn amount(&self, slack: f64) -> String;
 }
 

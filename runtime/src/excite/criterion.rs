@@ -5,6 +5,7 @@ use faer::{Mat, Side};
 
 /// What is minimized, in logarithms; `lambda` are the eigenvalues of the information matrix.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Criterion {
     /// `-ln det A / n`: the volume of the parameters' confidence ellipsoid. It does not depend on their units.
     #[default]
@@ -34,6 +35,7 @@ pub struct Rivals {
 
 /// Columns as they are counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Scaling {
     /// In SI units.
     #[default]

@@ -134,6 +134,7 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
 
 /// How a motion begins and, as it is periodic, ends.
 #[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub enum Ends {
     /// Wherever and however fast it is there.
     Free,

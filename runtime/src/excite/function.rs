@@ -9,21 +9,43 @@ use crate::motion::Kinematics;
 /// ```
 #[doc = include_str!("../../tests/doc/room.rs")]
 ///
-/// let motion = Kinematics { q: vec![vec![0.0, 1.0]], dq: vec![vec![0.0; 2]], ddq: vec![vec![0.0; 2]] };
-/// assert_eq!((Height.outputs(), Height.values(&motion)[0][0]), (1, 0.0));
-/// // The slope of 3 h at the first instant, of h at the second.
-/// let slopes = Height.pullback(&motion, &[vec![3.0, 1.0]]);
-/// assert!((slopes.q[0][0] - 1.5).abs() < 1e-12 && (slopes.q[0][1] - 0.5 * 1.0_f64.cos()).abs() < 1e-12);
+/// // One height at each of two instants.
+/// assert_eq!((Height.outputs(), Height.values(&raised())[0].len()), (1, 2));
 /// ```
 pub trait Function: Sync {
     /// How many numbers an instant has.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Function;
+    /// assert_eq!(room::Height.outputs(), 1);
+    /// ```
     fn outputs(&self) -> usize;
 
     /// `[output][sample]` along a motion.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Function;
+    /// // 0.5 sin(q) at 0 and 1 rad.
+    /// assert_eq!(room::Height.values(&room::raised()), [[0.0, 0.5 * 1.0_f64.sin()]]);
+    /// ```
     fn values(&self, motion: &Kinematics) -> Vec<Vec<f64>>;
 
     /// The exact slopes of `sum over outputs and samples of weights * values` by every position, velocity and acceleration;
     /// `weights[output][sample]`.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod room { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/room.rs")); }
+    /// use robot_model::excite::Function;
+    /// // The slope of 3 h at the first instant, of h at the second; velocities do not count.
+    /// let slopes = room::Height.pullback(&room::raised(), &[vec![3.0, 1.0]]);
+    /// assert!((slopes.q[0][0] - 1.5).abs() < 1e-12 && (slopes.q[0][1] - 0.5 * 1.0_f64.cos()).abs() < 1e-12);
+    /// assert_eq!(slopes.dq, [[0.0, 0.0]]);
+    /// ```
     fn pullback(&self, motion: &Kinematics, weights: &[Vec<f64>]) -> Kinematics;
 }
 

@@ -19,12 +19,14 @@ const ROUNDING: f64 = 1e-12;
 ///
 /// # Examples
 /// ```
-/// use robot_model::friction_curve::{Point, Value};
-/// let point = Point { speed: -0.5, torque: Value { value: -0.9, std: 0.01 }, seconds: 2.0, stretches: 1 };
+/// # mod motor { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/motor.rs")); }
+/// let curve = motor::measured(&motor::motor()).curve(&[motor::runs()])?;
 /// // Friction brakes.
-/// assert!(point.speed * point.torque.value > 0.0);
+/// assert!(curve.points.iter().all(|point| point.speed * point.torque.value > 0.0));
+/// # Ok::<(), robot_model::friction_curve::FrictionError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Point {
     /// Mean speed, rad/s or m/s.
     pub speed: f64,

@@ -138,8 +138,12 @@ fn noisier(log: &Log, prepared: &Prepared, bands: &Bands, seed: u64) -> Option<L
     Some(log)
 }
 
+/// What noise of positions makes of a joint's columns: a triangular factor, see [`Stack::noise`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct PositionNoise(pub(super) Mat<f64>);
+
 /// Triangular factors of what the columns of each joint change by.
-fn changes(stack: &Stack, other: &Stack) -> Vec<Mat<f64>> {
+fn changes(stack: &Stack, other: &Stack) -> Vec<PositionNoise> {
     let unknowns = stack.unknowns.len();
     let joints = stack.joints.iter().zip(&other.joints);
     let joints = joints.map(|(one, other)| {
@@ -156,9 +160,9 @@ fn changes(stack: &Stack, other: &Stack) -> Vec<Mat<f64>> {
             }
         }
         if both.is_empty() {
-            return changes;
+            return PositionNoise(changes);
         }
-        changes.qr().thin_R().to_owned()
+        PositionNoise(changes.qr().thin_R().to_owned())
     });
     joints.collect()
 }

@@ -4,7 +4,8 @@
 const ROUNDING: f64 = 1e-12;
 
 /// Errors of a model on a log.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Errors {
     /// Root mean square of measured minus predicted torque per joint, raw samples, first and last second cut, of less than four
     /// seconds a quarter at either end; N m or N.
@@ -31,13 +32,11 @@ impl Errors {
     /// A tenth of a second that is predicted seven times worse than another one:
     /// ```
     /// use robot_model::identify::Errors;
-    /// let piece = |rmse: f64| Errors {
-    ///     rmse: vec![rmse],
-    ///     relative_percent: vec![10.0],
-    ///     mae: vec![rmse],
-    ///     level: vec![0.0],
-    ///     spread: vec![10.0],
-    ///     samples: vec![100],
+    /// let piece = |rmse: f64| {
+    ///     let mut piece = Errors::default();
+    ///     (piece.rmse, piece.mae, piece.relative_percent) = (vec![rmse], vec![rmse], vec![10.0]);
+    ///     (piece.level, piece.spread, piece.samples) = (vec![0.0], vec![10.0], vec![100]);
+    ///     piece
     /// };
     /// let all = Errors::of_all(&[piece(1.0), piece(7.0)]);
     /// // The squares have the mean 25.

@@ -139,7 +139,7 @@ impl Factors {
             unknowns,
             counts,
             joints,
-            noise: stack.noise.clone(),
+            noise: stack.noise.iter().map(|noise| noise.0.clone()).collect(),
         }
     }
 

@@ -5,6 +5,7 @@ use super::{Bootstrap, Essential, Hausman, Possible};
 
 /// How parameters are found from rows of torque and columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Method {
     /// Ordinary least squares: a newton meter of error counts the same on every joint.
     Ls,
@@ -79,6 +80,7 @@ impl Method {
 /// # Ok::<(), robot_model::identify::IdentifyError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Weights {
     /// The standard deviation of its residual, by iteration: of linear weights those with the least variance where joints have noise of
     /// their own (Gautier 1997).

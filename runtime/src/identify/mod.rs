@@ -57,6 +57,7 @@ pub(crate) use autoregression::long_run_sum;
 pub use bootstrap::Bootstrap;
 pub use combination::{Combination, Shared};
 use deviated::Solved;
+pub use drowned::PositionNoise;
 pub use error::IdentifyError;
 pub use errors::Errors;
 pub use essential::Essential;

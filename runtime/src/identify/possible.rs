@@ -63,6 +63,7 @@ pub struct PossibleArms {
 
 /// A link's body.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct PossibleLink {
     /// Name of the link.
     pub name: String,
@@ -73,6 +74,28 @@ pub struct PossibleLink {
 }
 
 impl PossibleLink {
+    /// A body whose ten parameters are at these places, with those of CAD.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::PossibleLink;
+    /// // The second link's parameters stand behind those of the first.
+    /// let link = PossibleLink::new("forearm", std::array::from_fn(|k| 10 + k), None);
+    /// assert_eq!((link.name.as_str(), link.parameters[9]), ("forearm", 19));
+    /// ```
+    #[must_use]
+    pub fn new(
+        name: impl Into<String>,
+        parameters: [usize; 10],
+        nominal: Option<[f64; 10]>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            parameters,
+            nominal,
+        }
+    }
+
     /// The pseudo-inertia of CAD, made one of a body with an inside; `None` where the spec says none, or that of a point or of nothing.
     fn body(&self) -> Option<Mat<f64>> {
         let nominal = self.nominal?;

@@ -7,8 +7,7 @@ mod columns;
 
 use std::ops::Range;
 
-use faer::Mat;
-
+use super::drowned::PositionNoise;
 use super::hac::correlation_time;
 use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
@@ -69,7 +68,7 @@ pub struct Stack {
     /// Rows of each joint that are left out because dry friction holds it nearly all the time; no joints where none were looked for.
     pub held: Vec<Vec<usize>>,
     /// Of each joint a factor of what noise of positions makes of the columns; no joints where none was looked for.
-    pub noise: Vec<Mat<f64>>,
+    pub noise: Vec<PositionNoise>,
 }
 
 /// One log's share of the rows.

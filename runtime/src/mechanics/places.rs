@@ -52,21 +52,40 @@ pub trait Kinematics<const DOF: usize> {
 ///
 /// assert_eq!(Swing::POINTS, ["tip"]);
 /// let (arm, q) = (Swing { m: 2.0 }, Vector::from([0.0, std::f64::consts::FRAC_PI_2]));
-/// // The upper rod hangs down, the lower one lies along x.
-/// let [tip] = arm.points(&q);
-/// assert!((tip - Vector::from([0.5, -0.5, 0.0])).norm() < 1e-12);
-/// // 3 N downward at the tip load both joints at a lever of 0.5 m.
+/// // Rates of a place are its Jacobian times the rates of the coordinates.
+/// let (dq, step) = (Vector::from([0.4, -0.7]), 1e-6);
+/// let [[before], [after]] = [q - dq * step, q + dq * step].map(|q| arm.points(&q));
 /// let [jacobian] = arm.point_jacobians(&q);
-/// let torque = jacobian.transpose() * Vector::from([0.0, -3.0, 0.0]);
-/// assert!((torque - Vector::from([-1.5, -1.5])).norm() < 1e-12);
+/// assert!(((after - before) / (2.0 * step) - jacobian * dq).norm() < 1e-8);
 /// ```
 pub trait Points<const DOF: usize, const POINTS: usize> {
     /// Their names.
     const POINTS: [&'static str; POINTS];
 
     /// Positions in the base frame, m.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod swing { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/swing.rs")); }
+    /// use robot_model::{Points, Vector};
+    /// // The upper rod hangs down, the lower one lies along x.
+    /// let [tip] = swing::SWING.points(&Vector::from([0.0, std::f64::consts::FRAC_PI_2]));
+    /// assert!((tip - Vector::from([0.5, -0.5, 0.0])).norm() < 1e-12);
+    /// ```
     fn points<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SVector<S, 3>; POINTS];
 
     /// `[k] * dq` is the velocity of point `k`, m/s; a force there loads the joints with `[k]^T * force`.
+    ///
+    /// # Examples
+    #[cfg_attr(feature = "derive", doc = "```")]
+    #[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+    /// # mod swing { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/swing.rs")); }
+    /// use robot_model::{Points, Vector};
+    /// // There 3 N downward at the tip load both joints at a lever of 0.5 m.
+    /// let [jacobian] = swing::SWING.point_jacobians(&Vector::from([0.0, std::f64::consts::FRAC_PI_2]));
+    /// let torque = jacobian.transpose() * Vector::from([0.0, -3.0, 0.0]);
+    /// assert!((torque - Vector::from([-1.5, -1.5])).norm() < 1e-12);
+    /// ```
     fn point_jacobians<S: Scalar>(&self, q: &SVector<S, DOF>) -> [SMatrix<S, 3, DOF>; POINTS];
 }

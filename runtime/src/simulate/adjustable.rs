@@ -40,39 +40,14 @@ impl ParameterSlopes {
 /// A plant with parameters that can be moved.
 ///
 /// # Examples
-/// A block on oil, `tau = m ddq + c dq`:
+/// A block on oil:
 /// ```
-/// use nalgebra::{DMatrix, DVector};
-/// use robot_model::simulate::{Adjustable, Instant, ParameterSlopes, Plant, Slopes};
+#[doc = include_str!("../../tests/doc/block.rs")]
 ///
-/// struct Block { m: f64, c: f64 }
-///
-/// impl Plant for Block {
-///     fn dof(&self) -> usize { 1 }
-///     fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>) {
-///         torque[0] = self.m * at.ddq[0] + self.c * at.dq[0];
-///         inertia[(0, 0)] = self.m;
-///     }
-///     fn slopes(&mut self, _: &Instant<'_>, slopes: &mut Slopes) { slopes.torque[1][(0, 0)] = self.c; }
-/// }
-///
-/// impl Adjustable for Block {
-///     fn values(&self) -> Vec<f64> { vec![self.m, self.c] }
-///     fn adjust(&mut self, values: &[f64]) { (self.m, self.c) = (values[0], values[1]); }
-///     fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes) {
-///         slopes.torque.copy_from_slice(&[at.ddq[0], at.dq[0]]);
-///     }
-/// }
-///
-/// let mut block = Block { m: 2.0, c: 0.7 };
-/// let [q, dq, ddq] = [[0.0], [0.5], [3.0]];
-/// let (nothing, rest) = (&[][..], &[0.0]);
-/// let at = Instant { time: 0.0, q: &q, dq: &dq, ddq: &ddq, memory: nothing, switches: nothing, torque: rest, inputs: nothing };
-/// let mut slopes = ParameterSlopes::zeros(&block);
-/// block.parameter_slopes(&at, &mut slopes);
-/// assert_eq!(slopes.torque.as_slice(), [3.0, 0.5]);
-/// block.adjust(&[4.0, 0.7]);
-/// assert_eq!(block.values(), [4.0, 0.7]);
+/// // Its rows say by how much torque errs where a parameter does.
+/// let (mut block, mut slopes) = (Block([2.0, 0.7]), ParameterSlopes::zeros(&Block([2.0, 0.7])));
+/// block.parameter_slopes(&MOVING, &mut slopes);
+/// assert_eq!((block.parameters(), slopes.torque.as_slice()), (2, &[3.0, 0.5][..]));
 /// ```
 pub trait Adjustable: Plant {
     /// How many parameters there are, `u`.
@@ -89,6 +64,13 @@ pub trait Adjustable: Plant {
     }
 
     /// Their values.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::Adjustable;
+    /// assert_eq!(block::Block([2.0, 0.7]).values(), [2.0, 0.7]); // kg and N s/m
+    /// ```
     fn values(&self) -> Vec<f64>;
 
     /// Makes what sensitivities need, so that copies of the plant have it.
@@ -105,8 +87,28 @@ pub trait Adjustable: Plant {
     fn prepare(&mut self) {}
 
     /// Takes other values.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::Adjustable;
+    /// let mut block = block::Block([2.0, 0.7]);
+    /// block.adjust(&[4.0, 0.7]);
+    /// assert_eq!(block.values(), [4.0, 0.7]);
+    /// ```
     fn adjust(&mut self, values: &[f64]);
 
     /// Slopes by them.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// use robot_model::simulate::{Adjustable, ParameterSlopes};
+    /// // Of m: ddq; of c: dq.
+    /// let mut block = block::Block([2.0, 0.7]);
+    /// let mut slopes = ParameterSlopes::zeros(&block);
+    /// block.parameter_slopes(&block::MOVING, &mut slopes);
+    /// assert_eq!(slopes.torque.as_slice(), [3.0, 0.5]);
+    /// ```
     fn parameter_slopes(&mut self, at: &Instant<'_>, slopes: &mut ParameterSlopes);
 }

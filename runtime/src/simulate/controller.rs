@@ -20,29 +20,29 @@ pub struct Measured<'a> {
 }
 
 /// A sampled controller: its torque is held until the next sample.
-///
-/// # Examples
-/// ```
-/// use robot_model::simulate::{Controller, Desired, Measured};
-///
-/// /// A spring to the wanted position.
-/// struct Spring(f64);
-/// impl Controller for Spring {
-///     fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]) {
-///         for (joint, torque) in torque.iter_mut().enumerate() {
-///             *torque = self.0 * (desired.q[joint] - measured.q[joint]);
-///         }
-///     }
-/// }
-///
-/// let measured = Measured { time: 0.0, period: 0.001, q: &[0.1], dq: &[0.0], inputs: &[] };
-/// let desired = Desired { q: vec![0.3], ..Desired::default() };
-/// let mut torque = [0.0];
-/// Spring(50.0).torque(&measured, &desired, &mut torque);
-/// assert!((torque[0] - 10.0).abs() < 1e-12);
-/// ```
 pub trait Controller {
     /// Torque of every joint, N m or N.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::{Controller, Desired, Measured};
+    ///
+    /// /// A spring to the wanted position.
+    /// struct Spring(f64);
+    /// impl Controller for Spring {
+    ///     fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]) {
+    ///         for (joint, torque) in torque.iter_mut().enumerate() {
+    ///             *torque = self.0 * (desired.q[joint] - measured.q[joint]);
+    ///         }
+    ///     }
+    /// }
+    ///
+    /// let measured = Measured { time: 0.0, period: 0.001, q: &[0.1], dq: &[0.0], inputs: &[] };
+    /// let desired = Desired { q: vec![0.3], ..Desired::default() };
+    /// let mut torque = [0.0];
+    /// Spring(50.0).torque(&measured, &desired, &mut torque);
+    /// assert!((torque[0] - 10.0).abs() < 1e-12);
+    /// ```
     fn torque(&mut self, measured: &Measured<'_>, desired: &Desired, torque: &mut [f64]);
 }
 
@@ -70,6 +70,24 @@ pub trait Controller {
 /// ```
 pub trait InverseDynamics {
     /// Torque of the accelerations `ddq` where the arm is; friction is that of the velocities `sliding`.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::simulate::{InverseDynamics, Measured};
+    ///
+    /// /// `tau = m ddq + c dq`
+    /// struct Block { m: f64, c: f64 }
+    /// impl InverseDynamics for Block {
+    ///     fn inverse_dynamics(&mut self, _: &Measured<'_>, ddq: &[f64], sliding: &[f64], torque: &mut [f64]) {
+    ///         torque[0] = self.m * ddq[0] + self.c * sliding[0];
+    ///     }
+    /// }
+    ///
+    /// let measured = Measured { time: 0.0, period: 0.001, q: &[0.2], dq: &[0.4], inputs: &[] };
+    /// let mut torque = [0.0];
+    /// Block { m: 2.0, c: 0.7 }.inverse_dynamics(&measured, &[3.0], &[0.5], &mut torque);
+    /// assert_eq!(torque, [2.0 * 3.0 + 0.7 * 0.5]);
+    /// ```
     fn inverse_dynamics(
         &mut self,
         measured: &Measured<'_>,

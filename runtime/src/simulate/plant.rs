@@ -64,6 +64,13 @@ pub struct Slopes {
 /// ```
 pub trait Plant {
     /// Degrees of freedom, `n`.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
+    /// use robot_model::simulate::Plant;
+    /// assert_eq!(cart::Cart.dof(), 2); // the motor and the load
+    /// ```
     fn dof(&self) -> usize;
 
     /// Joints, with a motor and an encoder each: the first of the degrees of freedom. Others are links behind springs.
@@ -156,6 +163,18 @@ pub trait Plant {
     }
 
     /// Torque that the motion takes, `n`, and `d tau / d ddq`, `n` by `n`.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
+    /// use nalgebra::{DMatrix, DVector};
+    /// use robot_model::simulate::Plant;
+    /// // The spring pulls with 2 N, and nothing moves.
+    /// let (mut torque, mut inertia) = (DVector::zeros(2), DMatrix::zeros(2, 2));
+    /// cart::Cart.torque(&cart::PULLED, &mut torque, &mut inertia);
+    /// assert_eq!(torque.as_slice(), [2.0, -2.0]);
+    /// assert_eq!(inertia.as_slice(), [1.0, 0.0, 0.0, 2.0]); // kg
+    /// ```
     fn torque(&mut self, at: &Instant<'_>, torque: &mut DVector<f64>, inertia: &mut DMatrix<f64>);
 
     /// Rates `dz/dt`, `p`.
@@ -200,6 +219,17 @@ pub trait Plant {
     fn jumps(&mut self, _at: &Instant<'_>, _jumps: &mut Jumps) {}
 
     /// Slopes, for implicit steps.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod cart { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/cart.rs")); }
+    /// use robot_model::simulate::{Plant, Slopes};
+    /// let mut slopes = Slopes::zeros(&cart::Cart);
+    /// cart::Cart.slopes(&cart::PULLED, &mut slopes);
+    /// // By positions that of the spring, N/m; of the filter 1 / 0.5 s by velocity and by itself.
+    /// assert_eq!(slopes.torque[0].as_slice(), [100.0, -100.0, -100.0, 100.0]);
+    /// assert_eq!((slopes.rates[1][(0, 1)], slopes.rates[2][(0, 0)]), (2.0, -2.0));
+    /// ```
     fn slopes(&mut self, at: &Instant<'_>, slopes: &mut Slopes);
 }
 

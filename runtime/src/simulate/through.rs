@@ -8,27 +8,34 @@ use super::plant::{Instant, Jumps, Plant, Slopes};
 /// Parameters of a plant as functions of others.
 ///
 /// # Examples
+/// The `m` and `c` of a [block](Adjustable), of its own mass, of a load's, and of `c`:
 /// ```
-/// use nalgebra::DMatrix;
-/// use robot_model::simulate::Functions;
+#[doc = include_str!("../../tests/doc/loaded.rs")]
 ///
-/// /// The `m` and `c` of a block, of its own mass, of a load's, and of `c`.
-/// struct Loaded;
-/// impl Functions for Loaded {
-///     fn own(&self, values: &[f64]) -> Vec<f64> { vec![values[0] + values[1], values[2]] }
-///     fn slopes(&self, _: &[f64]) -> DMatrix<f64> { DMatrix::from_row_slice(2, 3, &[1.0, 1.0, 0.0, 0.0, 0.0, 1.0]) }
-/// }
-///
-/// let values = [1.5, 0.5, 0.7];
-/// assert_eq!(Loaded.own(&values), [2.0, 0.7]);
-/// // 0.2 kg more of load are 0.2 kg more of `m`.
-/// assert_eq!(Loaded.slopes(&values).column(1).as_slice(), [1.0, 0.0]);
+/// // 0.5 kg of load instead of 0.3 kg are 0.2 kg more of `m`.
+/// let [less, more] = [0.3, 0.5].map(|load| Loaded.own(&[1.5, load, 0.7]));
+/// assert!((more[0] - less[0] - 0.2).abs() < 1e-12 && more[1] == less[1]);
 /// ```
 pub trait Functions {
     /// The plant's own parameters.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod loaded { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/loaded.rs")); }
+    /// use robot_model::simulate::Functions;
+    /// assert_eq!(loaded::Loaded.own(&[1.5, 0.5, 0.7]), [2.0, 0.7]);
+    /// ```
     fn own(&self, values: &[f64]) -> Vec<f64>;
 
     /// Their slopes, one row each, one column for each of the others.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod loaded { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/loaded.rs")); }
+    /// use robot_model::simulate::Functions;
+    /// // What is added to the load is added to `m`, and not to `c`.
+    /// assert_eq!(loaded::Loaded.slopes(&[1.5, 0.5, 0.7]).column(1).as_slice(), [1.0, 0.0]);
+    /// ```
     fn slopes(&self, values: &[f64]) -> DMatrix<f64>;
 }
 

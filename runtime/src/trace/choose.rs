@@ -56,12 +56,9 @@ pub(super) fn choose<'a>(
     let chosen = class.remove(place);
     let rivals = class
         .into_iter()
-        .map(|rival| Alternative {
-            kind: rival.trial.candidate.kind().to_owned(),
-            effect: rival.trial.candidate.effect(),
-            joints: rival.trial.candidate.joints().to_vec(),
-            instead_of: 0,
-            worse_percent: gate::worse_percent(&rival.raw_power, &chosen.raw_power),
+        .map(|rival| {
+            let worse = gate::worse_percent(&rival.raw_power, &chosen.raw_power);
+            Alternative::of(rival.trial.candidate, 0, worse)
         })
         .collect();
     Some(Accepted {

@@ -33,6 +33,7 @@ pub(super) const MATERIAL_SHARE: f64 = 0.15;
 
 /// Structure of one joint's residual.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct Structure {
     /// Power of the structured part, (N m)^2 or N^2.
     pub power: f64,
@@ -50,8 +51,12 @@ impl Structure {
     /// ```
     /// use robot_model::trace::Structure;
     /// // A tenth of the residual's power is what filters and noise leave, half of it is an effect.
-    /// let structure = |share: f64| Structure { power: 0.04, share, ratio: 30.0 };
-    /// assert!(!structure(0.1).is_material() && structure(0.5).is_material());
+    /// let mut structure = Structure::default();
+    /// let mut is_material = |share: f64| {
+    ///     structure.share = share;
+    ///     structure.is_material()
+    /// };
+    /// assert!(!is_material(0.1) && is_material(0.5));
     /// ```
     #[must_use]
     pub fn is_material(&self) -> bool {

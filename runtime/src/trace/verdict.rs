@@ -6,6 +6,7 @@ use super::floor::Floor;
 use super::gate::MATERIAL_PERCENT;
 use super::structure::Structure;
 use super::whereabouts::Whereabouts;
+use crate::columns::Candidate;
 
 /// Why an effect was accepted, in numbers.
 #[derive(Debug, Clone, PartialEq)]
@@ -145,6 +146,7 @@ pub struct Tried {
 
 /// A candidate that the logs cannot tell from an accepted one, or nearly so.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Alternative {
     /// Kebab-case name.
     pub kind: String,
@@ -158,6 +160,28 @@ pub struct Alternative {
     pub worse_percent: f64,
 }
 
+impl Alternative {
+    /// A law in place of the finding (or lead) with a number, from 0; `worse_percent` is its held-out error relative to that one's.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// use robot_model::trace::Alternative;
+    /// let rival = Alternative::of(&pendulum::dry_friction(), 0, 0.4);
+    /// assert_eq!((rival.effect.as_str(), rival.joints), ("coulomb_friction", vec![0]));
+    /// ```
+    #[must_use]
+    pub fn of(candidate: &dyn Candidate, instead_of: usize, worse_percent: f64) -> Self {
+        Self {
+            kind: candidate.kind().to_owned(),
+            effect: candidate.effect(),
+            joints: candidate.joints().to_vec(),
+            instead_of,
+            worse_percent,
+        }
+    }
+}
+
 /// How a trace ended.
 ///
 /// # Examples
@@ -166,6 +190,7 @@ pub struct Alternative {
 /// assert_eq!(Outcome::NothingMissing.name(), "nothing-missing");
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
     /// The declared model leaves no structure that matters.
     NothingMissing,

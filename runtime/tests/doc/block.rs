@@ -37,6 +37,18 @@ impl Adjustable for Block {
     }
 }
 
+/// 0.5 m/s and 3 m/s^2.
+pub const MOVING: Instant<'_> = Instant {
+    time: 0.0,
+    q: &[0.0],
+    dq: &[0.5],
+    ddq: &[3.0],
+    memory: &[],
+    switches: &[],
+    torque: &[0.0],
+    inputs: &[],
+};
+
 /// A block with `m = 2` and `c = 0.7`, at 0.2 m with 0.5 m/s.
 pub fn sliding() -> Integrator<Block> {
     Integrator::new(Block([2.0, 0.7]), &[0.2], &[0.5], Tolerances::default()).expect("one joint")

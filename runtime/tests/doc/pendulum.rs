@@ -3,7 +3,7 @@
 use robot_model::columns::{Arm, Candidate, Columns, Entry, MomentumArm, Shape, Unknown};
 use robot_model::identify::{PossibleArms, PossibleLink};
 use robot_model::log::Log;
-use robot_model::motion::Motion;
+use robot_model::motion::{Kinematics, Motion};
 
 /// `tau = izz ddq + mx sin(q) + fv dq`
 pub struct Pendulum {
@@ -68,6 +68,21 @@ pub fn measure_with([izz, mx, fv]: [f64; 3], fc: f64) -> Log {
     Log::from_samples("pendulum", time, q, tau).expect("the samples are finite and uniform")
 }
 
+/// One sample, without accelerations: at 0.5 rad, with 2 rad/s.
+pub fn swinging() -> Motion {
+    let moving = Kinematics {
+        q: vec![vec![0.5]],
+        dq: vec![vec![2.0]],
+        ddq: Vec::new(),
+    };
+    Motion {
+        time: vec![0.0],
+        smooth: moving.clone(),
+        wide: moving,
+        ..Motion::default()
+    }
+}
+
 fn entry(column: usize, values: impl Iterator<Item = f64>) -> Entry {
     Entry {
         joint: 0,
@@ -128,11 +143,8 @@ impl Arm for Pendulum {
         (arms.names, arms.fixed) = (names, vec![None; 11]);
         arms.kept = vec![9, 1, 10];
         arms.combinations = arms.kept.iter().map(|&k| vec![(k, 1.0)]).collect();
-        arms.links = vec![PossibleLink {
-            name: "link".to_owned(),
-            parameters: std::array::from_fn(|k| k),
-            nominal: None,
-        }];
+        let link = PossibleLink::new("link", std::array::from_fn(|k| k), None);
+        arms.links = vec![link];
         arms.nonnegative = vec![10];
         Some(arms)
     }

@@ -23,6 +23,16 @@ impl Function for Height {
     }
 }
 
+/// At 0 and at 1 rad.
+pub fn raised() -> Kinematics {
+    let still = vec![vec![0.0; 2]];
+    Kinematics {
+        q: vec![vec![0.0, 1.0]],
+        dq: still.clone(),
+        ddq: still,
+    }
+}
+
 /// The tip stays above a table, which is at -0.2 m.
 #[derive(Debug)]
 pub struct AboveTable;

@@ -69,7 +69,7 @@ mod tests {
     fn how_much_less_is_a_number_or_all() {
         let said = |singular: f64| {
             let moves = vec![("arm.izz".to_owned(), 1.0)];
-            hanging(&Direction { singular, moves })
+            hanging(&Direction::new(singular, moves))
         };
         assert!(said(0.02).contains("its value moves positions 50 times less than"));
         for nothing in [0.0, 1e-17] {

@@ -19,7 +19,8 @@ const SAME: f64 = 1e-12;
 const PRINTS: usize = 64;
 
 /// A part of a log.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct FactorBlock {
     /// Samples per joint.
     pub samples: usize,

@@ -6,7 +6,8 @@ use crate::identify::least_squares::Factors;
 use crate::identify::stack::Stack;
 
 /// Rows, reduced joint by joint.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
 pub struct FactorRows {
     /// Rows of each joint that say something: a joint that stands says nothing.
     pub counts: Vec<usize>,

@@ -54,6 +54,7 @@ pub struct Identifiability {
 
 /// Parameters that may move together while outputs (almost) do not.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Direction {
     /// Singular value over the largest.
     pub singular: f64,
@@ -62,12 +63,25 @@ pub struct Direction {
 }
 
 impl Direction {
+    /// Parameters by name with their shares, and the singular value over the largest.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::identify::output_error::Direction;
+    /// let direction = Direction::new(1e-9, vec![("m".to_owned(), 1.0)]);
+    /// assert_eq!(direction.to_string(), "not identified: m (relative singular value 1.0e-9)");
+    /// ```
+    #[must_use]
+    pub fn new(singular: f64, moves: Vec<(String, f64)>) -> Self {
+        Self { singular, moves }
+    }
+
     /// Whether outputs do not change at all.
     ///
     /// # Examples
     /// ```
     /// use robot_model::identify::output_error::Direction;
-    /// let direction = |singular| Direction { singular, moves: vec![("m".to_owned(), 1.0)] };
+    /// let direction = |singular| Direction::new(singular, vec![("m".to_owned(), 1.0)]);
     /// // Hardly seen is not unseen.
     /// assert!(direction(1e-9).is_silent() && !direction(1e-4).is_silent());
     /// ```
@@ -82,8 +96,7 @@ impl Direction {
     /// Masses and friction that only torques would tell from twice as much of all:
     /// ```
     /// use robot_model::identify::output_error::Direction;
-    /// let moves = vec![("m".to_owned(), 1.0), ("fv".to_owned(), 1.0)];
-    /// let direction = Direction { singular: 1e-9, moves };
+    /// let direction = Direction::new(1e-9, vec![("m".to_owned(), 1.0), ("fv".to_owned(), 1.0)]);
     /// assert!(direction.is_silent() && direction.is_scale());
     /// ```
     #[must_use]

@@ -49,6 +49,7 @@ pub(super) enum End {
 
 /// Who looks for the least cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Search {
     /// Levenberg and Marquardt: damped Gauss-Newton steps.
     #[default]

@@ -29,6 +29,7 @@ const FIRST_MOMENTS: [&str; 3] = ["mx", "my", "mz"];
 
 /// An arm and what it carries.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Carried {
     /// The link that carries it.
     pub link: String,

@@ -4,6 +4,7 @@ use super::{PossibleArms, Solution};
 
 /// Where the value of a standard parameter is from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Origin {
     /// The logs tell it.
     Logs,
