@@ -62,33 +62,13 @@ pub(super) fn page(
 
 fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let verdict = &closed.verdict;
-<<<<<<< HEAD
     let (class, word) = match closed.outcome() {
         Outcome::NothingMissing => ("good", "Nothing missing"),
         Outcome::Explained => ("known", "Explained"),
-        Outcome::Unexplained => ("open", "Unexplained"),
+        // Unexplained, or an outcome of which this page knows no more.
+        _ => ("open", "Unexplained"),
     };
     page.verdict(class, word, &sentence(outcome(closed)));
-=======
-    match closed.outcome() {
-        Outcome::NothingMissing => page.verdict(
-            "good",
-            "Nothing missing",
-            "The declared model leaves no structure that matters.",
-        ),
-        Outcome::Explained => page.verdict(
-            "known",
-            "Explained",
-            "These effects account for what the declared model left.",
-        ),
-        // Unexplained, or an outcome of which this page knows no more.
-        _ => page.verdict(
-            "open",
-            "Unexplained",
-            "The residual follows the motion, and no known effect accounts for it.",
-        ),
-    }
->>>>>>> api9
     let faults = closed.faults.iter();
     let mut items: Vec<String> = faults
         .map(|fault| format!("{}: {}", fault.kind, fault.told))

@@ -27,9 +27,8 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
             "the residual follows the motion; the effects listed here pass the gates but do not account for its structure, so none is named"
         }
-        Outcome::Unexplained => {
-            "the residual follows the motion, and no known effect accounts for it"
-        }
+        // Unexplained, or an outcome of which nothing more is known here.
+        _ => "the residual follows the motion, and no known effect accounts for it",
     }
 }
 
@@ -89,8 +88,8 @@ fn turning(closed: &Loop) -> Option<String> {
         format!("w = {before} before, and {after} after")
     };
     Some(format!(
-        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, and may leave \
-         rows at turns out, so its errors of the same model on the same log are others"
+        "joints turn round as slowly as the logs tell: sign(dq) counts as tanh(dq / w), {widths}; `identify` does not ask for that, \
+         so its errors of the same model on the same log are others"
     ))
 }
 

@@ -20,20 +20,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
     let mut out = match closed.outcome() {
         Outcome::NothingMissing => format!("nothing missing: {}\n", outcome(closed)),
         Outcome::Explained => "explained:\n".to_owned(),
-<<<<<<< HEAD
-        Outcome::Unexplained => format!("unexplained: {}\n", outcome(closed)),
-=======
-        Outcome::Unexplained if !verdict.leads.is_empty() => {
-            "unexplained: the residual follows the motion; the effects listed here pass the gates but do not account for its \
-             structure, so none is named\n"
-                .to_owned()
-        }
-        // Unexplained, or an outcome of which nothing more is known here.
-        _ => {
-            "unexplained: the residual follows the motion, and no known effect accounts for it\n"
-                .to_owned()
-        }
->>>>>>> api9
+        _ => format!("unexplained: {}\n", outcome(closed)),
     };
     for fault in &closed.faults {
         writeln!(out, "  {}: {}", fault.kind, fault.told).expect("a string takes all");
