@@ -8,6 +8,7 @@ use crate::paper::Row;
 /// What a check finds first, as far as its first number.
 fn shortened(check: &Check) -> String {
     let first = check.findings.first().map_or("", String::as_str);
+    let first = first.trim_start_matches("torques do not tell ");
     let parts: Vec<&str> = first.split(", ").collect();
     let more = if parts.len() > 1 { ", .." } else { "" };
     format!("{}{more}", parts[0])

@@ -78,14 +78,21 @@ pub fn rounding(mass: f64, lever: f64) -> f64 {
 /// Those of the text.
 pub fn carried(lever: f64) -> Result<Audited, Error> {
     let [second, third] = WEIGHTS.recommended;
+    let energies = "    kinetic =";
+    let constants = format!(
+        "    constants g = {GRAVITY} m/s^2, tool = {} kg, second = {second} kg, third = {third} kg;
+    constants L_tool = {} m, L_weight = {lever} m;
+{energies}",
+        WEIGHTS.tool, WEIGHTS.tool_lever
+    );
     let potential = "potential = pi7*sin(theta2) - pi8*cos(theta3)";
     let weights = format!(
         "{potential}
-        + {GRAVITY}*{}*({}*sin(theta2) - {}*cos(theta3))
-        - {GRAVITY}*{lever}*({second}*sin(theta2) - {third}*cos(theta3))",
-        WEIGHTS.tool, LINKS[0], WEIGHTS.tool_lever
+        + g*tool*(L1*sin(theta2) - L_tool*cos(theta3)) - g*L_weight*(second*sin(theta2) - third*cos(theta3))"
     );
-    let mut text = without_friction().replace(potential, &weights);
+    let mut text = without_friction()
+        .replace(energies, &constants)
+        .replace(potential, &weights);
     for (joint, mass) in [("theta2", second), ("theta3", third)] {
         let limits = format!("limits {joint} {{");
         let motor = format!("{limits} torque = {} Nm;", rounding(mass, lever));
