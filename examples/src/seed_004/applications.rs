@@ -107,7 +107,7 @@ fn controlled(results: &Results) -> Vec<Row> {
         |is_larger: &dyn Fn(usize) -> bool| (0..gains.len()).filter(|k| is_larger(*k)).count();
     let larger = count(&|k| gains[k][0] > gains[k][1]);
     let on_ur = if gains[0][0] > gains[0][1] {
-        "it is on UR, of which figure 15 is; "
+        "it is larger on UR, of which figure 15 is; "
     } else {
         ""
     };
