@@ -34,7 +34,6 @@ fn the_page_says_what_the_program_says() {
         "2.3.k",
         "2.3.lengths",
         "2.8.unit",
-        "2.8.product",
         "2.9",
         "2.9.sign",
     ];
@@ -91,26 +90,18 @@ fn base_parameters_are_seventy_both_ways() {
     // `R2 R1^-1` does not exist; lengths of columns belong into `R1^-1 R2`.
     assert_eq!(base.printed, [26, 70]);
     assert!(base.regrouped[0] < 1e-12 && base.regrouped[1] > 0.1);
-    // So say the dimensions of a spec.
-    let [order, repaired] = &base.regrouping.order;
-    let said = order.as_deref().unwrap_or_default();
-    assert!(
-        said.starts_with("terms of different dimensions do not add"),
-        "{said}"
-    );
-    assert_eq!(*repaired, None);
-    let [lengths, repaired] = &base.regrouping.lengths;
-    assert!(lengths.refused.len() > 5, "{lengths:?}");
-    for said in &lengths.refused {
-        assert!(
-            said.starts_with("terms of different dimensions do not add"),
-            "{said}"
-        );
+    // So says the audit of the base parameters that these matrices make.
+    let asked = &base.regrouping;
+    for (wrong, least) in [(&asked.printed, 20), (&asked.of_unit, 10)] {
+        assert_eq!(wrong.passed, Some(false));
+        assert!(wrong.findings.len() >= least, "{:?}", wrong.findings);
+        for said in &wrong.findings {
+            assert!(said.starts_with("torques do not tell `"), "{said}");
+        }
     }
-    assert_eq!(
-        (repaired.columns, &*repaired.refused),
-        (lengths.columns, &[][..])
-    );
+    assert_eq!(asked.of_measured.findings, [""; 0]);
+    assert_eq!(asked.of_measured.passed, Some(true));
+    assert_eq!(asked.of_measured.quantity("independent", None), Some(70.0));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use robot_model_codegen::interpreter::{Operand, Program};
 use robot_model_codegen::states::StateProgram;
 use robot_model_spec::model::JointKind;
 
-use super::inertia::{pose, workspace};
+use super::workspace::{pose, workspace};
 use super::{Check, Quantity};
 use crate::interpreted::states;
 use crate::parameters::Values;

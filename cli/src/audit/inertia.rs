@@ -4,23 +4,15 @@ use nalgebra::DMatrix;
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::Symbol;
 use robot_model_codegen::interpreter::Program;
-use robot_model_spec::model::JointKind;
 
+use super::workspace::{POSES, descend, pose, workspace};
 use super::{Check, Quantity};
 
-/// Poses that are looked at, and the worst of them by each measure, from which the search goes on.
-const POSES: usize = 2000;
+/// The worst poses by each measure, from which the search goes on.
 const SEARCHED: usize = 5;
-
-/// Range of a joint without position limits: all angles, or so many meters either way.
-const ANGLE: f64 = std::f64::consts::PI;
-const SLIDE: f64 = 1.0;
 
 /// Eigenvalues below this share of the largest are zero.
 const ROUNDING: f64 = 1e-9;
-
-/// Part of a range at which the search ends.
-const FINE: f64 = 1e-5;
 
 /// Of all parameters, as [`Compiled::parameter_values`] gives them, and of shapes.
 pub(super) fn check(compiled: &Compiled, parameters: &[f64], shapes: &[f64]) -> Check {
@@ -54,35 +46,6 @@ pub(super) fn check(compiled: &Compiled, parameters: &[f64], shapes: &[f64]) -> 
     let at = joints.map(|(joint, q)| Quantity::of("position", &joint.name, *q, ""));
     check.quantities = std::iter::once(least).chain(at).collect();
     check
-}
-
-/// Ranges of the joints.
-pub(super) fn workspace(compiled: &Compiled) -> Vec<(f64, f64)> {
-    let joints = compiled.model.joints.iter();
-    let range = joints.map(|joint| {
-        let all = match joint.kind {
-            JointKind::Prismatic => SLIDE,
-            JointKind::Revolute => ANGLE,
-        };
-        joint.limits.position.unwrap_or((-all, all))
-    });
-    range.collect()
-}
-
-/// Poses that fill the workspace evenly: Halton's sequence.
-pub(super) fn pose(workspace: &[(f64, f64)], number: usize) -> Vec<f64> {
-    let mut primes = (2_usize..).filter(|n| (2..*n).all(|k| !n.is_multiple_of(k)));
-    let place = |&(low, high): &(f64, f64)| {
-        let base = primes.next().unwrap_or(2);
-        let (mut rest, mut share, mut sum) = (number + 1, 1.0, 0.0);
-        while rest > 0 {
-            share /= base as f64;
-            sum += share * (rest % base) as f64;
-            rest /= base;
-        }
-        low + sum * (high - low)
-    };
-    workspace.iter().map(place).collect()
 }
 
 struct Inertia<'a> {
@@ -127,7 +90,10 @@ impl Inertia<'_> {
             order.truncate(SEARCHED);
             let descended = order.into_iter();
             descended
-                .map(|(_, k)| self.descend(measure, workspace, poses[k].clone()))
+                .map(|(_, k)| {
+                    let value = |pose: &[f64]| measure.of(&self.matrix(pose));
+                    descend(workspace, poses[k].clone(), &value)
+                })
                 .collect::<Vec<_>>()
         });
         let found = found.map(|pose| (self.eigenvalues(&pose).0, pose));
@@ -150,30 +116,6 @@ impl Inertia<'_> {
     fn eigenvalues(&self, pose: &[f64]) -> (f64, f64) {
         let values = self.matrix(pose).symmetric_eigenvalues();
         (values.min(), values.max())
-    }
-
-    /// Goes down one joint after the other, in steps that become smaller.
-    fn descend(&self, measure: Measure, workspace: &[(f64, f64)], mut pose: Vec<f64>) -> Vec<f64> {
-        let mut least = measure.of(&self.matrix(&pose));
-        let mut step = 0.1;
-        while step > FINE {
-            let before = least;
-            for (joint, &(low, high)) in workspace.iter().enumerate() {
-                for way in [-1.0, 1.0] {
-                    let mut trial = pose.clone();
-                    trial[joint] = (pose[joint] + way * step * (high - low)).clamp(low, high);
-                    let value = measure.of(&self.matrix(&trial));
-                    if value < least {
-                        (least, pose) = (value, trial);
-                    }
-                }
-            }
-            // No number is lower than none.
-            if least.total_cmp(&before).is_ge() {
-                step *= 0.5;
-            }
-        }
-        pose
     }
 }
 

@@ -1,15 +1,17 @@
 //! `robot-model audit`: whether an arm can have given parameters; [`audit`] asks the same of values in memory.
 
+mod base;
 mod bodies;
 mod drives;
 mod friction;
 mod inertia;
 mod jumps;
 mod memory;
+mod workspace;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_model_codegen::Compiled;
@@ -18,20 +20,27 @@ use serde::Serialize;
 
 use crate::output::{self, Files, counted, names, rounded};
 use crate::parameters::{self, Beside, Values};
-use crate::{Error, spec};
+use crate::{Error, json, spec};
+
+pub use base::Sums;
 
 /// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, torques of motors, rank.
 ///
 /// Exit code 1 where a check fails; the report is written all the same.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  robot-model audit arm.robot --parameters fit.json")]
+  robot-model audit arm.robot --parameters fit.json
+  robot-model audit arm.robot --base paper.json")]
 pub(crate) struct Audit {
     /// The `.robot` file. Position limits are the workspace, velocity limits the speeds.
     spec: PathBuf,
     /// Parameter values by name, or what `identify --json` writes; without it the spec's own values.
     #[arg(long, value_name = "FILE.json")]
     parameters: Option<PathBuf>,
+    /// Base parameters of another source, `{"NAME": {"STANDARD PARAMETER": FACTOR, ..}, ..}`: whether they are base parameters of this
+    /// arm. Alone it needs no values of parameters, and looks at nothing else.
+    #[arg(long, value_name = "FILE.json")]
+    base: Option<PathBuf>,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -48,7 +57,7 @@ struct Report<'a> {
 /// One question, and what speaks against it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
-    /// `bodies`, `signs`, `inertia`, `friction`, `jumps`, `memory`, `drives`, `rank`.
+    /// `bodies`, `signs`, `inertia`, `friction`, `jumps`, `memory`, `drives`, `rank`, `base`.
     pub name: &'static str,
     /// None where it was not decided.
     pub passed: Option<bool>,
@@ -64,7 +73,8 @@ pub struct Check {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Quantity {
     /// `mass`, `least_second_moment`, `nearest` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
-    /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `largest_torque` (drives); `base_parameters`, `parameters` (rank).
+    /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `at_rest`, `largest_torque` (drives); `base_parameters`, `parameters`
+    /// (rank); `factor`, `needed`, `independent`, `base_parameters` (base).
     pub what: &'static str,
     /// The link, joint or parameter that it is of; none where it is of the whole arm.
     pub of: Option<String>,
@@ -103,6 +113,14 @@ type Finding = (String, Vec<Quantity>);
 pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
     let values = parameters::by_name(compiled, parameters)?;
     Ok(checks(compiled, &values))
+}
+
+/// Whether sums of standard parameters are base parameters of an arm, as a paper or another program has them: the check `base`.
+///
+/// # Errors
+/// [`Error`] where a part of a sum is no standard parameter of the arm's, or its factor no number.
+pub fn base(compiled: &Compiled, sums: &Sums) -> Result<Check, Error> {
+    base::check(compiled, sums)
 }
 
 /// What is wrong with the inertia of an arm with these base parameters and shapes: why it runs away when it is simulated.
@@ -158,15 +176,12 @@ impl Check {
 }
 
 impl Audit {
-    pub(crate) fn run(&self) -> Result<(), Error> {
-        let inputs = [Some(&self.spec), self.parameters.as_ref()];
-        let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
-        let json = Files::reading(inputs).claim_if(self.json.as_deref())?;
-        let compiled = spec::compile(&self.spec)?;
-        let values = parameters::values(&compiled, self.parameters.as_deref())?;
+    /// What is audited, and where it is from.
+    fn values(&self, compiled: &Compiled) -> Result<(Values, String), Error> {
+        let values = parameters::values(compiled, self.parameters.as_deref())?;
         let (mut values, _, source) = values;
         if let (Some(file), None) = (&self.parameters, &values.standard) {
-            match parameters::beside(&compiled, file, &values.beta)? {
+            match parameters::beside(compiled, file, &values.beta)? {
                 Beside::Nothing => {}
                 Beside::Same(standard) => values.standard = Some(standard),
                 Beside::Other => output::say(&format!(
@@ -174,7 +189,29 @@ impl Audit {
                 )),
             }
         }
-        let checks = checks(&compiled, &values);
+        Ok((values, source))
+    }
+
+    pub(crate) fn run(&self) -> Result<(), Error> {
+        let inputs = [
+            Some(&self.spec),
+            self.parameters.as_ref(),
+            self.base.as_ref(),
+        ];
+        let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
+        let json = Files::reading(inputs).claim_if(self.json.as_deref())?;
+        let compiled = spec::compile(&self.spec)?;
+        let (mut checks, mut source) = (Vec::new(), None);
+        if self.base.is_none() || self.parameters.is_some() {
+            let (values, of) = self.values(&compiled)?;
+            checks = self::checks(&compiled, &values);
+            source = Some(of);
+        }
+        if let Some(path) = &self.base {
+            checks.push(base::check(&compiled, &sums(path)?)?);
+        }
+        let source = source.or_else(|| Some(self.base.as_ref()?.display().to_string()));
+        let source = source.unwrap_or_default();
         let failed = checks
             .iter()
             .filter(|check| check.passed == Some(false))
@@ -197,6 +234,11 @@ impl Audit {
             counted(report.checks.len(), "check")
         )))
     }
+}
+
+/// Base parameters that a file gives.
+fn sums(path: &Path) -> Result<Sums, Error> {
+    json::typed(path, json::read(path)?, base::FORM)
 }
 
 /// Parameters that the language says are not negative.

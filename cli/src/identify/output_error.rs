@@ -29,7 +29,7 @@ use crate::interpreted::InterpretedArm;
 use crate::output::{Files, names};
 use crate::progress::Progress;
 use beginning::Beginning;
-use bounds::bounds;
+use bounds::{Said, bounds};
 pub(super) use options::Options;
 use options::{HoldArgument, SearchArgument};
 use recordings::recordings;
@@ -63,6 +63,8 @@ impl IdentifyArguments {
         let beginning = Beginning::of(&compiled, &form, &logs, self.bands, start)?;
         self.ask_equations(&form, &logs, &beginning, &mut faults, &progress);
         let mut settings = self.settings(&compiled, &beginning)?;
+        let ranges = self.ranges(&beginning);
+        progress.notes(bounds::doubt(&compiled, &beginning.names, ranges)?);
         let recordings = |logs: &[Log]| recordings(&compiled, &beginning.shapes, logs);
         let fitted = recordings(&logs)?;
         let starts = match start {
@@ -167,6 +169,17 @@ impl IdentifyArguments {
         faults.extend(self.late_channels(linear, progress));
     }
 
+    /// What is said of the ranges of parameters.
+    fn ranges<'a>(&'a self, beginning: &'a Beginning) -> Said<'a> {
+        let options = &self.output_error;
+        Said {
+            start: &beginning.starts[0],
+            is_given: options.start.is_some(),
+            within: options.within,
+            file: options.bounds.as_deref(),
+        }
+    }
+
     fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {
         let options = &self.output_error;
         if options.controller.is_some() {
@@ -222,15 +235,7 @@ impl IdentifyArguments {
             iterations: None,
             below: None,
             law: law.transpose()?,
-            bounds: bounds(
-                compiled,
-                &beginning.names,
-                options
-                    .start
-                    .as_ref()
-                    .map(|_| beginning.starts[0].as_slice()),
-                options.bounds.as_deref(),
-            )?,
+            bounds: bounds(compiled, &beginning.names, self.ranges(beginning))?,
         })
     }
 }

@@ -1,6 +1,8 @@
 //! What is wrong in the paper, as the library finds it, and what is left where it is mended.
 
-use robot_model::identify::output_error::{OutputError, OutputErrorError, OutputEstimate};
+use robot_model::identify::output_error::{
+    OutputError, OutputErrorError, OutputEstimate, other_ranges, ranges_within,
+};
 use robot_model::simulate::Functions as _;
 
 use super::model::{Arm, Model, errors, rest, simulate, with};
@@ -9,9 +11,6 @@ use super::releases::at;
 use super::search::{Found, exact, in_threads, look, names, recording, settings};
 use super::truth::{BOUNDS, CAD, ESTIMATED, G, HEIGHTS, NAMES, Physical, Printed, SHARE};
 use crate::paper::Error;
-
-/// Parts of a bound that rounding to its printed digits may make up.
-const ROUNDED: f64 = 0.04;
 
 /// Seconds after which every release has ended.
 const END: f64 = 60.0;
@@ -100,27 +99,23 @@ pub struct Off {
     pub printed: [f64; 2],
 }
 
-/// Bounds as the text says, of all but friction.
+/// Bounds as the text says, of all but friction, whose bounds are no share of anything.
 #[must_use]
 pub fn said() -> [[f64; 2]; 7] {
-    let values = CAD.values();
-    std::array::from_fn(|k| [values[k] * (1.0 - SHARE), values[k] * (1.0 + SHARE)])
+    let said = ranges_within(&CAD.values()[..7], SHARE);
+    std::array::from_fn(|k| said[k])
 }
 
-/// Parameters of which a bound is off from what the text says by more than rounding.
+/// Parameters of which the library finds another range than the text says.
 #[must_use]
 pub fn off(bounds: &[[f64; 2]]) -> Vec<Off> {
-    let pairs = said().into_iter().zip(bounds).zip(NAMES);
-    let pairs = pairs.filter(|((said, printed), _)| {
-        let ends = said.iter().zip(printed.iter());
-        ends.into_iter()
-            .any(|(said, printed)| (said - printed).abs() > ROUNDED * said)
-    });
-    pairs
-        .map(|((said, printed), name)| Off {
-            name,
-            said,
-            printed: *printed,
+    let said = said();
+    let others = other_ranges(bounds, &said).into_iter();
+    others
+        .map(|k| Off {
+            name: NAMES[k],
+            said: said[k],
+            printed: bounds[k],
         })
         .collect()
 }

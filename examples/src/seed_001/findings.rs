@@ -184,7 +184,7 @@ pub(super) fn bounds_of_text() -> Row {
         .collect();
     Row::wrong_in_print(
         "1.bounds",
-        "Table 5 is said to be 30 % less and more than Table 2 (a comparison, no check of the tool)",
+        "Table 5 is said to be 30 % less and more than Table 2: ranges that are others, by `other_ranges` of the library, as `--within 30` says beside `--bounds`",
         format!("+- {:.0} %", 100.0 * SHARE),
         names.join("; "),
         off.iter().map(|off| off.name).eq(["m1", "m2", "l1", "c1"]),

@@ -46,7 +46,7 @@ pub struct Base {
     pub regrouped: [f64; 2],
     /// Columns and rows of the matrices as printed, `R2 R1^-1`.
     pub printed: [usize; 2],
-    /// What the dimensions of a spec say of (15).
+    /// What the audit says of base parameters that are made with (15).
     pub regrouping: Regrouping,
 }
 
@@ -170,9 +170,13 @@ pub fn base(compiled: &Compiled) -> Result<Base, Error> {
     );
     let inverse = r1.try_inverse().expect("kept columns are independent");
     let of_unit = &inverse * &r2;
-    let k = DMatrix::from_fn(n, dropped.len(), |i, j| {
-        of_unit[(i, j)] * lengths[dropped[j]] / lengths[form.kept[i]]
-    });
+    let measured = |of_unit: &DMatrix<f64>| {
+        DMatrix::from_fn(n, dropped.len(), |i, j| {
+            of_unit[(i, j)] * lengths[dropped[j]] / lengths[form.kept[i]]
+        })
+    };
+    let k = measured(&of_unit);
+    let in_printed_order = measured(&(r2.transpose() * &inverse).transpose());
     let symbolic = DMatrix::from_fn(n, dropped.len(), |i, j| {
         let mut parts = form.combinations[i].iter();
         parts
@@ -212,6 +216,10 @@ pub fn base(compiled: &Compiled) -> Result<Base, Error> {
         k: (&k - &symbolic).amax(),
         regrouped: [left(&k), left(&of_unit)],
         printed: [r2.ncols(), inverse.nrows()],
-        regrouping: Regrouping::of(compiled, [&form.kept, &dropped], [&of_unit, &k]),
+        regrouping: Regrouping::of(
+            compiled,
+            [&form.kept, &dropped],
+            [&in_printed_order, &of_unit, &k],
+        )?,
     })
 }

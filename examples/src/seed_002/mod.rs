@@ -7,6 +7,7 @@
 pub mod arm;
 mod arm_rows;
 pub mod base;
+mod base_rows;
 pub mod excitation;
 pub mod experiment;
 mod figures;

@@ -1,9 +1,9 @@
 //! Every item of the list, with what became of it.
 
 use super::arm_rows;
+use super::base_rows;
 use super::excitation::{Objectives, against_differences};
 use super::law::{Besides, speeds};
-use super::regrouping::Regrouping;
 use super::results::Results;
 use super::table_two::{drop, mean, mean_drop, squares};
 use super::truth::{EPS, HARMONICS, SAMPLES, TABLE_2};
@@ -31,7 +31,7 @@ fn small(value: f64) -> String {
 pub fn rows(results: &Results) -> Vec<Row> {
     let parts = [
         law(results),
-        base(results),
+        base_rows::rows(results),
         identification(results),
         excitation(results),
         arm_rows::of_table(results),
@@ -126,86 +126,6 @@ fn names(found: &[String]) -> String {
         [] => "nothing".to_owned(),
         found => found.join(", "),
     }
-}
-
-/// Of an equation whose dimensions fit.
-const PASSES: &str = "passes";
-
-fn base(results: &Results) -> Vec<Row> {
-    let base = &results.base;
-    let ranks = [base.symbolic, base.identified, base.numeric];
-    let Regrouping { order, lengths } = &base.regrouping;
-    vec![
-        Row::holds(
-            "2.2",
-            "base parameters of 96",
-            "70 and 26",
-            format!(
-                "{} by the compiler ({} of friction, rotors of {}), {} by identification of all, {} by QR; {} standard",
-                base.symbolic,
-                base.friction,
-                base.rotors.join(", "),
-                base.identified,
-                base.numeric,
-                base.standard
-            ),
-            ranks == [70; 3]
-                && base.standard == 96
-                && base.friction == 30
-                && base.rotors == ["j3", "j4", "j5", "j6"],
-            "the ranks differ",
-        ),
-        Row::holds(
-            "2.3",
-            "numeric QR on random six-sine data and the compiler's set",
-            "QR of normalized columns",
-            format!(
-                "kept columns at least {:.0e} apart, dropped ones at most {:.0e}; `R1^-1 R2` is the compiler's within {:.0e}",
-                base.kept_apart, base.dropped_apart, base.k
-            ),
-            base.kept_apart > 1e-6 && base.dropped_apart < 1e-12 && base.k < 1e-8,
-            "the sets differ",
-        ),
-        Row::wrong_in_print(
-            "2.3.k",
-            "the matrix that regroups (15), by the dimensions of a spec (a comparison with what fits by its making, no check of the tool)",
-            "k = R2 R1^-1, W2 = k W1",
-            format!(
-                "an entry of R2 R1^-1, of columns with their units: {}; of R1^-1 R2: {}; R2 has {} columns and R1^-1 {} rows; with k = R1^-1 R2 \
-                 and W2 = W1 k {:.0e} of W2 is left",
-                order[0].as_deref().unwrap_or(PASSES),
-                order[1].as_deref().unwrap_or(PASSES),
-                base.printed[0],
-                base.printed[1],
-                base.regrouped[0]
-            ),
-            order[0].is_some()
-                && order[1].is_none()
-                && base.printed[0] != base.printed[1]
-                && base.regrouped[0] < 1e-10,
-            "the product does not exist: it is R1^-1 R2, and W2 = W1 k",
-        ),
-        Row::wrong_in_print(
-            "2.3.lengths",
-            "k of normalized columns, used on measured ones (15), by the dimensions of a spec (a comparison with what fits by its making, no check of the tool)",
-            "the same k",
-            format!(
-                "of {} columns of W2 {} are no sums of columns of W1, as {}; {} where lengths are put back; {:.2} of W2 is left, and {:.0e} \
-                 with lengths",
-                lengths[0].columns,
-                lengths[0].refused.len(),
-                lengths[0].refused.first().map_or(PASSES, String::as_str),
-                lengths[1].refused.len(),
-                base.regrouped[1],
-                base.regrouped[0]
-            ),
-            !lengths[0].refused.is_empty()
-                && lengths[1].refused.is_empty()
-                && base.regrouped[1] > 0.1
-                && base.regrouped[0] < 1e-10,
-            "R is of columns of unit length: k has to get the lengths back",
-        ),
-    ]
 }
 
 fn identification(results: &Results) -> Vec<Row> {
@@ -378,10 +298,10 @@ fn excitation(results: &Results) -> Vec<Row> {
                 && raw.log_det.iter().all(Option::is_some),
             "columns of unit length have the bound 1 by every motion: nothing is designed",
         ),
-        Row::wrong_in_print(
+        Row::holds(
             "2.8.product",
             format!(
-                "(29) as a product of {} sums over {} rows, multiplied in doubles (arithmetic, no check of the tool)",
+                "a caution, no misprint: (29) as a product of {} sums over {} rows, multiplied in doubles",
                 results.sums.len(),
                 SAMPLES * joints
             ),
@@ -391,7 +311,7 @@ fn excitation(results: &Results) -> Vec<Row> {
                 1.0 / product
             ),
             1.0 / product == 0.0 && logarithms.is_finite(),
-            "the product overflows: its logarithm is to be taken",
+            "the product is a number",
         ),
     ]
 }

@@ -16,7 +16,22 @@ pub fn tables(results: &Results) -> Vec<Table> {
         table_2(results),
         ablation(results),
         guiding(results),
+        streaming(results),
     ]
+}
+
+/// Seconds are those of a machine and of what else it does, so a page has others.
+fn streaming(results: &Results) -> Table {
+    let mut table = Table::new(
+        "From positions to an estimate, piece by piece: seconds",
+        ["columns", "seconds"],
+    )
+    .rough();
+    for streamed in &results.streamed {
+        let [_, columns] = streamed.size;
+        table.push([format!("{columns}"), format!("{:.2}", streamed.seconds)]);
+    }
+    table
 }
 
 /// Numbers as text.

@@ -2,6 +2,7 @@
 
 use super::results::Results;
 use super::truth::{CROSSOVER, WEIGHTS};
+use super::weights::{at_rest, rounding};
 use crate::paper::Row;
 
 pub(super) fn rows(results: &Results) -> Vec<Row> {
@@ -17,7 +18,6 @@ fn uses(results: &Results) -> Vec<Row> {
     let gravity = super::shares::gravity_of_joint_3(&results.shares);
     let [sensor, upright, turned] = gravity;
     let crossover = super::shares::crossover();
-    let [printed, repaired] = &results.balances;
     let triple = |all: [f64; 3], digits: usize| all.map(|x| format!("{x:.digits$}")).join(", ");
     vec![
         Row::holds(
@@ -55,30 +55,44 @@ fn uses(results: &Results) -> Vec<Row> {
                 .all(|(x, y)| (x / y - 1.0).abs() < 0.02),
             "more than rounding of table 1 apart",
         ),
-        Row::wrong_in_print(
-            "4.10",
-            "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m; by the library, the command line has no verb for it",
-            format!("{:?}, {:?}", WEIGHTS.moments, WEIGHTS.recommended),
-            format!(
-                "{:.4}, {:.4}; {:.3}, {:.3}; with {:.4} m {:.4}; {:.3}, {:.3}",
-                printed.moments[0],
-                printed.moments[1],
-                printed.masses[0],
-                printed.masses[1],
-                results.levers[0],
-                repaired.moments[0],
-                repaired.masses[0],
-                repaired.masses[1],
-            ),
-            (printed.moments[0] - WEIGHTS.moments[0]).abs() > 5e-3
-                && (repaired.masses[0] - WEIGHTS.recommended[0]).abs() < 1e-3
-                && (repaired.masses[1] - WEIGHTS.recommended[1]).abs() < 1.5e-3,
-            &format!(
-                "a comparison and no check of the tool: the figures come of another lever than the one that is printed, of {:.4} m by pi7' and of {:.4} m by the second mass",
-                results.levers[0], results.levers[1]
-            ),
-        ),
+        weights(results),
     ]
+}
+
+fn weights(results: &Results) -> Row {
+    let [printed, repaired] = &results.balances;
+    let [first, second] = results.levers;
+    let at_rest = results.carried.each_ref().map(at_rest);
+    let limits = [0, 1].map(|k| rounding(WEIGHTS.recommended[k], WEIGHTS.lever));
+    let milli = |torques: [Option<f64>; 2]| {
+        let torques = torques.map(|torque| torque.map(|torque| format!("{:.1}", 1e3 * torque)));
+        torques
+            .map(|torque| torque.unwrap_or_else(|| "none".to_owned()))
+            .join(" and ")
+    };
+    Row::wrong_in_print(
+        "4.10",
+        "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m; and whether a device that carries the masses stands, by `audit`",
+        format!("{:?}, {:?}", WEIGHTS.moments, WEIGHTS.recommended),
+        format!(
+            "{:.4}, {:.4}; {:.3}, {:.3}; with the printed masses joints 2 and 3 take {} mN m to stand, where rounding of masses \
+             and lever leaves {} (`drives`); with {first:.4} m {}; {:.4}; {:.3}, {:.3}",
+            printed.moments[0],
+            printed.moments[1],
+            printed.masses[0],
+            printed.masses[1],
+            milli(at_rest[0]),
+            milli(limits.map(Some)),
+            milli(at_rest[1]),
+            repaired.moments[0],
+            repaired.masses[0],
+            repaired.masses[1],
+        ),
+        at_rest[0].iter().all(Option::is_some) && at_rest[1] == [None; 2],
+        &format!(
+            "the figures come of another lever than the one that is printed, of {first:.4} m by pi7' and of {second:.4} m by the second mass"
+        ),
+    )
 }
 
 fn controlled(results: &Results) -> Vec<Row> {
@@ -92,6 +106,11 @@ fn controlled(results: &Results) -> Vec<Row> {
     let count =
         |is_larger: &dyn Fn(usize) -> bool| (0..gains.len()).filter(|k| is_larger(*k)).count();
     let larger = count(&|k| gains[k][0] > gains[k][1]);
+    let on_ur = if gains[0][0] > gains[0][1] {
+        "it is larger on UR, of which figure 15 is; "
+    } else {
+        ""
+    };
     let stiffness = results.largest_stiffness();
     let stiffer = count(&|k| stiffness[k][0] > stiffness[k][1]);
     let listed = |all: &[[f64; 2]], digits: usize| {
@@ -125,7 +144,7 @@ fn controlled(results: &Results) -> Vec<Row> {
             ),
             larger == gains.len(),
             &format!(
-                "K_P is an acceleration: where the piece-wise inertia is too small the same K_P is a softer loop; K_P pi6 is larger in {stiffer} of {}",
+                "{on_ur}K_P is an acceleration: where the piece-wise inertia is too small the same K_P is a softer loop; K_P pi6 is larger in {stiffer} of {}",
                 gains.len()
             ),
         ),

@@ -23,6 +23,7 @@ pub mod sines;
 mod tables;
 pub mod tracing;
 pub mod truth;
+pub mod weights;
 
 use crate::paper::{Error, Paper};
 

@@ -7,11 +7,12 @@ use super::device::{self, SPEC};
 use super::equation_13::Left;
 use super::equations::{self, Comparison, Off};
 use super::fits::{self, Installation};
-use super::shares::{self, Balance, Shares};
+use super::shares::{self, Shares};
 use super::sines::{ROOM, Sines};
 use super::tracing::{self, Traces};
 use super::truth::{COMMAND_GAIN, CONTROL_GAINS, SINES, WEIGHTS, piece_wise, table_1};
-use crate::paper::Error;
+use super::weights::{self, Balance};
+use crate::paper::{Audited, Error};
 
 /// One setting of section 4.3 with identified and with piece-wise parameters.
 #[derive(Debug, Clone)]
@@ -50,6 +51,8 @@ pub struct Results {
     pub balances: [Balance; 2],
     /// That lever, and the one of the second mass that is recommended, m.
     pub levers: [f64; 2],
+    /// What `audit` says of the device that carries the recommended weights: with the printed lever, with the first of these.
+    pub carried: [Audited; 2],
     /// Figures 14 to 16.
     pub controlled: Vec<Controlled>,
     /// Largest `K_P` of each installation with identified and with piece-wise parameters.
@@ -85,7 +88,7 @@ pub fn results() -> Result<Results, Error> {
         })
     });
     let controlled = controlled.collect::<Result<Vec<_>, Error>>()?;
-    let levers = shares::levers_of_print()?;
+    let levers = weights::levers_of_print()?;
     Ok(Results {
         equations: [equations::compare(false), equations::compare(true)],
         filters: [
@@ -98,7 +101,14 @@ pub fn results() -> Result<Results, Error> {
         shares: (0..5)
             .map(|k| shares::shares(&table_1(k), &motion))
             .collect(),
-        balances: [shares::balance(WEIGHTS.lever)?, shares::balance(levers[0])?],
+        balances: [
+            weights::balance(WEIGHTS.lever)?,
+            weights::balance(levers[0])?,
+        ],
+        carried: [
+            weights::carried(WEIGHTS.lever)?,
+            weights::carried(levers[0])?,
+        ],
         levers,
         controlled,
         largest_gains: (0..5).map(largest).collect::<Result<_, Error>>()?,

@@ -1,14 +1,13 @@
-//! Sections 3.2, 4.1 and 4.2: shares of the torque, where friction changes over, weights.
+//! Sections 3.2 and 4.1: shares of the torque, where friction changes over.
 
-use robot_model::control::counterbalance::{Weight, lever, mass, moment};
-use robot_model::control::{ControlError, Dissection};
+use robot_model::control::Dissection;
 use robot_model::{RobotModel as _, State, Vector};
 
 use super::device::phantom;
 use super::plant::Three;
 use super::sensors::RATE;
 use super::sines::Sines;
-use super::truth::{FASTEST, GRAVITY, LINKS, Pi, TABLE_1_UR_GRAVITY, WEIGHTS, table_1};
+use super::truth::{FASTEST, Pi, table_1};
 
 /// Shares in the order of figure 10.
 pub const NAMES: [&str; 5] = ["inertia", "Coriolis", "gravity", "viscous", "Coulomb"];
@@ -137,59 +136,4 @@ pub fn is_as_said([sensor, upright, turned]: Three) -> bool {
 pub fn crossover() -> Three {
     let pi = table_1(0);
     std::array::from_fn(|j| (pi[11 + j] / pi[8 + j]).abs().to_degrees())
-}
-
-/// Section 4.2 with one lever of the counterweights.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Balance {
-    /// `pi7'` and `pi8'` of (16) and (17), N m.
-    pub moments: [f64; 2],
-    /// Masses of (18) and (19), kg.
-    pub masses: [f64; 2],
-}
-
-/// Equations (16) to (19).
-///
-/// # Errors
-/// A lever that is not positive.
-pub fn balance(lever: f64) -> Result<Balance, ControlError> {
-    let tool = |lever| Weight {
-        mass: WEIGHTS.tool,
-        lever,
-    };
-    let upper = Weight {
-        mass: WEIGHTS.upper,
-        lever: -lever,
-    };
-    let [pi7, pi8] = TABLE_1_UR_GRAVITY;
-    let loaded = [
-        moment(pi7, GRAVITY, &[tool(LINKS[0])]),
-        moment(pi8, GRAVITY, &[tool(WEIGHTS.tool_lever)]),
-    ];
-    Ok(Balance {
-        moments: [moment(pi7, GRAVITY, &[tool(LINKS[0]), upper]), loaded[1]],
-        masses: [
-            mass(loaded[0], GRAVITY, lever)?,
-            mass(loaded[1], GRAVITY, lever)?,
-        ],
-    })
-}
-
-/// The levers by which the manufacturer's weight makes the printed `pi7'`, and by which the second mass is the one that is recommended, m.
-///
-/// # Errors
-/// A moment on the other side of the axis.
-pub fn levers_of_print() -> Result<[f64; 2], ControlError> {
-    let loaded = |k: usize, arm: f64| {
-        let tool = Weight {
-            mass: WEIGHTS.tool,
-            lever: arm,
-        };
-        moment(TABLE_1_UR_GRAVITY[k], GRAVITY, &[tool])
-    };
-    let [upper, fore] = [loaded(0, LINKS[0]), loaded(1, WEIGHTS.tool_lever)];
-    Ok([
-        lever(upper - WEIGHTS.moments[0], GRAVITY, WEIGHTS.upper)?,
-        lever(fore, GRAVITY, WEIGHTS.recommended[1])?,
-    ])
 }

@@ -1,11 +1,12 @@
-//! Bounds that a file gives: of parameters by themselves, or of the standard parameters and constants that base parameters are made of.
+//! Bounds: a share of all values, and those that a file gives: of parameters by themselves, or of the standard parameters and constants that base parameters are made of.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use robot_model::identify::output_error::{other_ranges, ranges_within};
 use robot_model_codegen::Compiled;
 use robot_model_spec::model::Body;
-use robot_model_spec::parameter::Owner;
+use robot_model_spec::parameter::{Owner, Status};
 use serde_json::Value;
 
 use crate::{Error, json, output};
@@ -18,14 +19,139 @@ const OPEN: Range = [f64::NEG_INFINITY, f64::INFINITY];
 /// What a file says, by name.
 type Given = BTreeMap<String, Range>;
 
-/// Ranges of parameters: those of shapes, signs that effects declare, and what a file says. `names` are base parameters, then open
+/// What a user says of ranges.
+#[derive(Clone, Copy)]
+pub(super) struct Said<'a> {
+    /// Values that the search starts from.
+    pub start: &'a [f64],
+    /// Whether somebody has given them.
+    pub is_given: bool,
+    /// Percent about them.
+    pub within: Option<f64>,
+    /// Ranges by name, which come first.
+    pub file: Option<&'a Path>,
+}
+
+/// Ranges of parameters: those of shapes, signs that effects declare, and what is said. `names` are base parameters, then open
 /// shapes; where somebody has given a start below zero it is the least value.
 pub(super) fn bounds(
     compiled: &Compiled,
     names: &[String],
-    start: Option<&[f64]>,
-    file: Option<&Path>,
+    said: Said<'_>,
 ) -> Result<Vec<Range>, Error> {
+    let limits = limits(compiled, said);
+    let wanted = match said.within {
+        Some(percent) => ranges_within(said.start, share(percent)?),
+        None => vec![OPEN; names.len()],
+    };
+    let both = |range: &Range, limits: &Range| [range[0].max(limits[0]), range[1].min(limits[1])];
+    let mut bounds: Vec<Range> = wanted
+        .iter()
+        .zip(&limits)
+        .map(|(x, y)| both(x, y))
+        .collect();
+    let Some(path) = said.file else {
+        return Ok(bounds);
+    };
+    let given = read(path)?;
+    let parts = Parts {
+        compiled,
+        given: &given,
+    };
+    // What the file alone bounds.
+    let mut of_file = limits.clone();
+    for (place, base) in compiled.base.combinations.iter().enumerate() {
+        let sum = parts.sum(base);
+        let [low, high] = both(&sum, &limits[place]);
+        if low > high {
+            let (name, [low, high]) = (&names[place], sum);
+            return Err(Error::json(
+                path,
+                &format!("`{name}` would be within {low} .. {high}, and is never below zero"),
+            ));
+        }
+        of_file[place] = [low, high];
+        if sum != OPEN {
+            bounds[place] = [low, high];
+        }
+    }
+    for (name, range) in &given {
+        if let Some(place) = names.iter().position(|other| other == name) {
+            bounds[place] = *range;
+        } else if let Err(reason) = parts.check(name, names, &of_file) {
+            return Err(Error::json(path, &reason));
+        }
+    }
+    Ok(bounds)
+}
+
+/// Says so where a file has other ranges than what is said of all: about the start, and of what base parameters are made of about the
+/// spec's own values.
+pub(super) fn doubt(
+    compiled: &Compiled,
+    names: &[String],
+    said: Said<'_>,
+) -> Result<Option<String>, Error> {
+    let (Some(percent), Some(path)) = (said.within, said.file) else {
+        return Ok(None);
+    };
+    let value = |name: &str| match names.iter().position(|other| other == name) {
+        Some(place) => Some(said.start[place]),
+        None => nominal(compiled, name),
+    };
+    let given = read(path)?.into_iter();
+    let given = given.filter_map(|(name, range)| Some((value(&name)?, name, range)));
+    let given: Vec<(f64, String, Range)> = given.collect();
+    let values: Vec<f64> = given.iter().map(|(value, ..)| *value).collect();
+    let wanted = ranges_within(&values, share(percent)?);
+    let ranges: Vec<Range> = given.iter().map(|(.., range)| *range).collect();
+    let others = other_ranges(&ranges, &wanted).into_iter();
+    let others = others.map(|place| {
+        let [low, high] = wanted[place].map(|end| output::significant(end, 3));
+        let [own_low, own_high] = ranges[place];
+        format!(
+            "`{}` {own_low} .. {own_high} and not {low} .. {high}",
+            given[place].1
+        )
+    });
+    let others: Vec<String> = others.collect();
+    Ok((!others.is_empty()).then(|| {
+        format!(
+            "{} has other ranges than {percent} %: {}",
+            path.display(),
+            others.join(", ")
+        )
+    }))
+}
+
+/// Of a percentage.
+fn share(percent: f64) -> Result<f64, Error> {
+    if percent.is_finite() && percent > 0.0 {
+        Ok(percent / 100.0)
+    } else {
+        Err(Error::Argument(format!(
+            "`--within` has to be a positive number of percent, not {percent}"
+        )))
+    }
+}
+
+/// The spec's own value of a constant of energies, or of a standard parameter.
+fn nominal(compiled: &Compiled, name: &str) -> Option<f64> {
+    let constants = compiled.model.energies().into_iter();
+    let mut constants = constants.flat_map(|energies| &energies.parameters);
+    let mut standard = compiled.standard.iter();
+    let constant = constants.find(|constant| constant.name == name);
+    let standard = standard.find(|parameter| parameter.name == name);
+    constant
+        .and_then(|constant| constant.nominal)
+        .or_else(|| match standard?.status {
+            Status::Nominal(value) => Some(value),
+            _ => None,
+        })
+}
+
+/// Ranges of shapes, and signs that effects declare.
+fn limits(compiled: &Compiled, said: Said<'_>) -> Vec<Range> {
     let ranges = compiled.model.effects.iter().flat_map(|effect| {
         let shapes = effect.definition.shapes.iter();
         shapes.map(|shape| [shape.low, shape.high])
@@ -34,40 +160,17 @@ pub(super) fn bounds(
     let signs = compiled.base.combinations.iter().enumerate();
     let signs = signs.map(|(place, base)| match base[..] {
         [(k, factor)] if factor > 0.0 && is_sign(compiled, k) => {
-            let start = start.map_or(0.0, |start| start[place]);
+            let start = if said.is_given {
+                said.start[place]
+            } else {
+                0.0
+            };
             [start.min(0.0), f64::INFINITY]
         }
         _ => OPEN,
     });
-    let mut bounds: Vec<Range> = signs.collect();
-    bounds.extend(compiled.free_shapes().into_iter().map(|k| ranges[k]));
-    let Some(path) = file else {
-        return Ok(bounds);
-    };
-    let given = read(path)?;
-    let parts = Parts {
-        compiled,
-        given: &given,
-    };
-    let bases = compiled.base.combinations.iter().zip(names);
-    for ((base, name), bounds) in bases.zip(&mut bounds) {
-        let [low, high] = parts.sum(base);
-        *bounds = [low.max(bounds[0]), high.min(bounds[1])];
-        if bounds[0] > bounds[1] {
-            return Err(Error::json(
-                path,
-                &format!("`{name}` would be within {low} .. {high}, and is never below zero"),
-            ));
-        }
-    }
-    for (name, range) in &given {
-        if let Some(place) = names.iter().position(|other| other == name) {
-            bounds[place] = *range;
-        } else if let Err(reason) = parts.check(name, names, &bounds) {
-            return Err(Error::json(path, &reason));
-        }
-    }
-    Ok(bounds)
+    let shapes = compiled.free_shapes().into_iter().map(|k| ranges[k]);
+    signs.chain(shapes).collect()
 }
 
 /// Whether an effect declares that a parameter is never below zero.

@@ -18,6 +18,10 @@ pub(crate) struct Options {
     /// are sums of; without it ranges of shapes.
     #[arg(long, value_name = "FILE.json")]
     pub bounds: Option<PathBuf>,
+    /// Parameters stay within so many percent of the start; those that `--bounds` has within its ranges, and it is told where these are
+    /// others.
+    #[arg(long, value_name = "PERCENT", allow_negative_numbers = true)]
+    pub(super) within: Option<f64>,
     /// Cut logs into windows of so many seconds, each with a start of its own, its effects' memories at zero; without it 1 s, and whole
     /// logs with `--controller` or where effects remember.
     #[arg(long, value_name = "S", allow_negative_numbers = true)]
@@ -53,6 +57,7 @@ impl Options {
             ("--start", self.start.is_some()),
             ("--search", self.search.is_some()),
             ("--bounds", self.bounds.is_some()),
+            ("--within", self.within.is_some()),
             ("--window", self.window.is_some()),
             ("--controller", self.controller.is_some()),
             ("--hold", self.hold.is_some()),

@@ -72,6 +72,10 @@ fn what_a_simulation_cannot_take_is_told() {
             "`--window` has to be positive",
         ),
         (
+            &[&simulated[..], &["--within", "-5"]].concat(),
+            "`--within` has to be a positive number of percent, not -5",
+        ),
+        (
             &[&simulated[..], &["--controller", "two.json"]].concat(),
             "has 2 laws for an arm with 1 joint",
         ),
@@ -173,4 +177,81 @@ fn an_arm_that_cannot_be_is_told_as_why_it_runs_away() {
         said.contains("`--method physical --json start.json`"),
         "{said}"
     );
+}
+
+/// Ranges of a file beside what is said of all.
+#[test]
+fn ranges_that_are_not_what_is_said_are_told() {
+    let folder = mistaken();
+    for (ranges, said) in [
+        (
+            r#"{"a.motor_inertia.ia": [0.21, 0.4], "a.viscous_friction.fv": [0.7, 1.2]}"#,
+            Some(
+                "note: bounds.json has other ranges than 30 %: `a.viscous_friction.fv` 0.7 .. 1.2 and not 0.560 .. 1.04\n",
+            ),
+        ),
+        (
+            r#"{"a.motor_inertia.ia": [0.21, 0.4], "a.viscous_friction.fv": [0.56, 1.04]}"#,
+            None,
+        ),
+    ] {
+        folder.write("bounds.json", ranges);
+        let simulated = [
+            "identify",
+            "arm.robot",
+            "log.csv",
+            "--method",
+            "output-error",
+        ];
+        let ranges = [
+            "--start",
+            "start.json",
+            "--within",
+            "30",
+            "--bounds",
+            "bounds.json",
+        ];
+        let run = folder.run(&[&simulated[..], &ranges].concat());
+        match said {
+            Some(said) => assert!(run.stderr.contains(said), "{}", run.stderr),
+            None => assert!(!run.stderr.contains("other ranges"), "{}", run.stderr),
+        }
+    }
+}
+
+/// Nobody has written a file: all stay within a share of where the search starts.
+#[test]
+fn parameters_stay_within_a_share_of_the_start() {
+    let folder = mistaken();
+    let simulated = [
+        "identify",
+        "arm.robot",
+        "log.csv",
+        "--method",
+        "output-error",
+    ];
+    let ranges = [
+        "--start",
+        "start.json",
+        "--within",
+        "10",
+        "--json",
+        "fit.json",
+    ];
+    folder.succeed(&[&simulated[..], &ranges].concat());
+    let report = crate::common::json(&folder.read("fit.json"));
+    let iterates = report["iterates"].as_array().expect("a list");
+    let values = |place: usize| {
+        let values = iterates[place]["values"].as_array().expect("a list").iter();
+        let values = values.map(|x| x.as_f64().expect("a number"));
+        values.collect::<Vec<f64>>()
+    };
+    let (first, last) = (values(0), values(iterates.len() - 1));
+    assert!(first != last);
+    for (first, last) in first.iter().zip(&last) {
+        assert!(
+            (last - first).abs() <= 0.1001 * first.abs(),
+            "{first} {last}"
+        );
+    }
 }
