@@ -173,7 +173,8 @@ fn a_thousand_damaged_specs() {
         refused > 80,
         "units of another dimension are refused: {refused}"
     );
-    assert_eq!(fates.counts[&Damage::Huge][..2], [0, 0]);
+    let [_, _, refused] = fates.counts[&Damage::Huge];
+    assert!(refused > 155, "sizes that no arm has: {refused}");
 }
 
 /// Gives a file to every verb that reads JSON; how many took it.
