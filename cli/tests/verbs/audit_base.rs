@@ -140,8 +140,9 @@ fn a_motor_that_does_not_hold_its_arm_is_told() {
             "robot Lift {{
     coordinates x: m;
     parameters m = 1 kg;
+    constants g = 9.81 m/s^2;
     kinetic = m/2*dot(x)^2;
-    potential = m*9.81*x;
+    potential = m*g*x;
     limits x {{ velocity = 1; torque = {motor} N; }}
     effects {{ coulomb_friction on all; }}
 }}"

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::soft;
-use crate::common::Folder;
+use crate::common::{CART, Folder, cart_log};
 
 /// An arm with a log of one joint, and files with mistakes.
 fn mistaken() -> Folder {
@@ -179,39 +179,48 @@ fn an_arm_that_cannot_be_is_told_as_why_it_runs_away() {
     );
 }
 
+/// A cart of 3 kg and 5 N s/m, and where to start.
+fn cart() -> Folder {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(2, 0.0, 0.0));
+    folder.write(
+        "start.json",
+        r#"{"cart.m": 2.8, "rail.viscous_friction.fv": 5.2}"#,
+    );
+    folder
+}
+
+const BY_SIMULATION: [&str; 7] = [
+    "identify",
+    "cart.robot",
+    "log.csv",
+    "--method",
+    "output-error",
+    "--start",
+    "start.json",
+];
+
 /// Ranges of a file beside what is said of all.
 #[test]
 fn ranges_that_are_not_what_is_said_are_told() {
-    let folder = mistaken();
+    let folder = cart();
     for (ranges, said) in [
         (
-            r#"{"a.motor_inertia.ia": [0.21, 0.4], "a.viscous_friction.fv": [0.7, 1.2]}"#,
+            r#"{"cart.m": [1.95, 3.7], "rail.viscous_friction.fv": [4, 8]}"#,
             Some(
-                "note: bounds.json has other ranges than 30 %: `a.viscous_friction.fv` 0.7 .. 1.2 and not 0.560 .. 1.04\n",
+                "note: bounds.json has other ranges than 30 %: `rail.viscous_friction.fv` 4 .. 8 and not 3.64 .. 6.76\n",
             ),
         ),
         (
-            r#"{"a.motor_inertia.ia": [0.21, 0.4], "a.viscous_friction.fv": [0.56, 1.04]}"#,
+            r#"{"cart.m": [1.95, 3.7], "rail.viscous_friction.fv": [3.6, 6.8]}"#,
             None,
         ),
     ] {
         folder.write("bounds.json", ranges);
-        let simulated = [
-            "identify",
-            "arm.robot",
-            "log.csv",
-            "--method",
-            "output-error",
-        ];
-        let ranges = [
-            "--start",
-            "start.json",
-            "--within",
-            "30",
-            "--bounds",
-            "bounds.json",
-        ];
-        let run = folder.run(&[&simulated[..], &ranges].concat());
+        let ranges = ["--within", "30", "--bounds", "bounds.json"];
+        let run = folder.run(&[&BY_SIMULATION[..], &ranges].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
         match said {
             Some(said) => assert!(run.stderr.contains(said), "{}", run.stderr),
             None => assert!(!run.stderr.contains("other ranges"), "{}", run.stderr),
@@ -219,39 +228,25 @@ fn ranges_that_are_not_what_is_said_are_told() {
     }
 }
 
-/// Nobody has written a file: all stay within a share of where the search starts.
+/// Nobody has written a file: all stay within a share of where the search starts, and what a file has within its own range.
 #[test]
 fn parameters_stay_within_a_share_of_the_start() {
-    let folder = mistaken();
-    let simulated = [
-        "identify",
-        "arm.robot",
-        "log.csv",
-        "--method",
-        "output-error",
-    ];
-    let ranges = [
-        "--start",
-        "start.json",
-        "--within",
-        "10",
-        "--json",
-        "fit.json",
-    ];
-    folder.succeed(&[&simulated[..], &ranges].concat());
-    let report = crate::common::json(&folder.read("fit.json"));
-    let iterates = report["iterates"].as_array().expect("a list");
-    let values = |place: usize| {
-        let values = iterates[place]["values"].as_array().expect("a list").iter();
-        let values = values.map(|x| x.as_f64().expect("a number"));
-        values.collect::<Vec<f64>>()
-    };
-    let (first, last) = (values(0), values(iterates.len() - 1));
-    assert!(first != last);
-    for (first, last) in first.iter().zip(&last) {
-        assert!(
-            (last - first).abs() <= 0.1001 * first.abs(),
-            "{first} {last}"
+    let folder = cart();
+    folder.write("wide.json", r#"{"cart.m": [1, 9]}"#);
+    for (options, mass, held) in [
+        (&["--within", "2"][..], 2.856, 1),
+        (&["--within", "2", "--bounds", "wide.json"], 3.0, 1),
+        (&["--within", "30"], 3.0, 0),
+    ] {
+        let json = ["--json", "fit.json"];
+        folder.succeed(&[&BY_SIMULATION[..], options, &json].concat());
+        let report = crate::common::json(&folder.read("fit.json"));
+        assert_eq!(
+            report["at_bounds"].as_array().map(Vec::len),
+            Some(held),
+            "{report}"
         );
+        let found = report["parameters"][0]["value"].as_f64().expect("a number");
+        assert!((found - mass).abs() < 0.05, "{found} {mass}");
     }
 }
