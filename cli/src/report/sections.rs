@@ -38,7 +38,7 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
             told(one.std.filter(|std| *std > 0.0), 3),
             ends[0].clone(),
             ends[1].clone(),
-            unit.clone(),
+            unit,
             meaning,
         ]
     });

@@ -309,9 +309,9 @@ fn figures_are_readable_on_paper() {
         .nth(1)
         .expect("a style of paper");
     assert!(print.contains(".drawings { grid-template-columns: repeat(2, 1fr); }"));
-    let letters = Selector::parse("text").expect("a selector");
+    let [svg, letters] = ["svg", "text"].map(|what| Selector::parse(what).expect("a selector"));
     for drawings in all(&page, ".drawings") {
-        let figures = drawings.select(&Selector::parse("svg").expect("a selector"));
+        let figures = drawings.select(&svg);
         let figures: Vec<ElementRef> = figures.collect();
         let room = if figures.len() == 1 {
             PAPER
