@@ -189,7 +189,13 @@ impl Excite {
         };
         progress.step("compiling the regressor and its slopes");
         let request = self.request(&compiled, rivals.as_ref(), &progress)?;
-        let design = search(&request, self.budget, started, &progress)?;
+        let found = search(&request, self.budget, started, &progress);
+        let design = found.map_err(|error| match &self.room {
+            Some(room) => {
+                Error::Argument(format!("{error}; the room is that of {}", room.display()))
+            }
+            None => error,
+        })?;
         // Results say nothing of the clock: the same search writes the same bytes.
         let seconds = started.elapsed().as_secs_f64();
         progress.note(&format!("note: the search took {seconds:.1} s"));

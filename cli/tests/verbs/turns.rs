@@ -296,27 +296,34 @@ fn a_curve_that_turns_alone_tell_is_doubted() {
     assert!(fs > 1.0, "{fs}");
 }
 
-/// Of friction that is as its law says, exactly logged, rows at turns say more than they move an estimate by.
+/// They stay unless something else is asked for, and where they are judged and left out that is told.
 #[test]
-fn rows_at_turns_stay_where_they_move_nothing() {
+fn rows_at_turns_are_left_out_where_that_is_asked() {
     let folder = Folder::new();
     folder.write("cart.robot", &dry_cart());
     folder.write("log.csv", &cart_log(20, 2.0, 0.0));
-    let run = folder.run(&["identify", "cart.robot", "log.csv", "--judge-turns"]);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(
-        run.stdout.contains("of these where joints turn"),
-        "{}",
-        run.stdout
-    );
-    assert!(!run.stderr.contains("turn are left out"), "{}", run.stderr);
-    let refused = folder.run(&[
-        "identify",
-        "cart.robot",
-        "log.csv",
-        "--judge-turns",
-        "--leave-out-turns",
-    ]);
+    let identify = ["identify", "cart.robot", "log.csv"];
+    for (more, line, is_noted) in [
+        (&[][..], "of these where joints turn: rail", false),
+        (
+            &["--judge-turns"],
+            "left out, where joints turn: rail",
+            true,
+        ),
+        (
+            &["--leave-out-turns"],
+            "left out, where joints turn: rail",
+            false,
+        ),
+    ] {
+        let run = folder.run(&[&identify[..], more].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        assert!(run.stdout.contains(line), "{more:?}: {}", run.stdout);
+        let note = run.stderr.contains("turn are left out");
+        assert_eq!(note, is_noted, "{more:?}: {}", run.stderr);
+    }
+    let both = ["--judge-turns", "--leave-out-turns"];
+    let refused = folder.run(&[&identify[..], &both].concat());
     assert_eq!(refused.code, Some(2), "{}", refused.stderr);
 }
 
