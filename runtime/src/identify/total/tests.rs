@@ -91,7 +91,7 @@ fn columns_with_errors_bias_least_squares_and_not_the_total_one() {
 /// An offset of the torque that hides nothing of the others, though it is larger than they are.
 #[test]
 fn constant_columns_have_no_errors() {
-    const DRAWS: u32 = 400;
+    const DRAWS: u32 = 1000;
     let mut mean = [0.0; 3];
     let (mut errors, mut told) = ([0.0; 3], [0.0; 3]);
     let truth = [TRUTH[0], TRUTH[1], 3.0];
