@@ -203,7 +203,6 @@ pub(crate) fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, 
 }
 
 impl Stage {
-    /// Errors before and after are of the same rows, so those at turns stay, but for open curves of friction, which they would bend.
     fn identify(
         arm: InterpretedArm,
         logs: &[Log],
@@ -215,10 +214,7 @@ impl Stage {
             ..Identify::default()
         };
         let estimate = identify.fit(&arm, logs)?.with_best_motion(&arm, logs)?;
-        let mut of_all_rows = estimate.clone();
-        of_all_rows.is_without_turns = false;
-        let errors = |log| of_all_rows.errors(&arm, log);
-        let validation = validate.map(errors).transpose()?;
+        let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {
             arm,
             estimate,

@@ -193,7 +193,7 @@ fn shares_sum_to_the_torque_and_weights_come_of_another_lever() {
     // A device that carries the recommended masses on the printed lever does not stand, beyond what rounding leaves; on the other one it does.
     let [printed, repaired] = &results.carried;
     assert_eq!(printed.findings("drives").len(), 2);
-    for (found, left) in at_rest(printed).into_iter().zip([0.01099, 0.004586]) {
+    for (found, left) in at_rest(printed).into_iter().zip([0.01099, 0.004_586]) {
         assert!((found.expect("too much") - left).abs() < 1e-5, "{found:?}");
     }
     assert_eq!(repaired.findings("drives"), [""; 0]);

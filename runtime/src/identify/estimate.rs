@@ -95,7 +95,7 @@ pub struct Estimate {
     pub hausman: Option<Hausman>,
     /// Rows per joint where it turns, see [`Arm::dry_joints`]; whether they are fitted says [`Self::is_without_turns`].
     pub turns: Vec<usize>,
-    /// Whether these rows are left out, see [`AtTurns`](super::AtTurns), also of relative errors on other logs.
+    /// Whether these rows are left out, see [`AtTurns`](super::AtTurns). Errors on other logs are of all rows but those of [`Self::held`] joints.
     pub is_without_turns: bool,
     /// Rows per joint that are left out because dry friction holds it nearly all the time.
     pub held: Vec<usize>,

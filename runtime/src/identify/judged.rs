@@ -142,8 +142,8 @@ impl Estimate {
             let scaled: Vec<f64> = prepared.tau[joint].iter().map(|tau| gain * tau).collect();
             prepared.shared.apply(&rest, &mut filtered);
             prepared.shared.apply(&scaled, &mut tau);
-            let dry = turns::left_out(arm, prepared, joint, self.is_without_turns);
-            for left_out in [far, dry] {
+            let held = turns::held(arm, prepared, joint);
+            for left_out in [far, held] {
                 for row in rows_at(0, prepared, &left_out) {
                     (filtered[row], tau[row]) = (0.0, 0.0);
                 }

@@ -17,7 +17,7 @@ pub(crate) fn samples(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> 
     } else {
         log.is_clipped(joint, 0)
     };
-    let held = turns::left_out(arm, log, joint, false);
+    let held = turns::held(arm, log, joint);
     for (is_out, is_held) in left_out.iter_mut().zip(held) {
         *is_out |= is_held;
     }

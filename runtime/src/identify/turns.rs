@@ -57,22 +57,13 @@ pub(super) fn of_joint(stack: &Stack, logs: &[Prepared], joint: usize) -> Vec<us
     logs.iter().enumerate().flat_map(of_log).collect()
 }
 
-/// Which samples of a log are left out, since the dry friction of a joint holds it, or reached by its turns, where these are left out.
-pub(super) fn left_out(
-    arm: &dyn Arm,
-    log: &Prepared,
-    joint: usize,
-    is_without_turns: bool,
-) -> Vec<bool> {
-    if !arm.dry_joints().contains(&joint) {
-        return Vec::new();
+/// Which samples of a log are left out, since the dry friction of a joint holds it.
+pub(super) fn held(arm: &dyn Arm, log: &Prepared, joint: usize) -> Vec<bool> {
+    if arm.dry_joints().contains(&joint) {
+        Standing::of(log, joint).held
+    } else {
+        Vec::new()
     }
-    let Standing { turns, mut held } = Standing::of(log, joint);
-    if is_without_turns {
-        let pairs = held.iter_mut().zip(turns);
-        pairs.for_each(|(held, turns)| *held |= turns);
-    }
-    held
 }
 
 /// Which samples of a log say what a model of a joint is worth: those away from its turns, at which its dry friction does not hold it.
