@@ -96,74 +96,23 @@ pub fn others() -> [(&'static str, String); 3] {
     ]
 }
 
-/// Verbs that read a file `f.json`, beside [`others`].
-pub const VERBS: [&[&str]; 8] = [
-    &["audit", "arm.robot", "--parameters", "f.json"],
-    &["merge", "arm.robot", "f.json", "--json", "out.json"],
-    &[
-        "eval",
-        "arm.robot",
-        "--parameters",
-        "values.json",
-        "--states",
-        "f.json",
-    ],
-    &[
-        "export",
-        "arm.robot",
-        "--as",
-        "urdf",
-        "--parameters",
-        "f.json",
-        "-o",
-        "out.urdf",
-    ],
-    &[
-        "identify",
-        "arm.robot",
-        "log.csv",
-        "--method",
-        "output-error",
-        "--start",
-        "f.json",
-        "--json",
-        "out.json",
-    ],
-    &[
-        "identify",
-        "arm.robot",
-        "log.csv",
-        "--method",
-        "output-error",
-        "--start",
-        "values.json",
-        "--bounds",
-        "f.json",
-    ],
-    &[
-        "identify",
-        "arm.robot",
-        "log.csv",
-        "--method",
-        "output-error",
-        "--start",
-        "values.json",
-        "--controller",
-        "f.json",
-    ],
-    &[
-        "excite",
-        "arm.robot",
-        "--period",
-        "2",
-        "--harmonics",
-        "2",
-        "--room",
-        "f.json",
-        "--out",
-        "out.csv",
-    ],
+/// Commands that read a file `f.json`, beside [`others`].
+const COMMANDS: [&str; 8] = [
+    "audit arm.robot --parameters f.json",
+    "merge arm.robot f.json --json out.json",
+    "eval arm.robot --parameters values.json --states f.json",
+    "export arm.robot --as urdf --parameters f.json -o out.urdf",
+    "identify arm.robot log.csv --method output-error --start f.json --json out.json",
+    "identify arm.robot log.csv --method output-error --start values.json --bounds f.json",
+    "identify arm.robot log.csv --method output-error --start values.json --controller f.json",
+    "excite arm.robot --period 2 --harmonics 2 --room f.json --out out.csv",
 ];
+
+/// These commands, word by word: a verb and what follows it.
+#[must_use]
+pub fn verbs() -> [Vec<&'static str>; 8] {
+    COMMANDS.map(|command| command.split(' ').collect())
+}
 
 /// Sound files of each form.
 #[must_use]
@@ -212,12 +161,12 @@ pub fn answer(program: &Path, file: &[u8]) -> Answer {
     fs::write(folder.path().join("f.json"), file).expect("a file");
     let mut said = Vec::new();
     let mut done = 0;
-    for verb in VERBS {
+    for verb in verbs() {
         // No memory without end, and no time without end: the shell's limits are kilobytes and seconds.
         let run = Command::new("sh")
             .args(["-c", "ulimit -v 4000000; ulimit -t 20; exec \"$0\" \"$@\""])
             .arg(program)
-            .args(verb)
+            .args(&verb)
             .current_dir(folder.path())
             .stdin(Stdio::null())
             .output()

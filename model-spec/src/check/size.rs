@@ -61,15 +61,11 @@ pub(super) fn check(value: f64, dimension: Dimension, is_bare: bool, span: Span)
     match largest {
         Some((_, largest)) if size > *largest => Err(Diagnostic::new(
             span,
-            format!(
-                "{} of {value:e} {}",
-                dimension.describe(),
-                dimension.in_si()
-            ),
+            format!("{} of {value:e} in SI units", dimension.describe()),
             "no arm has that",
         )
         .help(format!(
-            "write it in {}; a bare number is in SI units, and this ends at {largest:e}",
+            "write it in {}; bare numbers are in SI units, in which this ends at {largest:e}",
             dimension.units()
         ))),
         _ => Ok(()),
