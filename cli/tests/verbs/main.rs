@@ -5,6 +5,7 @@ mod audit;
 mod audit_base;
 mod audit_seeds;
 mod bags;
+mod bending;
 mod bodies;
 mod c;
 mod calibrate;
