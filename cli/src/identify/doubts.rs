@@ -171,7 +171,7 @@ pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String>
 }
 
 /// Why fewer rows are fitted than there are.
-pub(super) fn away_from_turns(arm: &dyn Arm) -> String {
+pub(crate) fn away_from_turns(arm: &dyn Arm) -> String {
     let bent = if arm.dry_shapes().is_empty() {
         "deviations are a third smaller, or more, without what they move values by: right where friction is a jump, else values are of higher speeds only"
     } else {

@@ -16,6 +16,7 @@ mod nominal;
 pub(crate) mod noted;
 mod one_sine;
 pub(crate) mod options;
+mod other_friction;
 mod output_error;
 mod page;
 mod payload;

@@ -5,8 +5,8 @@ use robot_model::log::Log;
 
 use super::fit::Fit;
 use super::{
-    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, one_sine, steps, twice,
-    untold,
+    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, one_sine, other_friction,
+    steps, twice, untold,
 };
 use crate::Error;
 use crate::output::names;
@@ -113,6 +113,9 @@ impl IdentifyArguments {
         // Errors that a misfit makes are alike along the whole motion, and longer logs would have no more of them.
         if !is_misfit {
             all.extend(brief::doubt(estimate));
+        }
+        if leftover.is_none() && !is_told {
+            all.extend(other_friction::doubt(estimate));
         }
         all.extend(leftover);
         all.extend(one_sine::doubt(estimate, logs));

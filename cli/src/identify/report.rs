@@ -37,6 +37,8 @@ pub(crate) struct Report<'a> {
     combinations: Vec<CombinationReport<'a>>,
     /// Samples per joint where one with dry friction turns; empty where none were looked for.
     samples_at_turns: &'a [usize],
+    /// Whether these are left out.
+    turns_left_out: bool,
     /// Samples per joint that are left out because its torque stands at its limit; empty where none were looked for.
     samples_clipped: &'a [usize],
     samples_held: &'a [usize],
@@ -232,6 +234,7 @@ pub(crate) fn report<'a>(
         unexcited: &estimate.unexcited,
         combinations: estimate.combinations.iter().map(combination).collect(),
         samples_at_turns: &estimate.turns,
+        turns_left_out: estimate.is_without_turns,
         samples_clipped: &estimate.clipped,
         samples_held: &estimate.held,
         effective_samples: estimate.effective_samples.as_deref(),

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::common::{Folder, json, numbers};
 use crate::payload::spec;
 
-/// A log without noise tells of a stiff arm up to 50 Hz. An arm that bends stays in the band in which `trace` would judge it, so that an
+/// A log without noise tells of a stiff arm far above the band of its motion. An arm that bends stays in the band in which `trace` would judge it, so that an
 /// amended spec is not fitted worse than the one that it was made of.
 #[test]
 fn an_arm_that_bends_is_fitted_in_the_band_of_the_rate_alone() {
@@ -36,6 +36,6 @@ fn an_arm_that_bends_is_fitted_in_the_band_of_the_rate_alone() {
         folder.succeed(&["identify", spec, "log.csv", "--json", "fit.json"]);
         numbers(&json(&folder.read("fit.json"))["bands_hz"])
     });
-    assert!(stiff[0] > 20.0, "{stiff:?}");
+    assert!(stiff[0] >= 20.0, "{stiff:?}");
     assert_eq!(bends, [10.0, 30.0, 90.0]);
 }

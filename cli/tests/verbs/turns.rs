@@ -350,6 +350,13 @@ fn factors_know_what_rows_at_turns_move_estimates_by() {
             let merge = [&["merge", "arm.robot"], &factors[..count], more].concat();
             let merged = report(&merge);
             assert_eq!(direct["samples_at_turns"], merged["samples_at_turns"]);
+            let is_left_out = more == ["--leave-out-turns"];
+            for report in [&direct, &merged] {
+                let said = report["turns_left_out"].as_bool().expect("yes or no");
+                let is_noted = report["notes"].to_string().contains("turn are left out");
+                assert!(said || !is_left_out);
+                assert_eq!(said && !is_left_out, is_noted, "{more:?}: {report}");
+            }
             for (k, (name, _)) in TRUTH.iter().enumerate() {
                 let of = |fit: &Value, key: &str| fit["parameters"][k][key].as_f64().expect("told");
                 let value = of(&direct, "value");

@@ -65,6 +65,19 @@ pub struct Bootstrap {
 impl Bootstrap {
     /// Fewest draws: of fewer there are not a few outside of 95 %.
     pub const LEAST_DRAWS: u32 = 100;
+
+    /// Widens the intervals of estimates as their deviations are.
+    pub(super) fn widen(&mut self, estimate: &[f64], std: &[f64], widened: &[f64]) {
+        for (k, ends) in self.intervals.iter_mut().enumerate() {
+            let wider = if std[k] > 0.0 {
+                widened[k] / std[k]
+            } else {
+                1.0
+            };
+            let center = estimate[k];
+            *ends = ends.map(|ends| ends.map(|end| center + wider * (end - center)));
+        }
+    }
 }
 
 /// The sums of one block.

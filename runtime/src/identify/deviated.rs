@@ -191,15 +191,7 @@ impl Identify {
             let mut widened = noise.clone();
             let [all, away] = turns::with_and_without(stack, &weights);
             turns::widen(&all, &away, &solution.scale, &mut widened);
-            for (k, ends) in found.intervals.iter_mut().enumerate() {
-                let center = solution.estimate[k];
-                let wider = if noise[k] > 0.0 {
-                    widened[k] / noise[k]
-                } else {
-                    1.0
-                };
-                *ends = ends.map(|ends| ends.map(|end| center + wider * (end - center)));
-            }
+            found.widen(&solution.estimate, &noise, &widened);
         }
         Ok(Some(found))
     }

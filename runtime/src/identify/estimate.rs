@@ -8,7 +8,7 @@ use super::instruments::Hausman;
 use super::late::{Delay, Late};
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::{AtTurns, Bootstrap, Combination, Essential, Method};
+use super::{AtTurns, Bootstrap, Combination, Essential, Method, OtherFriction};
 
 /// Which equations the parameters were identified with; both have the same parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,6 +118,8 @@ pub struct Estimate {
     /// Torques that are early by about half of a sample, and explained far better without: set at a sample and held until the next one, which
     /// is how a drive works and bends values where samples are slow beside the motion. Empty where there are [`Self::delays`].
     pub held_torques: Vec<Delay>,
+    /// Joints whose torque follows their speed in another way than the friction of the spec; deviations have what that moves values by.
+    pub other_friction: Vec<OtherFriction>,
 }
 
 impl Estimate {
@@ -176,6 +178,7 @@ impl Estimate {
             essential: None,
             delays: Vec::new(),
             held_torques: Vec::new(),
+            other_friction: Vec::new(),
         }
     }
 

@@ -111,7 +111,13 @@ impl Identify {
         if let Some(without) = without {
             return Ok(without);
         }
-        let estimate = self.estimate(&filtered, form, bands, solved, &|| {
+        let lacking = self.lacking(
+            &filtered,
+            &prepared,
+            &|log, joint, tau| filtered.behind(log, joint, &tau),
+            &solved,
+        );
+        let estimate = self.estimate(&filtered, form, bands, (solved, lacking), &|| {
             let wanted = filtered.prepare_all(&self.wanted(logs)?)?;
             Ok(instruments::rows(&filtered, &wanted, &shapes))
         })?;

@@ -33,6 +33,7 @@ mod fitted;
 mod hac;
 mod instruments;
 mod judged;
+mod lacking;
 mod late;
 mod least_squares;
 pub(crate) mod left_out;
@@ -66,6 +67,8 @@ pub use factor::{Factor, FactorBlock, FactorRows};
 use fitted::Fitted;
 pub use hac::correlation_time;
 pub use instruments::Hausman;
+use lacking::Lacking;
+pub use lacking::OtherFriction;
 pub(crate) use late::longest_period;
 pub use late::{Delay, is_delay};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution};
@@ -173,6 +176,7 @@ impl Identify {
         }
         let found = solved.solution.estimate.clone();
         let late = self.delays_in(arm, of_logs, &solved.stack, (&shapes, &found));
+        let lacking = self.lacking(arm, &prepared, &|_, _, tau| tau, &solved);
         let instruments = |shapes: &[f64]| -> Result<Stack, IdentifyError> {
             let wanted = self.wanted(logs)?;
             let mut wanted = prepare_all(&wanted, &bands)?;
@@ -180,7 +184,7 @@ impl Identify {
             update_load(arm, &mut wanted, shapes, &found);
             Ok(instruments::rows(arm, &wanted, shapes))
         };
-        let estimate = self.estimate(arm, Form::Acceleration, bands, solved, &|| {
+        let estimate = self.estimate(arm, Form::Acceleration, bands, (solved, lacking), &|| {
             instruments(&shapes)
         })?;
         Ok(estimate.with_late(late))
@@ -203,7 +207,7 @@ impl Identify {
         arm: &dyn Arm,
         form: Form,
         bands: Bands,
-        solved: Solved,
+        (solved, lacking): (Solved, Lacking),
         instruments: &dyn Fn() -> Result<Stack, IdentifyError>,
     ) -> Result<Estimate, IdentifyError> {
         let Solved {
@@ -259,6 +263,11 @@ impl Identify {
                 }
             }
         }
+        let widened = lacking.widened(&solution.std);
+        if let Some(bootstrap) = &mut beside.bootstrap {
+            bootstrap.widen(&solution.estimate, &solution.std, &widened);
+        }
+        solution.std = widened;
         let fitted = Fitted::new(&stack, &solution.estimate);
         let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, fitted);
         Ok(Estimate {
@@ -267,6 +276,7 @@ impl Identify {
             hausman: beside.hausman,
             bootstrap: beside.bootstrap,
             essential: beside.essential,
+            other_friction: lacking.friction,
             shape_std,
             is_without_turns,
             ..estimate

@@ -95,6 +95,13 @@ impl<'a> FilteredArm<'a> {
         })
     }
 
+    /// `L{tau}` of a series of torques of a joint.
+    pub fn behind(&self, log: &Prepared, joint: usize, tau: &[f64]) -> Vec<f64> {
+        let filter = self.filter(&log.motion);
+        let against: Vec<f64> = tau.iter().map(|tau| -tau).collect();
+        Self::filtered(&log.motion, filter.as_ref(), joint, None, Some(&against))
+    }
+
     /// `w (momentum - L{momentum}) - L{drift}` of series of a joint that belong together.
     fn filtered(
         motion: &Motion,

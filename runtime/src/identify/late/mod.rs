@@ -9,13 +9,16 @@
 //! free shapes have theirs: what is told is told apart from all of them, and of other torques than dry friction.
 
 mod excerpt;
+mod lasting;
 mod nearest;
 mod position;
 mod rows;
 
 use excerpt::{LONGEST, excerpts};
+use lasting::lasting_gain;
 use nearest::nearest;
 use rows::Rows;
+pub(super) use rows::nameless;
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm};
@@ -76,7 +79,8 @@ pub struct Delay {
     pub seconds: f64,
     /// Standard deviation, s, from the errors' own series as those of parameters.
     pub std: f64,
-    /// By which share the root mean square of the joint's residual is less without the delay.
+    /// By which share the root mean square of the joint's residual is less without the delay, all along the logs: without the tenth of the
+    /// rows that says most of it.
     pub gain: f64,
 }
 
@@ -118,11 +122,11 @@ pub(crate) fn longest_period(logs: &[Prepared]) -> f64 {
     periods.fold(0.0, f64::max)
 }
 
-/// Delays with their deviations, and the lengths of the residuals.
+/// Delays with their deviations, and the residuals.
 struct Found {
     step: Vec<f64>,
     std: Vec<f64>,
-    residuals: Vec<f64>,
+    residuals: Vec<Vec<f64>>,
 }
 
 /// Late torques that are told, and the sum of the logarithms of what is left without all delays of torques.
@@ -264,7 +268,7 @@ impl Identify {
             for (delay, step) in delays.iter_mut().zip(&found.step) {
                 *delay += step.clamp(-MOST, MOST);
             }
-            left = left.min(logarithm(&found.residuals));
+            left = left.min(logarithm(lengths(&found.residuals)));
             let is_seen = |joint: &usize| {
                 rows.moves(*joint) && delays[*joint].abs() > DEVIATIONS * found.std[*joint]
             };
@@ -281,7 +285,7 @@ impl Identify {
                 let told = self.told(rows, &delays, &found, far)?;
                 let mut held = self.told(rows, &delays, &found, held)?;
                 held.retain(|held| held.gain > SHARE);
-                let left = logarithm(&found.residuals);
+                let left = logarithm(lengths(&found.residuals));
                 return Some(Torques { told, held, left });
             }
         }
@@ -308,7 +312,7 @@ impl Identify {
             joint,
             seconds: delays[joint],
             std: found.std[joint],
-            gain: 1.0 - found.residuals[joint] / norm(&before[joint]),
+            gain: lasting_gain(&before[joint], &found.residuals[joint]),
         });
         let told: Vec<Delay> = told.collect();
         let sure: Vec<Delay> = told
@@ -347,13 +351,16 @@ impl Identify {
         Some(Found {
             step,
             std,
-            residuals: residuals.iter().map(|r| norm(r)).collect(),
+            residuals,
         })
     }
 }
 
 /// Sum of the logarithms of lengths of residuals, of which joints that say nothing have none.
-fn logarithm(residuals: &[f64]) -> f64 {
-    let sizes = residuals.iter().filter(|size| **size > 0.0);
-    sizes.map(|size| size.ln()).sum()
+fn logarithm(sizes: impl Iterator<Item = f64>) -> f64 {
+    sizes.filter(|size| *size > 0.0).map(f64::ln).sum()
+}
+
+fn lengths(residuals: &[Vec<f64>]) -> impl Iterator<Item = f64> {
+    residuals.iter().map(|residuals| norm(residuals))
 }

@@ -50,7 +50,7 @@ pub(super) fn nearest(rows: &Rows<'_>) -> Vec<f64> {
         let blocks = choices.iter().enumerate();
         let blocks = blocks.map(|(joint, choice)| of_joint(joint, *choice));
         let factors = Factors::from_joints(unknowns, factors.counts().to_vec(), blocks.collect());
-        logarithm(&factors.weighted_sigma())
+        logarithm(factors.weighted_sigma().into_iter())
     };
     let common = (0..TRIED.len()).map(|choice| vec![choice; dof]);
     let common = common.map(|choices| (left(&choices), choices));

@@ -7,10 +7,10 @@
 use super::nearest::TRIED;
 use super::rows::nameless;
 use super::{DEVIATIONS, Delay, MOST, ROUNDS, Rows, SHARE};
-use super::{is_delay, logarithm, longest_period};
+use super::{is_delay, lasting_gain, lengths, logarithm, longest_period};
 use crate::columns::Entry;
 use crate::identify::Identify;
-use crate::identify::stack::{Stack, norm};
+use crate::identify::stack::Stack;
 use crate::log::LateChannel;
 use crate::signal::Prepared;
 
@@ -21,7 +21,7 @@ const FITS_BETTER: f64 = 0.05;
 struct Found {
     seconds: f64,
     std: f64,
-    residuals: Vec<f64>,
+    residuals: Vec<Vec<f64>>,
 }
 
 impl Identify {
@@ -38,17 +38,17 @@ impl Identify {
         }
         let period = longest_period(rows.logs);
         let before = self.solve_stack(&rows.stack).ok()?;
-        let before = lengths(&rows.stack, &before.estimate);
+        let before = rows.stack.residuals(&before.estimate);
         let moving = (0..rows.arm.dof()).filter(|joint| rows.moves(*joint));
         let delays = moving.filter_map(|joint| {
             let found = self.moved_back(rows, joint, at)?;
-            let left = logarithm(&found.residuals);
+            let left = logarithm(lengths(&found.residuals));
             let delay = Delay {
                 channel: LateChannel::Position,
                 joint,
                 seconds: found.seconds,
                 std: found.std,
-                gain: 1.0 - found.residuals[joint] / before[joint],
+                gain: lasting_gain(&before[joint], &found.residuals[joint]),
             };
             Some((left, delay))
         });
@@ -89,7 +89,7 @@ impl Identify {
                 return Some(Found {
                     seconds: seconds + step,
                     std,
-                    residuals: lengths(&here, &solution.estimate),
+                    residuals: here.residuals(&solution.estimate),
                 });
             }
             seconds += step.clamp(-MOST, MOST);
@@ -102,7 +102,7 @@ impl Identify {
         let tried = TRIED.iter().filter_map(|&seconds| {
             let stack = self.rows_without(rows, (joint, seconds), at);
             let solution = self.solve_stack(&stack).ok()?;
-            let left = logarithm(&lengths(&stack, &solution.estimate));
+            let left = logarithm(lengths(&stack.residuals(&solution.estimate)));
             Some((left, seconds))
         });
         let (_, seconds) = tried.min_by(|x, y| x.0.total_cmp(&y.0))?;
@@ -123,11 +123,6 @@ impl Identify {
             .without(&rows.stuck)
             .stack
     }
-}
-
-fn lengths(stack: &Stack, estimate: &[f64]) -> Vec<f64> {
-    let residuals = stack.residuals(estimate);
-    residuals.iter().map(|residual| norm(residual)).collect()
 }
 
 /// A log with the position of a joint, and what is computed from it, of so much later.

@@ -156,7 +156,8 @@ pub(super) fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
     stack.append(&vec![nameless(); entries.len()], &entries);
 }
 
-pub(super) fn nameless() -> Unknown {
+/// An unknown that has no name, as nobody reads it.
+pub(in super::super) fn nameless() -> Unknown {
     Unknown {
         name: String::new(),
         nonnegative: false,

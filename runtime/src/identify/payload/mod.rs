@@ -63,6 +63,7 @@ impl Carried {
             shape_std: alone.shape_std.clone(),
             delays: alone.delays.clone(),
             held_torques: alone.held_torques.clone(),
+            other_friction: alone.other_friction.clone(),
             ..found
         };
         estimate.parameters.truncate(count);
