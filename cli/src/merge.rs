@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_model::identify::{Factor, Identify, IdentifyError, Method};
 
 use crate::Error;
-use crate::identify::doubts::away_from_turns;
+use crate::identify::at_turns;
 use crate::identify::factor_file;
 use crate::identify::fit::of_form;
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
@@ -151,7 +151,7 @@ impl Merge {
         }
         progress.notes(factor_doubts(&estimate, &*form));
         if estimate.is_without_turns && !self.turns.leave_out_turns {
-            progress.notes([away_from_turns(form.arm())]);
+            progress.notes([at_turns::left_out(form.arm())]);
         }
         let mut faults = Vec::new();
         let validation = match &self.validate {

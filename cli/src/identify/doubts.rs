@@ -1,6 +1,6 @@
 //! What looks like another unit, sign or order than the spec's.
 
-use robot_model::columns::{Arm, Shape, Unknown};
+use robot_model::columns::{Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Identified, is_shape_told};
 use robot_model::log::Log;
 use robot_model_spec::Model;
@@ -124,25 +124,6 @@ fn untold_shape(name: &str, value: f64, std: f64) -> Option<String> {
     })
 }
 
-/// What is said of open curves of dry friction that rows at turns alone tell.
-pub(super) fn at_turns(arm: &dyn Arm, estimate: &Estimate) -> Option<String> {
-    let open = arm.dry_shapes().iter();
-    let open: Vec<&str> = open
-        .filter_map(|&k| Some(estimate.shapes.get(k)?.0.as_str()))
-        .collect();
-    (!open.is_empty() && !estimate.is_without_turns).then(|| {
-        format!(
-            "{} looked for with the rows where joints turn, as no others tell {}: a joint stands there longer than its law says, and values of \
-             the effect may be off by many of their deviations; runs at constant speeds tell a friction curve (`friction`)",
-            match open.as_slice() {
-                [one] => format!("`{one}` is"),
-                _ => format!("{} are", names(&open)),
-            },
-            if open.len() == 1 { "it" } else { "them" }
-        )
-    })
-}
-
 /// Torques that are early by half of a sample, where the model knows of no delay.
 pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String> {
     let mut effects = model.effects.iter();
@@ -168,18 +149,6 @@ pub(super) fn held_torques(model: &Model, estimate: &Estimate) -> Option<String>
             held.join(", ")
         )
     })
-}
-
-/// Why fewer rows are fitted than there are.
-pub(crate) fn away_from_turns(arm: &dyn Arm) -> String {
-    let bent = if arm.dry_shapes().is_empty() {
-        "deviations are a third smaller, or more, without what they move values by: right where friction is a jump, else values are of higher speeds only"
-    } else {
-        "open shapes of friction would be bent after that"
-    };
-    format!(
-        "rows where joints with dry friction turn are left out, as with `--leave-out-turns`: a joint stands longer there than its law says, and {bent}"
-    )
 }
 
 /// Share of the last step of a grid within which a search that goes to its end comes.

@@ -1,5 +1,6 @@
 //! `robot-model identify`: parameters from measured logs.
 
+pub(crate) mod at_turns;
 mod brief;
 mod coarse;
 mod data_faults;
@@ -232,7 +233,7 @@ impl IdentifyArguments {
         doubts.extend(unequal::doubt(&estimate.joints, &logs, &each));
         let is_of_instruments = estimate.hausman.is_some();
         if estimate.is_without_turns && !self.rows.turns.leave_out_turns && !is_of_instruments {
-            doubts.push(doubts::away_from_turns(form.arm()));
+            doubts.push(at_turns::left_out(form.arm()));
         }
         progress.notes(doubts);
         faults.extend(self.late_channels(&estimate, &progress));

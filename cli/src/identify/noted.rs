@@ -5,8 +5,8 @@ use robot_model::log::Log;
 
 use super::fit::Fit;
 use super::{
-    IdentifyArguments, brief, coarse, doubts, fixed, leftover, nominal, one_sine, other_friction,
-    steps, twice, untold,
+    IdentifyArguments, at_turns, brief, coarse, doubts, fixed, leftover, nominal, one_sine,
+    other_friction, steps, twice, untold,
 };
 use crate::Error;
 use crate::output::names;
@@ -107,7 +107,8 @@ impl IdentifyArguments {
         all.extend(nominal::pulled(estimate));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
         all.extend(doubts::untold_shapes(estimate));
-        all.extend(doubts::at_turns(form.arm(), estimate));
+        all.extend(at_turns::bent_shapes(form.arm(), estimate));
+        all.extend(at_turns::told_there_alone(estimate));
         let held = doubts::held_torques(form.model(), estimate);
         all.extend(held.or_else(|| steps::doubt(&estimate.joints, logs)));
         // Errors that a misfit makes are alike along the whole motion, and longer logs would have no more of them.

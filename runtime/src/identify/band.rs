@@ -1,11 +1,12 @@
 //! The band that torque and columns share: as wide as the model's torque stands out.
 
 use crate::columns::Arm;
+use crate::log::Log;
 use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, band_density};
 
-use super::left_out;
 use super::stack::torque_of;
+use super::{Identify, IdentifyError, check_logs, left_out, prepare_all, shapes, slowest_bands};
 
 /// The model's torque counts as seen where its power is at least this many times that of what it leaves.
 const LEAST_RATIO: f64 = 2.0;
@@ -20,6 +21,36 @@ const WIDE_RATIO: f64 = 2.0;
 
 /// Width of the bands in which powers are compared, Hz.
 const STEP_HZ: f64 = 3.0;
+
+impl Identify {
+    /// A first estimate over a wide band shows how far the model's torque reaches.
+    pub(super) fn choose_bands(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Bands, IdentifyError> {
+        let mut bands = slowest_bands(logs);
+        bands.smooth_hz = bands.wide_hz;
+        let mut prepared = prepare_all(logs, &bands)?;
+        let (solution, shapes, _) = self.solve(arm, &mut prepared, Some(shapes::middle(arm)))?;
+        Ok(choose(arm, &prepared, &shapes, &solution.estimate))
+    }
+
+    /// The bands of a first log, chosen as for a fit.
+    ///
+    /// # Errors
+    /// Those of [`Self::fit`].
+    ///
+    /// # Examples
+    /// ```
+    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
+    /// let log = pendulum::measure(0.0);
+    /// let bands = robot_model::identify::Identify::default().bands_of(&pendulum::pendulum(), &log)?;
+    /// assert!(bands.smooth_hz > 0.9 && bands.smooth_hz <= bands.wide_hz); // its fastest wave is of 0.9 Hz
+    /// # Ok::<(), robot_model::identify::IdentifyError>(())
+    /// ```
+    pub fn bands_of(&self, arm: &dyn Arm, log: &Log) -> Result<Bands, IdentifyError> {
+        let logs = std::slice::from_ref(log);
+        check_logs(arm, logs)?;
+        self.bands.map_or_else(|| self.choose_bands(arm, logs), Ok)
+    }
+}
 
 /// Chooses the shared band from a first estimate.
 ///

@@ -10,7 +10,7 @@
 use super::deviated::Solved;
 use super::least_squares::Solution;
 use super::stack::{Stack, norm, percent};
-use super::{Beyond, Identify, longest_period};
+use super::{Beyond, Identify, longest_period, turns};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -59,6 +59,8 @@ pub(super) struct Lacking {
     pub friction: Vec<OtherFriction>,
     /// Of each unknown, in its unit; nothing where nobody asked.
     pub off: Vec<f64>,
+    /// Unknowns that no rows but those at turns tell.
+    pub at_turns: Vec<usize>,
 }
 
 impl Lacking {
@@ -94,6 +96,7 @@ impl Identify {
         let rows = Rows::new(arm, logs, passed, stack);
         let mut found = self.laws(&rows).unwrap_or_default();
         let moved = self.moved_by_time(&rows, stack).unwrap_or_default();
+        found.at_turns = self.told_at_turns(solved).unwrap_or_default();
         found.off.resize(stack.unknowns.len(), 0.0);
         let pairs = found.off.iter_mut().zip(moved);
         pairs.for_each(|(off, moved)| *off = off.hypot(moved));
@@ -137,6 +140,19 @@ impl Identify {
                 .filter_map(|(joint, (_, law))| Some((joint, law?)))
                 .collect(),
         )
+    }
+
+    /// Unknowns that no rows but those at turns of dry joints tell: by how much these move them nobody knows.
+    fn told_at_turns(&self, solved: &Solved) -> Option<Vec<usize>> {
+        if !self.has_turns(&solved.stack) {
+            return None;
+        }
+        let mut rest = solved.stack.clone();
+        turns::leave_out(&mut rest);
+        let rest = self.solve_stack(&rest).ok()?;
+        let at_turns = (0..rest.estimate.len())
+            .filter(|unknown| solved.solution.is_told(*unknown) && !rest.is_told(*unknown));
+        Some(at_turns.collect())
     }
 
     /// What the time of torques that nobody tells moves values by.
@@ -207,6 +223,7 @@ impl Beside {
         Lacking {
             friction: friction.collect(),
             off: off.collect(),
+            at_turns: Vec::new(),
         }
     }
 }

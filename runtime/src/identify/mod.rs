@@ -269,8 +269,11 @@ impl Identify {
         }
         solution.std = widened;
         let fitted = Fitted::new(&stack, &solution.estimate);
+        let at_turns = lacking.at_turns.iter();
+        let told_at_turns = at_turns.map(|&k| fitted.names[k].clone()).collect();
         let estimate = Estimate::new(arm, self.method, form, bands, &solution, shapes, fitted);
         Ok(Estimate {
+            told_at_turns,
             possible: beside.possible,
             outliers: beside.outliers,
             hausman: beside.hausman,
@@ -281,15 +284,6 @@ impl Identify {
             is_without_turns,
             ..estimate
         })
-    }
-
-    /// A first estimate over a wide band shows how far the model's torque reaches.
-    fn choose_bands(&self, arm: &dyn Arm, logs: &[Log]) -> Result<Bands, IdentifyError> {
-        let mut bands = slowest_bands(logs);
-        bands.smooth_hz = bands.wide_hz;
-        let mut prepared = prepare_all(logs, &bands)?;
-        let (solution, shapes, _) = self.solve(arm, &mut prepared, Some(shapes::middle(arm)))?;
-        Ok(band::choose(arm, &prepared, &shapes, &solution.estimate))
     }
 
     /// Solves for the linear unknowns, and for free shape parameters unless they are given.
@@ -348,25 +342,6 @@ impl Identify {
             .iter()
             .map(|s| s.max(f64::MIN_POSITIVE).ln())
             .sum())
-    }
-
-    /// The bands of a first log, chosen as for a fit.
-    ///
-    /// # Errors
-    /// Those of [`Self::fit`].
-    ///
-    /// # Examples
-    /// ```
-    /// # mod pendulum { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/pendulum.rs")); }
-    /// let log = pendulum::measure(0.0);
-    /// let bands = robot_model::identify::Identify::default().bands_of(&pendulum::pendulum(), &log)?;
-    /// assert!(bands.smooth_hz > 0.9 && bands.smooth_hz <= bands.wide_hz); // its fastest wave is of 0.9 Hz
-    /// # Ok::<(), robot_model::identify::IdentifyError>(())
-    /// ```
-    pub fn bands_of(&self, arm: &dyn Arm, log: &Log) -> Result<Bands, IdentifyError> {
-        let logs = std::slice::from_ref(log);
-        check_logs(arm, logs)?;
-        self.bands.map_or_else(|| self.choose_bands(arm, logs), Ok)
     }
 
     /// Solves a stack; standard deviations know how correlated neighboring residuals are.
