@@ -59,6 +59,28 @@ impl Kind {
         let found = all.find(|(magic, _)| start.starts_with(magic));
         found.map(|(_, kind)| *kind)
     }
+
+    /// Ends of names, and what files with them are.
+    const ENDS: [(&'static str, &'static str); 2] =
+        [(".parquet", "a Parquet file"), (".mcap", "an MCAP file")];
+
+    /// Refuses a file that is of no kind and no text, by a name that says of which kind it was.
+    fn check_text(source: &str, start: &[u8]) -> Result<(), LogError> {
+        let is_text = start
+            .iter()
+            .all(|byte| byte.is_ascii_graphic() || byte.is_ascii_whitespace());
+        let ends = Self::ENDS.iter();
+        let mut ends = ends.filter(|(end, _)| !is_text && source.to_lowercase().ends_with(end));
+        ends.next().map_or(Ok(()), |(_, what)| {
+            Err(LogError::Read {
+                source_name: source.to_owned(),
+                line: 1,
+                reason: format!(
+                    "it does not begin as {what} does, so it is damaged or another file; write it again, or copy it again as binary"
+                ),
+            })
+        })
+    }
 }
 
 /// Reads the header of a file, of which no more is in memory at a time than is asked for.
@@ -69,6 +91,7 @@ pub(super) fn of_file(
 ) -> Result<Box<dyn Rows>, LogError> {
     let start = start(source, &mut file)?;
     let Some(kind) = Kind::of(&start) else {
+        Kind::check_text(source, &start)?;
         let whole = Cursor::new(start).chain(file);
         return Ok(Box::new(CsvRows::new(source, whole)?));
     };
@@ -85,6 +108,7 @@ pub(super) fn of_reader<'a>(
 ) -> Result<Box<dyn Rows + 'a>, LogError> {
     let mut start = start(source, &mut reader)?;
     let Some(kind) = Kind::of(&start) else {
+        Kind::check_text(source, &start)?;
         let whole = Cursor::new(start).chain(reader);
         return Ok(Box::new(CsvRows::new(source, whole)?));
     };

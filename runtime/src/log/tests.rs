@@ -318,6 +318,14 @@ fn files_that_are_no_csv_are_told() {
     assert!(
         with(b"time,q1,tau1\n0,\xe9,0\n").starts_with("monday.csv:2: the log is not UTF-8 text")
     );
+    for (name, bytes) in [
+        ("bag.MCAP", b"\x88MCAP0\r\n".as_slice()),
+        ("monday.parquet", b"\0AR1\x15\x04"),
+    ] {
+        let refused = Log::from_reader(name, bytes, 1).expect_err("damaged");
+        let said = format!("{name}:1: cannot read the log: it does not begin as");
+        assert!(refused.to_string().starts_with(&said), "{refused}");
+    }
     let folder = Log::read(env!("CARGO_MANIFEST_DIR"), 1).expect_err("a folder");
     assert!(
         folder
