@@ -25,6 +25,8 @@ pub(crate) use chain::MOST_JOINTS;
 pub(crate) use definition::check_definition;
 #[cfg(feature = "log-settings")]
 pub(crate) use log::{check_settings, check_unit};
+pub(crate) use size::{is_unlikely, written};
+pub(crate) use unit::Dimension;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -38,7 +40,6 @@ use crate::library::standard_effects;
 use crate::model::{Body, Chain, Convention, Effect, EffectDefinition, Joint, Model};
 use crate::suggest;
 use setting::Settings;
-use unit::Dimension;
 
 /// Where the checks leave what they find.
 pub(crate) type Errors = Vec<Diagnostic>;

@@ -13,6 +13,53 @@ const LARGEST_BARE_ANGLE: f64 = 2.0 * std::f64::consts::TAU;
 /// four at most.
 const LARGEST_LENGTH: f64 = 1000.0;
 
+/// What a number without a unit may be at most, in SI units, and what a larger one was most likely meant in.
+const LARGEST_BARE: [(Dimension, f64, &str, &str); 8] = [
+    (Dimension::ANGLE, LARGEST_BARE_ANGLE, "rad", "deg"),
+    (Dimension::LENGTH, 10.0, "m", "mm"),
+    (Dimension::MASS, 2000.0, "kg", "g"),
+    (Dimension::INERTIA, 1e4, "kg*m^2", "kg*mm^2"),
+    (Dimension::ACCELERATION, 200.0, "m/s^2", "mm/s^2"),
+    (Dimension::SPEED, 60.0, "m/s", "mm/s"),
+    (Dimension::ANGULAR_SPEED, 60.0, "rad/s", "deg/s"),
+    (Dimension::TORQUE, 3e4, "Nm", "N*mm"),
+];
+
+/// A number in SI units as a spec takes it: with its unit where a bare one of that size would be asked for it.
+pub(crate) fn written(value: f64, dimension: Dimension, number: fn(f64) -> String) -> String {
+    let mut bare = LARGEST_BARE.iter();
+    match bare.find(|(of, largest, ..)| *of == dimension && value.abs() > *largest) {
+        Some((.., unit, _)) => format!("{} {unit}", number(value)),
+        None => number(value),
+    }
+}
+
+/// Whether a number without a unit is larger than those of any usual arm.
+pub(crate) fn is_unlikely(value: f64, dimension: Dimension) -> bool {
+    let mut bare = LARGEST_BARE.iter();
+    bare.any(|(of, largest, ..)| *of == dimension && value.abs() > *largest)
+}
+
+fn unit_meant(
+    span: Span,
+    value: f64,
+    (dimension, _, unit, meant): (Dimension, f64, &str, &str),
+) -> Diagnostic {
+    let label = if dimension == Dimension::ANGLE {
+        format!("{:.1} turns", value / std::f64::consts::TAU)
+    } else {
+        "more than arms have".to_owned()
+    };
+    Diagnostic::new(
+        span,
+        format!("{} of {value} {unit}", dimension.describe()),
+        label,
+    )
+    .help(format!(
+        "a bare number is in {unit}: write `{value} {meant}`, or `{value} {unit}` if it is meant"
+    ))
+}
+
 fn millimeters_meant(span: Span, value: f64) -> Diagnostic {
     Diagnostic::new(
         span,
@@ -21,17 +68,6 @@ fn millimeters_meant(span: Span, value: f64) -> Diagnostic {
     )
     .help(format!(
         "a bare number is in m: write `{value} mm` if that is meant; lengths end at 1000 m"
-    ))
-}
-
-fn degrees_meant(span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        span,
-        format!("an angle of {value} rad"),
-        format!("{:.1} turns", value / std::f64::consts::TAU),
-    )
-    .help(format!(
-        "a bare number is in rad: write `{value} deg`, or `{value} rad` if it is meant"
     ))
 }
 
@@ -51,11 +87,12 @@ const LARGEST: [(Dimension, f64); 9] = [
 /// Refuses what no arm has; a `bare` number has no unit behind it.
 pub(super) fn check(value: f64, dimension: Dimension, is_bare: bool, span: Span) -> Checked<()> {
     let size = value.abs();
-    if is_bare && dimension == Dimension::ANGLE && size > LARGEST_BARE_ANGLE {
-        return Err(degrees_meant(span, value));
-    }
     if dimension == Dimension::LENGTH && size > LARGEST_LENGTH {
         return Err(millimeters_meant(span, value));
+    }
+    let mut bare = LARGEST_BARE.into_iter().filter(|_| is_bare);
+    if let Some(bare) = bare.find(|(of, largest, ..)| *of == dimension && size > *largest) {
+        return Err(unit_meant(span, value, bare));
     }
     let largest = LARGEST.iter().find(|(of, _)| *of == dimension);
     match largest {

@@ -2,7 +2,7 @@
 
 /// Exponents of kg, m, s, rad and A. An angle is a dimension of its own: `alpha = 3 mm` and `a = 3 deg` are mistakes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Dimension {
+pub(crate) struct Dimension {
     pub(super) mass: i32,
     pub(super) length: i32,
     pub(super) time: i32,
@@ -12,16 +12,16 @@ pub(super) struct Dimension {
 
 impl Dimension {
     pub(super) const NONE: Self = Self::of(0, 0, 0, 0);
-    pub(super) const ANGLE: Self = Self::of(0, 0, 0, 1);
-    pub(super) const LENGTH: Self = Self::of(0, 1, 0, 0);
-    pub(super) const MASS: Self = Self::of(1, 0, 0, 0);
-    pub(super) const INERTIA: Self = Self::of(1, 2, 0, 0);
-    pub(super) const ACCELERATION: Self = Self::of(0, 1, -2, 0);
-    pub(super) const SPEED: Self = Self::of(0, 1, -1, 0);
-    pub(super) const ANGULAR_SPEED: Self = Self::of(0, 0, -1, 1);
+    pub(crate) const ANGLE: Self = Self::of(0, 0, 0, 1);
+    pub(crate) const LENGTH: Self = Self::of(0, 1, 0, 0);
+    pub(crate) const MASS: Self = Self::of(1, 0, 0, 0);
+    pub(crate) const INERTIA: Self = Self::of(1, 2, 0, 0);
+    pub(crate) const ACCELERATION: Self = Self::of(0, 1, -2, 0);
+    pub(crate) const SPEED: Self = Self::of(0, 1, -1, 0);
+    pub(crate) const ANGULAR_SPEED: Self = Self::of(0, 0, -1, 1);
     pub(super) const ANGULAR_ACCELERATION: Self = Self::of(0, 0, -2, 1);
-    pub(super) const FORCE: Self = Self::of(1, 1, -2, 0);
-    pub(super) const TORQUE: Self = Self::of(1, 2, -2, 0);
+    pub(crate) const FORCE: Self = Self::of(1, 1, -2, 0);
+    pub(crate) const TORQUE: Self = Self::of(1, 2, -2, 0);
     pub(super) const TIME: Self = Self::of(0, 0, 1, 0);
     pub(super) const CURRENT: Self = Self {
         current: 1,

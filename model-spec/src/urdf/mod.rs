@@ -16,6 +16,7 @@ mod mimic;
 mod place;
 mod size;
 mod tree;
+mod unlikely;
 mod write;
 
 use thiserror::Error;
@@ -143,6 +144,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         });
     }
     size::check(urdf)?;
+    place::check_root(urdf)?;
     let robot = urdf_rs::read_from_string(urdf)
         .map_err(|error| ImportError::Parse(place::explain(urdf, &error.to_string())))?;
     let tree = tree::Tree::new(&robot)?;
@@ -162,6 +164,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         warnings.extend(body::massless(&names.links, &carried));
         warnings.extend(body::impossible(&names.links, &carried));
     }
+    warnings.extend(unlikely::warnings(&robot));
     warnings.extend(names.renamed(&chain));
     let gravity = options.gravity.is_none().then(write::assumed_gravity);
     let notes = [

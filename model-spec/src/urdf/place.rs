@@ -6,6 +6,8 @@ use xml::attribute::OwnedAttribute;
 use xml::common::Position as _;
 use xml::reader::{EventReader, XmlEvent};
 
+use super::ImportError;
+
 /// What an attribute has to be.
 #[derive(Clone, Copy)]
 enum Kind {
@@ -124,6 +126,29 @@ struct Open {
     parts: Vec<String>,
 }
 
+fn other_root(name: &str) -> String {
+    format!("the file is of `<{name}>`: a URDF has all inside `<robot name=\"..\">`")
+}
+
+/// Refuses a file of another root, of which what reads URDFs would say that it has no links.
+pub(super) fn check_root(urdf: &str) -> Result<(), ImportError> {
+    let mut reader = EventReader::from_str(urdf);
+    loop {
+        let event = reader.next();
+        let line = reader.position().row + 1;
+        match event {
+            Ok(XmlEvent::StartElement { name, .. }) if name.local_name == "robot" => return Ok(()),
+            Ok(XmlEvent::StartElement { name, .. }) => {
+                let fault = other_root(&name.local_name);
+                return Err(ImportError::Parse(format!("line {line}: {fault}")));
+            }
+            // What is no XML is told by what reads it.
+            Ok(XmlEvent::EndDocument) | Err(_) => return Ok(()),
+            Ok(_) => {}
+        }
+    }
+}
+
 /// Where and why `urdf` cannot be read; `said`, the library's words, where no rule of this file is broken.
 pub(super) fn explain(urdf: &str, said: &str) -> String {
     let mut reader = EventReader::from_str(urdf);
@@ -150,9 +175,7 @@ pub(super) fn explain(urdf: &str, said: &str) -> String {
                 let fault = if prefix == Some("xacro") {
                     Some(format!("`<xacro:{written}>` {XACRO}"))
                 } else if open.len() == 1 && written != "robot" {
-                    Some(format!(
-                        "the file is of `<{written}>`: a URDF has all inside `<robot name=\"..\">`"
-                    ))
+                    Some(other_root(&written))
                 } else if again {
                     Some(format!("a second `<{written}>` in {owner}: keep one"))
                 } else {

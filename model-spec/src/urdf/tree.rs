@@ -50,10 +50,12 @@ impl<'a> Tree<'a> {
             .iter()
             .map(|link| (link.name.as_str(), link))
             .collect();
-        if links.len() != robot.links.len() {
-            return Err(ImportError::Structure(
-                "two links have the same name: rename one of them".to_owned(),
-            ));
+        let mut seen = BTreeSet::new();
+        let mut names = robot.links.iter().map(|link| link.name.as_str());
+        if let Some(twice) = names.find(|name| !seen.insert(*name)) {
+            return Err(ImportError::Structure(format!(
+                "two links have the name `{twice}`: rename one of them"
+            )));
         }
         let mut tree = Self {
             links,

@@ -7,6 +7,7 @@ use urdf_rs::{JointLimit, JointType};
 use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
 use super::{ASSUMED_GRAVITY, ImportOptions, Inertials};
+use crate::check::{Dimension, written};
 pub(super) use crate::export::number;
 use crate::transform::{quarter_turns, rpy, upper_camel};
 
@@ -130,11 +131,14 @@ pub(super) fn spec(
     let _ = writeln!(
         text,
         "robot {name} {{\n    gravity = {};\n    convention = origin;",
-        list(&options.gravity.unwrap_or(ASSUMED_GRAVITY))
+        list_of(
+            &options.gravity.unwrap_or(ASSUMED_GRAVITY),
+            Dimension::ACCELERATION
+        )
     );
     let tip = chain.tip.map(readable);
     if tip.iter().any(|x| *x != 0.0) {
-        let _ = writeln!(text, "    tip = {};", list(&tip));
+        let _ = writeln!(text, "    tip = {};", list_of(&tip, Dimension::LENGTH));
     }
     text.push('\n');
     for (k, joint) in chain.joints.iter().enumerate() {
@@ -155,9 +159,9 @@ pub(super) fn spec(
             let i = body.inertia;
             let six = [i[0][0], i[0][1], i[0][2], i[1][1], i[1][2], i[2][2]].map(readable);
             let (mass, com, inertia) = (
-                readable(body.mass),
-                list(&body.com.map(readable)),
-                list(&six),
+                written(readable(body.mass), Dimension::MASS, number),
+                list_of(&body.com.map(readable), Dimension::LENGTH),
+                list_of(&six, Dimension::INERTIA),
             );
             let _ = writeln!(
                 text,
@@ -203,7 +207,7 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     let mut line = format!(
         "joint {name}: {} {{ xyz = {};",
         if prismatic { "prismatic" } else { "revolute" },
-        list(&xyz)
+        list_of(&xyz, Dimension::LENGTH)
     );
     if angles.map(angle) != ["0", "0", "0"] {
         let _ = write!(line, " rpy = [{}];", angles.map(angle).join(", "));
@@ -211,13 +215,28 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     let _ = write!(line, " axis = {};", list(&source.axis.xyz.0));
     let limit = &source.limit;
     if source.joint_type != JointType::Continuous && has_range(limit) {
-        let written = if prismatic { number } else { radians };
-        let (low, high) = (written(limit.lower), written(limit.upper));
+        let end = |x: f64| {
+            let dimension = if prismatic {
+                Dimension::LENGTH
+            } else {
+                Dimension::ANGLE
+            };
+            written(x, dimension, number)
+        };
+        let (low, high) = (end(limit.lower), end(limit.upper));
         let _ = write!(line, " position = {low} .. {high};");
     }
-    for (key, value) in [("velocity", limit.velocity), ("torque", limit.effort)] {
+    let (speed, load) = if prismatic {
+        (Dimension::SPEED, Dimension::FORCE)
+    } else {
+        (Dimension::ANGULAR_SPEED, Dimension::TORQUE)
+    };
+    for (key, value, dimension) in [
+        ("velocity", limit.velocity, speed),
+        ("torque", limit.effort, load),
+    ] {
         if value > 0.0 && value.is_finite() {
-            let _ = write!(line, " {key} = {};", number(value));
+            let _ = write!(line, " {key} = {};", written(value, dimension, number));
         }
     }
     if link != name {
@@ -235,14 +254,16 @@ fn comment(text: &str) -> String {
 }
 
 fn list(numbers: &[f64]) -> String {
-    format!(
-        "[{}]",
-        numbers
-            .iter()
-            .map(|x| number(*x))
-            .collect::<Vec<_>>()
-            .join(", ")
-    )
+    list_with(numbers, number)
+}
+
+fn list_of(numbers: &[f64], dimension: Dimension) -> String {
+    list_with(numbers, |x| written(x, dimension, number))
+}
+
+fn list_with(numbers: &[f64], written: impl Fn(f64) -> String) -> String {
+    let numbers: Vec<String> = numbers.iter().map(|x| written(*x)).collect();
+    format!("[{}]", numbers.join(", "))
 }
 
 /// Quarter turns in degrees, other angles in rad.
@@ -254,10 +275,8 @@ fn angle(x: f64) -> String {
     }
 }
 
-/// Large angles say that they are in rad, which the language asks for.
 fn radians(x: f64) -> String {
-    let unit = if x.abs() > 12.0 { " rad" } else { "" };
-    format!("{}{unit}", number(x))
+    written(x, Dimension::ANGLE, number)
 }
 
 /// A computed number without the noise of its last digits: 13 significant ones, and zero below 1e-15.

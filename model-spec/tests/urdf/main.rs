@@ -288,14 +288,14 @@ fn quarter_turns_that_are_written_short_are_read_as_such_and_told() {
 }
 
 #[test]
-fn limits_of_many_turns_stay_in_radians() {
+fn limits_beyond_those_of_arms_have_their_unit() {
     let parts: Vec<String> = two_joints()
         .into_iter()
         .map(|part| part.replace("lower='-1'", "lower='-50'"))
         .collect();
     let (text, model) = imported(&parts, &ImportOptions::default());
     assert!(text.contains("position = -50 rad .. 2;"), "{text}");
-    assert!(text.contains("position = -50 .. 2;"), "prismatic: {text}");
+    assert!(text.contains("position = -50 m .. 2;"), "prismatic: {text}");
     assert_eq!(model.joints[0].limits.position, Some((-50.0, 2.0)));
 }
 
@@ -356,4 +356,18 @@ fn fixed_joints_behind_the_last_link_lead_to_the_tip() {
         ..ImportOptions::default()
     };
     assert!(!imported(&two_joints(), &options).0.contains("tip ="));
+}
+
+#[test]
+fn other_files_and_links_of_one_name_are_told() {
+    let said = |text: &str| {
+        let refused = import(text, &ImportOptions::default()).expect_err("refused");
+        refused.to_string()
+    };
+    let other = said("<?xml version='1.0'?>\n<sdf version='1.7'><model name='a'/></sdf>");
+    assert!(other.contains("line 2: the file is of `<sdf>`"), "{other}");
+    let mut parts = two_joints();
+    parts.push("<link name='fore'/>".to_owned());
+    let twice = said(&urdf(&parts));
+    assert!(twice.contains("two links have the name `fore`"), "{twice}");
 }

@@ -9,7 +9,7 @@ use flate2::read::MultiGzDecoder;
 
 use super::LogError;
 use super::limits::LONGEST_ROW;
-use super::rows::{Rows, Table, unreadable};
+use super::rows::{Rows, Table, damaged, unreadable};
 use super::words;
 
 /// First bytes of a gzip member.
@@ -189,7 +189,7 @@ impl<'a> Records<'a> {
                     most: LONGEST_ROW,
                 };
             }
-            unreadable(&self.source, self.line, &error)
+            damaged(&self.source, self.line, &error)
         })?;
         if let Some(position) = self.record.position().filter(|_| more) {
             self.line = position.line();

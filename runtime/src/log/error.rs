@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::words::{hertz, in_unit, joints, list, plural};
+use super::words::{columns, hertz, in_unit, joints, list, plural};
 
 /// Why a log cannot be used. `source_name` is the file, `line` counts from 1 and the header is line 1.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -147,7 +147,11 @@ pub enum LogError {
         suggestion: String,
     },
     /// Columns that a log of this arm must have.
-    #[error("{source_name}:1: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), list(present))]
+    #[error(
+        "{source_name}:1: missing column{} {}; the header has {}. Say which are meant, in the `log` of the spec or in a `robot-model.toml` beside the \
+         file: `[log]`, then a line as `q = {{ columns = [\"axis1\", \"axis2\"], unit = \"deg\" }}`",
+        plural(.missing.len()), list(missing), columns(present)
+    )]
     MissingColumns {
         /// The file.
         source_name: String,

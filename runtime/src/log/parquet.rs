@@ -15,7 +15,7 @@ use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::LogError;
 use super::limits;
-use super::rows::{Input, Rows, Table, unreadable};
+use super::rows::{Input, Rows, Table, damaged};
 
 /// Rows that are read at a time at most.
 const BATCH: usize = 16_384;
@@ -98,7 +98,7 @@ impl ParquetRows {
         source: &str,
         reader: Result<impl FileReader + 'static, ParquetError>,
     ) -> Result<Self, LogError> {
-        let reader = reader.map_err(|error| unreadable(source, 1, &error))?;
+        let reader = reader.map_err(|error| damaged(source, 1, &error))?;
         let schema = reader.metadata().file_metadata().schema_descr();
         limits::check_columns(source, schema.num_columns())?;
         let columns = schema.columns().iter();
@@ -117,7 +117,7 @@ impl ParquetRows {
     /// So many rows of the group that come next.
     fn hand_on(&mut self, table: &mut Table, count: usize) -> Result<(), LogError> {
         let read = guarded(|| self.group.next(count));
-        let group = read.map_err(|error| unreadable(&self.source, self.rows + 1, &error))?;
+        let group = read.map_err(|error| damaged(&self.source, self.rows + 1, &error))?;
         // Of each row the first column that has no number in it.
         let mut bad: Vec<Option<usize>> = vec![None; count];
         for (k, column) in group.iter().enumerate() {
@@ -130,7 +130,14 @@ impl ParquetRows {
                 continue;
             }
             let Some(values) = values else {
-                return Err(self.no_number(k, 0, "no whole or real number"));
+                return Err(LogError::Read {
+                    source_name: self.source.clone(),
+                    line: 1,
+                    reason: format!(
+                        "column `{}` holds no whole or real numbers: write it as a column of doubles",
+                        self.names[k]
+                    ),
+                });
             };
             for (row, _) in values.iter().enumerate().filter(|(_, v)| !v.is_finite()) {
                 bad[row].get_or_insert(k);
@@ -182,7 +189,7 @@ impl ParquetRows {
                     columns: columns.collect::<Result<_, _>>()?,
                 })
             });
-            self.group = open.map_err(|error| unreadable(&self.source, self.rows + 1, &error))?;
+            self.group = open.map_err(|error| damaged(&self.source, self.rows + 1, &error))?;
             self.next_group += 1;
             if self.group.rows > 0 {
                 return Ok(true);

@@ -241,6 +241,18 @@ fn start(source: &str, reader: &mut impl Read) -> Result<Vec<u8>, LogError> {
     Ok(start)
 }
 
+/// What may be done about a file that cannot be decoded.
+pub(super) const DAMAGED: &str = "the file is damaged: copy it again, as binary, or write it again";
+
+/// A file that cannot be decoded; `line` is the last one that could.
+pub(super) fn damaged(source: &str, line: u64, error: &dyn std::error::Error) -> LogError {
+    LogError::Read {
+        source_name: source.to_owned(),
+        line,
+        reason: format!("{error}; {DAMAGED}"),
+    }
+}
+
 pub(super) fn unreadable(source: &str, line: u64, error: &dyn std::error::Error) -> LogError {
     LogError::Read {
         source_name: source.to_owned(),

@@ -2,14 +2,19 @@
 
 /// Names in backticks with commas; a long list keeps its first eight.
 pub(super) fn list(names: &[String]) -> String {
-    const SHOWN: usize = 8;
-    let mut text: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{name}`"))
-        .collect();
-    if names.len() > SHOWN {
-        text.push(format!("and {} more", names.len() - SHOWN));
+    first(names, 8)
+}
+
+/// The same of columns of a file, of which one is to be chosen: a long list keeps its first thirty.
+pub(super) fn columns(names: &[String]) -> String {
+    first(names, 30)
+}
+
+fn first(names: &[String], most: usize) -> String {
+    let shown = names.iter().take(most);
+    let mut text: Vec<String> = shown.map(|name| format!("`{name}`")).collect();
+    if names.len() > most {
+        text.push(format!("and {} more", names.len() - most));
     }
     text.join(", ")
 }

@@ -16,7 +16,7 @@ use mcap::io::MessageReader;
 use mcap::sans_io::LinearReaderOptions;
 use mcap::{Channel, McapError};
 
-use super::rows::{Input, Rows, Table, unreadable};
+use super::rows::{DAMAGED, Input, Rows, Table, unreadable};
 use super::{Column, Columns, LogError};
 use cdr::JointState;
 use survey::topic;
@@ -325,7 +325,7 @@ fn guarded<T>(read: impl FnOnce() -> Result<T, McapError>) -> Result<T, McapErro
     let read = panic::catch_unwind(AssertUnwindSafe(read));
     read.unwrap_or_else(|_| {
         Err(McapError::DecompressionError(
-            "the file is damaged".to_owned(),
+            "a chunk cannot be unpacked".to_owned(),
         ))
     })
 }
@@ -336,9 +336,9 @@ fn damaged(source: &str, line: u64, error: &McapError) -> LogError {
         McapError::UnexpectedEof => {
             "the file breaks off, as where a recording was not closed; `mcap recover` makes a whole one of it".to_owned()
         }
-        McapError::Parse(_) => "a record is damaged".to_owned(),
+        McapError::Parse(_) => format!("a record cannot be read; {DAMAGED}"),
         McapError::Io(error) => error.to_string(),
-        other => other.to_string(),
+        other => format!("{other}; {DAMAGED}"),
     };
     LogError::Read {
         source_name: source.to_owned(),
