@@ -54,12 +54,17 @@ pub enum Error {
     Argument(String),
 }
 
+/// What to do about columns of other names.
+const COLUMNS_HELP: &str = "  = help: say which columns are meant, in the `log` of the spec or in a `robot-model.toml` beside the file: under `[log]` lines as \
+     `q = { columns = [\"axis1\", \"axis2\"], unit = \"deg\" }`";
+
 impl Error {
     /// The message as stderr shows it; spec mistakes carry their own headings.
     #[must_use]
     pub fn render(&self, color: bool) -> String {
         match self {
             Self::Spec(diagnostics) => diagnostics.render(color),
+            Self::Log(LogError::MissingColumns { .. }) => format!("error: {self}\n{COLUMNS_HELP}"),
             other => format!("error: {other}"),
         }
     }

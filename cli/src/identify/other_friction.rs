@@ -3,7 +3,7 @@
 use robot_model::identify::Estimate;
 
 /// A law of less than this share of a joint's torque, percent, is no matter; its part in deviations says enough.
-const NOTHING: f64 = 1.0;
+const NOTHING: f64 = 0.3;
 
 pub(super) fn doubt(estimate: &Estimate) -> Option<String> {
     let laws = estimate.other_friction.iter();

@@ -102,11 +102,13 @@ fn identify_refuses_what_it_cannot_use() {
         "error: cannot write `nowhere/out.json`: there is no folder `nowhere`; make it first\n"
     );
     folder.write("pendulum.robot", PENDULUM);
+    let columns = folder.refuse(&["identify", "pendulum.robot", "log.csv"]);
     assert!(
-        folder
-            .refuse(&["identify", "pendulum.robot", "log.csv"])
-            .contains("missing columns `q2`, `tau2`")
+        columns.contains("missing columns `q2`, `tau2`"),
+        "{columns}"
     );
+    let ways = "in the `log` of the spec or in a `robot-model.toml` beside the file";
+    assert!(columns.contains(ways), "{columns}");
 }
 
 #[test]

@@ -34,6 +34,7 @@ mod identify;
 mod import;
 mod instruments;
 mod interrupted;
+mod laws;
 mod log_settings;
 mod logs;
 mod merge;

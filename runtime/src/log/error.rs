@@ -147,11 +147,7 @@ pub enum LogError {
         suggestion: String,
     },
     /// Columns that a log of this arm must have.
-    #[error(
-        "{source_name}:1: missing column{} {}; the header has {}. Say which are meant, in the `log` of the spec or in a `robot-model.toml` beside the \
-         file: `[log]`, then a line as `q = {{ columns = [\"axis1\", \"axis2\"], unit = \"deg\" }}`",
-        plural(.missing.len()), list(missing), columns(present)
-    )]
+    #[error("{source_name}:1: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), columns(present))]
     MissingColumns {
         /// The file.
         source_name: String,

@@ -37,6 +37,9 @@ const HELD: f64 = 1.25;
 /// to a twelfth, a coupling of a short log by up to a fifth.
 const SHARE: f64 = 0.25;
 
+/// The same of one that is early, which no drive or bus makes: friction that grows with the load looks like one by up to a third.
+const EARLY_SHARE: f64 = 0.4;
+
 /// Rows for an unknown below which any delay would be found.
 const FEWEST: usize = 5;
 
@@ -282,8 +285,8 @@ impl Identify {
             // Whether a torque is held is worth no more than the rounds that there are.
             if far.iter().all(has_settled) && (round == ROUNDS || held.iter().all(has_settled)) {
                 held.retain(has_settled);
-                let told = self.told(rows, &delays, &found, far)?;
-                let mut held = self.told(rows, &delays, &found, held)?;
+                let told = self.told(rows, &delays, &found, (far, EARLY_SHARE))?;
+                let mut held = self.told(rows, &delays, &found, (held, SHARE))?;
                 held.retain(|held| held.gain > SHARE);
                 let left = logarithm(lengths(&found.residuals));
                 return Some(Torques { told, held, left });
@@ -303,8 +306,12 @@ impl Identify {
         rows: &Rows<'_>,
         delays: &[f64],
         found: &Found,
-        far: Vec<usize>,
+        (far, early_share): (Vec<usize>, f64),
     ) -> Option<Vec<Delay>> {
+        let is_sure = |told: &Delay| {
+            let is_early = told.seconds < 0.0;
+            told.gain > if is_early { early_share } else { SHARE }
+        };
         let solution = self.solve_stack(&rows.stack).ok()?;
         let before = rows.stack.residuals(&solution.estimate);
         let told = far.into_iter().map(|joint| Delay {
@@ -315,11 +322,7 @@ impl Identify {
             gain: lasting_gain(&before[joint], &found.residuals[joint]),
         });
         let told: Vec<Delay> = told.collect();
-        let sure: Vec<Delay> = told
-            .iter()
-            .filter(|told| told.gain > SHARE)
-            .copied()
-            .collect();
+        let sure: Vec<Delay> = told.iter().filter(|told| is_sure(told)).copied().collect();
         // One bus or clock makes all torques late by the same, whatever else a joint's error has.
         let is_alike = |told: &Delay| {
             let mut sure = sure.iter();
@@ -327,7 +330,7 @@ impl Identify {
         };
         Some(
             told.into_iter()
-                .filter(|told| told.gain > SHARE || is_alike(told))
+                .filter(|told| is_sure(told) || is_alike(told))
                 .collect(),
         )
     }

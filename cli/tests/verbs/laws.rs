@@ -1,0 +1,68 @@
+//! Friction that is another law of speed than the spec's.
+
+use std::fmt::Write;
+
+use crate::common::{Folder, json};
+use crate::payload::spec;
+
+/// The value of a parameter and its deviation.
+fn found(folder: &Folder, name: &str) -> [f64; 2] {
+    let fit = json(&folder.read("fit.json"));
+    let mut all = fit["parameters"].as_array().expect("a list").iter();
+    let parameter = all.find(|parameter| parameter["name"] == name);
+    let parameter = parameter.expect("the spec has it");
+    ["value", "std"].map(|key| parameter[key].as_f64().expect("told"))
+}
+
+#[test]
+fn friction_of_another_law_is_told_and_in_deviations() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    folder.write("plant.robot", &spec("stribeck on lo;"));
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 1.5, "lo.coulomb_friction.fc": 0.7"#;
+    folder.write("plain.json", &format!("{values}}}"));
+    let curve = r#", "lo.stribeck.fs": 1.5, "lo.stribeck.vs": 0.3}"#;
+    folder.write("curve.json", &format!("{values}{curve}"));
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..10_000 {
+        let t = 0.002 * f64::from(k);
+        let sum = |phase: f64| -> f64 {
+            let waves = [1.9, 4.4, 6.9, 10.1];
+            waves.map(|w| 0.25 * (w * t + phase * w).sin()).iter().sum()
+        };
+        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let of = |plant: &str, values: &str| {
+        let simulate = ["simulate", plant, "--parameters", values];
+        let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
+        let sensors = [
+            "--torque-noise",
+            "0.02",
+            "--encoder-bits",
+            "17",
+            "--seed",
+            "1",
+        ];
+        let out = ["--out", "log.csv"];
+        folder.succeed(&[&simulate[..], &motion, &sensors, &out].concat());
+        let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let is_told = run
+            .stderr
+            .contains("torque follows speed in another way than the friction of the spec: `lo`");
+        (is_told, found(&folder, "lo.coulomb_friction.fc"))
+    };
+    let (is_told, [value, std]) = of("arm.robot", "plain.json");
+    assert!(!is_told);
+    assert!(
+        (value - 0.7).abs() < 3.0 * std && std < 0.02,
+        "{value} {std}"
+    );
+    let (is_told, [value, std]) = of("plant.robot", "curve.json");
+    assert!(is_told);
+    assert!(
+        (value - 0.7).abs() < 3.0 * std && std > 0.1,
+        "{value} {std}"
+    );
+}
