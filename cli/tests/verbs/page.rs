@@ -146,6 +146,13 @@ fn a_report_has_enough_contrast() {
         if first.is_empty() {
             first.clone_from(&colors);
         }
+        // A theme that left a color out would have that of a dark screen on paper.
+        for name in first.keys() {
+            assert!(
+                block.contains(&format!("{name}: #")),
+                "{name}, theme {looked_at}"
+            );
+        }
         looked_at += 1;
         let pairs = [
             ("--ink", "--paper", 4.5),
@@ -298,13 +305,40 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
 /// On paper letters of figures have 6.5 pt: what a page is as wide as says how large they are.
 #[test]
 fn figures_are_readable_on_paper() {
-    /// Of letter paper with Chromium's margins, and of A4, CSS pixels; a point is 4/3 of them.
-    const PAPER: f64 = 718.0;
+    /// Of A4 between margins of 15 mm, CSS pixels; letter paper has more. A point is 4/3 of them.
+    const PAPER: f64 = 680.0;
     const GAP: f64 = 12.0;
     let html = traced().read("page/index.html");
     let page = Html::parse_document(&html);
     let style = include_str!("../../src/report/page.css");
     let print = style
+/// Browsers print borders, and no backgrounds.
+#[test]
+fn a_printed_page_has_its_keys_and_whole_figures() {
+    let style = include_str!("../../src/report/page.css");
+    let html = traced().read("page/index.html");
+    let page = Html::parse_document(&html);
+    let keys = all(&page, ".key span");
+    assert!(keys.len() > 3, "{}", keys.len());
+    for key in keys {
+        for class in key.value().classes() {
+            let rule = format!(".key .{class} {{ border-");
+            assert!(style.contains(&rule), "{class}");
+        }
+    }
+    for rule in style.lines().filter(|line| line.starts_with(".key")) {
+        assert!(!rule.contains("background"), "{rule}");
+    }
+    assert!(style.contains("@page { margin: 15mm; }"));
+    let whole = style
+        .lines()
+        .find(|line| line.contains("{ break-inside: avoid; }"));
+    let whole = whole.expect("what is not broken");
+    for part in ["figure,", "figcaption,", "caption,"] {
+        assert!(whole.contains(part), "{part}");
+    }
+}
+
         .split("@media print")
         .nth(1)
         .expect("a style of paper");
