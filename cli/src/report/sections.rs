@@ -162,7 +162,10 @@ pub(crate) fn base_parameters(page: &mut Page, compiled: &Compiled) {
         return;
     }
     if let Some(map) = map(compiled) {
-        let legend = [("after", "filled: added"), ("before", "open: subtracted")];
+        let legend = [
+            ("after", "filled: added"),
+            ("before open", "open: subtracted"),
+        ];
         let elements = InertialElement::ALL.map(InertialElement::name).join(", ");
         page.figures(
             &[map],
