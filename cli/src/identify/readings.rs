@@ -18,6 +18,10 @@ const LEAST_RANGE: f64 = 3.0;
 /// A model that explains its torques to this, percent, has their unit and order.
 const WELL: f64 = 15.0;
 
+/// A model that explains its torques to this, percent, has their signs: where gravity rules, a torque the other way round leaves a tenth, as
+/// links of negative weight make up for the rest.
+const WELL_IN_SIGNS: f64 = 4.0;
+
 /// By which factor errors have to be less in another reading.
 const FACTOR: f64 = 2.0;
 
@@ -31,9 +35,9 @@ const WELL_IN_TURNS: f64 = 5.0;
 /// An exchange of columns is a step to their order where it leaves this share of the errors, and a reading is better than a plainer one.
 const LESS: f64 = 0.9;
 
-/// What of the first log is asked, s and Hz: more says no more of units and orders.
+/// What of the first log is asked, s and Hz: more says no more of units and orders, and less leaves what dry friction does between samples.
 const LONGEST: f64 = 60.0;
-const FASTEST: f64 = 100.0;
+const FASTEST: f64 = 250.0;
 
 /// A unit of angles.
 #[derive(Clone, Copy)]
@@ -200,7 +204,7 @@ pub(super) fn others(
         candidates.extend(asked.read(reading));
     }
     // A joint that hardly bends with gravity may fit with a torque of the wrong sign, and friction that pushes.
-    if worst > WELL || doubts::impossible(found, form.unknowns()).next().is_some() {
+    if worst > WELL_IN_SIGNS || doubts::impossible(found, form.unknowns()).next().is_some() {
         let joints = 0..form.dof();
         let signs = joints.flat_map(|joint| {
             let channels = [Channel::Position, Channel::Torque];

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::common::{Folder, json};
+use crate::payload::spec;
 
 const SPEC: &str = "robot P {
     gravity = [0, -9.81, 0];
@@ -292,4 +293,35 @@ fn accelerations_of_a_coarse_encoder_are_told() {
         "{}",
         run.stderr
     );
+}
+
+/// Gravity of links of negative weight makes up for most of a torque that is the other way round.
+#[test]
+fn a_torque_of_the_other_sign_is_told_where_the_arm_fits_all_the_same() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    folder.write(
+        "values.json",
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 0, "lo.coulomb_friction.fc": 0}"#,
+    );
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..5000 {
+        let t = 0.002 * f64::from(k);
+        let sum = |phase: f64| -> f64 {
+            let waves = [0.9, 1.4, 2.2];
+            waves.map(|w| 0.4 * (w * t + phase * w).sin()).iter().sum()
+        };
+        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
+    }
+    folder.write("wanted.csv", &wanted);
+    let simulate = ["simulate", "arm.robot", "--parameters", "values.json"];
+    let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
+    folder.succeed(&[&simulate[..], &motion, &["--out", "log.csv"]].concat());
+    let log = folder.read("log.csv");
+    let (header, rows) = log.split_once('\n').expect("a header");
+    folder.write("other.csv", &scaled(header, rows, "tau2", -1.0));
+    let said = |log: &str| folder.run(&["identify", "arm.robot", log]).stderr;
+    let asked = "with the torque of `lo` the other way round";
+    assert!(said("other.csv").contains(asked), "{}", said("other.csv"));
+    assert!(!said("log.csv").contains(asked), "{}", said("log.csv"));
 }
