@@ -12,6 +12,7 @@ mod row;
 mod sensor;
 mod spec;
 mod table;
+mod threads;
 mod wanted;
 
 use std::fmt;
@@ -25,6 +26,7 @@ pub use row::{Row, Status};
 pub use sensor::{normal, rounded};
 pub use spec::{compiled, interpreted, refused};
 pub use table::Table;
+pub use threads::{both, in_threads};
 pub use wanted::{WANTED, lacking, wanted};
 
 /// An error of any of the libraries.
