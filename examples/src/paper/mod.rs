@@ -22,7 +22,7 @@ pub use figure::{Figure, Mark, Series};
 pub use integrator::rk4;
 pub use numbers::have_same_words;
 pub use program::main;
-pub use row::{Row, Status};
+pub use row::{By, Row, Status};
 pub use sensor::{normal, rounded};
 pub use spec::{compiled, interpreted, refused};
 pub use table::Table;
