@@ -84,7 +84,8 @@ impl Findings {
         let experiment = Experiment::run(EXPERIMENT);
         let data = Data::new(&experiment)?;
         let misprints = misprint::table()?;
-        let told = told(&data)?;
+        let tables = Tables::of(&data)?;
+        let told = told(&data, &tables.second[2])?;
         // The number that is off, where there is one.
         let repaired = misprints.1.first().map_or_else(start, mended);
         let held = &told[0].found;
@@ -93,7 +94,7 @@ impl Findings {
                 misprint::beside(start(), held)?,
                 misprint::beside(repaired, held)?,
             ],
-            tables: Tables::of(&data)?,
+            tables,
             changes: changes(&experiment, &data)?,
             carried: carried(OTHERS)?,
             turns: turns(&experiment)?,

@@ -252,10 +252,13 @@ fn measurements(found: &Findings) -> Vec<Row> {
     ]
 }
 
+/// A condition that is flagged.
+const CONDITION: f64 = 1e3;
+
 /// What is wrong, and what to beware of.
 fn audit(found: &Findings) -> Vec<Row> {
-    let [held, straight, measured, short] = &found.told[..] else {
-        unreachable!("told of four");
+    let [held, straight, measured, short, printed] = &found.told[..] else {
+        unreachable!("told of five");
     };
     let is_off = |told: &super::Told| {
         let ratios = told.ratios();
@@ -263,10 +266,7 @@ fn audit(found: &Findings) -> Vec<Row> {
     };
     let conditions = [held, straight, measured].map(super::Told::condition);
     let is_flagged = conditions.iter().all(Option::is_some) && short.common_factor().is_none();
-    let list = |digits: fn(f64) -> String| -> String {
-        let all = conditions.map(|x| x.map_or("none".to_owned(), digits));
-        all.join(", ")
-    };
+    let rounded = |x: Option<f64>| x.map_or("none".to_owned(), |x| format!("{x:.0}"));
     let ratios = &held.found.ratios;
     let told: Vec<String> = ratios
         .iter()
@@ -283,14 +283,14 @@ fn audit(found: &Findings) -> Vec<Row> {
             "12.05, 21.42",
             format!(
                 "beta is {:.2}, {:.2}, {:.2} times the true one by how the input goes between samples; {} of these fits flagged for a \
-                 common factor; condition of the sensitivities {}, below 1e3 in {}, of the Hessian {}; told are {}; short swings: {:.2}, {}",
+                 common factor, with conditions {}; with the start held, as in Table 2, the condition is {} in shares of values, {:.0} with unit columns; told are {}; short swings: {:.2}, {}",
                 held.factor(),
                 straight.factor(),
                 measured.factor(),
                 conditions.iter().flatten().count(),
-                list(|x| format!("{x:.0}")),
-                conditions.iter().flatten().filter(|x| **x < 1e3).count(),
-                list(|x| format!("{:.0e}", x * x)),
+                conditions.map(rounded).join(", "),
+                rounded(printed.condition()),
+                printed.condition_of_units(),
                 told.join(", "),
                 short.factor(),
                 if short.common_factor().is_none() {
@@ -300,7 +300,8 @@ fn audit(found: &Findings) -> Vec<Row> {
                 },
             ),
             is_flagged
-                && conditions.iter().flatten().all(|x| x * x > 1e3)
+                && printed.condition().is_some_and(|x| x > CONDITION)
+                && printed.condition_of_units() > CONDITION
                 && is_off(straight)
                 && is_off(measured)
                 && ratios.len() == 3,
