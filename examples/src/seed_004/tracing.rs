@@ -53,8 +53,8 @@ pub(super) const FALLING: [f64; 2] = [1.5, 0.3];
 /// Those of the plant and of the tracer.
 pub fn all(upright: &Log, motion: &Sines) -> Result<Traces, Error> {
     let [part, speed] = FALLING;
-    let bare = device::without_friction();
-    let pair = || in_threads(&[&*bare, SPEC], |text| trace(text, upright));
+    let (bare, upright) = (device::without_friction(), first(upright)?);
+    let pair = || in_threads(&[&*bare, SPEC], |text| trace(text, &upright));
     let others = || both(|| falling(motion, part, speed), || equation_4(motion));
     let (pair, (falling, equation_4)) = both(pair, others)?;
     let [without_friction, with_friction] = two(pair);
@@ -125,15 +125,24 @@ pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<Falling, Error> 
     })
 }
 
-/// Seconds of a log that are traced: they tell enough.
+/// Seconds of a log that are traced where they tell enough; friction that falls with speed takes all of it.
 const TRACED: f64 = 20.0;
 
-fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
-    let arm = device::arm(text)?;
+/// The first of them.
+fn first(log: &Log) -> Result<Log, Error> {
     let count = samples(TRACED).min(log.time.len());
     let part = |all: &[Vec<f64>]| all.iter().map(|x| x[..count].to_vec()).collect();
     let time = log.time[..count].to_vec();
-    let log = &Log::from_samples("traced", time, part(&log.q), part(&log.tau))?;
+    Ok(Log::from_samples(
+        "traced",
+        time,
+        part(&log.q),
+        part(&log.tau),
+    )?)
+}
+
+fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
+    let arm = device::arm(text)?;
     let undeclared = arm.undeclared();
     let trace = Trace::new(undeclared.candidates());
     Ok(trace.run(&arm, std::slice::from_ref(log), &mut |_| ())?)
