@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::time::Instant;
 
 use robot_model_examples::paper::have_same_words;
 
@@ -89,4 +90,39 @@ fn a_folder_that_cannot_be_made_is_an_error_of_one_line() {
         "{said}"
     );
     assert!(run.stdout.is_empty());
+}
+
+/// Before anything is computed: the programs take up to a minute.
+#[test]
+fn a_page_that_is_not_there_and_one_without_figures_are_told_at_once_with_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let page = folder.path().join("new.md");
+    let said = || {
+        let run = Command::new(env!("CARGO_BIN_EXE_seed_003"))
+            .arg("--figures")
+            .arg(folder.path().join("drawn"))
+            .arg("--page")
+            .arg(&page)
+            .output()
+            .expect("the program starts");
+        assert_eq!(run.status.code(), Some(1));
+        assert!(run.stdout.is_empty());
+        String::from_utf8_lossy(&run.stderr).into_owned()
+    };
+    let start = Instant::now();
+    let without = said();
+    assert!(
+        without.contains("new.md: ") && without.contains("copy"),
+        "{without}"
+    );
+    fs::write(&page, "# A page").expect("a page");
+    let without = said();
+    let figures = folder.path().join("figures");
+    let figures = figures.to_str().expect("a path in letters");
+    assert!(
+        without.contains(figures) && without.contains("make it"),
+        "{without}"
+    );
+    assert_eq!(without.lines().count(), 1, "{without}");
+    assert!(start.elapsed().as_secs() < 5);
 }

@@ -12,6 +12,7 @@ mod row;
 mod sensor;
 mod spec;
 mod table;
+mod threads;
 mod wanted;
 
 use std::fmt;
@@ -21,10 +22,11 @@ pub use figure::{Figure, Mark, Series};
 pub use integrator::rk4;
 pub use numbers::have_same_words;
 pub use program::main;
-pub use row::{Row, Status};
+pub use row::{By, Row, Status};
 pub use sensor::{normal, rounded};
 pub use spec::{compiled, interpreted, refused};
 pub use table::Table;
+pub use threads::{both, in_threads};
 pub use wanted::{WANTED, lacking, wanted};
 
 /// An error of any of the libraries.

@@ -1,7 +1,7 @@
 //! A page of the docs beside what the program says: nothing on it may be of an older run.
 
 use super::table::wrapped;
-use super::{Paper, Row, Status, Table, numbers, row};
+use super::{By, Paper, Row, Status, Table, numbers, row};
 
 /// What heads the items on a page; they are its last part.
 const ITEMS: &str = "## Item by item";
@@ -98,12 +98,11 @@ impl Paper {
                 count => count.to_string(),
             }
         };
-        let is_wrong = |row: &Row| matches!(row.status, Status::Impossible(_));
         let own = [
             count(&|row| matches!(row.status, Status::Reached)),
             count(&|row| matches!(row.status, Status::NotReached(_))),
-            count(&|row| is_wrong(row) && !row.is_compared()),
-            count(&|row| is_wrong(row) && row.is_compared()),
+            count(&|row| row.is_impossible(By::Check)),
+            count(&|row| row.is_impossible(By::Comparison)),
         ];
         let is_line = |line: &&str| line.starts_with(&format!("| [`{name}`]"));
         let line = list.lines().find(is_line).unwrap_or_default();
@@ -243,6 +242,35 @@ mod tests {
         assert_eq!(paper("2").counted_otherwise(list, "seed_009"), None);
         let list = list.replace("| 1 | 1 |", "| 2 | |");
         assert!(paper("2").counted_otherwise(&list, "seed_009").is_some());
+    }
+
+    #[test]
+    fn what_is_compared_is_counted_apart_and_says_so() {
+        let wrong = |is_found| Row::wrong_in_print("9.3", "c", "4", "5", is_found, "of a digit");
+        let of = |row| Paper {
+            rows: vec![row],
+            ..Paper::default()
+        };
+        let list = |cells: &str| format!("| [`seed_009`](seed_009.md) | costs |{cells}");
+        let checked = of(wrong(true));
+        assert_eq!(
+            checked.counted_otherwise(&list(" | | 1 | |"), "seed_009"),
+            None
+        );
+        assert!(!checked.text().contains("comparison"));
+        let compared = of(wrong(true).by_comparison());
+        assert_eq!(
+            compared.counted_otherwise(&list(" | | | 1 |"), "seed_009"),
+            None
+        );
+        assert!(compared.text().contains("found: by a comparison"));
+        // What is not found is found by nobody.
+        let missed = of(wrong(false).by_comparison());
+        assert_eq!(
+            missed.counted_otherwise(&list(" | 1 | | |"), "seed_009"),
+            None
+        );
+        assert!(!missed.text().contains("comparison"));
     }
 
     #[test]

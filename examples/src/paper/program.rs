@@ -17,7 +17,7 @@ struct Options {
     /// Print tables as Markdown, as the docs have them.
     #[arg(long)]
     markdown: bool,
-    /// Write the tables, the items and the figures that this page of the docs shows anew.
+    /// Write the tables, the items and the figures that this page of the docs shows anew; it has a folder `figures` beside it.
     #[arg(long, value_name = "FILE.md")]
     page: Option<PathBuf>,
 }
@@ -35,8 +35,12 @@ pub fn main(name: &str, run: impl Fn() -> Result<Paper, Error>) -> ExitCode {
         let folders = ["target", "papers", name];
         folders.iter().collect()
     });
-    let done = run().and_then(|paper| {
-        fs::create_dir_all(&folder)?;
+    // What cannot be written is told before the minute of a run.
+    let is_writable = || {
+        fs::create_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+        options.page.as_deref().map_or(Ok(()), is_page)
+    };
+    let done = is_writable().and_then(|()| run()).and_then(|paper| {
         for figure in &paper.figures {
             fs::write(
                 folder.join(&figure.name).with_extension("svg"),
@@ -57,6 +61,26 @@ pub fn main(name: &str, run: impl Fn() -> Result<Paper, Error>) -> ExitCode {
         }
     }
     ExitCode::SUCCESS
+}
+
+/// Whether there is a page to write anew, with a folder for its figures beside it.
+fn is_page(page: &Path) -> Result<(), Error> {
+    if let Err(error) = fs::read_to_string(page) {
+        return Err(format!(
+            "{}: {error}; `--page` writes a page anew that there is, so copy that of docs/papers there first",
+            page.display()
+        )
+        .into());
+    }
+    let figures = page.with_file_name("figures");
+    if !figures.is_dir() {
+        return Err(format!(
+            "{}: no such folder; `--page` writes the figures of a page there, so make it first",
+            figures.display()
+        )
+        .into());
+    }
+    Ok(())
 }
 
 /// The figures of a page stand beside it, `figures/NAME_FIGURE.svg`.

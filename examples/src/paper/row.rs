@@ -39,6 +39,15 @@ impl fmt::Display for Status {
     }
 }
 
+/// Who finds that something is wrong in print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum By {
+    /// A check of the tool says so.
+    Check,
+    /// The program compares numbers; no check of the tool says so.
+    Comparison,
+}
+
 /// One item: what is printed and what came out here.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
@@ -52,6 +61,8 @@ pub struct Row {
     pub ours: String,
     /// Whether that is what was to come out.
     pub status: Status,
+    /// Who finds it, where it is wrong in print.
+    pub by: By,
 }
 
 impl Row {
@@ -75,10 +86,11 @@ impl Row {
             printed: printed.into(),
             ours: ours.into(),
             status,
+            by: By::Check,
         }
     }
 
-    /// An item that the paper has wrong: the program found `found`, which shows it; where it did not, the item is not reached.
+    /// An item that the paper has wrong: a check of the tool found `found`, which shows it; where it did not, the item is not reached.
     pub fn wrong_in_print(
         item: &'static str,
         what: impl Into<String>,
@@ -98,13 +110,23 @@ impl Row {
             printed: printed.into(),
             ours: found.into(),
             status,
+            by: By::Check,
         }
     }
 
-    /// Whether the program compares what is printed, and no check of the tool finds it; a row says so in words.
-    pub(super) fn is_compared(&self) -> bool {
-        const WORDS: &str = "no check of the tool";
-        self.what.contains(WORDS) || self.status.to_string().contains(WORDS)
+    /// The same, where the program compares numbers, and no check of the tool says that they do not agree.
+    #[must_use]
+    pub fn by_comparison(self) -> Self {
+        Self {
+            by: By::Comparison,
+            ..self
+        }
+    }
+
+    /// Whether it is impossible as printed, and by whom that is found.
+    #[must_use]
+    pub fn is_impossible(&self, by: By) -> bool {
+        matches!(self.status, Status::Impossible(_)) && self.by == by
     }
 
     /// What is told of it, each under a word.
@@ -115,7 +137,10 @@ impl Row {
             ("here", self.ours.clone()),
             ("outcome", self.status.to_string()),
         ];
-        [printed].into_iter().chain(wanted).chain(rest).collect()
+        let compared = self.is_impossible(By::Comparison);
+        let compared = compared.then(|| ("found", COMPARED.to_owned()));
+        let parts = [printed].into_iter().chain(wanted).chain(rest);
+        parts.chain(compared).collect()
     }
 
     /// As an entry of a list in Markdown.
@@ -141,6 +166,9 @@ impl Row {
         format!("  {what}\n{}", parts.collect::<String>())
     }
 }
+
+/// What is told of [`By::Comparison`].
+const COMPARED: &str = "by a comparison of the program's, no check of the tool";
 
 /// Letters of a line in Markdown, and what comes before a line of a block.
 const LINE: usize = 120;

@@ -23,7 +23,7 @@ pub const WANTED: [(&str, &str); 59] = [
     ("0.misprint", "one number is off by 1, all others agree"),
     (
         "0.scale",
-        "flagged with a condition above 1e3, which we take for that of the squares, and ratios told",
+        "flagged with a condition above 1e3, and ratios told",
     ),
     ("1.1", "a difference of zero, whatever the state"),
     ("1.2", "the start of searches"),

@@ -97,8 +97,7 @@ pub fn figures(findings: &Findings) -> Vec<Figure> {
         .with("its square wave", Mark::Line, over_time(&data.wave)),
     ];
     let start = data.time[data.window.start];
-    // Of figures 7 and 8 those with the arm's own parameters.
-    for change in &findings.changes[2..] {
+    for change in &findings.changes[..4] {
         let along = |path: &[f64]| -> Vec<(f64, f64)> {
             let points = (0_u32..).zip(path);
             points

@@ -242,4 +242,5 @@ pub(super) fn row(found: &Findings) -> Row {
             ARM[3] - BACK_EMF * ARM[1]
         ),
     )
+    .by_comparison()
 }

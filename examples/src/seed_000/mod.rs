@@ -12,6 +12,7 @@ mod law;
 mod misprint;
 mod motion;
 mod plant;
+mod replay;
 mod rows;
 mod scale;
 mod sensitivity;
@@ -26,10 +27,11 @@ pub use fits::{Fit, Tables, cost};
 pub use law::{LAWS, Law};
 pub use misprint::{Beside, Pair, mended, pairs, start};
 pub use plant::Experiment;
+pub use replay::Own;
 pub use scale::{FACTORS, Told, costs_by_factor, told};
 pub use sensitivity::{Change, carried, changes};
 pub use slopes::{slope_errors, upright_rate};
-pub use truth::{ARM, BACK_EMF, TABLE_1, TABLE_2};
+pub use truth::{ARM, BACK_EMF, FIGURE_7, TABLE_1, TABLE_2};
 pub use turns::{Turns, turns};
 
 use crate::paper::{Error, Paper};
@@ -51,9 +53,9 @@ pub struct Findings {
     pub data: Data,
     /// Tables 1 and 2.
     pub tables: Tables,
-    /// Figures 7 to 10, 7 and 8 with the printed parameters and with the arm's own.
-    pub changes: [Change; 6],
-    /// Distances of the middle two on logs of other noise, rad, from the least on.
+    /// Figures 7 to 10, then 7 and 8 on a noisy log with the printed parameters and with the arm's own.
+    pub changes: [Change; 8],
+    /// Distances of the last two on logs of other noise, rad, from the least on.
     pub carried: [Vec<f64>; 2],
     /// Motions through turn-arounds.
     pub turns: [Turns; 2],
@@ -84,7 +86,8 @@ impl Findings {
         let experiment = Experiment::run(EXPERIMENT);
         let data = Data::new(&experiment)?;
         let misprints = misprint::table()?;
-        let told = told(&data)?;
+        let tables = Tables::of(&data)?;
+        let told = told(&data, &tables.second[2])?;
         // The number that is off, where there is one.
         let repaired = misprints.1.first().map_or_else(start, mended);
         let held = &told[0].found;
@@ -93,7 +96,7 @@ impl Findings {
                 misprint::beside(start(), held)?,
                 misprint::beside(repaired, held)?,
             ],
-            tables: Tables::of(&data)?,
+            tables,
             changes: changes(&experiment, &data)?,
             carried: carried(OTHERS)?,
             turns: turns(&experiment)?,

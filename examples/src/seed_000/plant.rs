@@ -13,7 +13,7 @@ use crate::paper::{normal, rk4, rounded};
 pub const VOLTS: f64 = 1.75;
 
 /// Where the voltage is switched, rad: the arm was to turn by about 90 degrees both ways.
-const TURN: f64 = 1.5;
+pub const TURN: f64 = 1.5;
 
 /// Steps of the integrator per sample; the fastest motion, of 1/36 s, has 33 of them.
 const STEPS: u32 = 40;

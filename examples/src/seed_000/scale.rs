@@ -50,19 +50,27 @@ impl Told {
         is_common.then_some(frail)
     }
 
-    /// Condition of the sensitivities in shares of values; that of the matrix that a search inverts, the Hessian, is its square.
+    /// Condition of the sensitivities in shares of values, where that is of a common factor.
     #[must_use]
     pub fn condition(&self) -> Option<f64> {
         self.common_factor().map(|frail| 1.0 / frail.singular)
     }
+
+    /// Condition of the sensitivities with columns of length 1, as `identify` prints it.
+    #[must_use]
+    pub fn condition_of_units(&self) -> f64 {
+        let weakest = self.found.identifiability.singular.last();
+        weakest.map_or(f64::NAN, |weakest| 1.0 / weakest)
+    }
 }
 
 /// Fits of law (6.3) to the same positions, driven by the square wave held and as straight lines, and by the synthesized voltage; and to
-/// those of an arm that swings to and fro about the upright.
+/// those of an arm that swings to and fro about the upright. All of these have the start among their unknowns; `held_start` is the fit of
+/// Table 2, whose start is held as in the paper.
 ///
 /// # Errors
 /// Where a search stops.
-pub fn told(data: &Data) -> Result<Vec<Told>, Error> {
+pub fn told(data: &Data, held_start: &Fit) -> Result<Vec<Told>, Error> {
     let start = TABLE_2[2][0].values;
     let fit = |data: &Data, drive: &[f64], hold: Hold| -> Result<Fit, Error> {
         let recording = data.driven_by(drive)?;
@@ -94,6 +102,7 @@ pub fn told(data: &Data) -> Result<Vec<Told>, Error> {
             "square wave of short swings, held",
             fit(&of_quick, &quick.command, Hold::Sample)?,
         )?,
+        Told::new("square wave, held; start held", held_start.clone())?,
     ])
 }
 
@@ -102,7 +111,7 @@ pub fn told(data: &Data) -> Result<Vec<Told>, Error> {
 pub fn table(told: &[Told]) -> Table {
     let mut table = Table::new(
         format!(
-            "Law (6.3) in model (5.2), start fitted: alpha, beta, c1, c2 of the arm are {}",
+            "Law (6.3) in model (5.2), start fitted but in the last line: alpha, beta, c1, c2 of the arm are {}",
             super::fits::listed(&ARM)
         ),
         [
@@ -113,6 +122,7 @@ pub fn table(told: &[Told]) -> Table {
             "beta / true",
             "alpha/c, beta/c over true",
             "condition",
+            "with unit columns",
         ],
     );
     for told in told {
@@ -128,6 +138,7 @@ pub fn table(told: &[Told]) -> Table {
                 .map_or("no common factor".to_owned(), |condition| {
                     format!("{condition:.0}")
                 }),
+            format!("{:.0}", told.condition_of_units()),
         ]);
     }
     table

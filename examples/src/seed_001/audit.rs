@@ -8,9 +8,9 @@ use robot_model::simulate::Functions as _;
 use super::model::{Arm, Model, errors, rest, simulate, with};
 use super::plant::{Arm as ByHand, Position};
 use super::releases::at;
-use super::search::{Found, exact, in_threads, look, names, recording, settings};
+use super::search::{Found, exact, look, names, recording, settings};
 use super::truth::{BOUNDS, CAD, ESTIMATED, G, HEIGHTS, NAMES, Physical, Printed, SHARE};
-use crate::paper::Error;
+use crate::paper::{Error, in_threads};
 
 /// Seconds after which every release has ended.
 const END: f64 = 60.0;

@@ -1,8 +1,5 @@
 //! Parameters from releases, by the output error of the library.
 
-use std::sync::Mutex;
-use std::thread;
-
 use robot_model::identify::output_error::{
     Hold, OutputError, OutputErrorError, OutputEstimate, Recording, Search,
 };
@@ -13,7 +10,7 @@ use super::model::Arm;
 use super::plant::{Position, release};
 use super::releases::{Batch, at};
 use super::truth::{BOUNDS, CAD, ESTIMATED, HEIGHTS, Height, NAMES, STEP};
-use crate::paper::{Error, rounded};
+use crate::paper::{Error, in_threads, rounded};
 
 /// Every so many samples is read: 20 ms are a fortieth of the fastest swing.
 const EVERY: usize = 4;
@@ -144,35 +141,4 @@ pub fn all(arm: &Arm) -> Result<Found, Error> {
         means: found,
         exact,
     })
-}
-
-/// Results in the order of the jobs; the last ones are begun first.
-///
-/// # Errors
-/// The first one of the jobs'.
-pub fn in_threads<J: Sync, R: Send>(
-    jobs: &[J],
-    work: impl Fn(&J) -> Result<R, Error> + Sync,
-) -> Result<Vec<R>, Error> {
-    let left = Mutex::new((0..jobs.len()).collect::<Vec<usize>>());
-    let next = || left.lock().ok()?.pop();
-    let threads = thread::available_parallelism().map_or(1, usize::from);
-    let mut results: Vec<(usize, Result<R, Error>)> = thread::scope(|scope| {
-        let worker = || {
-            let mut own = Vec::new();
-            while let Some(k) = next() {
-                own.push((k, work(&jobs[k])));
-            }
-            own
-        };
-        let workers: Vec<_> = (0..threads.min(jobs.len()))
-            .map(|_| scope.spawn(worker))
-            .collect();
-        let ended = workers.into_iter().map(thread::ScopedJoinHandle::join);
-        ended
-            .flat_map(|own| own.unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-            .collect()
-    });
-    results.sort_by_key(|(k, _)| *k);
-    results.into_iter().map(|(_, result)| result).collect()
 }

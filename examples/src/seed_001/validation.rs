@@ -3,9 +3,9 @@
 use super::model::{Arm, errors, simulate, with};
 use super::plant::{Position, release};
 use super::releases::at;
-use super::search::{Found, exact, in_threads};
+use super::search::{Found, exact};
 use super::truth::{CAD, ESTIMATED, HEIGHTS, Physical, Printed};
-use crate::paper::Error;
+use crate::paper::{Error, in_threads};
 
 /// Samples after which the fit of Table 2 is told besides: 5 s.
 const FIRST: usize = 1000;

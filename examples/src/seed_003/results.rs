@@ -9,7 +9,7 @@ use super::phenomena::{self, Late, Motion, Spring};
 use super::plant::{Friction, PRINTED};
 use super::rig::{Loop, Run};
 use super::{tool, truth};
-use crate::paper::Error;
+use crate::paper::{Error, both, in_threads};
 
 /// Speeds at which the end of the spring is pulled, rad/s.
 pub const PULLED: [f64; 9] = [0.05, 0.1, 0.2, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0];
@@ -124,10 +124,35 @@ pub struct Findings {
 /// # Errors
 /// Those of the libraries.
 pub fn results() -> Result<Results, Error> {
-    let found = experiments::find(PRINTED)?;
+    let held = || both(in_kgf_cm, || Ok(experiments::held_on_speed()));
+    let apart = || both(shown, held);
+    let (found, (shown, (in_kgf_cm, on_speed))) = both(|| experiments::find(PRINTED), apart)?;
+    let ((protocols, encoders), findings) = both(
+        || {
+            both(
+                || protocols(&found),
+                || encoder::study(&found.curve, &found.law),
+            )
+        },
+        || findings(&found),
+    )?;
+    Ok(Results {
+        protocols,
+        on_speed,
+        body: body()?,
+        settled: settled()?,
+        encoders,
+        shown,
+        in_kgf_cm,
+        findings,
+        found,
+    })
+}
+
+fn findings(found: &Found) -> Result<Findings, Error> {
     let rise = found.rise.log("rise", super::rig::FINE_BITS, 34)?;
     let (printed, passive) = (tool::checks(&PRINTED)?, tool::checks(&audit::PASSIVE)?);
-    let findings = Findings {
+    Ok(Findings {
         gravity: audit::dimensions(audit::EQUATION_7),
         third: audit::third()?,
         unit: audit::dimensions(audit::EQUATION_8),
@@ -137,19 +162,8 @@ pub fn results() -> Result<Results, Error> {
         friction: audit::check("friction", &printed, &passive),
         memory: audit::check("memory", &printed, &passive),
         softness: audit::softness(&found.curve, &found.law, &found.bristles)?,
-        differences: audit::differences(&found)?,
+        differences: audit::differences(found)?,
         encoder: audit::encoder(&found.curve),
-    };
-    Ok(Results {
-        protocols: protocols(&found)?,
-        on_speed: experiments::held_on_speed(),
-        body: body()?,
-        settled: settled()?,
-        encoders: encoder::study(&found.curve, &found.law)?,
-        shown: shown()?,
-        in_kgf_cm: in_kgf_cm()?,
-        findings,
-        found,
     })
 }
 
@@ -265,20 +279,20 @@ fn shown() -> Result<Vec<Shown>, Error> {
         ("stiff bristles", audit::stiff(), phenomena::STIFF),
         ("less damping", audit::PASSIVE, phenomena::STIFF),
     ];
-    let of = |(name, friction, spring): (&'static str, Friction, Spring)| {
-        let late = PULLED.map(|speed| {
+    let of = |&(name, friction, spring): &(&'static str, Friction, Spring)| {
+        let late = in_threads(&PULLED, |speed| {
             let seconds = (spring.way / speed).max(PULL_S);
-            spring.pulls(friction, speed, seconds).late(speed)
-        });
+            Ok(spring.pulls(friction, *speed, seconds).late(*speed))
+        })?;
         Ok(Shown {
             name,
             spring,
-            late: late.to_vec(),
+            late,
             to_and_fro: to_and_fro(friction)?,
             slip: slip(friction, spring)?,
         })
     };
-    pulls.into_iter().map(of).collect()
+    in_threads(&pulls, of)
 }
 
 impl Shown {

@@ -43,7 +43,8 @@ fn uses(results: &Results) -> Vec<Row> {
             format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
             !super::shares::is_as_said(gravity),
             "gravity on joint 3 is pi8 sin(theta3), so that along one motion it is as pi8 is, and not with table 1 as the text has it",
-        ),
+        )
+        .by_comparison(),
         Row::holds(
             "4.9",
             "fc / fv of UR, deg/s",
@@ -72,7 +73,8 @@ fn weights(results: &Results) -> Row {
     };
     Row::wrong_in_print(
         "4.10",
-        "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m; and whether a device that carries the masses stands, by `audit`",
+        "counterweights: pi7', pi8' in N m, masses in kg, with the lever 0.075 m, by `control::counterbalance` of the library, for which the command line has \
+         no verb; and whether a device that carries the masses stands, by `audit`",
         format!("{:?}, {:?}", WEIGHTS.moments, WEIGHTS.recommended),
         format!(
             "{:.4}, {:.4}; {:.3}, {:.3}; with the printed masses joints 2 and 3 take {} mN m to stand, where rounding of masses \

@@ -10,7 +10,7 @@ use super::rig;
 use super::sensors::{RATE, samples};
 use super::sines::{ROOM, Room, Sines};
 use super::truth::{CONFIGURATIONS, LEAST_EIGENVALUE, Pi, SINES, piece_wise, table_1};
-use crate::paper::{Audited, Error, Row};
+use crate::paper::{Audited, Error, Row, in_threads};
 
 /// What the tool says of a set of parameters of a spec.
 ///
@@ -123,8 +123,9 @@ fn without_acceleration(pi: &Pi, motion: &Sines) -> usize {
 /// None are expected: the names are those of the spec.
 pub fn all() -> Result<Audits, Error> {
     let room = within(ROOM.low, ROOM.high);
-    let each = |text: &str, change: fn(Pi) -> Pi| -> Result<Vec<Audited>, Error> {
-        (0..5).map(|k| audited(text, &change(table_1(k)))).collect()
+    let columns: Vec<Pi> = (0..5).map(table_1).chain([piece_wise()]).collect();
+    let each = |text: &str, change: fn(Pi) -> Pi| {
+        in_threads(&columns[..5], |pi| audited(text, &change(*pi)))
     };
     let positive = |mut pi: Pi| {
         for fv in &mut pi[8..11] {
@@ -139,23 +140,22 @@ pub fn all() -> Result<Audits, Error> {
         high: [60, high_2, high_3].map(|degrees| f64::from(degrees).to_radians()),
     };
     let motion = Sines::new(SINES, &whole, 4);
-    let moved = |pi: Pi| {
-        let plant = Plant::new(pi, motion.at(0.0)[0]);
+    let moved = |pi: &Pi| {
+        let plant = Plant::new(*pi, motion.at(0.0)[0]);
         let run = rig::run(plant, &motion, &STIFF, MOVED, 45);
-        run.err()
-            .map_or_else(String::new, |error| error.to_string())
+        let error = run.err();
+        Ok(error.map_or_else(String::new, |error| error.to_string()))
     };
+    let mut moved = in_threads(&columns, moved)?;
+    let mut without = in_threads(&columns, |pi| Ok(without_acceleration(pi, &motion)))?;
+    let mut fails = in_threads(&columns, fails)?;
     Ok(Audits {
-        moved: (0..5).map(|k| moved(table_1(k))).collect(),
-        piece_wise_moved: moved(piece_wise()),
-        without_acceleration: (0..5)
-            .map(|k| without_acceleration(&table_1(k), &motion))
-            .collect(),
-        piece_wise_without: without_acceleration(&piece_wise(), &motion),
-        fails: (0..5)
-            .map(|k| fails(&table_1(k)))
-            .collect::<Result<_, Error>>()?,
-        piece_wise_fails: fails(&piece_wise())?,
+        piece_wise_moved: moved.remove(5),
+        moved,
+        piece_wise_without: without.remove(5),
+        without_acceleration: without,
+        piece_wise_fails: fails.remove(5),
+        fails,
         printed: each(SPEC, |pi| pi)?,
         in_room: each(&room, |pi| pi)?,
         positive: each(SPEC, positive)?,

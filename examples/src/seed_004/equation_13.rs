@@ -11,7 +11,7 @@ use super::equations::{
 use super::fits::{self, Installation};
 use super::plant::Three;
 use super::truth::{CORNER, NAMES};
-use crate::paper::{Error, Row};
+use crate::paper::{Error, Row, in_threads};
 
 /// What is left of the filtered torque is no noise beyond this, RMS% of (15): item 4.6 has less everywhere.
 const MISFIT: f64 = 1.0;
@@ -169,10 +169,15 @@ impl Left {
             let estimate = fits::fit(&model, &halves.train)?;
             fits::rms(&estimate, &model, &halves.validate)
         };
+        let cases = [(1.0, true), (0.0, false), (0.0, true)];
+        let all = in_threads(&cases, |&(times, passes_all)| left(times, passes_all))?;
+        let [sign, filters, repaired] = all[..] else {
+            unreachable!("three cases");
+        };
         Ok(Self {
-            sign: left(1.0, true)?,
-            filters: left(0.0, false)?,
-            repaired: left(0.0, true)?,
+            sign,
+            filters,
+            repaired,
         })
     }
 

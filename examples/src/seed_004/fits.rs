@@ -10,7 +10,7 @@ use super::rig::{self, Gains};
 use super::sensors::Record;
 use super::sines::Sines;
 use super::truth::{CORNER, Pi, table_1};
-use crate::paper::Error;
+use crate::paper::{Error, in_threads};
 
 /// No channel of a simulated log is late.
 fn on_time() -> Identify {
@@ -72,25 +72,23 @@ pub fn all(motion: &Sines) -> Result<Vec<Installation>, Error> {
     let model = device::momentum(SPEC)?;
     let bare = device::momentum(&device::without_friction())?;
     let seconds = SECONDS.iter().sum();
-    (0..5)
-        .map(|k| {
-            let truth = table_1(k);
-            let seed = 50 + k as u64;
-            let plant = Plant::new(truth, motion.at(0.0)[0]);
-            let halves = Halves::of(&rig::run(plant, motion, &STIFF, seconds, seed)?)?;
-            let estimate = fit(&model, &halves.train)?;
-            let without = fit_with_turns(&bare, &halves.train)?;
-            Ok(Installation {
-                truth,
-                rms: rms(&estimate, &model, &halves.validate)?,
-                rms_without_friction: rms(&without, &bare, &halves.validate)?,
-                with_turns: fit_with_turns(&model, &halves.train)?,
-                halves,
-                estimate,
-                without_friction: without,
-            })
+    in_threads(&[0, 1, 2, 3, 4], |&k: &usize| {
+        let truth = table_1(k);
+        let seed = 50 + k as u64;
+        let plant = Plant::new(truth, motion.at(0.0)[0]);
+        let halves = Halves::of(&rig::run(plant, motion, &STIFF, seconds, seed)?)?;
+        let estimate = fit(&model, &halves.train)?;
+        let without = fit_with_turns(&bare, &halves.train)?;
+        Ok(Installation {
+            truth,
+            rms: rms(&estimate, &model, &halves.validate)?,
+            rms_without_friction: rms(&without, &bare, &halves.validate)?,
+            with_turns: fit_with_turns(&model, &halves.train)?,
+            halves,
+            estimate,
+            without_friction: without,
         })
-        .collect()
+    })
 }
 
 /// Through `Y_L`, without rows at turns: what holds a joint that stands is not what (6) says.

@@ -12,7 +12,7 @@ use super::sines::{ROOM, Sines};
 use super::tracing::{self, Traces};
 use super::truth::{COMMAND_GAIN, CONTROL_GAINS, SINES, WEIGHTS, piece_wise, table_1};
 use super::weights::{self, Balance};
-use crate::paper::{Audited, Error};
+use crate::paper::{Audited, Error, both, in_threads};
 
 /// One setting of section 4.3 with identified and with piece-wise parameters.
 #[derive(Debug, Clone)]
@@ -73,21 +73,23 @@ pub fn results() -> Result<Results, Error> {
     let motion = Sines::new(SINES, &ROOM, 4);
     let installations = fits::all(&motion)?;
     let known = |k: usize| device::values(&installations[k].estimate);
-    let largest = |k: usize| -> Result<[f64; 2], Error> {
-        Ok([
-            control::largest_gain(&table_1(k), &known(k))?,
-            control::largest_gain(&table_1(k), &piece_wise())?,
-        ])
+    let largest = |k: &usize| {
+        both(
+            || control::largest_gain(&table_1(*k), &known(*k)),
+            || control::largest_gain(&table_1(*k), &piece_wise()),
+        )
     };
-    let controlled = [0, 0, 4].into_iter().zip(CONTROL_GAINS).map(|(k, gains)| {
+    let settings: Vec<_> = [0, 0, 4].into_iter().zip(CONTROL_GAINS).collect();
+    let controlled = |&(k, gains): &(usize, [f64; 2])| -> Result<Controlled, Error> {
         let square = |known| control::square(&table_1(k), known, gains);
         Ok(Controlled {
             installation: k,
             gains,
             squares: [square(&known(k))?, square(&piece_wise())?],
         })
-    });
-    let controlled = controlled.collect::<Result<Vec<_>, Error>>()?;
+    };
+    let controlled = in_threads(&settings, controlled)?;
+    let largest_gains = in_threads(&[0, 1, 2, 3, 4], largest)?.into_iter();
     let levers = weights::levers_of_print()?;
     Ok(Results {
         equations: [equations::compare(false), equations::compare(true)],
@@ -111,7 +113,7 @@ pub fn results() -> Result<Results, Error> {
         ],
         levers,
         controlled,
-        largest_gains: (0..5).map(largest).collect::<Result<_, Error>>()?,
+        largest_gains: largest_gains.map(<[f64; 2]>::from).collect(),
         felt: contact::felt(&known(2), &motion)?,
         jacobian_off: contact::jacobian_off(),
         scaled_off: scaled_off(&installations[0])?,

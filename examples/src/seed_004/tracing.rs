@@ -11,7 +11,7 @@ use super::rig;
 use super::sensors::samples;
 use super::sines::Sines;
 use super::truth::{Pi, table_1};
-use crate::paper::Error;
+use crate::paper::{Error, both, in_threads};
 
 /// What the tracer says of the device.
 #[derive(Debug, Clone)]
@@ -53,17 +53,27 @@ pub(super) const FALLING: [f64; 2] = [1.5, 0.3];
 /// Those of the plant and of the tracer.
 pub fn all(upright: &Log, motion: &Sines) -> Result<Traces, Error> {
     let [part, speed] = FALLING;
-    let falling = falling(motion, part, speed)?;
+    let (bare, upright) = (device::without_friction(), first(upright)?);
+    let pair = || in_threads(&[&*bare, SPEC], |text| trace(text, &upright));
+    let others = || both(|| falling(motion, part, speed), || equation_4(motion));
+    let (pair, (falling, equation_4)) = both(pair, others)?;
+    let [without_friction, with_friction] = two(pair);
     Ok(Traces {
-        without_friction: trace(&device::without_friction(), upright)?,
-        with_friction: trace(SPEC, upright)?,
+        without_friction,
+        with_friction,
         falling_viscous: [8, 9, 10].map(|k| falling.fitted[k]),
         falling_signs: audited(SPEC, &falling.fitted)?.findings("signs").len(),
         falling_rms: falling.rms,
         falling: falling.verdict,
         true_viscous: VISCOUS,
-        equation_4: equation_4(motion)?,
+        equation_4,
     })
+}
+
+/// Both results of two jobs.
+fn two<T>(all: Vec<T>) -> [T; 2] {
+    let all: Result<[T; 2], _> = all.try_into();
+    all.unwrap_or_else(|_| unreachable!("two jobs have two results"))
 }
 
 /// UR with positive viscous friction, as that of table 1 drives.
@@ -77,7 +87,8 @@ fn equation_4(motion: &Sines) -> Result<[Verdict; 2], Error> {
     let log = record.log("fast", dropped, dropped + TRACED)?;
     let [wrong, right] = WRONG;
     let mended = EQUATION_4.replace(wrong, right);
-    Ok([trace(EQUATION_4, &log)?, trace(&mended, &log)?])
+    let texts = [EQUATION_4, &mended];
+    Ok(two(in_threads(&texts, |text| trace(text, &log))?))
 }
 
 /// A device with friction that falls with speed.
@@ -114,15 +125,24 @@ pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<Falling, Error> 
     })
 }
 
-/// Seconds of a log that are traced: they tell enough.
+/// Seconds of a log that are traced where they tell enough; friction that falls with speed takes all of it.
 const TRACED: f64 = 20.0;
 
-fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
-    let arm = device::arm(text)?;
+/// The first of them.
+fn first(log: &Log) -> Result<Log, Error> {
     let count = samples(TRACED).min(log.time.len());
     let part = |all: &[Vec<f64>]| all.iter().map(|x| x[..count].to_vec()).collect();
     let time = log.time[..count].to_vec();
-    let log = &Log::from_samples("traced", time, part(&log.q), part(&log.tau))?;
+    Ok(Log::from_samples(
+        "traced",
+        time,
+        part(&log.q),
+        part(&log.tau),
+    )?)
+}
+
+fn trace(text: &str, log: &Log) -> Result<Verdict, Error> {
+    let arm = device::arm(text)?;
     let undeclared = arm.undeclared();
     let trace = Trace::new(undeclared.candidates());
     Ok(trace.run(&arm, std::slice::from_ref(log), &mut |_| ())?)

@@ -100,12 +100,13 @@ pub(super) fn rig(results: &Results) -> Vec<Row> {
         ),
         Row::wrong_in_print(
             "3.bits",
-            "the encoder's step, from its log",
+            "the encoder's step: that which `friction` finds in logs beside the printed one",
             format!("12 bits, {} degrees", truth::PRINTED_STEP_DEG),
             findings.encoder.text(),
             findings.encoder.is_told(),
-            "12 bits are a turn of 4096 steps, and pass",
-        ),
+            "12 bits are a turn of 4096 steps, which is what is found",
+        )
+        .by_comparison(),
         Row::holds(
             "3.encoder",
             "which bristles an encoder tells",
