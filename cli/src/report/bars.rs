@@ -7,8 +7,9 @@ use super::axis::Axis;
 use super::chart::{DRAWN, GRID, INK, Ink, TEXT, on_page, tick};
 use crate::output::significant;
 
-/// Width of the drawing, and what each joint adds to its height.
-const WIDTH: u32 = 460;
+/// Width of the drawing, with which its letters are a sixth smaller on a phone than those of other drawings at most; what each joint adds to
+/// its height.
+const WIDTH: u32 = 440;
 const EACH: u32 = 56;
 const AROUND: u32 = 90;
 
@@ -95,7 +96,9 @@ impl Bars<'_> {
             }
             root.present().expect(DRAWN);
         }
-        on_page(&text, self.label, (WIDTH, height))
+        let svg = on_page(&text, self.label, (WIDTH, height));
+        // The style lets bars shrink further than drawings with more in them.
+        svg.replacen("<svg ", "<svg class=\"bars\" ", 1)
     }
 }
 

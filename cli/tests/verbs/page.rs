@@ -219,14 +219,21 @@ addEventListener("load", () => {
         });
     }
     const wider = document.documentElement.scrollWidth > innerWidth;
-    const found = { errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider,
+    const cut = [...document.querySelectorAll(".drawings")].filter((figure) => figure.scrollWidth > figure.clientWidth).length;
+    const found = { errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider, cut,
         smallest: Math.min(...letters), largest: Math.max(...letters) };
     const place = document.createElement("pre");
     place.id = "found";
     place.textContent = JSON.stringify(found);
     document.body.append(place);
+    parent.postMessage(place.textContent, "*");
 });
 </script>"#;
+
+/// A phone: browsers without a head have no window as narrow as this frame.
+const PHONE: &str = r#"<!DOCTYPE html><html lang="en"><head><title>a phone</title></head><body>
+<script>addEventListener("message", (event) => { document.querySelector("pre").textContent = event.data; });</script>
+<iframe src="look.html" title="a page" style="width: 360px; height: 800px; border: 0"></iframe><pre id="found"></pre></body></html>"#;
 
 const LISTEN: &str = r#"<script>
 window.errors = [];
@@ -266,13 +273,16 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
     let listening = page.replacen("<head>", &format!("<head>{LISTEN}"), 1);
     let looked_at = listening.replacen("</body>", &format!("{LOOK}</body>"), 1);
     folder.write("look.html", &looked_at);
-    for width in [1280, 500] {
+    folder.write("phone.html", PHONE);
+    for (file, width) in [("look.html", 1280), ("look.html", 500), ("phone.html", 500)] {
         let out = Command::new(browser)
             .args([
                 "--headless=new",
                 "--no-sandbox",
                 "--disable-gpu",
                 "--disable-dev-shm-usage",
+                // As on a phone, where they take no room.
+                "--hide-scrollbars",
             ])
             .args(["--virtual-time-budget=20000", "--dump-dom"])
             .arg(format!("--window-size={width},900"))
@@ -280,7 +290,7 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
                 "--user-data-dir={}",
                 folder.path("profile").display()
             ))
-            .arg(format!("file://{}", folder.path("look.html").display()))
+            .arg(format!("file://{}", folder.path(file).display()))
             .output()
             .expect("a browser that starts");
         let dom = String::from_utf8_lossy(&out.stdout);
@@ -288,13 +298,15 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
         let found = all(&dom, "#found");
         let found = found.first().map(|found| text(*found));
         let found = found.unwrap_or_else(|| panic!("{}", String::from_utf8_lossy(&out.stderr)));
-        let found: serde_json::Value = serde_json::from_str(&found).expect("JSON");
+        let found: serde_json::Value =
+            serde_json::from_str(&found).unwrap_or_else(|error| panic!("{file}: {error}: {found}"));
         assert_eq!(found["errors"], serde_json::json!([]), "{found}");
         assert_eq!(found["unsorted"], serde_json::json!([]), "{found}");
         assert!(found["sorted"].as_u64().expect("a number") >= 30, "{found}");
         assert!(found["figures"].as_u64().expect("a number") >= 6, "{found}");
         assert_eq!(found["unseen"], 0, "{found}");
-        assert_eq!(found["wider"], false, "{found}, {width} wide");
+        assert_eq!(found["wider"], false, "{found}, {file} {width} wide");
+        assert_eq!(found["cut"], 0, "{found}, {file} {width} wide");
         let [smallest, largest] =
             ["smallest", "largest"].map(|which| found[which].as_f64().expect("a number"));
         assert!(smallest >= 9.0, "{found}, {width} wide");
@@ -302,16 +314,6 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
     }
 }
 
-/// On paper letters of figures have 6.5 pt: what a page is as wide as says how large they are.
-#[test]
-fn figures_are_readable_on_paper() {
-    /// Of A4 between margins of 15 mm, CSS pixels; letter paper has more. A point is 4/3 of them.
-    const PAPER: f64 = 680.0;
-    const GAP: f64 = 12.0;
-    let html = traced().read("page/index.html");
-    let page = Html::parse_document(&html);
-    let style = include_str!("../../src/report/page.css");
-    let print = style
 /// Browsers print borders, and no backgrounds.
 #[test]
 fn a_printed_page_has_its_keys_and_whole_figures() {
@@ -339,6 +341,16 @@ fn a_printed_page_has_its_keys_and_whole_figures() {
     }
 }
 
+/// On paper letters of figures have 6.5 pt: what a page is as wide as says how large they are.
+#[test]
+fn figures_are_readable_on_paper() {
+    /// Of A4 between margins of 15 mm, CSS pixels; letter paper has more. A point is 4/3 of them.
+    const PAPER: f64 = 680.0;
+    const GAP: f64 = 12.0;
+    let html = traced().read("page/index.html");
+    let page = Html::parse_document(&html);
+    let style = include_str!("../../src/report/page.css");
+    let print = style
         .split("@media print")
         .nth(1)
         .expect("a style of paper");
