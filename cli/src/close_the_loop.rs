@@ -79,6 +79,9 @@ impl Loop {
     }
 }
 
+/// Parts of the first step, which takes a minute for seven joints.
+const PARTS: usize = 5;
+
 /// Runs the loop on the text of a spec; `source_name` is what errors call it. `logs` are mended, fitted and traced; `validate` is used for
 /// numbers only, once per model.
 ///
@@ -92,6 +95,12 @@ pub fn close(
     progress: &Progress,
 ) -> Result<Loop, Error> {
     progress.step("identifying the declared model");
+    let inside = |part: usize, what: &str| {
+        progress.inside(&format!(
+            "identifying the declared model, {part} of {PARTS}: {what}"
+        ));
+    };
+    inside(1, "samples that nothing measured");
     let mut mended = data_gate::mend(logs, progress);
     for one in &mut mended {
         one.log = one.log.clone().with_motion_phase(None);
@@ -101,11 +110,16 @@ pub fn close(
     let validate = unseen.as_ref();
     let sound: Vec<Log> = mended.iter().map(|one| one.log.clone()).collect();
     let declared = compiled(source_name, text)?;
+    inside(2, "how slowly joints turn round");
     let speeds = Identify::default().turn_speeds(&declared, &sound)?;
     let sound = Log::all_with_turn_speeds(&sound, &speeds);
     let mut on_time = sound.clone();
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
-    let before = Stage::identify(declared, &sound, turned.as_ref(), None)?;
+    inside(3, "the fit");
+    let estimate = fitted(&declared, &sound, None)?;
+    inside(4, "the band in which raw errors are least");
+    let before = Stage::judged(declared, estimate, &sound, turned.as_ref())?;
+    inside(5, "faults of the logs");
     let (arm, estimate) = (&before.arm, &before.estimate);
     if let Some(slow) = turned.as_ref().and_then(|log| too_slow(estimate, log)) {
         progress.note(&format!("note: {slow}"));
@@ -141,7 +155,8 @@ pub fn close(
         // their own.
         let bands = (!arm.follows_load()).then_some(estimate.bands);
         let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);
-        Some(Stage::identify(arm, &sound, unseen.as_ref(), bands)?)
+        let estimate = fitted(&arm, &sound, bands)?;
+        Some(Stage::judged(arm, estimate, &sound, unseen.as_ref())?)
     };
     Ok(Loop {
         before,
@@ -202,18 +217,22 @@ pub(crate) fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, 
     Ok(InterpretedArm::new(clear(compile_model(&model))?))
 }
 
+fn fitted(arm: &InterpretedArm, logs: &[Log], bands: Option<Bands>) -> Result<Estimate, Error> {
+    let identify = Identify {
+        bands,
+        ..Identify::default()
+    };
+    Ok(identify.fit(arm, logs)?)
+}
+
 impl Stage {
-    fn identify(
+    fn judged(
         arm: InterpretedArm,
+        estimate: Estimate,
         logs: &[Log],
         validate: Option<&Log>,
-        bands: Option<Bands>,
     ) -> Result<Self, Error> {
-        let identify = Identify {
-            bands,
-            ..Identify::default()
-        };
-        let estimate = identify.fit(&arm, logs)?.with_best_motion(&arm, logs)?;
+        let estimate = estimate.with_best_motion(&arm, logs)?;
         let validation = validate.map(|log| estimate.errors(&arm, log)).transpose()?;
         Ok(Self {
             arm,

@@ -1,11 +1,11 @@
 //! Progress of long work, on standard error: on a terminal with the time it takes, and the time that is left where that is known.
 
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::io::IsTerminal;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::output;
 
@@ -16,7 +16,7 @@ const SELDOM: Duration = Duration::from_secs(10);
 const SPINNER: &str = "{spinner} {msg} [{elapsed}]";
 
 /// What it shows of work of which a part is done.
-const BAR: &str = "{spinner} [{bar:20}] {percent:>3} % {msg} [{elapsed}, {eta} to go]";
+const BAR: &str = "{spinner} [{bar:20}] {percent:>3} % {msg} [{elapsed}{left}]";
 
 /// Steps of a bar.
 const WHOLE: u64 = 1000;
@@ -29,6 +29,35 @@ pub struct Progress {
     /// When one of many steps was said last.
     said: Mutex<Option<Instant>>,
     noted: Mutex<Vec<String>>,
+    /// Steps of a bar that were behind when it was drawn first.
+    begun: Mutex<u64>,
+    left: Left,
+}
+
+/// When known work will have ended, by the time that its finished parts took: it is not known before one is finished, nor when the
+/// present one takes longer than that.
+#[derive(Debug, Clone, Default)]
+struct Left(Arc<Mutex<Option<Instant>>>);
+
+impl Left {
+    /// What took so long and did so much, as a share of the whole, leaves the rest.
+    fn tell(&self, took: Duration, did: f64, rest: f64) {
+        let seconds = took.as_secs_f64() * rest / did;
+        let left = Duration::try_from_secs_f64(seconds).ok();
+        self.set(left.and_then(|left| Instant::now().checked_add(left)));
+    }
+
+    fn set(&self, end: Option<Instant>) {
+        *self.0.lock().unwrap_or_else(PoisonError::into_inner) = end;
+    }
+
+    fn write(&self, w: &mut dyn fmt::Write) {
+        let end = *self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let left = end.map(|end| end.saturating_duration_since(Instant::now()));
+        if let Some(left) = left.filter(|left| !left.is_zero()) {
+            let _ = write!(w, ", {:#} to go", HumanDuration(left));
+        }
+    }
 }
 
 impl Progress {
@@ -54,6 +83,8 @@ impl Progress {
             is_silent: true,
             said: Mutex::new(None),
             noted: Mutex::new(Vec::new()),
+            begun: Mutex::new(0),
+            left: Left::default(),
         }
     }
 
@@ -72,6 +103,13 @@ impl Progress {
         }
     }
 
+    /// Says what comes now inside a step, where somebody looks on.
+    pub(crate) fn inside(&self, what: &str) {
+        if self.is_live() {
+            self.step(what);
+        }
+    }
+
     /// Says which part of a known whole comes now; `done`, from 0 to 1, is what is behind.
     pub(crate) fn part(&self, what: &str, done: f64) {
         let Some(bar) = &self.bar else {
@@ -80,11 +118,19 @@ impl Progress {
         let whole = WHOLE as f64;
         let done = (0..=WHOLE).rfind(|step| *step as f64 <= done * whole);
         let done = done.unwrap_or_default();
+        let mut begun = self.begun.lock().unwrap_or_else(PoisonError::into_inner);
         if bar.length().is_none() || done < bar.position() {
             // Of other work; its time counts from here.
             bar.reset();
             bar.set_length(WHOLE);
-            bar.set_style(style(BAR));
+            let left = self.left.clone();
+            let left = move |_: &ProgressState, w: &mut dyn fmt::Write| left.write(w);
+            bar.set_style(style(BAR).with_key("left", left));
+            self.left.set(None);
+            *begun = done;
+        } else if done > bar.position() {
+            let [did, rest] = [done - *begun, WHOLE - done].map(|steps| steps as f64 / whole);
+            self.left.tell(bar.elapsed(), did, rest);
         }
         bar.set_message(what.to_owned());
         bar.set_position(done);
@@ -181,6 +227,25 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_is_left_falls_while_a_part_goes_on_and_is_untold_behind_its_end() {
+        let left = Left::default();
+        let told = || {
+            let mut text = String::new();
+            left.write(&mut text);
+            text
+        };
+        assert_eq!(told(), "");
+        left.tell(Duration::from_secs(10), 0.25, 0.75);
+        assert!(
+            [", 30s to go", ", 29s to go"].contains(&told().as_str()),
+            "{}",
+            told()
+        );
+        left.set(Instant::now().checked_sub(Duration::from_millis(1)));
+        assert_eq!(told(), "");
+    }
+
+    #[test]
     fn a_terminal_shows_what_is_left_of_known_work() {
         let terminal = InMemoryTerm::new(4, 100);
         let target = ProgressDrawTarget::term_like(Box::new(terminal.clone()));
@@ -198,15 +263,22 @@ mod tests {
                 shown.contains(&format!("{percent} simulating [")),
                 "{shown}"
             );
-            assert!(shown.contains(" to go]"), "{shown}");
+            // Of what is left is told what finished parts took.
+            let is_known = (0.1..0.9).contains(&done);
+            assert_eq!(shown.contains(" to go]"), is_known, "{shown}");
+            std::thread::sleep(Duration::from_millis(600));
         }
         // What begins anew is another work, and what has no end has none.
         progress.part("again", 0.1);
         progress.bar.as_ref().expect("a bar").force_draw();
         assert!(terminal.contents().contains(" 10 % again"));
+        assert!(!terminal.contents().contains("to go"));
         progress.step("done");
         progress.bar.as_ref().expect("a bar").force_draw();
         assert!(!terminal.contents().contains('%'));
+        progress.inside("done, the last part");
+        progress.bar.as_ref().expect("a bar").force_draw();
+        assert!(terminal.contents().contains("done, the last part"));
         progress.note("note: stays");
         drop(progress);
         assert_eq!(terminal.contents(), "note: stays");
