@@ -17,7 +17,8 @@ use crate::spec::read_text;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model import arm.urdf -o arm.robot --effects 'all:viscous_friction,coulomb_friction;(5,6):gear_coupling'
-  robot-model import dual.urdf -o left.robot --base torso --tip left_hand --inertials fixed")]
+  robot-model import dual.urdf -o left.robot --base torso --tip left_hand --inertials fixed
+  robot-model import arm.urdf -o arm.robot --gravity 0,0,9.81 --force")]
 pub(crate) struct Import {
     /// The URDF file.
     urdf: PathBuf,
@@ -40,6 +41,9 @@ pub(crate) struct Import {
     /// Acceleration of gravity in the base link's frame, m/s^2; 0,0,-9.81 where it is not given, since a URDF does not say it.
     #[arg(long, value_name = "X,Y,Z", value_parser = parse_vector, allow_hyphen_values = true)]
     gravity: Option<[f64; 3]>,
+    /// Put the spec in the place of a file that is there already.
+    #[arg(long)]
+    force: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default, ValueEnum)]
@@ -78,7 +82,13 @@ impl Import {
             },
             gravity: self.gravity,
         };
-        let file = Files::reading([self.urdf.as_path()]).claim(&self.output)?;
+        let mut files = Files::reading([self.urdf.as_path()]);
+        // A spec is edited once it is imported; `new` keeps those, too.
+        let file = if self.force {
+            files.claim(&self.output)?
+        } else {
+            files.claim_new(&self.output)?
+        };
         let imported = import(&urdf, &options).map_err(|error| self.refused(error))?;
         if self.gravity.is_none() {
             let [x, y, z] = ASSUMED_GRAVITY;

@@ -68,6 +68,22 @@ fn import_refuses_what_it_cannot_use() {
 }
 
 #[test]
+fn an_edited_spec_stays() {
+    let folder = Folder::new();
+    folder.write("arm.urdf", URDF);
+    folder.write("arm.robot", "mine");
+    let import = ["import", "arm.urdf", "-o", "arm.robot"];
+    let said = folder.refuse(&import);
+    assert_eq!(
+        said,
+        "error: cannot write `arm.robot`: there is such a file already; give another name, or `--force` to put this one in its place\n"
+    );
+    assert_eq!(folder.read("arm.robot"), "mine");
+    folder.succeed(&[&import[..], &["--force"]].concat());
+    assert!(folder.read("arm.robot").contains("robot Arm {"));
+}
+
+#[test]
 fn import_tells_faults_of_the_effects_by_the_argument() {
     let folder = Folder::new();
     folder.write("arm.urdf", URDF);
