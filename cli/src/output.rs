@@ -4,6 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 
+pub(crate) use robot_model_codegen::parameters::{counted, names};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 
@@ -95,6 +96,12 @@ impl Files {
         }
         self.outputs.push((identity, path.to_owned()));
         Ok(file)
+    }
+
+    /// The same for a file that is not there yet, nor comes there before this one is written.
+    pub(crate) fn claim_new(&mut self, path: &Path) -> Result<OutFile, Error> {
+        let _ = self.claim(path)?;
+        OutFile::create_new(path)
     }
 
     /// Claims a file that may not be asked for.
@@ -351,29 +358,6 @@ pub(crate) fn decimals(number: f64, digits: usize) -> usize {
     let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
     let behind = i64::try_from(ahead).unwrap_or(0) - exponent.unwrap_or(0_i64);
     usize::try_from(behind).unwrap_or(0)
-}
-
-/// "1 joint", "2 joints".
-pub(crate) fn counted(count: usize, what: &str) -> String {
-    if count == 1 {
-        format!("1 {what}")
-    } else {
-        format!("{count} {what}s")
-    }
-}
-
-/// Names in backticks; a long list keeps its first twelve.
-pub(crate) fn names(names: &[&str]) -> String {
-    const SHOWN: usize = 12;
-    let mut text: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{name}`"))
-        .collect();
-    if names.len() > SHOWN {
-        text.push(format!("and {} more", names.len() - SHOWN));
-    }
-    text.join(", ")
 }
 
 #[cfg(test)]

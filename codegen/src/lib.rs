@@ -17,6 +17,8 @@ pub mod filtered;
 pub mod interpreter;
 pub mod lumps;
 pub mod optimize;
+#[cfg(feature = "parameters")]
+pub mod parameters;
 mod random;
 pub mod regressor;
 mod right_inverse;
@@ -42,6 +44,8 @@ mod terms;
 pub use alone::{EffectColumns, effect_columns};
 pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
+#[cfg(feature = "parameters")]
+pub use build_script::{compile_text_with, compile_with};
 pub use compiled::{Block, Compiled, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use linkage::{Driven, Linkage};

@@ -3,6 +3,7 @@
 //! The machine has dry friction in its elbow, and `arm.robot` does not say so.
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::f64::consts::TAU;
 
@@ -16,10 +17,12 @@ use robot_model::motion::{Kinematics, Motion};
 use robot_model::trace::{Outcome, Trace};
 use robot_model_cli::interpreted::InterpretedArm;
 use robot_model_codegen::compile_model;
-use robot_model_embedded::MEASURED;
 use robot_model_spec::amend::{Amendment, amend};
 
 const SPEC: &str = include_str!("../embedded/arm.robot");
+
+/// Standard parameters of the machine by name, but for its dry friction.
+const VALUES: &str = include_str!("../embedded/arm.json");
 
 /// Dry friction of the machine's elbow, N m.
 const FC: f64 = 1.5;
@@ -118,14 +121,11 @@ fn compile(text: &str) -> Result<InterpretedArm, Box<dyn Error>> {
 /// Half a minute of the machine's motion: exact torque of its spec, and noise of 20 mN m.
 fn measure(spec: &str, day: u64) -> Result<Log, Box<dyn Error>> {
     let machine = compile(spec)?;
-    let value = |name: &str| {
-        let known = MEASURED.iter().find(|(known, _)| *known == name);
-        let coulomb = if name == "elbow.coulomb_friction.fc" {
-            FC
-        } else {
-            0.0
-        };
-        known.map_or(coulomb, |(_, value)| *value)
+    let known: BTreeMap<String, f64> = serde_json::from_str(VALUES)?;
+    let value = |name: &str| match name {
+        "elbow.coulomb_friction.fc" => FC,
+        // What no torque of an arm in a plane depends on.
+        _ => known.get(name).copied().unwrap_or_default(),
     };
     let standard: Vec<f64> = machine
         .compiled()

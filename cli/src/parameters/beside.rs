@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use robot_model_codegen::Compiled;
+use robot_model_codegen::parameters::{file, standard};
 
-use super::{file, standard};
-use crate::Error;
+use crate::{Error, json};
 
 /// Rounding of the sums that make base parameters of standard ones.
 const ROUNDING: f64 = 1e-6;
@@ -21,7 +21,8 @@ pub(crate) enum Beside {
 
 /// What a file says of standard parameters, where its base parameters were taken.
 pub(crate) fn beside(compiled: &Compiled, file: &Path, beta: &[f64]) -> Result<Beside, Error> {
-    let Some(given) = file::beside(file)? else {
+    let given = file::beside(&json::read(file)?);
+    let Some(given) = given.map_err(|reason| Error::json(file, &reason))? else {
         return Ok(Beside::Nothing);
     };
     let (mut missing, mut from_spec) = (Vec::new(), Vec::new());

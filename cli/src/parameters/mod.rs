@@ -1,44 +1,20 @@
-//! Parameter files and the values that a spec holds itself.
-//!
-//! A file is a JSON object of names and values, or what `identify --json` writes: `{"parameters":[{"name","value"}]}`.
-//! Names are those of standard parameters, of all base parameters, or of the unknown constants of a robot that says its energies.
+//! Parameter files and the values that a spec holds itself; what they are is codegen's, for build scripts read them, too.
 
 mod beside;
-mod file;
 mod over;
-mod physical;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use robot_model_codegen::base::shape_values;
-use robot_model_codegen::{Compiled, Given};
-use robot_model_spec::parameter::Status;
-use robot_model_spec::suggest::nearest;
+use robot_model_codegen::Compiled;
+use robot_model_codegen::parameters::{self, ValuesError, file};
 
-use crate::Error;
 use crate::output::{self, counted, names};
+use crate::{Error, json};
 
 pub(crate) use beside::{Beside, beside};
 pub(crate) use over::over;
-pub(crate) use physical::no_body;
-
-/// Values for everything in an arm that is not a number yet.
-#[derive(Debug)]
-pub(crate) struct Values {
-    /// Base parameters.
-    pub beta: Vec<f64>,
-    /// One per standard parameter, as [`Compiled::parameter_values`] gives them.
-    pub parameters: Vec<f64>,
-    /// One per shape parameter of the declared effects.
-    pub shapes: Vec<f64>,
-    /// Standard parameters, `None` each where no torque depends on it; none at all where the file gives base parameters.
-    pub standard: Option<Vec<Option<f64>>>,
-    /// What the file gives.
-    pub given: Given,
-    /// Parameters whose nominal value in the spec was taken, as the file gives none.
-    pub from_spec: Vec<String>,
-}
+pub(crate) use robot_model_codegen::parameters::{Known, Values, no_body};
 
 /// Values from a file, and from the spec where the file has none or there is no file. What is remarkable about those of a file
 /// is told.
@@ -60,15 +36,21 @@ pub(crate) fn resolve(compiled: &Compiled, file: Option<&Path>) -> Result<Values
     Ok(values)
 }
 
-/// Values as far as they are known.
-pub(crate) struct Known {
-    /// Base parameters; what has no value counts as 0.
-    pub(crate) beta: Vec<f64>,
-    pub(crate) shapes: Vec<f64>,
-    /// Names of what has no value.
-    pub(crate) missing: Vec<String>,
-    /// Names of shapes that have their first value.
-    pub(crate) guessed: Vec<String>,
+/// The values of a file by their names.
+fn read(compiled: &Compiled, path: &Path) -> Result<BTreeMap<String, f64>, Error> {
+    let values = file::read(&json::read(path)?, &compiled.shape_names());
+    values.map_err(|reason| Error::json(path, &reason))
+}
+
+/// The values of a file by their names, none where there is no file; and what errors call the source.
+fn given(
+    compiled: &Compiled,
+    file: Option<&Path>,
+) -> Result<(BTreeMap<String, f64>, String), Error> {
+    Ok(match file {
+        Some(path) => (read(compiled, path)?, path.display().to_string()),
+        None => (BTreeMap::new(), compiled.model.source.clone()),
+    })
 }
 
 /// The same, with sentences about what no arm has, and the name of the source; nothing is told.
@@ -76,30 +58,23 @@ pub(crate) fn values(
     compiled: &Compiled,
     file: Option<&Path>,
 ) -> Result<(Values, Vec<String>, String), Error> {
-    let (given, source) = match file {
-        Some(path) => (
-            file::read(path, &compiled.shape_names())?,
-            path.display().to_string(),
-        ),
-        None => (BTreeMap::new(), compiled.model.source.clone()),
-    };
-    let found = arm(compiled, &given);
-    let (values, doubts) =
-        found.map_err(|reason| Error::Argument(format!("{source}: {reason}")))?;
+    let (given, source) = given(compiled, file)?;
+    let found = parameters::values(compiled, &given);
+    let (values, doubts) = found.map_err(|error| refused(&source, &error))?;
     Ok((values, doubts, source))
 }
 
 /// Standard deviations that a file of `identify` has for base parameters, in their order; none each where it has none.
 pub(crate) fn deviations(compiled: &Compiled, path: &Path) -> Result<Vec<Option<f64>>, Error> {
-    let found = file::deviations(path)?;
+    let found = file::deviations(&json::read(path)?);
     let names = compiled.base.names.iter();
     Ok(names.map(|name| found.get(name).copied()).collect())
 }
 
 /// Values by name, and from the spec where none is given.
 pub(crate) fn by_name(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Values, Error> {
-    let found = arm(compiled, given).map(|(values, _)| values);
-    found.map_err(|reason| Error::Argument(format!("{}: {reason}", compiled.model.source)))
+    let found = parameters::values(compiled, given).map(|(values, _)| values);
+    found.map_err(|error| refused(&compiled.model.source, &error))
 }
 
 /// What is known from a file, `more` by name and the spec.
@@ -108,265 +83,22 @@ pub(crate) fn known(
     file: Option<&Path>,
     more: &[(String, f64)],
 ) -> Result<Known, Error> {
-    let (mut given, source) = match file {
-        Some(path) => (
-            file::read(path, &compiled.shape_names())?,
-            path.display().to_string(),
-        ),
-        None => (BTreeMap::new(), compiled.model.source.clone()),
-    };
+    let (mut given, source) = given(compiled, file)?;
     given.extend(more.iter().cloned());
-    let values = known_of(compiled, &given);
+    let values = parameters::known(compiled, &given);
     values.map_err(|reason| Error::Argument(format!("{source}: {reason}")))
 }
 
-fn known_of(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known, String> {
-    let base_names = &compiled.base.names;
-    let shape_names = compiled.shape_names();
-    let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
-    let mut guessed = Vec::new();
-    let shapes = shapes(compiled, given, &mut guessed)?;
-    let beta = if !base_names.is_empty() && base_names.iter().all(|name| given.contains_key(name)) {
-        base_names.iter().map(|name| given[name]).collect()
-    } else {
-        let linear = given.keys().filter(|name| !shape_names.contains(name));
-        let linear: Vec<&str> = linear.map(String::as_str).collect();
-        check_names(compiled, &linear)?;
-        let given = products(compiled, given, &mut from_spec)?;
-        let standard = standard(compiled, &given, &mut missing, &mut from_spec)?;
-        let standard: Vec<f64> = standard.iter().map(|value| value.unwrap_or(0.0)).collect();
-        compiled.base.beta(&standard)
+/// Why values of a source are not those of an arm, with the arguments that take some.
+fn refused(source: &str, error: &ValuesError) -> Error {
+    let reason = error.to_string();
+    let reason = match error {
+        ValuesError::NoValue(_) => reason.replacen(
+            "a file of parameters",
+            "a file of parameters (`--parameters`; of `identify` it is `--start`)",
+            1,
+        ),
+        _ => reason,
     };
-    Ok(Known {
-        beta,
-        shapes,
-        missing,
-        guessed,
-    })
-}
-
-/// The values, and what no arm has among them.
-fn arm(
-    compiled: &Compiled,
-    given: &BTreeMap<String, f64>,
-) -> Result<(Values, Vec<String>), String> {
-    let shape_names = compiled.shape_names();
-    let base_names = &compiled.base.names;
-    let linear: Vec<&str> = given
-        .keys()
-        .filter(|name| !shape_names.contains(name))
-        .map(String::as_str)
-        .collect();
-    // Regrouped base parameters have names of their own; they stand for all standard parameters or for none.
-    let is_base = !base_names.is_empty()
-        && linear.len() == base_names.len()
-        && base_names.iter().all(|name| given.contains_key(name));
-    let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
-    let (beta, all, doubts) = if is_base {
-        let beta: Vec<f64> = base_names.iter().map(|name| given[name]).collect();
-        let doubts = physical::of_base(compiled, &beta);
-        (beta, None, doubts)
-    } else {
-        check_names(compiled, &linear)?;
-        let given = products(compiled, given, &mut from_spec)?;
-        let standard = standard(compiled, &given, &mut missing, &mut from_spec)?;
-        let doubts = physical::of_standard(compiled, &standard);
-        let numbers: Vec<f64> = standard.iter().map(|value| value.unwrap_or(0.0)).collect();
-        (compiled.base.beta(&numbers), Some(standard), doubts)
-    };
-    let shapes = shapes(compiled, given, &mut missing)?;
-    if !missing.is_empty() {
-        return Err(no_value(&missing));
-    }
-    let checked = compiled.check_numbers(&beta, &shapes);
-    checked.map_err(|error| error.to_string())?;
-    let values = Values {
-        parameters: compiled.parameter_values(&beta),
-        beta,
-        shapes,
-        standard: all,
-        given: if is_base {
-            Given::Base
-        } else {
-            Given::Standard
-        },
-        from_spec,
-    };
-    Ok((values, doubts))
-}
-
-/// Whether names are those of standard parameters or of what these are products of.
-fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), String> {
-    let robot = &compiled.model.name;
-    let standard = compiled.standard.iter().map(|parameter| &parameter.name);
-    let factors = compiled.model.energies().into_iter();
-    let factors = factors.flat_map(|energies| energies.parameters.iter().map(|x| &x.name));
-    let accepted: Vec<&str> = standard.chain(factors).map(String::as_str).collect();
-    let base: Vec<&str> = compiled.base.names.iter().map(String::as_str).collect();
-    let is_accepted = |name: &&str| accepted.contains(name);
-    let is_base = |name: &&str| base.contains(name);
-
-    let known = given.iter().copied();
-    let unknown: Vec<&str> = known
-        .filter(|name| !is_accepted(name) && !is_base(name))
-        .collect();
-    if !unknown.is_empty() {
-        let shapes = compiled.shape_names();
-        let all = accepted.iter().chain(&base).copied();
-        let near = match unknown[..] {
-            [only] => nearest(only, all.chain(shapes.iter().map(String::as_str))),
-            _ => None,
-        };
-        let meant = near.map_or_else(String::new, |name| format!("; is `{name}` meant?"));
-        return Err(format!(
-            "{robot} has no parameter {}{meant}",
-            names(&unknown)
-        ));
-    }
-    let mut regrouped = given.iter().filter(|name| !is_accepted(name)).peekable();
-    if regrouped.peek().is_none() {
-        return Ok(());
-    }
-    let regrouped: Vec<&str> = regrouped.copied().collect();
-    let lacks: Vec<&str> = base
-        .iter()
-        .copied()
-        .filter(|x| !given.contains(x))
-        .collect();
-    let besides: Vec<&str> = given.iter().copied().filter(|x| !is_base(x)).collect();
-    let part = |what: &str, list: &[&str]| match list {
-        [] => String::new(),
-        list => format!(", {what} {}", names(list)),
-    };
-    let (are, ones) = match regrouped[..] {
-        [_] => ("is a base parameter", "base parameters"),
-        _ => ("are base parameters", "these"),
-    };
-    Err(format!(
-        "{} {are}, and {ones} are accepted only as a whole set, with no others: {robot} has {}{}{}",
-        names(&regrouped),
-        counted(base.len(), "base parameter"),
-        part("the file lacks", &lacks),
-        part("and has besides", &besides),
-    ))
-}
-
-/// A value for every shape parameter; `missing` takes the names of those without.
-fn shapes(
-    compiled: &Compiled,
-    given: &BTreeMap<String, f64>,
-    missing: &mut Vec<String>,
-) -> Result<Vec<f64>, String> {
-    let mut shapes = shape_values(&compiled.model);
-    let free = compiled.free_shapes();
-    for (k, name) in compiled.shape_names().into_iter().enumerate() {
-        match given.get(&name) {
-            Some(value) if free.contains(&k) => shapes[k] = *value,
-            Some(value) if differ(*value, shapes[k]) => {
-                return Err(format!(
-                    "`{name}` is {value} here and {} in the spec",
-                    shapes[k]
-                ));
-            }
-            None if free.contains(&k) => missing.push(name),
-            _ => {}
-        }
-    }
-    Ok(shapes)
-}
-
-/// Values of standard parameters: those given, and the products of a robot's own parameters where it says its energies.
-fn products(
-    compiled: &Compiled,
-    given: &BTreeMap<String, f64>,
-    from_spec: &mut Vec<String>,
-) -> Result<BTreeMap<String, f64>, String> {
-    let mut values = given.clone();
-    let Some(energies) = compiled.model.energies() else {
-        return Ok(values);
-    };
-    let factor = |k: usize| {
-        let parameter = &energies.parameters[k];
-        given.get(&parameter.name).copied().or(parameter.nominal)
-    };
-    for monomial in &energies.monomials {
-        let factors = monomial.factors.iter();
-        let product: Option<f64> = factors
-            .map(|&(k, exponent)| Some(factor(k)?.powi(exponent)))
-            .product();
-        let name = energies.monomial_name(monomial);
-        match (product, given.get(&name)) {
-            (Some(product), Some(value)) if differ(*value, product) => {
-                return Err(format!(
-                    "`{name}` is {value} here, but the values of its factors make {product}"
-                ));
-            }
-            (Some(product), None) => {
-                let factors = monomial.factors.iter();
-                let factors = factors.map(|&(k, _)| &energies.parameters[k].name);
-                from_spec.extend(factors.filter(|&name| !given.contains_key(name)).cloned());
-                values.insert(name, product);
-            }
-            (Some(product), Some(_)) => {
-                values.insert(name, product);
-            }
-            (None, _) => {}
-        }
-    }
-    from_spec.sort_unstable();
-    from_spec.dedup();
-    Ok(values)
-}
-
-/// A value for every standard parameter that some torque depends on; `missing` takes the names of those without, `from_spec`
-/// those of nominal values.
-fn standard(
-    compiled: &Compiled,
-    given: &BTreeMap<String, f64>,
-    missing: &mut Vec<String>,
-    from_spec: &mut Vec<String>,
-) -> Result<Vec<Option<f64>>, String> {
-    let mut values = Vec::with_capacity(compiled.standard.len());
-    for (k, parameter) in compiled.standard.iter().enumerate() {
-        let name = &parameter.name;
-        let matters = !compiled.base.unidentifiable.contains(&k);
-        values.push(match (given.get(name).copied(), parameter.status) {
-            (Some(value), Status::Fixed(fixed)) if differ(value, fixed) => {
-                return Err(format!(
-                    "`{name}` is {value} here and fixed to {fixed} in the spec"
-                ));
-            }
-            (Some(value), _) | (None, Status::Fixed(value)) => Some(value),
-            (None, Status::Nominal(value)) => {
-                if matters {
-                    from_spec.push(name.clone());
-                }
-                Some(value)
-            }
-            (None, Status::Unknown) => {
-                if matters {
-                    missing.push(name.clone());
-                }
-                None
-            }
-        });
-    }
-    Ok(values)
-}
-
-/// The names, all of them, as a file to be filled in.
-fn no_value(missing: &[String]) -> String {
-    let entries = missing.iter().map(|name| format!("\"{name}\": .."));
-    let entries: Vec<String> = entries.collect();
-    let missing: Vec<&str> = missing.iter().map(String::as_str).collect();
-    format!(
-        "no value for {}; give it in a file of parameters (`--parameters`; of `identify` it is `--start`): {{{}}}",
-        names(&missing),
-        entries.join(", ")
-    )
-}
-
-/// More than rounding apart.
-fn differ(left: f64, right: f64) -> bool {
-    (left - right).abs() > 1e-12 * left.abs().max(right.abs())
+    Error::Argument(format!("{source}: {reason}"))
 }

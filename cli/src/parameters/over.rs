@@ -4,7 +4,7 @@ use std::path::Path;
 
 use robot_model_codegen::Compiled;
 
-use super::file;
+use super::read;
 use crate::Error;
 use crate::output::{self, counted, names};
 
@@ -21,7 +21,7 @@ pub(crate) fn over(
 ) -> Result<Option<Numbers>, Error> {
     let base_names = &compiled.base.names;
     let shape_names = compiled.shape_names();
-    let mut given = file::read(path, &shape_names)?;
+    let mut given = read(compiled, path)?;
     let mut taken_shapes = Vec::new();
     for k in compiled.free_shapes() {
         match given.remove(&shape_names[k]) {

@@ -281,6 +281,8 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
                 "--no-sandbox",
                 "--disable-gpu",
                 "--disable-dev-shm-usage",
+                // As on a phone, where they take no room.
+                "--hide-scrollbars",
             ])
             .args(["--virtual-time-budget=20000", "--dump-dom"])
             .arg(format!("--window-size={width},900"))

@@ -1,51 +1,52 @@
 //! The two forms of a parameter file: names and values, and what `identify --json` writes.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use crate::output::names;
-use crate::{Error, json};
+use super::{json, names};
 
 /// How a file is written.
 const FORMS: &str =
     "write `{\"NAME\": VALUE, ..}` or `{\"parameters\": [{\"name\": .., \"value\": ..}, ..]}`";
 
-/// Reads a file: every value is a finite number. `shapes` are names of parameters that are in no sum with others.
-pub(super) fn read(path: &Path, shapes: &[String]) -> Result<BTreeMap<String, f64>, Error> {
-    let values = match json::read(path)? {
+/// The values of a file: every one is a finite number. `shapes` are names of parameters that are in no sum with others.
+///
+/// # Errors
+/// What is written otherwise; values that the logs of an identification did not tell.
+pub fn read(file: &Value, shapes: &[String]) -> Result<BTreeMap<String, f64>, String> {
+    match file {
         Value::Object(entries) => match entries.get("parameters") {
-            Some(Value::Array(list)) => match possible(&entries, list) {
+            Some(Value::Array(list)) => match possible(entries, list) {
                 Some(standard) => of_possible(standard, list, shapes),
                 None => identified(list, entries.get("unexcited")),
             },
-            _ => plain(&entries),
+            _ => plain(entries),
         },
-        other => Err(format!("it is {}: {FORMS}", json::kind(&other))),
-    };
-    values.map_err(|reason| Error::json(path, &reason))
+        other => Err(format!("it is {}: {FORMS}", json::kind(other))),
+    }
 }
 
 /// The standard parameters of the arm that a file of `identify` holds beside its base parameters, where it holds one.
-pub(super) fn beside(path: &Path) -> Result<Option<BTreeMap<String, f64>>, Error> {
-    let file = json::read(path)?;
+///
+/// # Errors
+/// What is written otherwise.
+pub fn beside(file: &Value) -> Result<Option<BTreeMap<String, f64>>, String> {
     let Some(standard) = file["possible"]["standard"].as_array() else {
         return Ok(None);
     };
-    let values = identified(standard, None).map_err(|reason| Error::json(path, &reason))?;
-    Ok(Some(values))
+    identified(standard, None).map(Some)
 }
 
 /// Standard deviations by name, as far as a file of `identify` has some.
-pub(super) fn deviations(path: &Path) -> Result<BTreeMap<String, f64>, Error> {
-    let file = json::read(path)?;
+#[must_use]
+pub fn deviations(file: &Value) -> BTreeMap<String, f64> {
     let list = file["parameters"].as_array().into_iter().flatten();
     let known = list.filter_map(|entry| {
         let std = entry["std"].as_f64().filter(|std| *std > 0.0)?;
         Some((entry["name"].as_str()?.to_owned(), std))
     });
-    Ok(known.collect())
+    known.collect()
 }
 
 fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {

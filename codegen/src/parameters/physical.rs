@@ -1,10 +1,9 @@
 //! Values that no arm has. An identification may miss zero by its error, so they are told and not refused.
 
-use robot_model_codegen::Compiled;
 use robot_model_spec::model::Inertial;
 use robot_model_spec::parameter::InertialElement;
 
-use crate::output::rounded;
+use crate::compiled::Compiled;
 
 /// Sentences about standard parameters; `None` where nothing is known, as no torque depends on it.
 pub(super) fn of_standard(compiled: &Compiled, values: &[Option<f64>]) -> Vec<String> {
@@ -45,7 +44,8 @@ pub(super) fn of_base(compiled: &Compiled, beta: &[f64]) -> Vec<String> {
 }
 
 /// The sentence about a link, of a spec or of a file.
-pub(crate) fn no_body(link: &str) -> String {
+#[must_use]
+pub fn no_body(link: &str) -> String {
     format!(
         "link `{link}` has an inertia that no body has: about the center of mass each principal moment is positive and at most the \
          sum of the other two"
@@ -53,6 +53,7 @@ pub(crate) fn no_body(link: &str) -> String {
 }
 
 fn negative(name: &str, value: f64) -> Option<String> {
-    let said = rounded(value);
+    // Six digits, without what rounding left behind them.
+    let said = format!("{value:.5e}").parse().unwrap_or(value);
     (value < 0.0).then(|| format!("`{name}` is {said}, and no arm has a negative one"))
 }
