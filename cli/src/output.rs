@@ -105,12 +105,6 @@ impl Files {
     }
 
     /// Claims a file that may not be asked for.
-    /// The same for a file that is not there yet, nor comes there before this one is written.
-    pub(crate) fn claim_new(&mut self, path: &Path) -> Result<OutFile, Error> {
-        let _ = self.claim(path)?;
-        OutFile::create_new(path)
-    }
-
     pub(crate) fn claim_if(&mut self, path: Option<&Path>) -> Result<Option<OutFile>, Error> {
         path.map(|path| self.claim(path)).transpose()
     }
