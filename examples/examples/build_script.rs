@@ -38,7 +38,7 @@ pub fn main() {
     let start = Instant::now();
     for k in 0..STEPS {
         let tau = computed_torque(&arm, &now, &reference(f64::from(k) * STEP_S), 100.0);
-        now = moved(&arm, &now, &tau);
+        now = moved(arm, &now, &tau);
     }
     let tick = start.elapsed() / STEPS;
     let error = (now.q - reference(f64::from(STEPS) * STEP_S).q).norm();
@@ -57,7 +57,7 @@ fn reference(time: f64) -> State<2> {
 }
 
 /// The plant, one semi-implicit Euler step. Rotors would count: the mass matrix has no effects, forward dynamics has all.
-fn moved(arm: &TwoLinkArm, now: &State<2>, tau: &Vector<2>) -> State<2> {
+fn moved(arm: TwoLinkArm, now: &State<2>, tau: &Vector<2>) -> State<2> {
     let ddq = arm.forward_dynamics(&now.q, &now.dq, tau);
     let ddq = ddq.expect("an arm with masses moves in one way");
     let dq = now.dq + STEP_S * ddq;

@@ -310,7 +310,9 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
         let [smallest, largest] =
             ["smallest", "largest"].map(|which| found[which].as_f64().expect("a number"));
         assert!(smallest >= 9.0, "{found}, {width} wide");
-        assert!(largest <= 1.2 * smallest, "{found}, {width} wide");
+        // Bars shrink to the width of a phone, and their letters with them; maps beside them do not.
+        let most = if width < 1000 { 1.4 } else { 1.2 };
+        assert!(largest <= most * smallest, "{found}, {file} {width} wide");
     }
 }
 
