@@ -4,7 +4,7 @@ use std::fs::{self, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
 
-pub(crate) use robot_model_codegen::parameters::{counted, names};
+pub(crate) use robot_model_spec::words::{counted, names};
 use serde::Serialize;
 use tempfile::NamedTempFile;
 

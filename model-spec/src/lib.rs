@@ -24,6 +24,7 @@ pub mod polynomial;
 pub mod suggest;
 mod transform;
 pub mod urdf;
+pub mod words;
 
 pub use amend::{Amendment, amend};
 #[doc(hidden)]

@@ -12,6 +12,7 @@ use std::fmt;
 
 use robot_model_spec::parameter::Status;
 use robot_model_spec::suggest::nearest;
+use robot_model_spec::words::{counted, names};
 
 use crate::baked::Given;
 use crate::base::shape_values;
@@ -336,29 +337,4 @@ pub fn standard(
 /// More than rounding apart.
 fn differ(left: f64, right: f64) -> bool {
     (left - right).abs() > 1e-12 * left.abs().max(right.abs())
-}
-
-/// "1 joint", "2 joints".
-#[must_use]
-pub fn counted(count: usize, what: &str) -> String {
-    if count == 1 {
-        format!("1 {what}")
-    } else {
-        format!("{count} {what}s")
-    }
-}
-
-/// Names in backticks; a long list keeps its first twelve.
-#[must_use]
-pub fn names(names: &[&str]) -> String {
-    const SHOWN: usize = 12;
-    let mut text: Vec<String> = names
-        .iter()
-        .take(SHOWN)
-        .map(|name| format!("`{name}`"))
-        .collect();
-    if names.len() > SHOWN {
-        text.push(format!("and {} more", names.len() - SHOWN));
-    }
-    text.join(", ")
 }

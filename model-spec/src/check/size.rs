@@ -14,50 +14,74 @@ const LARGEST_BARE_ANGLE: f64 = 2.0 * std::f64::consts::TAU;
 const LARGEST_LENGTH: f64 = 1000.0;
 
 /// What a number without a unit may be at most, in SI units, and what a larger one was most likely meant in.
-const LARGEST_BARE: [(Dimension, f64, &str, &str); 8] = [
-    (Dimension::ANGLE, LARGEST_BARE_ANGLE, "rad", "deg"),
-    (Dimension::LENGTH, 10.0, "m", "mm"),
-    (Dimension::MASS, 2000.0, "kg", "g"),
-    (Dimension::INERTIA, 1e4, "kg*m^2", "kg*mm^2"),
-    (Dimension::ACCELERATION, 200.0, "m/s^2", "mm/s^2"),
-    (Dimension::SPEED, 60.0, "m/s", "mm/s"),
-    (Dimension::ANGULAR_SPEED, 60.0, "rad/s", "deg/s"),
-    (Dimension::TORQUE, 3e4, "Nm", "N*mm"),
-];
+struct Bare {
+    dimension: Dimension,
+    largest: f64,
+    unit: &'static str,
+    meant: &'static str,
+}
+
+impl Bare {
+    const ALL: [Self; 8] = [
+        Self::of(Dimension::ANGLE, LARGEST_BARE_ANGLE, "rad", "deg"),
+        Self::of(Dimension::LENGTH, 10.0, "m", "mm"),
+        Self::of(Dimension::MASS, 2000.0, "kg", "g"),
+        Self::of(Dimension::INERTIA, 1e4, "kg*m^2", "kg*mm^2"),
+        Self::of(Dimension::ACCELERATION, 200.0, "m/s^2", "mm/s^2"),
+        Self::of(Dimension::SPEED, 60.0, "m/s", "mm/s"),
+        Self::of(Dimension::ANGULAR_SPEED, 60.0, "rad/s", "deg/s"),
+        Self::of(Dimension::TORQUE, 3e4, "Nm", "N*mm"),
+    ];
+
+    const fn of(
+        dimension: Dimension,
+        largest: f64,
+        unit: &'static str,
+        meant: &'static str,
+    ) -> Self {
+        Self {
+            dimension,
+            largest,
+            unit,
+            meant,
+        }
+    }
+
+    /// What a number is beyond, if it is.
+    fn beyond(value: f64, dimension: Dimension) -> Option<&'static Self> {
+        let mut all = Self::ALL.iter();
+        all.find(|bare| bare.dimension == dimension && value.abs() > bare.largest)
+    }
+
+    fn refuse(&self, span: Span, value: f64) -> Diagnostic {
+        let label = if self.dimension == Dimension::ANGLE {
+            format!("{:.1} turns", value / std::f64::consts::TAU)
+        } else {
+            "more than arms have".to_owned()
+        };
+        let Self { unit, meant, .. } = self;
+        Diagnostic::new(
+            span,
+            format!("{} of {value} {unit}", self.dimension.describe()),
+            label,
+        )
+        .help(format!(
+            "a bare number is in {unit}: write `{value} {meant}`, or `{value} {unit}` if it is meant"
+        ))
+    }
+}
 
 /// A number in SI units as a spec takes it: with its unit where a bare one of that size would be asked for it.
 pub(crate) fn written(value: f64, dimension: Dimension, number: fn(f64) -> String) -> String {
-    let mut bare = LARGEST_BARE.iter();
-    match bare.find(|(of, largest, ..)| *of == dimension && value.abs() > *largest) {
-        Some((.., unit, _)) => format!("{} {unit}", number(value)),
+    match Bare::beyond(value, dimension) {
+        Some(bare) => format!("{} {}", number(value), bare.unit),
         None => number(value),
     }
 }
 
 /// Whether a number without a unit is larger than those of any usual arm.
 pub(crate) fn is_unlikely(value: f64, dimension: Dimension) -> bool {
-    let mut bare = LARGEST_BARE.iter();
-    bare.any(|(of, largest, ..)| *of == dimension && value.abs() > *largest)
-}
-
-fn unit_meant(
-    span: Span,
-    value: f64,
-    (dimension, _, unit, meant): (Dimension, f64, &str, &str),
-) -> Diagnostic {
-    let label = if dimension == Dimension::ANGLE {
-        format!("{:.1} turns", value / std::f64::consts::TAU)
-    } else {
-        "more than arms have".to_owned()
-    };
-    Diagnostic::new(
-        span,
-        format!("{} of {value} {unit}", dimension.describe()),
-        label,
-    )
-    .help(format!(
-        "a bare number is in {unit}: write `{value} {meant}`, or `{value} {unit}` if it is meant"
-    ))
+    Bare::beyond(value, dimension).is_some()
 }
 
 fn millimeters_meant(span: Span, value: f64) -> Diagnostic {
@@ -90,9 +114,8 @@ pub(super) fn check(value: f64, dimension: Dimension, is_bare: bool, span: Span)
     if dimension == Dimension::LENGTH && size > LARGEST_LENGTH {
         return Err(millimeters_meant(span, value));
     }
-    let mut bare = LARGEST_BARE.into_iter().filter(|_| is_bare);
-    if let Some(bare) = bare.find(|(of, largest, ..)| *of == dimension && size > *largest) {
-        return Err(unit_meant(span, value, bare));
+    if let Some(bare) = Bare::beyond(value, dimension).filter(|_| is_bare) {
+        return Err(bare.refuse(span, value));
     }
     let largest = LARGEST.iter().find(|(of, _)| *of == dimension);
     match largest {
