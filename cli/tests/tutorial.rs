@@ -126,10 +126,17 @@ fn a_reader_gets_what_the_page_says() {
     for file in ["motion.svg", "src/arm2.rs", "src/reach.c", "src/reach.h"] {
         assert!(folder.join(file).exists(), "{file}");
     }
+    // Friction that grows with the load is no delay.
+    let _ = run(
+        "robot-model identify arm.robot tuesday.csv --json alone.json",
+        folder,
+    );
+    let notes = json(folder, "alone.json")["notes"].to_string();
+    assert!(!notes.contains("against the position"), "{notes}");
     own_log(folder);
 }
 
-/// The log in the units and under the names of the page's `log` block is the same log.
+/// The log in the units and under the names of the page's `log` block, or of its `robot-model.toml`, is the same log.
 fn own_log(folder: &Path) {
     let block = blocks("text").find(|block| block.contains("log {"));
     let block = block
@@ -138,10 +145,11 @@ fn own_log(folder: &Path) {
         .expect("a gap");
     let (_, log) = block;
     let spec = fs::read_to_string(folder.join("arm.robot")).expect("the spec");
-    let spec = spec
-        .replace("link = ", "actuator_gain = 10 Nm/A; link = ")
-        .replace("    effects {", &format!("{log}\n    effects {{"));
-    fs::write(folder.join("own.robot"), spec).expect("a writable folder");
+    let gains = spec.replace("link = ", "actuator_gain = 10 Nm/A; link = ");
+    let own = gains.replace("    effects {", &format!("{log}\n    effects {{"));
+    for (name, spec) in [("own.robot", own), ("gains.robot", gains)] {
+        fs::write(folder.join(name), spec).expect("a writable folder");
+    }
 
     let mut own = String::from(
         "t [ms],base.pos,shoulder.pos,elbow.pos,base.current,shoulder.current,elbow.current\n",
@@ -164,8 +172,16 @@ fn own_log(folder: &Path) {
         own.push('\n');
     }
     fs::write(folder.join("own.csv"), own).expect("a writable folder");
+    is_as_first(folder, "own.robot");
+    let settings = blocks("toml").next().expect("a `robot-model.toml`");
+    fs::write(folder.join("robot-model.toml"), settings).expect("a writable folder");
+    is_as_first(folder, "gains.robot");
+}
+
+/// What `own.csv` tells by a spec is what the log in standard columns told.
+fn is_as_first(folder: &Path, spec: &str) {
     let _ = run(
-        "robot-model identify own.robot own.csv --json own.json",
+        &format!("robot-model identify {spec} own.csv --json own.json"),
         folder,
     );
     let (own, first) = (json(folder, "own.json"), json(folder, "first.json"));
@@ -173,7 +189,7 @@ fn own_log(folder: &Path) {
         let (own, first) = (parameter(&own, name), parameter(&first, name));
         assert!(
             (own - first).abs() < 1e-6 * first.abs(),
-            "{name}: {own} {first}"
+            "{spec}, {name}: {own} {first}"
         );
     }
 }

@@ -1,12 +1,10 @@
 //! Joints that bend: links follow the load, which is known as noisily as torques are logged.
 
-use std::fmt::Write;
-
-use crate::common::{Folder, json, numbers};
+use crate::common::{Folder, json, numbers, two_joints_waving};
 use crate::payload::spec;
 
-/// A log without noise tells of a stiff arm far above the band of its motion. An arm that bends stays in the band in which `trace` would judge it, so that an
-/// amended spec is not fitted worse than the one that it was made of.
+/// A log without noise tells of a stiff arm far above the band of its motion. An arm that bends stays in the band in which `trace` would judge
+/// it, so that an amended spec is not fitted worse than the one that it was made of.
 #[test]
 fn an_arm_that_bends_is_fitted_in_the_band_of_the_rate_alone() {
     let folder = Folder::new();
@@ -19,16 +17,10 @@ fn an_arm_that_bends_is_fitted_in_the_band_of_the_rate_alone() {
         "values.json",
         r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 0, "lo.coulomb_friction.fc": 0}"#,
     );
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..5000 {
-        let t = 0.002 * f64::from(k);
-        let sum = |phase: f64| -> f64 {
-            let waves = [1.9, 4.4, 6.9, 10.1];
-            waves.map(|w| 0.25 * (w * t + phase * w).sin()).iter().sum()
-        };
-        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
+    folder.write(
+        "wanted.csv",
+        &two_joints_waving(5000, 0.25, &[1.9, 4.4, 6.9, 10.1]),
+    );
     let simulate = ["simulate", "stiff.robot", "--parameters", "values.json"];
     let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
     folder.succeed(&[&simulate[..], &motion, &["--out", "log.csv"]].concat());

@@ -1,8 +1,6 @@
 //! Friction that is another law of speed than the spec's.
 
-use std::fmt::Write;
-
-use crate::common::{Folder, json};
+use crate::common::{Folder, json, two_joints_waving};
 use crate::payload::spec;
 
 /// The value of a parameter and its deviation.
@@ -23,16 +21,10 @@ fn friction_of_another_law_is_told_and_in_deviations() {
     folder.write("plain.json", &format!("{values}}}"));
     let curve = r#", "lo.stribeck.fs": 1.5, "lo.stribeck.vs": 0.3}"#;
     folder.write("curve.json", &format!("{values}{curve}"));
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..10_000 {
-        let t = 0.002 * f64::from(k);
-        let sum = |phase: f64| -> f64 {
-            let waves = [1.9, 4.4, 6.9, 10.1];
-            waves.map(|w| 0.25 * (w * t + phase * w).sin()).iter().sum()
-        };
-        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
+    folder.write(
+        "wanted.csv",
+        &two_joints_waving(10_000, 0.25, &[1.9, 4.4, 6.9, 10.1]),
+    );
     let of = |plant: &str, values: &str| {
         let simulate = ["simulate", plant, "--parameters", values];
         let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
@@ -65,4 +57,45 @@ fn friction_of_another_law_is_told_and_in_deviations() {
         (value - 0.7).abs() < 3.0 * std && std > 0.1,
         "{value} {std}"
     );
+}
+
+/// A joint that goes back and forth in a few encoder steps is at a turn all the time, and the other one is not.
+#[test]
+fn what_turns_alone_tell_is_named() {
+    let folder = Folder::new();
+    folder.write("arm.robot", &spec(""));
+    folder.write(
+        "values.json",
+        r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 1.5, "lo.coulomb_friction.fc": 0.7}"#,
+    );
+    let said = |size: f64| {
+        let wanted = two_joints_waving(5000, 0.25, &[1.9, 4.4, 6.9, 10.1]);
+        let slower = wanted.lines().enumerate().map(|(k, line)| {
+            let (first, _) = line.rsplit_once(',').expect("three columns");
+            let t = 0.002 * f64::from(u32::try_from(k).expect("small"));
+            match k {
+                0 => format!("{line}\n"),
+                _ => format!("{first},{}\n", 0.3 + size * (4.4 * t).sin()),
+            }
+        });
+        folder.write("wanted.csv", &slower.collect::<String>());
+        let simulate = ["simulate", "arm.robot", "--parameters", "values.json"];
+        let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
+        let sensors = [
+            "--torque-noise",
+            "0.02",
+            "--encoder-bits",
+            "13",
+            "--seed",
+            "1",
+        ];
+        folder.succeed(&[&simulate[..], &motion, &sensors, &["--out", "log.csv"]].concat());
+        let notes = folder.run(&["identify", "arm.robot", "log.csv"]).stderr;
+        let mut notes = notes.lines().map(str::to_owned);
+        notes.find(|note| note.contains("no rows but those where joints turn tell"))
+    };
+    let told = said(0.05).expect("a note");
+    assert!(told.contains("`lo.coulomb_friction.fc`"), "{told}");
+    assert!(!told.contains("`up.coulomb_friction.fc`"), "{told}");
+    assert_eq!(said(0.6), None);
 }

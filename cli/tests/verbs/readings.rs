@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::common::{Folder, json};
+use crate::common::{Folder, json, two_joints_waving};
 use crate::payload::spec;
 
 const SPEC: &str = "robot P {
@@ -304,16 +304,10 @@ fn a_torque_of_the_other_sign_is_told_where_the_arm_fits_all_the_same() {
         "values.json",
         r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 0, "lo.coulomb_friction.fc": 0}"#,
     );
-    let mut wanted = String::from("time,q1,q2\n");
-    for k in 0..5000 {
-        let t = 0.002 * f64::from(k);
-        let sum = |phase: f64| -> f64 {
-            let waves = [0.9, 1.4, 2.2];
-            waves.map(|w| 0.4 * (w * t + phase * w).sin()).iter().sum()
-        };
-        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
-    }
-    folder.write("wanted.csv", &wanted);
+    folder.write(
+        "wanted.csv",
+        &two_joints_waving(5000, 0.4, &[0.9, 1.4, 2.2]),
+    );
     let simulate = ["simulate", "arm.robot", "--parameters", "values.json"];
     let motion = ["--trajectory", "wanted.csv", "--rate", "500"];
     folder.succeed(&[&simulate[..], &motion, &["--out", "log.csv"]].concat());

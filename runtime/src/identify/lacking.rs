@@ -7,8 +7,11 @@
 //! A torque that is set at a sample and holds until the next is early by half of one. Few logs say which of both theirs is, so deviations
 //! have what half a sample moves values by, as far as the log itself does not tell the time of its torque better.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
+
 use super::deviated::Solved;
-use super::least_squares::Solution;
+use super::least_squares::{Factors, Solution};
 use super::stack::{Stack, norm, percent};
 use super::{Beyond, Identify, longest_period, turns};
 use crate::columns::Arm;
@@ -95,8 +98,8 @@ impl Identify {
         }
         let rows = Rows::new(arm, logs, passed, stack);
         let mut found = self.laws(&rows).unwrap_or_default();
-        let moved = self.moved_by_time(&rows, stack).unwrap_or_default();
-        found.at_turns = self.told_at_turns(solved).unwrap_or_default();
+        let moved = self.moved_by_time(&rows, solved).unwrap_or_default();
+        found.at_turns = self.told_at_turns(solved);
         found.off.resize(stack.unknowns.len(), 0.0);
         let pairs = found.off.iter_mut().zip(moved);
         pairs.for_each(|(off, moved)| *off = off.hypot(moved));
@@ -142,22 +145,38 @@ impl Identify {
         )
     }
 
-    /// Unknowns that no rows but those at turns of dry joints tell: by how much these move them nobody knows.
-    fn told_at_turns(&self, solved: &Solved) -> Option<Vec<usize>> {
+    /// Unknowns that no rows but those at turns of one dry joint tell: by how much these move them nobody knows.
+    fn told_at_turns(&self, solved: &Solved) -> Vec<usize> {
         if !self.has_turns(&solved.stack) {
-            return None;
+            return Vec::new();
         }
-        let mut rest = solved.stack.clone();
-        turns::leave_out(&mut rest);
-        let rest = self.solve_stack(&rest).ok()?;
-        let at_turns = (0..rest.estimate.len())
-            .filter(|unknown| solved.solution.is_told(*unknown) && !rest.is_told(*unknown));
-        Some(at_turns.collect())
+        let untold = |joints: Range<usize>| {
+            let mut rest = solved.stack.clone();
+            for (joint, rows) in rest.turns.iter_mut().enumerate() {
+                if !joints.contains(&joint) {
+                    rows.clear();
+                }
+            }
+            turns::leave_out(&mut rest);
+            let rest = self.solve_stack(&rest).ok();
+            let told = (0..solved.solution.estimate.len()).filter(|k| solved.solution.is_told(*k));
+            rest.map_or_else(Vec::new, |rest| {
+                told.filter(|k| !rest.is_told(*k)).collect()
+            })
+        };
+        let joints = 0..solved.stack.dof();
+        // Most logs tell all without any of these rows, and are asked once.
+        if untold(joints.clone()).is_empty() {
+            return Vec::new();
+        }
+        let of_joints: BTreeSet<usize> =
+            joints.flat_map(|joint| untold(joint..joint + 1)).collect();
+        of_joints.into_iter().collect()
     }
 
     /// What the time of torques that nobody tells moves values by.
-    fn moved_by_time(&self, rows: &Rows<'_>, stack: &Stack) -> Option<Vec<f64>> {
-        let (mut asked, own) = rows.with_slopes();
+    fn moved_by_time(&self, rows: &Rows<'_>, solved: &Solved) -> Option<Vec<f64>> {
+        let (asked, own) = rows.with_slopes();
         let mut found = self.solve_stack(&asked).ok()?;
         found.std = self.deviations_of_products(&asked, &found);
         let most = 0.5 * HELD * longest_period(rows.logs);
@@ -166,9 +185,9 @@ impl Identify {
         } else {
             most
         };
-        // By a second they are moved as far as the slopes are fitted by the other columns.
-        asked = rows.of_slopes(stack);
-        let moved = self.solve_stack(&asked).ok()?;
+        // By a second they are moved as far as the slopes are fitted by the other columns, joints weighed as in the fit.
+        let slopes = Factors::new(&rows.of_slopes(&solved.stack));
+        let moved = slopes.solve(&solved.solution.scale, &vec![1.0; solved.stack.dof()]);
         Some(moved.estimate.iter().map(|x| x * seconds).collect())
     }
 }

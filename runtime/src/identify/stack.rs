@@ -12,6 +12,7 @@ use super::hac::correlation_time;
 use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
 
+pub(super) use columns::nameless;
 pub use columns::{filtered_columns, torque_of};
 
 /// Entries of a column below this, per unit of its parameter in SI, are rounding.

@@ -98,7 +98,7 @@ impl ParquetRows {
         source: &str,
         reader: Result<impl FileReader + 'static, ParquetError>,
     ) -> Result<Self, LogError> {
-        let reader = reader.map_err(|error| damaged(source, 1, &error))?;
+        let reader = reader.map_err(|error| refused(source, 1, error))?;
         let schema = reader.metadata().file_metadata().schema_descr();
         limits::check_columns(source, schema.num_columns())?;
         let columns = schema.columns().iter();
@@ -117,7 +117,7 @@ impl ParquetRows {
     /// So many rows of the group that come next.
     fn hand_on(&mut self, table: &mut Table, count: usize) -> Result<(), LogError> {
         let read = guarded(|| self.group.next(count));
-        let group = read.map_err(|error| damaged(&self.source, self.rows + 1, &error))?;
+        let group = read.map_err(|error| refused(&self.source, self.rows + 1, error))?;
         // Of each row the first column that has no number in it.
         let mut bad: Vec<Option<usize>> = vec![None; count];
         for (k, column) in group.iter().enumerate() {
@@ -189,7 +189,7 @@ impl ParquetRows {
                     columns: columns.collect::<Result<_, _>>()?,
                 })
             });
-            self.group = open.map_err(|error| damaged(&self.source, self.rows + 1, &error))?;
+            self.group = open.map_err(|error| refused(&self.source, self.rows + 1, error))?;
             self.next_group += 1;
             if self.group.rows > 0 {
                 return Ok(true);
@@ -226,6 +226,18 @@ fn guarded<T>(read: impl FnOnce() -> Result<T, ParquetError>) -> Result<T, Parqu
     read.unwrap_or_else(|_| Err(ParquetError::General("the file is damaged".to_owned())))
 }
 
+/// A file that is written in another way than is read here, or is damaged.
+fn refused(source: &str, line: u64, error: ParquetError) -> LogError {
+    match error {
+        ParquetError::NYI(reason) => LogError::Read {
+            source_name: source.to_owned(),
+            line,
+            reason,
+        },
+        error => damaged(source, line, &error),
+    }
+}
+
 /// That pages are packed with what is read here.
 fn check_codec(codec: Compression) -> Result<(), ParquetError> {
     let name = match codec {
@@ -237,7 +249,7 @@ fn check_codec(codec: Compression) -> Result<(), ParquetError> {
         Compression::LZO => "LZO",
         Compression::LZ4 | Compression::LZ4_RAW => "LZ4",
     };
-    Err(ParquetError::General(format!(
+    Err(ParquetError::NYI(format!(
         "its pages are packed with {name}, which is not read here; write it with `snappy`, `gzip`, `zstd` or uncompressed, or save it as CSV"
     )))
 }

@@ -82,6 +82,7 @@ fn gzip_is_told_by_its_first_bytes() {
         error.starts_with("monday.csv:") && error.contains("cannot read the log: "),
         "{error}"
     );
+    assert!(error.ends_with("copy it again, as binary, or write it again"));
 }
 
 #[test]

@@ -135,3 +135,18 @@ pub fn folding(effects: &str) -> String {
         }}"
     )
 }
+
+/// A motion of two joints for `--trajectory`, so many samples at 500 Hz: sums of waves of a size, rad, and of these rates, rad/s, which each
+/// joint has with phases of its own.
+pub fn two_joints_waving(samples: i32, size: f64, rates: &[f64]) -> String {
+    let mut wanted = String::from("time,q1,q2\n");
+    for k in 0..samples {
+        let t = 0.002 * f64::from(k);
+        let sum = |phase: f64| -> f64 {
+            let waves = rates.iter();
+            waves.map(|w| size * (w * t + phase * w).sin()).sum()
+        };
+        writeln!(wanted, "{t},{},{}", sum(0.3), sum(1.1)).expect("a string takes all");
+    }
+    wanted
+}

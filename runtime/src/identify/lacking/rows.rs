@@ -2,8 +2,7 @@
 
 use super::{Passed, WIDTHS};
 use crate::columns::{Arm, Entry};
-use crate::identify::late::nameless;
-use crate::identify::stack::Stack;
+use crate::identify::stack::{Stack, nameless};
 use crate::identify::turns;
 use crate::signal::{Prepared, derivative};
 

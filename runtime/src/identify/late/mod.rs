@@ -18,7 +18,6 @@ use excerpt::{LONGEST, excerpts};
 use lasting::lasting_gain;
 use nearest::nearest;
 use rows::Rows;
-pub(super) use rows::nameless;
 
 use super::shapes::with_slopes;
 use super::stack::{Stack, norm};

@@ -2,10 +2,10 @@
 
 use faer::Mat;
 
-use super::rows::nameless;
 use super::{Rows, logarithm};
 use crate::columns::Entry;
 use crate::identify::least_squares::Factors;
+use crate::identify::stack::nameless;
 
 /// Delays that are tried first, s.
 pub(super) const TRIED: [f64; 9] = [0.0, -0.04, -0.02, 0.02, 0.04, 0.07, 0.11, 0.17, 0.25];

@@ -5,12 +5,11 @@
 //! column `d(W beta)/dd`, and the motion is moved by it and fitted again.
 
 use super::nearest::TRIED;
-use super::rows::nameless;
 use super::{DEVIATIONS, Delay, MOST, ROUNDS, Rows, SHARE};
 use super::{is_delay, lasting_gain, lengths, logarithm, longest_period};
 use crate::columns::Entry;
 use crate::identify::Identify;
-use crate::identify::stack::Stack;
+use crate::identify::stack::{Stack, nameless};
 use crate::log::LateChannel;
 use crate::signal::Prepared;
 

@@ -1,8 +1,8 @@
 //! The equations of logs, with columns beside those of the model that look like a delay.
 
-use super::super::stack::{Stack, says_nothing};
+use super::super::stack::{Stack, nameless, says_nothing};
 use super::super::{clipped, turns};
-use crate::columns::{Arm, Entry, Unknown};
+use crate::columns::{Arm, Entry};
 use crate::signal::{Prepared, derivative};
 
 /// The equations without delays.
@@ -154,12 +154,4 @@ pub(super) fn append(stack: &mut Stack, columns: Vec<Vec<f64>>) {
     });
     let entries: Vec<Entry> = entries.collect();
     stack.append(&vec![nameless(); entries.len()], &entries);
-}
-
-/// An unknown that has no name, as nobody reads it.
-pub(in super::super) fn nameless() -> Unknown {
-    Unknown {
-        name: String::new(),
-        nonnegative: false,
-    }
 }

@@ -1,9 +1,17 @@
 //! Columns over motions: filtered as the torque of logs is, or summed to a torque.
 
 use super::subtract;
-use crate::columns::{Columns, Entry};
+use crate::columns::{Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
+
+/// An unknown of a column that is asked for and forgotten: nobody reads its name.
+pub(in crate::identify) fn nameless() -> Unknown {
+    Unknown {
+        name: String::new(),
+        nonnegative: false,
+    }
+}
 
 /// Columns over several logs, each log through its own shared filter, the logs' samples one after the other.
 ///

@@ -112,7 +112,29 @@ fn a_codec_that_is_not_read_is_named() {
             "{said}"
         );
         assert!(said.contains("write it with `snappy`"), "{said}");
+        assert!(!said.contains("damaged"), "{said}");
     }
+}
+
+/// Text in a channel is no damage, and a file that breaks off is.
+#[test]
+fn columns_of_text_and_half_files_are_told() {
+    let sound = written_parquet(None);
+    let said = |bytes: &[u8], columns: &Columns| {
+        let refused = Log::from_reader_as("monday", bytes, columns);
+        refused.expect_err("refused").to_string()
+    };
+    let mut of_text = parquet_columns();
+    of_text.tau[0].name = "mode".to_owned();
+    assert_eq!(
+        said(&sound, &of_text),
+        "monday:1: cannot read the log: column `mode` holds no whole or real numbers: write it as a column of doubles"
+    );
+    let half = said(&sound[..sound.len() / 2], &parquet_columns());
+    assert!(
+        half.ends_with("the file is damaged: copy it again, as binary, or write it again"),
+        "{half}"
+    );
 }
 
 /// A footer that claims `rows` in each group, over the pages of a sound file.
