@@ -247,9 +247,13 @@ proptest! {
             .iter()
             .enumerate()
             .map(|(k, (revolute, a, alpha, other))| {
-                let (kind, key, unit_of_other) =
-                    if *revolute { ("revolute", "d", unit) } else { ("prismatic", "theta", 1.0) };
-                let (a, other) = (a * unit, other * unit_of_other);
+                let length = |value: f64| format!("{} m", value * unit);
+                let (kind, key, other) = if *revolute {
+                    ("revolute", "d", length(*other))
+                } else {
+                    ("prismatic", "theta", format!("{other} rad"))
+                };
+                let a = length(*a);
                 format!("joint j{k}: {kind} {{ a = {a}; alpha = {alpha} deg; {key} = {other}; }}")
             })
             .collect();

@@ -12,6 +12,10 @@ use super::doubts;
 use super::fit::Fit;
 use crate::output::names;
 
+mod excerpt;
+
+use excerpt::excerpt;
+
 /// Degrees are asked for where a joint moves further than this, rad: less is a motion of less than three degrees.
 const LEAST_RANGE: f64 = 3.0;
 
@@ -25,6 +29,11 @@ const WELL_IN_SIGNS: f64 = 4.0;
 /// By which factor errors have to be less in another reading.
 const FACTOR: f64 = 2.0;
 
+/// By which factor that of one joint has to be less where no other one's is more: friction and encoders leave of a light joint what no reading
+/// mends.
+const FACTOR_OF_ONE: f64 = 4.0;
+const NO_MORE: f64 = 1.1;
+
 /// Turns are asked for where no joint moves by more of them than this.
 const MOST_TURNS: f64 = 3.0;
 
@@ -34,10 +43,6 @@ const WELL_IN_TURNS: f64 = 5.0;
 
 /// An exchange of columns is a step to their order where it leaves this share of the errors, and a reading is better than a plainer one.
 const LESS: f64 = 0.9;
-
-/// What of the first log is asked, s and Hz: more says no more of units and orders, and less leaves what dry friction does between samples.
-const LONGEST: f64 = 60.0;
-const FASTEST: f64 = 250.0;
 
 /// A unit of angles.
 #[derive(Clone, Copy)]
@@ -222,7 +227,7 @@ pub(super) fn others(
     let best = candidates.into_iter().reduce(Candidate::better)?;
     let best_left = &best.found.left;
     let most = |percents: &[f64]| percents.iter().copied().fold(0.0, f64::max);
-    (FACTOR * all(best_left) < all(&as_logged)).then(|| {
+    is_far_less(best_left, &as_logged).then(|| {
         let [what, question] = best.reading.said(&found.joints);
         format!(
             "with {what} the model leaves {:.1} % of the torque of its worst joint, as logged {:.0} %: {question}",
@@ -270,27 +275,6 @@ fn ranges(model: &Model, log: &Log) -> Vec<(usize, f64)> {
         high - low
     };
     revolute.map(|(k, _)| (k, range(k))).collect()
-}
-
-/// The beginning of a log, at a rate that motions need.
-fn excerpt(log: &Log) -> Log {
-    let mut log = log.clone();
-    let rate = log.rate_hz();
-    let slower = 2..log.time.len();
-    let every = slower.take_while(|every| rate >= FASTEST * *every as f64);
-    let every = every.last().unwrap_or(1);
-    let samples = log
-        .time
-        .partition_point(|time| time - log.time[0] < LONGEST);
-    let thin = |values: &mut Vec<f64>| {
-        values.truncate(samples);
-        *values = values.iter().step_by(every).copied().collect();
-    };
-    thin(&mut log.time);
-    let extra = log.extra.iter_mut().map(|channel| &mut channel.values);
-    let columns = log.q.iter_mut().chain(&mut log.dq).chain(&mut log.tau);
-    columns.chain(extra).for_each(thin);
-    log
 }
 
 /// Without what units and orders do not need: bands and shapes are those that were found.
@@ -390,6 +374,15 @@ impl Asked<'_> {
         }
         best
     }
+}
+
+/// Whether a reading leaves so much less than the log as it is that the log is to be read like that.
+fn is_far_less(left: &[f64], as_logged: &[f64]) -> bool {
+    let pairs = || left.iter().zip(as_logged);
+    let is_no_more = pairs().all(|(left, before)| *left <= NO_MORE * before);
+    let mut ill = pairs().filter(|(_, before)| **before > WELL_IN_SIGNS);
+    FACTOR * all(left) < all(as_logged)
+        || is_no_more && ill.any(|(left, before)| FACTOR_OF_ONE * left < *before)
 }
 
 /// Percents of all joints as one.
