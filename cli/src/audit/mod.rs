@@ -1,5 +1,6 @@
 //! `robot-model audit`: whether an arm can have given parameters; [`audit`] asks the same of values in memory.
 
+mod against;
 mod base;
 mod bodies;
 mod drives;
@@ -22,6 +23,7 @@ use crate::output::{self, Files, counted, names, rounded};
 use crate::parameters::{self, Beside, Values};
 use crate::{Error, json, spec};
 
+use against::Source;
 pub use base::Sums;
 
 /// Whether an arm can have given parameters: bodies, signs, inertia over the workspace, friction over the speeds, torques of motors, rank.
@@ -30,6 +32,7 @@ pub use base::Sums;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   robot-model audit arm.robot --parameters fit.json
+  robot-model audit arm.robot --parameters monday.json --against tuesday.json
   robot-model audit arm.robot --base paper.json")]
 pub(crate) struct Audit {
     /// The `.robot` file. Position limits are the workspace, velocity limits the speeds.
@@ -41,6 +44,9 @@ pub(crate) struct Audit {
     /// arm. Alone it needs no values of parameters, and looks at nothing else.
     #[arg(long, value_name = "FILE.json")]
     base: Option<PathBuf>,
+    /// Parameters of another source, in a form of `--parameters`: whether they are of the same arm.
+    #[arg(long, value_name = "FILE.json")]
+    against: Option<PathBuf>,
     /// Write the result as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -57,7 +63,7 @@ struct Report<'a> {
 /// One question, and what speaks against it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Check {
-    /// `bodies`, `signs`, `inertia`, `friction`, `jumps`, `memory`, `drives`, `rank`, `base`.
+    /// `bodies`, `signs`, `inertia`, `friction`, `jumps`, `memory`, `drives`, `rank`, `against`, `base`.
     pub name: &'static str,
     /// None where it was not decided.
     pub passed: Option<bool>,
@@ -74,7 +80,7 @@ pub struct Check {
 pub struct Quantity {
     /// `mass`, `least_second_moment`, `nearest` (bodies); `value` (signs); `least_eigenvalue`, `position` (inertia); `driven_from`, `power`
     /// (friction); `jump`, `at` (jumps); `work` (memory); `friction`, `at_rest`, `largest_torque` (drives); `base_parameters`, `parameters`
-    /// (rank); `factor`, `needed`, `independent`, `base_parameters` (base).
+    /// (rank); `value`, `other`, `apart`, `std` (against); `factor`, `needed`, `independent`, `base_parameters` (base).
     pub what: &'static str,
     /// The link, joint or parameter that it is of; none where it is of the whole arm.
     pub of: Option<String>,
@@ -113,6 +119,24 @@ type Finding = (String, Vec<Quantity>);
 pub fn audit(compiled: &Compiled, parameters: &BTreeMap<String, f64>) -> Result<Vec<Check>, Error> {
     let values = parameters::by_name(compiled, parameters)?;
     Ok(checks(compiled, &values))
+}
+
+/// Whether two sources, each with parameters by name as [`audit`] takes them, say the same of what torques tell: the check `against`.
+///
+/// # Errors
+/// As [`audit`].
+pub fn against(
+    compiled: &Compiled,
+    one: &BTreeMap<String, f64>,
+    other: &BTreeMap<String, f64>,
+) -> Result<Check, Error> {
+    let source = |given| {
+        Ok::<_, Error>(Source {
+            values: parameters::by_name(compiled, given)?,
+            deviations: vec![None; compiled.base.names.len()],
+        })
+    };
+    Ok(against::check(compiled, &[source(one)?, source(other)?]))
 }
 
 /// Whether sums of standard parameters are base parameters of an arm, as a paper or another program has them: the check `base`.
@@ -192,20 +216,39 @@ impl Audit {
         Ok((values, source))
     }
 
+    /// What is audited beside another file.
+    fn beside(&self, compiled: &Compiled, values: Values, other: &Path) -> Result<Check, Error> {
+        let none = vec![None; compiled.base.names.len()];
+        let own = self.parameters.as_deref();
+        let own = Source {
+            values,
+            deviations: own.map_or(Ok(none), |own| parameters::deviations(compiled, own))?,
+        };
+        let other = Source {
+            values: parameters::resolve(compiled, Some(other))?,
+            deviations: parameters::deviations(compiled, other)?,
+        };
+        Ok(against::check(compiled, &[own, other]))
+    }
+
     pub(crate) fn run(&self) -> Result<(), Error> {
         let inputs = [
             Some(&self.spec),
             self.parameters.as_ref(),
             self.base.as_ref(),
+            self.against.as_ref(),
         ];
         let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
         let json = Files::reading(inputs).claim_if(self.json.as_deref())?;
         let compiled = spec::compile(&self.spec)?;
         let (mut checks, mut source) = (Vec::new(), None);
-        if self.base.is_none() || self.parameters.is_some() {
+        if self.base.is_none() || self.parameters.is_some() || self.against.is_some() {
             let (values, of) = self.values(&compiled)?;
             checks = self::checks(&compiled, &values);
             source = Some(of);
+            if let Some(other) = &self.against {
+                checks.push(self.beside(&compiled, values, other)?);
+            }
         }
         if let Some(path) = &self.base {
             checks.push(base::check(&compiled, &sums(path)?)?);

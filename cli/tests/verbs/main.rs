@@ -2,6 +2,7 @@
 
 mod apart;
 mod audit;
+mod audit_against;
 mod audit_base;
 mod audit_seeds;
 mod bags;

@@ -87,9 +87,6 @@ pub const TABLE_2: [&[Line]; 3] = [
 /// Last line of Table 2 for law (6.3): `alpha`, `beta`, `c1`, `c2`. The arm that is simulated here has these.
 pub const ARM: [f64; 4] = [12.05, 21.42, 34.72, 36.00];
 
-/// What the numbers of the tables are rounded to, half a unit of the last digit.
-pub const ROUNDING: f64 = 0.005;
-
 /// Figures 7 and 8, model (5.1): `alpha`, `beta`, `c1`, `c2`.
 pub const FIGURE_7: [f64; 4] = [12.74, 21.209, 2.296, 4.301];
 /// The other `c1` of Figure 7.
