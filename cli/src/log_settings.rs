@@ -38,7 +38,7 @@ impl LogSettings {
     pub(crate) fn of(&self, log: &Path) -> Option<PathBuf> {
         self.file.clone().or_else(|| {
             let beside = log.with_file_name(NAME);
-            beside.is_file().then_some(beside)
+            beside.exists().then_some(beside)
         })
     }
 

@@ -343,3 +343,14 @@ fn a_damaged_file_is_refused_with_its_place() {
         "{said}"
     );
 }
+
+#[test]
+fn settings_that_are_a_folder_are_not_passed_over() {
+    let folder = Folder::new();
+    folder.write("arm.robot", CART);
+    folder.write("log.csv", &cart_log(20, 0.5, 0.0));
+    std::fs::create_dir(folder.path("robot-model.toml")).expect("a folder");
+    let run = folder.run(&["identify", "arm.robot", "log.csv"]);
+    assert_eq!(run.code, Some(1), "{}", run.stdout);
+    assert!(run.stderr.contains("robot-model.toml"), "{}", run.stderr);
+}

@@ -44,6 +44,8 @@ fn parse_within(text: &str, most: usize) -> Result<Value, Fault> {
         room: Cell::new(Some(most)),
         ..Notes::default()
     };
+    // The mark that some editors put before a text of UTF-8.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut input = serde_json::Deserializer::from_str(text);
     let value = Reader { notes: &notes }.deserialize(&mut input);
     let value = value.and_then(|value| input.end().map(|()| value));
@@ -222,7 +224,8 @@ mod tests {
     fn values_are_those_of_any_parser() {
         let text = r#"{"a":[1,-2,3.5,1e300,"x\n",true,null,{}],"b":{"a":1}}"#;
         let plain: Value = serde_json::from_str(text).expect("JSON");
-        assert_eq!(parse(text), Ok(plain));
+        assert_eq!(parse(text), Ok(plain.clone()));
+        assert_eq!(parse(&format!("\u{feff}{text}")), Ok(plain));
     }
 
     fn refused(text: &str) -> (Option<(usize, usize)>, String) {

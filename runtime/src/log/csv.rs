@@ -1,5 +1,7 @@
 //! CSV text, plain or gzip, to columns of finite numbers; rows that lack some are left out.
 
+mod opening;
+
 use std::cell::Cell;
 use std::io::{self, Cursor, Read};
 use std::rc::Rc;
@@ -11,6 +13,7 @@ use super::LogError;
 use super::limits::LONGEST_ROW;
 use super::rows::{Rows, Table, damaged, unreadable};
 use super::words;
+use opening::Opening;
 
 /// First bytes of a gzip member.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
@@ -39,6 +42,8 @@ struct Records<'a> {
     reader: csv::Reader<Bounded<'a>>,
     count: Rc<Cell<u64>>,
     record: ByteRecord,
+    /// Lines above the header.
+    above: u64,
     /// Of the record.
     line: u64,
 }
@@ -66,7 +71,7 @@ impl<'a> CsvRows<'a> {
         } else {
             Box::new(whole)
         };
-        let mut records = Records::new(source, text);
+        let mut records = Records::new(source, Opening::of(source, text)?);
         if !records.next()? {
             return Err(LogError::Empty {
                 source_name: source.to_owned(),
@@ -81,7 +86,7 @@ impl<'a> CsvRows<'a> {
                     .to_owned())
             })
             .collect::<Result<Vec<_>, LogError>>()?;
-        if names.len() == 1 && names[0].contains([';', '\t', '|', ' ']) {
+        if names.len() == 1 && names[0].contains(['|', ' ']) {
             return Err(LogError::Separator {
                 source_name: source.to_owned(),
             });
@@ -159,27 +164,29 @@ impl Rows for CsvRows<'_> {
 }
 
 impl<'a> Records<'a> {
-    fn new(source: &str, text: Box<dyn Read + 'a>) -> Self {
+    fn new(source: &str, opening: Opening<'a>) -> Self {
         let count = Rc::default();
         let bounded = Bounded {
-            text,
+            text: opening.text,
             count: Rc::clone(&count),
         };
         let mut options = ReaderBuilder::new();
         options.has_headers(false).flexible(true).trim(Trim::All);
+        options.delimiter(opening.separator);
         Self {
             source: source.to_owned(),
             reader: options.from_reader(bounded),
             count,
             record: ByteRecord::new(),
-            line: 1,
+            above: opening.above,
+            line: opening.above + 1,
         }
     }
 
     /// Moves on to the next record; `line` follows it. False at the end.
     fn next(&mut self) -> Result<bool, LogError> {
         self.count.set(0);
-        let begins = self.reader.position().line();
+        let begins = self.above + self.reader.position().line();
         let read = self.reader.read_byte_record(&mut self.record);
         let more = read.map_err(|error| {
             if self.count.get() > LONGEST_ROW {
@@ -192,7 +199,7 @@ impl<'a> Records<'a> {
             damaged(&self.source, self.line, &error)
         })?;
         if let Some(position) = self.record.position().filter(|_| more) {
-            self.line = position.line();
+            self.line = self.above + position.line();
         }
         Ok(more)
     }

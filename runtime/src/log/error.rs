@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::words::{columns, hertz, in_unit, joints, list, plural};
+use super::words::{columns, hertz, in_unit, joints, list, plural, way_out};
 
 /// Why a log cannot be used. `source_name` is the file, `line` counts from 1 and the header is line 1.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -242,7 +242,8 @@ pub enum LogError {
     },
     /// A field that is no number.
     #[error(
-        "{source_name}:{line}: `{text}` in column `{column}` is not a number; repair or remove the row"
+        "{source_name}:{line}: `{text}` in column `{column}` is not a number; {}",
+        way_out(text)
     )]
     NotANumber {
         /// The file.

@@ -16,6 +16,7 @@ mod close;
 mod columns;
 mod gaps;
 mod limits;
+mod opening;
 
 /// A log of one joint: rows of `time, q1, tau1` at 10 ms.
 fn rows(count: usize) -> Vec<String> {
@@ -167,7 +168,7 @@ fn headers_are_checked() {
         "monday.csv:1: missing column `tau2`; the header has `time`, `q1`, `q2`, `tau1`, `vir1`"
     );
     assert_eq!(
-        header("time;q1;tau1", 1),
+        header("time|q1|tau1", 1),
         "monday.csv:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"
     );
     assert_eq!(
@@ -302,7 +303,7 @@ fn samples_from_memory_are_checked_too() {
 
 #[test]
 fn files_that_are_no_csv_are_told() {
-    let other = text("time;q1;tau1", &["0;0;0".to_owned()]);
+    let other = text("time q1 tau1", &["0 0 0".to_owned()]);
     assert_eq!(
         refusal(&other, 1),
         "monday.csv:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"

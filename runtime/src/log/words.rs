@@ -37,6 +37,14 @@ pub(super) fn field(text: &str) -> String {
     shown
 }
 
+/// What to do with a field that is no number.
+pub(super) fn way_out(text: &str) -> &'static str {
+    match text.replace(',', ".").parse::<f64>() {
+        Ok(_) => "write decimals with a point",
+        Err(_) => "repair or remove the row",
+    }
+}
+
 pub(super) fn plural(count: usize) -> &'static str {
     if count == 1 { "" } else { "s" }
 }

@@ -1,0 +1,68 @@
+//! Where a text's header is, and what separates its columns.
+
+use super::{read, refusal, rows, text};
+
+#[test]
+fn comments_above_a_header_are_passed_over() {
+    let plain = read(&text("time,q1,tau1", &rows(40)), 1).expect("a log");
+    let above = "# of Monday, cold\n% export 3\n\n";
+    for header in [
+        // As NumPy writes a header, alone and below other comments.
+        "# time,q1,tau1".to_owned(),
+        "\u{feff}#time, q1, tau1".to_owned(),
+        format!("{above}# time,q1,tau1"),
+        format!("{above}time,q1,tau1"),
+        format!("# time,q1,tau1 in s, deg, Nm\n{above}time,q1,tau1"),
+    ] {
+        let log = read(&text(&header, &rows(40)), 1).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(log, plain, "{header}");
+    }
+}
+
+#[test]
+fn lines_are_counted_from_the_top_of_the_file() {
+    let mut broken = rows(40);
+    broken[5] = "0.05,x,1".to_owned();
+    for (header, line) in [
+        ("time,q1,tau1", 7),
+        ("# a\n\n% b\ntime,q1,tau1", 10),
+        ("# a\n# time,q1,tau1", 8),
+    ] {
+        assert_eq!(
+            refusal(&text(header, &broken), 1),
+            format!(
+                "monday.csv:{line}: `x` in column `q1` is not a number; repair or remove the row"
+            )
+        );
+    }
+}
+
+#[test]
+fn comments_alone_are_no_log() {
+    for empty in ["", "\n\n", "# time,q1,tau1\n", "# a\n% b"] {
+        assert_eq!(
+            refusal(empty, 1),
+            "monday.csv: the log is empty",
+            "{empty:?}"
+        );
+    }
+    // A comment that is no header does not become one, as it is apart from the numbers.
+    let apart = text("# time,q1,tau1\n\n", &rows(40));
+    assert!(refusal(&apart, 1).contains("the log has no header"));
+}
+
+#[test]
+fn columns_are_separated_as_the_header_is() {
+    let plain = read(&text("time,q1,tau1", &rows(40)), 1).expect("a log");
+    for separator in [";", "\t", " ; "] {
+        let other = text("time,q1,tau1", &rows(40)).replace(',', separator);
+        let log = read(&other, 1).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(log, plain, "{separator:?}");
+    }
+    // Semicolons beside decimal commas, as spreadsheets of half of Europe write them.
+    let decimal = text("time;q1;tau1", &["0,01;0,1;2,5".to_owned()]);
+    assert_eq!(
+        refusal(&decimal, 1),
+        "monday.csv:2: `0,01` in column `time` is not a number; write decimals with a point"
+    );
+}
