@@ -12,7 +12,7 @@ robot Motor {
     gravity = [0, -9.81, 0];
     convention = modified_dh;
     joint one: revolute { a = 0; alpha = 0; d = 0; }
-    effects { viscous_friction on one; back_emf on one; stribeck(vs = 0.1) on one; coulomb_friction on one; }
+    effects { viscous_friction on one; back_emf on one; stribeck on one; coulomb_friction on one; }
 }";
 
 /// Standard parameters, none of which is rounded.

@@ -20,6 +20,12 @@ pub(super) const MATERIAL_PERCENT: f64 = 5.0;
 /// Family-wise error rate of the score.
 pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
+/// The same of what halves a joint's held-out error, in every fold, and takes as much of the raw one off: a short log has few blocks, whose
+/// score may be no more beyond chance than that.
+const SIGNIFICANCE_OF_MOST: f64 = 5e-2;
+const MOST_PERCENT: f64 = 50.0;
+const MUCH_PERCENT: f64 = 20.0;
+
 /// How far a fold's torque of the effect may be from that of all folds, relative.
 const STEADINESS: f64 = 0.5;
 
@@ -103,6 +109,7 @@ impl<'a> Baseline<'a> {
             p_value,
             ..compared.evidence
         };
+        let chance = is_chance(&evidence);
         let steady = held_out
             .estimates
             .iter()
@@ -114,7 +121,7 @@ impl<'a> Baseline<'a> {
             .iter()
             .all(|&c| projected.power_share(&gain, c) < NEGATIVE_SHARE);
         let refusals = [
-            (p_value < SIGNIFICANCE, Refusal::Chance),
+            (!chance, Refusal::Chance),
             (trial.is_inside(), Refusal::EndOfRange),
             (steady, Refusal::Unsteady),
             (physical, Refusal::Sign),
@@ -158,6 +165,7 @@ impl<'a> Baseline<'a> {
             norm(&fold[fold.len() - changed.shapes.len()..])
                 < STEADINESS * norm(&sizes.collect::<Vec<_>>())
         });
+        let chance = is_chance(&first.evidence);
         Judged {
             evidence: Evidence {
                 score: first.evidence.score,
@@ -167,10 +175,7 @@ impl<'a> Baseline<'a> {
             merit: compared.merit,
             raw_power: compared.raw_power,
             refusals: refused(
-                [
-                    (first.evidence.p_value < SIGNIFICANCE, Refusal::Chance),
-                    (steady, Refusal::Unsteady),
-                ],
+                [(!chance, Refusal::Chance), (steady, Refusal::Unsteady)],
                 compared.refusals,
             ),
             keeps_signs: true,
@@ -283,7 +288,23 @@ impl Judged<'_> {
 
 /// Whether the first order of a change says that it may be worth a trial as what it is.
 pub(super) fn is_promising(judged: &Judged) -> bool {
-    judged.evidence.p_value < SIGNIFICANCE
+    !is_chance(&judged.evidence)
+}
+
+/// Whether noise may have made it.
+fn is_chance(evidence: &Evidence) -> bool {
+    let (improved, folds) = evidence.folds;
+    let pairs = evidence.held_out_percent.iter().zip(&evidence.raw_percent);
+    let takes_most = improved == folds
+        && pairs
+            .into_iter()
+            .any(|(held_out, raw)| *held_out >= MOST_PERCENT && *raw >= MUCH_PERCENT);
+    let limit = if takes_most {
+        SIGNIFICANCE_OF_MOST
+    } else {
+        SIGNIFICANCE
+    };
+    evidence.p_value >= limit
 }
 
 /// Held-out raw error of `one` relative to `other` on the joint where it is worst, percent.

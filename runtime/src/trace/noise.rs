@@ -3,7 +3,7 @@
 //! The noise of a torque is in the residual and in a column that is made of that torque, so the column explains it, on samples that were not
 //! fitted as well. The model's own torque along the same motion has none of it, and is the same but for what is missing, as an instrument
 //! is (Young 2011, Recursive Estimation and Time-Series Analysis). It need not explain as much: a spring swings, too, where its load
-//! does not follow from the motion.
+//! does not follow from the motion. And the noise of one joint's torque is in the residual of no other joint.
 
 use crate::columns::Change;
 use crate::signal::Prepared;
@@ -11,7 +11,7 @@ use crate::signal::Prepared;
 use super::gate::{Baseline, Judged, MATERIAL_PERCENT};
 use super::search::{Search, State};
 use super::trial::Trial;
-use super::verdict::Refusal;
+use super::verdict::{Evidence, Refusal};
 
 /// Noise that explains itself takes less than this off a joint's error of raw samples: it was 11 % of an arm that lacked nothing.
 const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
@@ -20,8 +20,9 @@ const MORE_THAN_NOISE_PERCENT: f64 = 20.0;
 const MOST_LEFT: f64 = 0.5;
 
 impl Search<'_> {
-    /// Whether a change of the arm that reads the torque takes structure off, or its first order lowers an error by as much as matters
-    /// where it reads that of the model, on a joint where the change itself does.
+    /// Whether a change of the arm that reads the torque takes structure off, lowers the error of another joint than that whose torque it reads
+    /// by as much as matters, or its first order lowers an error so where it reads the torque of the model, on a joint where the change itself
+    /// does.
     pub(super) fn is_more_than_noise(
         &self,
         state: &State,
@@ -29,7 +30,7 @@ impl Search<'_> {
         judged: &Judged,
         change: &dyn Change,
     ) -> bool {
-        if self.takes_structure(state, judged) {
+        if self.takes_structure(state, judged) || helps_another_joint(judged) {
             return true;
         }
         let Ok(entries) = self.first_order(state, change, self.without_noise(state)) else {
@@ -73,4 +74,17 @@ impl Search<'_> {
         }
         logs
     }
+}
+
+/// Whether it lowers the error of a joint whose torque it does not read.
+fn helps_another_joint(judged: &Judged) -> bool {
+    let own = judged.trial.candidate.joints();
+    let Evidence {
+        held_out_percent,
+        raw_percent,
+        ..
+    } = &judged.evidence;
+    let pairs = held_out_percent.iter().zip(raw_percent).enumerate();
+    let mut others = pairs.filter(|(joint, _)| !own.is_empty() && !own.contains(joint));
+    others.any(|(_, (held_out, raw))| held_out.min(*raw) >= MATERIAL_PERCENT)
 }

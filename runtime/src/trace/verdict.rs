@@ -235,8 +235,8 @@ pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
         joints.map(percent).fold(f64::NEG_INFINITY, f64::max)
     };
     let is_of_law = |refusal: &Refusal| {
-        use Refusal::{EndOfRange, Sign, Undetermined};
-        matches!(refusal, EndOfRange | Sign | Undetermined)
+        use Refusal::{EndOfRange, Sign, Undetermined, Unsteady};
+        matches!(refusal, EndOfRange | Sign | Undetermined | Unsteady)
     };
     let doubted = tried.iter().filter(|tried| {
         tried.round == last
