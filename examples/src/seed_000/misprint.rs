@@ -120,18 +120,17 @@ pub fn pairs(start: [f64; 4], end: [f64; 4]) -> Result<Vec<Pair>, Error> {
     let check = audit::against(&motor, &own, &other.into())?;
     let standard: Vec<f64> = motor.standard.iter().map(|x| own[&x.name]).collect();
     let sums = motor.base.beta(&standard);
-    let of = |name: &str| {
-        sums[motor
-            .base
-            .names
-            .iter()
-            .position(|x| x == name)
-            .expect("checked")]
-    };
+    let made: BTreeMap<&str, f64> = motor
+        .base
+        .names
+        .iter()
+        .map(String::as_str)
+        .zip(sums)
+        .collect();
     let pairs = printed.iter().zip(end).map(|(&(word, name, _), printed)| {
         let made = match word {
-            "beta" => 1.0 / of(name),
-            _ => of(name) / of(INERTIA),
+            "beta" => 1.0 / made[name],
+            _ => made[name] / made[INERTIA],
         };
         let is_one = check.quantity("apart", Some(name)).is_none();
         Pair {

@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use super::words::{columns, hertz, in_unit, joints, list, plural, way_out};
 
-/// Why a log cannot be used. `source_name` is the file, `line` counts from 1 and the header is line 1.
+/// Why a log cannot be used. `source_name` is the file, `line` counts from 1; what is wrong with a header is told of line 1, whatever comments
+/// stand above it.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LogError {

@@ -314,3 +314,30 @@ pub(super) fn worse_percent(one: &[f64], other: &[f64]) -> f64 {
         .map(|(a, b)| 100.0 * ((a / b).sqrt() - 1.0))
         .fold(f64::NEG_INFINITY, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_halves_an_error_in_every_fold_needs_less_of_a_score() {
+        let of = |p_value: f64, held_out: f64, raw: f64, improved: usize| Evidence {
+            score: 40.0,
+            p_value,
+            held_out_percent: vec![2.0, held_out],
+            raw_percent: vec![60.0, raw],
+            folds: (improved, 5),
+        };
+        assert!(!is_chance(&of(5e-4, 3.0, 1.0, 4)));
+        assert!(!is_chance(&of(0.02, 72.0, 45.0, 5)));
+        for chance in [
+            of(2e-3, 30.0, 25.0, 5),
+            of(0.02, 72.0, 45.0, 4),
+            // The other joint's raw error is another matter.
+            of(0.02, 72.0, 10.0, 5),
+            of(0.06, 72.0, 45.0, 5),
+        ] {
+            assert!(is_chance(&chance), "{chance:?}");
+        }
+    }
+}

@@ -92,11 +92,17 @@ fn separator(text: &[u8]) -> u8 {
     SEPARATORS.into_iter().reduce(most).unwrap_or(b',')
 }
 
+/// Whether a line is a row of numbers, of which some may be lost.
 fn are_numbers(content: &[u8]) -> bool {
     let separator = separator(content);
-    let mut fields = content.split(|byte| *byte == separator);
-    fields.all(|field| {
-        let text = std::str::from_utf8(field.trim_ascii());
+    let fields = content.split(|byte| *byte == separator);
+    let mut there = fields
+        .map(<[u8]>::trim_ascii)
+        .filter(|field| !field.is_empty())
+        .peekable();
+    let is_number = |field: &[u8]| {
+        let text = std::str::from_utf8(field);
         text.is_ok_and(|text| text.parse::<f64>().is_ok())
-    })
+    };
+    there.peek().is_some() && there.all(is_number)
 }

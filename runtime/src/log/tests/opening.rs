@@ -17,6 +17,12 @@ fn comments_above_a_header_are_passed_over() {
         let log = read(&text(&header, &rows(40)), 1).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(log, plain, "{header}");
     }
+    // A row that has lost a number is no header either.
+    let mut lost = rows(40);
+    lost[0] = "0.000,,0".to_owned();
+    let [commented, plain] =
+        ["# time,q1,tau1", "time,q1,tau1"].map(|header| read(&text(header, &lost), 1));
+    assert_eq!(commented.expect("a log").q, plain.expect("a log").q);
 }
 
 #[test]

@@ -60,6 +60,18 @@ fn a_law_that_may_not_be_named_says_that_something_is_missing() {
     ];
     assert_eq!(doubtful(&all).map(|tried| tried.kind.as_str()), Some("it"));
     assert_eq!(doubtful(&all[..4]), None);
+    for (refusal, is_of_law) in [
+        (Refusal::Sign, true),
+        (Refusal::EndOfRange, true),
+        (Refusal::Undetermined, true),
+        (Refusal::Unsteady, true),
+        (Refusal::Chance, false),
+        (Refusal::HeldOut, false),
+        (Refusal::AtTurns, false),
+    ] {
+        let alone = [tried("it", 1, 12.0, &[refusal])];
+        assert_eq!(doubtful(&alone).is_some(), is_of_law, "{refusal}");
+    }
     // What was found speaks for itself.
     let of = |outcome, findings| Verdict {
         tried: all.to_vec(),
