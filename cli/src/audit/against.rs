@@ -4,18 +4,18 @@ use robot_model_codegen::Compiled;
 
 use super::{Check, Finding, Quantity};
 use crate::output::{counted, rounded};
-use crate::parameters::Values;
+use crate::parameters::{Sureness, Values};
 
-/// Share by which values may be apart beside their deviations: what rounding to three digits leaves, as in [`super::base`].
+/// Share by which the rounding of a source moves values: three digits of the parts that they are made of, as in [`super::base`].
 const DIGITS: f64 = 5e-3;
 
 /// How many deviations apart values are no longer one: of a hundred parameters that are, one is so far off in one case of 150.
 const BEYOND: f64 = 4.0;
 
-/// Values of an arm, and standard deviations of its base parameters, as far as there are some.
+/// Values of an arm, and how sure they are, as far as their file says so.
 pub(super) struct Source {
     pub(super) values: Values,
-    pub(super) deviations: Vec<Option<f64>>,
+    pub(super) sureness: Sureness,
 }
 
 /// A parameter of both sources.
@@ -24,41 +24,50 @@ struct Pair<'a> {
     values: [f64; 2],
     /// Of the difference; 0 where there is none.
     std: f64,
-    /// Of the parts that it is a sum of, which were rounded each.
-    size: f64,
+    /// Of the parts that it is a sum of in each source, which were rounded each.
+    sizes: [f64; 2],
+    is_shape: bool,
 }
 
 /// What torques tell of an arm beside the same of another source: base parameters `b` and `b'` are one where
-/// `|b - b'| <= 0.005 size + 4 sqrt(s^2 + s'^2)`; `s` are deviations, and the size is `sum |k p|` of what `b = sum k p` is made of. Shapes
-/// likewise, without deviations.
+/// `|b - b'| <= 0.005 (size + size') + 4 sqrt(s^2 + s'^2)`; `s` are deviations, and the size is `sum |k p|` of what `b = sum k p` is made of.
+/// Shapes likewise. What no log told a source is compared with nothing.
 pub(super) fn check(compiled: &Compiled, sources: &[Source; 2]) -> Check {
-    let base = compiled.base.names.iter().enumerate();
-    let base = base.map(|(place, name)| {
-        let stds = sources.iter().filter_map(|one| one.deviations[place]);
-        let sizes = sources.iter().map(|one| size(compiled, &one.values, place));
+    let pair = |name, is_shape: bool, of: &dyn Fn(&Values) -> [f64; 2]| {
+        let [one, other] = sources.each_ref().map(|source| of(&source.values));
+        let stds = sources.iter();
+        let stds = stds.filter_map(|source| source.sureness.deviations.get(name));
         Pair {
             name,
-            values: [0, 1].map(|side: usize| sources[side].values.beta[place]),
+            values: [one[0], other[0]],
             std: stds.map(|std| std * std).sum::<f64>().sqrt(),
-            size: sizes.fold(0.0, f64::max),
+            sizes: [one[1], other[1]],
+            is_shape,
         }
+    };
+    let base = compiled.base.names.iter().enumerate();
+    let base = base.map(|(place, name)| {
+        pair(name.as_str(), false, &|values| {
+            [values.beta[place], size(compiled, values, place)]
+        })
     });
     let names = compiled.shape_names();
     let shapes = names.iter().enumerate().map(|(place, name)| {
-        let values = [0, 1].map(|side: usize| sources[side].values.shapes[place]);
-        Pair {
-            name,
-            values,
-            std: 0.0,
-            size: values[0].abs().max(values[1].abs()),
-        }
+        pair(name.as_str(), true, &|values| {
+            [values.shapes[place], values.shapes[place].abs()]
+        })
     });
-    let pairs: Vec<Pair<'_>> = base.chain(shapes).collect();
+    let is_untold =
+        |pair: &Pair<'_>| (sources.iter()).any(|source| source.sureness.untold.contains(pair.name));
+    let (untold, pairs): (Vec<Pair<'_>>, Vec<Pair<'_>>) = base.chain(shapes).partition(is_untold);
     let findings = pairs.iter().filter(|pair| pair.is_apart());
-    let scope = format!(
+    let mut scope = format!(
         "{} of the one source beside those of the other",
         counted(pairs.len(), "parameter")
     );
+    if !untold.is_empty() {
+        scope = format!("{scope}, without {} that no log told", untold.len());
+    }
     Check::new("against", scope, findings.map(Pair::finding).collect())
 }
 
@@ -78,7 +87,7 @@ impl Pair<'_> {
     }
 
     fn is_apart(&self) -> bool {
-        self.apart().abs() > DIGITS * self.size + BEYOND * self.std
+        self.apart().abs() > DIGITS * self.sizes.iter().sum::<f64>() + BEYOND * self.std
     }
 
     fn finding(&self) -> Finding {
@@ -87,7 +96,9 @@ impl Pair<'_> {
         let far = if self.std > 0.0 {
             format!("{:.1} deviations apart", apart.abs() / self.std)
         } else {
-            format!("{:.1} % of its parts", 100.0 * apart.abs() / self.size)
+            let size = self.sizes[0].max(self.sizes[1]);
+            let of = if self.is_shape { "it" } else { "its parts" };
+            format!("{:.1} % of {of}", 100.0 * apart.abs() / size)
         };
         let name = self.name;
         let sentence = format!("`{name}` is {one}, and {other} there: {far}");

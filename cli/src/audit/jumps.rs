@@ -13,6 +13,9 @@ const INTERVALS: i32 = 24;
 const PARTS: u32 = 32;
 const LEVELS: usize = 9;
 
+/// Parts that are cut further.
+const WIDTH: usize = 32;
+
 /// Of the joint's largest torque of effects: what is less is rounding, or a steep curve.
 const NOTHING: f64 = 1e-6;
 
@@ -67,25 +70,37 @@ fn jumps(torque: &impl Fn(f64) -> f64, fastest: f64) -> Vec<Jump> {
     let nothing = NOTHING * size;
     let pairs = ends.windows(2);
     let found = pairs.filter_map(|pair| {
-        let (mut low, mut high) = (pair[0], pair[1]);
+        let mut left = vec![[pair[0], pair[1]]];
         for _ in 0..LEVELS {
-            // Into the part that changes most: a slope has its share in each, a jump is in one.
-            let at = |part: u32| low.0 + (high.0 - low.0) * f64::from(part) / f64::from(PARTS);
-            let inner = (1..PARTS).map(|part| (at(part), torque(at(part))));
-            let all: Vec<(f64, f64)> = std::iter::once(low).chain(inner).chain([high]).collect();
-            let change = |pair: &[(f64, f64)]| (pair[1].1 - pair[0].1).abs();
-            let most = all
-                .windows(2)
-                .max_by(|x, y| change(x).total_cmp(&change(y)))?;
-            if change(most) <= nothing {
-                return None;
-            }
-            (low, high) = (most[0], most[1]);
+            // Into the parts that change most: a slope has its share in each, a jump is in one, which may be less than that of a steep slope
+            // until parts are small.
+            left = left
+                .into_iter()
+                .flat_map(|ends| parts(ends, torque))
+                .collect();
+            left.retain(|ends| change(ends) > nothing);
+            left.sort_by(|x, y| change(y).total_cmp(&change(x)));
+            left.truncate(WIDTH);
         }
+        let [low, high] = left.first()?;
         let by = high.1 - low.1;
         Some(Jump { speed: high.0, by })
     });
     found.collect()
+}
+
+/// Speeds and torques at both ends of an interval.
+type Ends = [(f64, f64); 2];
+
+fn change([low, high]: &Ends) -> f64 {
+    (high.1 - low.1).abs()
+}
+
+fn parts([low, high]: Ends, torque: &impl Fn(f64) -> f64) -> Vec<Ends> {
+    let at = |part: u32| low.0 + (high.0 - low.0) * f64::from(part) / f64::from(PARTS);
+    let inner = (1..PARTS).map(|part| (at(part), torque(at(part))));
+    let all: Vec<(f64, f64)> = std::iter::once(low).chain(inner).chain([high]).collect();
+    all.windows(2).map(|ends| [ends[0], ends[1]]).collect()
 }
 
 #[cfg(test)]
@@ -129,5 +144,16 @@ mod tests {
         let found = jumps(&ramp, 3.0);
         assert_eq!(found.len(), 1);
         assert!((found[0].by - 0.04).abs() < 1e-9, "{}", found[0].by);
+        // Behind one of which any part of an interval has more than the jump.
+        let steep = |v: f64| {
+            if v.abs() < 0.02 {
+                8.0 * v / 0.02
+            } else {
+                8.01 * v.signum()
+            }
+        };
+        let found = jumps(&steep, 3.0);
+        assert_eq!(found.len(), 1);
+        assert!((found[0].by - 0.01).abs() < 1e-9, "{}", found[0].by);
     }
 }

@@ -133,7 +133,7 @@ pub fn against(
     let source = |given| {
         Ok::<_, Error>(Source {
             values: parameters::by_name(compiled, given)?,
-            deviations: vec![None; compiled.base.names.len()],
+            sureness: parameters::Sureness::default(),
         })
     };
     Ok(against::check(compiled, &[source(one)?, source(other)?]))
@@ -200,33 +200,16 @@ impl Check {
 }
 
 impl Audit {
-    /// What is audited, and where it is from.
-    fn values(&self, compiled: &Compiled) -> Result<(Values, String), Error> {
-        let values = parameters::values(compiled, self.parameters.as_deref())?;
-        let (mut values, _, source) = values;
-        if let (Some(file), None) = (&self.parameters, &values.standard) {
-            match parameters::beside(compiled, file, &values.beta)? {
-                Beside::Nothing => {}
-                Beside::Same(standard) => values.standard = Some(standard),
-                Beside::Other => output::say(&format!(
-                    "warning: {source}: its standard parameters do not make its base parameters in this arm, and are left out"
-                )),
-            }
-        }
-        Ok((values, source))
-    }
-
     /// What is audited beside another file.
     fn beside(&self, compiled: &Compiled, values: Values, other: &Path) -> Result<Check, Error> {
-        let none = vec![None; compiled.base.names.len()];
-        let own = self.parameters.as_deref();
+        let own = self.parameters.as_deref().map(parameters::sureness);
         let own = Source {
             values,
-            deviations: own.map_or(Ok(none), |own| parameters::deviations(compiled, own))?,
+            sureness: own.transpose()?.unwrap_or_default(),
         };
         let other = Source {
-            values: parameters::resolve(compiled, Some(other))?,
-            deviations: parameters::deviations(compiled, other)?,
+            values: values_of(compiled, Some(other))?.0,
+            sureness: parameters::sureness(other)?,
         };
         Ok(against::check(compiled, &[own, other]))
     }
@@ -243,7 +226,7 @@ impl Audit {
         let compiled = spec::compile(&self.spec)?;
         let (mut checks, mut source) = (Vec::new(), None);
         if self.base.is_none() || self.parameters.is_some() || self.against.is_some() {
-            let (values, of) = self.values(&compiled)?;
+            let (values, of) = values_of(&compiled, self.parameters.as_deref())?;
             checks = self::checks(&compiled, &values);
             source = Some(of);
             if let Some(other) = &self.against {
@@ -277,6 +260,21 @@ impl Audit {
             counted(report.checks.len(), "check")
         )))
     }
+}
+
+/// The values of a file, or of the spec where there is none, and where they are from.
+fn values_of(compiled: &Compiled, file: Option<&Path>) -> Result<(Values, String), Error> {
+    let (mut values, _, source) = parameters::values(compiled, file)?;
+    if let (Some(file), None) = (file, &values.standard) {
+        match parameters::beside(compiled, file, &values.beta)? {
+            Beside::Nothing => {}
+            Beside::Same(standard) => values.standard = Some(standard),
+            Beside::Other => output::say(&format!(
+                "warning: {source}: its standard parameters do not make its base parameters in this arm, and are left out"
+            )),
+        }
+    }
+    Ok((values, source))
 }
 
 /// Base parameters that a file gives.

@@ -3,7 +3,7 @@
 mod beside;
 mod over;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use robot_model_codegen::Compiled;
@@ -62,6 +62,22 @@ pub(crate) fn values(
     let found = parameters::values(compiled, &given);
     let (values, doubts) = found.map_err(|error| refused(&source, &error))?;
     Ok((values, doubts, source))
+}
+
+/// What a file of `identify` says of how sure its values are, by name: standard deviations, and what no log told.
+#[derive(Default)]
+pub(crate) struct Sureness {
+    pub(crate) deviations: BTreeMap<String, f64>,
+    pub(crate) untold: BTreeSet<String>,
+}
+
+/// How sure the values of a file are, as far as it says so.
+pub(crate) fn sureness(path: &Path) -> Result<Sureness, Error> {
+    let file = json::read(path)?;
+    Ok(Sureness {
+        deviations: file::deviations(&file),
+        untold: file::untold(&file),
+    })
 }
 
 /// Standard deviations that a file of `identify` has for base parameters, in their order; none each where it has none.

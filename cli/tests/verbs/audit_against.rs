@@ -82,7 +82,7 @@ fn a_value_that_is_another_is_told_from_either_side() {
     assert_eq!(code, Some(1), "{said}");
     let told = [
         "`one.viscous_friction.fvr` is 1.8, and 1.9 there: 5.3 % of its parts",
-        "`one.stribeck.vs` is 0.1, and 0.12 there: 16.7 % of its parts",
+        "`one.stribeck.vs` is 0.1, and 0.12 there: 16.7 % of it",
     ];
     assert_eq!(findings(&check), told);
     let numbers = check["quantities"].as_array().expect("a list");
@@ -110,6 +110,32 @@ fn deviations_of_a_fit_are_room() {
         };
         assert!(is_told, "{viscous}: {found:?} {said}");
     }
+}
+
+/// A Stribeck speed of two days, and a sum that a log did not tell on one of them.
+#[test]
+fn shapes_have_deviations_and_what_no_log_told_is_left_out() {
+    let with = |name: &str, value: f64, std: Value| {
+        let mut file = fit(1.8, 0.01);
+        let list = file["parameters"].as_array_mut().expect("a list");
+        let entry = list.iter_mut().find(|entry| entry["name"] == name);
+        *entry.expect("it is there") = value!({"name": name, "value": value, "std": std});
+        file
+    };
+    let vs = "one.stribeck.vs";
+    for (other, is_one) in [(0.11, true), (0.16, false)] {
+        let files = [with(vs, 0.1, value!(0.01)), with(vs, other, value!(0.01))];
+        let (code, check, said) = asked(&files[0], &files[1]);
+        assert_eq!(
+            (code == Some(0), findings(&check).is_empty()),
+            (is_one, is_one),
+            "{said}"
+        );
+    }
+    let untold = with("one.my", 0.7, Value::Null);
+    let (code, _, said) = asked(&untold, &fit(1.8, 0.01));
+    assert_eq!(code, Some(0), "{said}");
+    assert!(said.contains("without 1 that no log told"), "{said}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The two forms of a parameter file: names and values, and what `identify --json` writes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value};
 
@@ -47,6 +47,15 @@ pub fn deviations(file: &Value) -> BTreeMap<String, f64> {
         Some((entry["name"].as_str()?.to_owned(), std))
     });
     known.collect()
+}
+
+/// Parameters for which a file of `identify` says that no log told them: their deviations are null.
+#[must_use]
+pub fn untold(file: &Value) -> BTreeSet<String> {
+    let list = file["parameters"].as_array().into_iter().flatten();
+    let untold = list.filter(|entry| entry.get("std").is_some_and(Value::is_null));
+    let names = untold.filter_map(|entry| Some(entry["name"].as_str()?.to_owned()));
+    names.collect()
 }
 
 fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {
