@@ -25,7 +25,7 @@ pub(crate) use chain::MOST_JOINTS;
 pub(crate) use definition::check_definition;
 #[cfg(feature = "log-settings")]
 pub(crate) use log::{check_settings, check_unit};
-pub(crate) use size::{is_unlikely, written};
+pub(crate) use size::{is_beyond, is_unlikely, written};
 pub(crate) use unit::Dimension;
 
 use std::collections::BTreeMap;

@@ -108,6 +108,13 @@ const LARGEST: [(Dimension, f64); 9] = [
     (Dimension::TORQUE, 1e12),
 ];
 
+/// Whether a number in SI units is larger than a spec takes, as limits are that stand for none.
+pub(crate) fn is_beyond(value: f64, dimension: Dimension) -> bool {
+    let largest = LARGEST.iter().find(|(of, _)| *of == dimension);
+    let largest = largest.map_or(LARGEST_LENGTH, |(_, largest)| *largest);
+    value.abs() > largest
+}
+
 /// Refuses what no arm has; a `bare` number has no unit behind it.
 pub(super) fn check(value: f64, dimension: Dimension, is_bare: bool, span: Span) -> Checked<()> {
     let size = value.abs();

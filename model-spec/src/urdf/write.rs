@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use urdf_rs::{JointLimit, JointType};
+use urdf_rs::{Joint, JointType};
 
 use super::body::Carried;
 use super::tree::{Chain, ChainJoint};
 use super::{ASSUMED_GRAVITY, ImportOptions, Inertials};
-use crate::check::{Dimension, written};
+use crate::check::{Dimension, is_beyond, written};
 pub(super) use crate::export::number;
 use crate::transform::{quarter_turns, rpy, upper_camel};
 
@@ -177,15 +177,27 @@ pub(super) fn spec(
     text
 }
 
-fn has_range(limit: &JointLimit) -> bool {
-    limit.lower < limit.upper && limit.lower.is_finite() && limit.upper.is_finite()
+/// Whether a joint's limits are a range to move in, of a size that limits may have.
+fn has_range(joint: &Joint) -> bool {
+    let (lower, upper) = (joint.limit.lower, joint.limit.upper);
+    let of = range_dimension(joint);
+    let is_end = |end: f64| end.is_finite() && !is_beyond(end, of);
+    lower < upper && is_end(lower) && is_end(upper)
+}
+
+fn range_dimension(joint: &Joint) -> Dimension {
+    if joint.joint_type == JointType::Prismatic {
+        Dimension::LENGTH
+    } else {
+        Dimension::ANGLE
+    }
 }
 
 /// Joints whose limits leave no way to move, or are no numbers: the spec has none for them.
 pub(super) fn without_range(chain: &Chain) -> Vec<String> {
     let joints = chain.joints.iter().map(|joint| joint.joint);
     joints
-        .filter(|joint| joint.joint_type != JointType::Continuous && !has_range(&joint.limit))
+        .filter(|joint| joint.joint_type != JointType::Continuous && !has_range(joint))
         .map(|joint| {
             format!(
                 "joint `{}` has limits from {} to {}, which are no range to move in: left out",
@@ -214,15 +226,8 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
     }
     let _ = write!(line, " axis = {};", list(&source.axis.xyz.0));
     let limit = &source.limit;
-    if source.joint_type != JointType::Continuous && has_range(limit) {
-        let end = |x: f64| {
-            let dimension = if prismatic {
-                Dimension::LENGTH
-            } else {
-                Dimension::ANGLE
-            };
-            written(x, dimension, number)
-        };
+    if source.joint_type != JointType::Continuous && has_range(source) {
+        let end = |x: f64| written(x, range_dimension(source), number);
         let (low, high) = (end(limit.lower), end(limit.upper));
         let _ = write!(line, " position = {low} .. {high};");
     }
@@ -235,7 +240,7 @@ fn joint_line(joint: &ChainJoint, name: &str, link: &str) -> String {
         ("velocity", limit.velocity, speed),
         ("torque", limit.effort, load),
     ] {
-        if value > 0.0 && value.is_finite() {
+        if value > 0.0 && value.is_finite() && !is_beyond(value, dimension) {
             let _ = write!(line, " {key} = {};", written(value, dimension, number));
         }
     }

@@ -331,6 +331,23 @@ fn what_is_left_out_is_told() {
     }
 }
 
+/// Exporters write `1e16` where there is no limit; a spec would refuse it.
+#[test]
+fn limits_beyond_any_are_none() {
+    let mut parts = two_joints();
+    let far = "lower='-1e16' upper='1e16' velocity='1e12' effort='1e16'";
+    for part in &mut parts {
+        *part = part.replace("lower='-1' upper='2' effort='10' velocity='3'", far);
+    }
+    assert!(parts.iter().any(|part| part.contains(far)));
+    let imported = import(&urdf(&parts), &ImportOptions::default()).unwrap();
+    for limit in ["position =", "velocity =", "torque ="] {
+        assert!(!imported.spec.contains(limit), "{}", imported.spec);
+    }
+    let told = |warning: &&String| warning.contains("which are no range to move in: left out");
+    assert_eq!(imported.warnings.iter().filter(told).count(), 2);
+}
+
 #[test]
 fn a_name_of_a_novel_is_refused() {
     let mut parts = two_joints();

@@ -47,7 +47,7 @@ impl<'a> Opening<'a> {
             }
             let (above, header) = match comment {
                 Some((of_comment, mut header))
-                    if are_numbers(content) && of_comment + 1 == above =>
+                    if is_row_of(&header, content) && of_comment + 1 == above =>
                 {
                     header.push(b'\n');
                     (of_comment, [header, line].concat())
@@ -78,10 +78,11 @@ fn unmarked(content: &[u8]) -> Option<&[u8]> {
     MARKS.contains(first).then(|| rest.trim_ascii())
 }
 
-/// That which there is most of in the header.
+/// That which there is most of in the header, quoted names left out.
 fn separator(text: &[u8]) -> u8 {
     let header = text.split(|byte| *byte == b'\n').next().unwrap_or(text);
-    let count = |separator: u8| header.split(|byte| *byte == separator).count();
+    let plain = || header.split(|byte| *byte == b'"').step_by(2).flatten();
+    let count = |separator: u8| plain().filter(|byte| **byte == separator).count();
     let most = |best: u8, next: u8| {
         if count(next) > count(best) {
             next
@@ -92,17 +93,19 @@ fn separator(text: &[u8]) -> u8 {
     SEPARATORS.into_iter().reduce(most).unwrap_or(b',')
 }
 
-/// Whether a line is a row of numbers, of which some may be lost.
-fn are_numbers(content: &[u8]) -> bool {
-    let separator = separator(content);
-    let fields = content.split(|byte| *byte == separator);
-    let mut there = fields
-        .map(<[u8]>::trim_ascii)
-        .filter(|field| !field.is_empty())
-        .peekable();
+/// Whether a line is a row of the columns that a comment names: as many fields, the first of which is a number, of whatever decimals, or
+/// lost.
+fn is_row_of(header: &[u8], row: &[u8]) -> bool {
+    let separator = separator(header);
+    let fields = |line: &[u8]| line.split(|byte| *byte == separator).count();
+    let mut own = row.split(|byte| *byte == separator).map(<[u8]>::trim_ascii);
     let is_number = |field: &[u8]| {
-        let text = std::str::from_utf8(field);
-        text.is_ok_and(|text| text.parse::<f64>().is_ok())
+        let text = String::from_utf8_lossy(field).replace(',', ".");
+        text.is_empty() || text.parse::<f64>().is_ok()
     };
-    there.peek().is_some() && there.all(is_number)
+    let is_blank = || {
+        row.iter()
+            .all(|byte| *byte == separator || byte.is_ascii_whitespace())
+    };
+    fields(header) == fields(row) && own.next().is_some_and(is_number) && !is_blank()
 }

@@ -17,6 +17,12 @@ fn comments_above_a_header_are_passed_over() {
         let log = read(&text(&header, &rows(40)), 1).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(log, plain, "{header}");
     }
+    // Text in a column that nobody asks for, and a name with commas.
+    let texts: Vec<String> = rows(40).iter().map(|row| format!("{row},run")).collect();
+    for header in ["# time,q1,tau1,mode", "time,q1,tau1,\"a; b; c; d; e\""] {
+        let log = read(&text(header, &texts), 1).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!((&log.q, &log.tau), (&plain.q, &plain.tau), "{header}");
+    }
     // A row that has lost a number is no header either.
     let mut lost = rows(40);
     lost[0] = "0.000,,0".to_owned();
@@ -66,9 +72,11 @@ fn columns_are_separated_as_the_header_is() {
         assert_eq!(log, plain, "{separator:?}");
     }
     // Semicolons beside decimal commas, as spreadsheets of half of Europe write them.
-    let decimal = text("time;q1;tau1", &["0,01;0,1;2,5".to_owned()]);
-    assert_eq!(
-        refusal(&decimal, 1),
-        "monday.csv:2: `0,01` in column `time` is not a number; write decimals with a point"
-    );
+    for header in ["time;q1;tau1", "# time;q1;tau1"] {
+        let decimal = text(header, &["0,01;0,1;2,5".to_owned()]);
+        assert_eq!(
+            refusal(&decimal, 1),
+            "monday.csv:2: `0,01` in column `time` is not a number; write decimals with a point"
+        );
+    }
 }
