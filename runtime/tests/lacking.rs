@@ -83,3 +83,33 @@ fn torque_that_is_held_for_a_sample_moves_values_within_their_deviations() {
         off(&known)
     );
 }
+
+/// Noise of 5 % of the torque that is alike over 20 ms, as a fixed series.
+fn noisy(log: &Log, late: usize) -> Log {
+    let mut log = log.clone();
+    log.tau[0].rotate_right(late);
+    let squares: f64 = log.tau[0].iter().map(|tau| tau * tau).sum();
+    let size = 0.05 * (squares / log.tau[0].len() as f64).sqrt();
+    let (mut state, mut seed) = (0.0, 1_u32);
+    for tau in &mut log.tau[0] {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let white = (f64::from(seed >> 8) / f64::from(1 << 24) - 0.5) * 12_f64.sqrt();
+        state = 0.905 * state + (1.0 - 0.905_f64.powi(2)).sqrt() * white;
+        *tau += size * state;
+    }
+    log
+}
+
+#[test]
+fn a_delay_that_noise_hides_is_in_the_deviations() {
+    let [known, noise] = fits(&noisy(&measure(0.0), 5));
+    assert!(known.delays.is_empty(), "{:?}", known.delays);
+    let hidden = known.hidden_delay.expect("10 ms");
+    // A noisy torque has a noisy slope.
+    assert!((0.004..0.012).contains(&hidden.seconds), "{hidden:?}");
+    assert!(off(&noise)[2] > 4.0, "{:?}", off(&noise));
+    let known = off(&known);
+    assert!(known.iter().all(|off| *off < 2.5), "{known:?}");
+    let [on_time, _] = fits(&noisy(&measure(0.0), 0));
+    assert_eq!(on_time.hidden_delay, None);
+}

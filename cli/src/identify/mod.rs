@@ -10,6 +10,7 @@ pub(crate) mod factor_file;
 pub(crate) mod far;
 pub(crate) mod fit;
 mod fixed;
+mod hidden_delay;
 mod large;
 mod leftover;
 mod likeness;
@@ -226,6 +227,7 @@ impl IdentifyArguments {
             ..identify
         };
         let reading = readings::others(form, &identify, &logs, &estimate);
+        let is_as_meant = reading.is_none();
         let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref(), reading);
         doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
         let motions = self.instruments.iter().zip(&identify.instruments);
@@ -236,7 +238,10 @@ impl IdentifyArguments {
             doubts.push(at_turns::left_out(form.arm()));
         }
         progress.notes(doubts);
-        faults.extend(self.late_channels(&estimate, &progress));
+        // Columns of other joints look late.
+        if is_as_meant {
+            faults.extend(self.late_channels(&estimate, &progress));
+        }
 
         let found = OfEquations {
             estimate: &estimate,

@@ -5,8 +5,8 @@ use robot_model::log::Log;
 
 use super::fit::Fit;
 use super::{
-    IdentifyArguments, at_turns, brief, coarse, doubts, fixed, leftover, nominal, one_sine,
-    other_friction, steps, twice, untold,
+    IdentifyArguments, at_turns, brief, coarse, doubts, fixed, hidden_delay, leftover, nominal,
+    one_sine, other_friction, steps, twice, untold,
 };
 use crate::Error;
 use crate::output::names;
@@ -117,6 +117,7 @@ impl IdentifyArguments {
         }
         if leftover.is_none() && !is_told {
             all.extend(other_friction::doubt(estimate));
+            all.extend(hidden_delay::doubt(estimate));
         }
         all.extend(leftover);
         all.extend(one_sine::doubt(estimate, logs));

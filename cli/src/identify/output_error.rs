@@ -163,10 +163,10 @@ impl IdentifyArguments {
             bands: self.bands,
             ..Identify::default()
         };
-        if let Some(doubt) = readings::others(form, &identify, logs, linear) {
-            progress.note(&format!("note: {doubt}"));
+        match readings::others(form, &identify, logs, linear) {
+            Some(doubt) => progress.note(&format!("note: {doubt}")),
+            None => faults.extend(self.late_channels(linear, progress)),
         }
-        faults.extend(self.late_channels(linear, progress));
     }
 
     /// What is said of the ranges of parameters.

@@ -194,7 +194,10 @@ pub(super) fn others(
     found: &Estimate,
 ) -> Option<String> {
     let worst = found.relative_percent.iter().copied().fold(0.0, f64::max);
-    if worst <= WELL_IN_TURNS {
+    // A joint that hardly bends with gravity may fit with a torque of the wrong sign, and friction that pushes.
+    let asks_signs =
+        worst > WELL_IN_SIGNS || doubts::impossible(found, form.unknowns()).next().is_some();
+    if worst <= WELL_IN_TURNS && !asks_signs {
         return None;
     }
     let log = excerpt(logs.first()?);
@@ -208,8 +211,7 @@ pub(super) fn others(
     for reading in units(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
     }
-    // A joint that hardly bends with gravity may fit with a torque of the wrong sign, and friction that pushes.
-    if worst > WELL_IN_SIGNS || doubts::impossible(found, form.unknowns()).next().is_some() {
+    if asks_signs {
         let joints = 0..form.dof();
         let signs = joints.flat_map(|joint| {
             let channels = [Channel::Position, Channel::Torque];
@@ -224,17 +226,17 @@ pub(super) fn others(
             candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
+    candidates.retain(|candidate| is_far_less(&candidate.found.left, &as_logged));
     let best = candidates.into_iter().reduce(Candidate::better)?;
-    let best_left = &best.found.left;
-    let most = |percents: &[f64]| percents.iter().copied().fold(0.0, f64::max);
-    is_far_less(best_left, &as_logged).then(|| {
-        let [what, question] = best.reading.said(&found.joints);
-        format!(
-            "with {what} the model leaves {:.1} % of the torque of its worst joint, as logged {:.0} %: {question}",
-            most(best_left),
-            most(&as_logged)
-        )
-    })
+    let left = &best.found.left;
+    // Of the joint that it mends most.
+    let fall = |joint: &usize| as_logged[*joint] - left[*joint];
+    let joint = (0..left.len()).max_by(|a, b| fall(a).total_cmp(&fall(b)))?;
+    let [what, question] = best.reading.said(&found.joints);
+    Some(format!(
+        "with {what} the model leaves {:.1} % of the torque of `{}`, as logged {:.0} %: {question}",
+        left[joint], found.joints[joint], as_logged[joint]
+    ))
 }
 
 /// Units that a log may be in.
@@ -250,7 +252,7 @@ fn units(model: &Model, log: &Log, worst: f64) -> Vec<Reading> {
     if worst > WELL && !far.is_empty() {
         readings.push(Reading::In(DEGREES, all()));
     }
-    if ranges.iter().all(|(_, range)| *range < MOST_TURNS) {
+    if worst > WELL_IN_TURNS && ranges.iter().all(|(_, range)| *range < MOST_TURNS) {
         readings.push(Reading::In(TURNS, all()));
     }
     if worst > WELL && ranges.len() > 1 {

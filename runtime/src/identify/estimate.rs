@@ -8,7 +8,7 @@ use super::instruments::Hausman;
 use super::late::{Delay, Late};
 use super::least_squares::Solution;
 use super::possible::Possible;
-use super::{AtTurns, Bootstrap, Combination, Essential, Method, OtherFriction};
+use super::{AtTurns, Bootstrap, Combination, Essential, HiddenDelay, Method, OtherFriction};
 
 /// Which equations the parameters were identified with; both have the same parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -123,6 +123,8 @@ pub struct Estimate {
     pub held_torques: Vec<Delay>,
     /// Joints whose torque follows their speed in another way than the friction of the spec; deviations have what that moves values by.
     pub other_friction: Vec<OtherFriction>,
+    /// A delay of all torques that noise hides from [`Self::delays`]; deviations have what it moves values by. None where there are others.
+    pub hidden_delay: Option<HiddenDelay>,
 }
 
 impl Estimate {
@@ -183,11 +185,13 @@ impl Estimate {
             delays: Vec::new(),
             held_torques: Vec::new(),
             other_friction: Vec::new(),
+            hidden_delay: None,
         }
     }
 
     pub(super) fn with_late(self, late: Late) -> Self {
         Self {
+            hidden_delay: self.hidden_delay.filter(|_| late.told.is_empty()),
             delays: late.told,
             held_torques: late.held,
             ..self

@@ -4,8 +4,9 @@
 //! turns, whether one more law of its speed `v` is there: `sign(v) exp(-(v/w)^2)` of some widths `w`, as Stribeck friction has it,
 //! `sign(v)` or `v |v|`. Where one is, values are off by no less than what it moves them by.
 //!
-//! A torque that is set at a sample and holds until the next is early by half of one. Few logs say which of both theirs is, so deviations
-//! have what half a sample moves values by, as far as the log itself does not tell the time of its torque better.
+//! A torque that is set at a sample and holds until the next is early by half of one. Few logs say which of both theirs is, so two deviations
+//! have what half a sample moves values by, as far as the log itself does not tell the time of its torque better. Where it tells a delay that
+//! is longer, and noise hides what that leaves of errors, deviations have what it moves values by.
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -13,7 +14,7 @@ use std::ops::Range;
 use super::deviated::Solved;
 use super::least_squares::{Factors, Solution};
 use super::stack::{Stack, norm, percent};
-use super::{Beyond, Identify, longest_period, turns};
+use super::{Beyond, Identify, is_delay, longest_period, turns};
 use crate::columns::Arm;
 use crate::signal::Prepared;
 
@@ -56,10 +57,22 @@ pub struct OtherFriction {
     pub percent: f64,
 }
 
+/// A delay of all torques that a log tells by its deviations alone: noise hides what it leaves of errors, by which a [`Delay`](super::Delay) is
+/// told.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct HiddenDelay {
+    /// By how much torques are late, s; negative where they are early.
+    pub seconds: f64,
+    /// Standard deviation, s.
+    pub std: f64,
+}
+
 /// What values may be off by.
 #[derive(Default)]
 pub(super) struct Lacking {
     pub friction: Vec<OtherFriction>,
+    pub delay: Option<HiddenDelay>,
     /// Of each unknown, in its unit; nothing where nobody asked.
     pub off: Vec<f64>,
     /// Unknowns that no rows but those at turns tell.
@@ -98,7 +111,8 @@ impl Identify {
         }
         let rows = Rows::new(arm, logs, passed, stack);
         let mut found = self.laws(&rows).unwrap_or_default();
-        let moved = self.moved_by_time(&rows, solved).unwrap_or_default();
+        let (delay, moved) = self.moved_by_time(&rows, solved).unwrap_or_default();
+        found.delay = delay;
         found.at_turns = self.told_at_turns(solved);
         found.off.resize(stack.unknowns.len(), 0.0);
         let pairs = found.off.iter_mut().zip(moved);
@@ -174,21 +188,35 @@ impl Identify {
         of_joints.into_iter().collect()
     }
 
-    /// What the time of torques that nobody tells moves values by.
-    fn moved_by_time(&self, rows: &Rows<'_>, solved: &Solved) -> Option<Vec<f64>> {
+    /// What the time of torques moves values by, that nobody tells or that is beyond a sample.
+    fn moved_by_time(
+        &self,
+        rows: &Rows<'_>,
+        solved: &Solved,
+    ) -> Option<(Option<HiddenDelay>, Vec<f64>)> {
         let (asked, own) = rows.with_slopes();
         let mut found = self.solve_stack(&asked).ok()?;
         found.std = self.deviations_of_products(&asked, &found);
-        let most = 0.5 * HELD * longest_period(rows.logs);
-        let seconds = if found.is_told(own) {
-            found.estimate[own].hypot(found.std[own]).min(most)
-        } else {
-            most
+        let period = longest_period(rows.logs);
+        let most = 0.5 * HELD * period;
+        let told = found.is_told(own).then(|| HiddenDelay {
+            seconds: found.estimate[own],
+            std: found.std[own],
+        });
+        let is_sure = |delay: &HiddenDelay| {
+            delay.seconds.abs() > DEVIATIONS * delay.std && is_delay(delay.seconds, period)
+        };
+        let delay = told.filter(is_sure);
+        let seconds = match (delay, told) {
+            (Some(sure), _) => sure.seconds,
+            (None, Some(told)) => told.seconds.hypot(told.std).min(most),
+            (None, None) => most,
         };
         // By a second they are moved as far as the slopes are fitted by the other columns, joints weighed as in the fit.
         let slopes = Factors::new(&rows.of_slopes(&solved.stack));
         let moved = slopes.solve(&solved.solution.scale, &vec![1.0; solved.stack.dof()]);
-        Some(moved.estimate.iter().map(|x| x * seconds).collect())
+        let moved = moved.estimate.iter().map(|x| x * seconds);
+        Some((delay, moved.collect()))
     }
 }
 
@@ -241,6 +269,7 @@ impl Beside {
         });
         Lacking {
             friction: friction.collect(),
+            delay: None,
             off: off.collect(),
             at_turns: Vec::new(),
         }

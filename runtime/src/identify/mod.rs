@@ -68,7 +68,7 @@ use fitted::Fitted;
 pub use hac::correlation_time;
 pub use instruments::Hausman;
 use lacking::Lacking;
-pub use lacking::OtherFriction;
+pub use lacking::{HiddenDelay, OtherFriction};
 pub(crate) use late::longest_period;
 pub use late::{Delay, is_delay};
 pub use least_squares::{Factors, RANK_TOLERANCE, Solution};
@@ -280,6 +280,7 @@ impl Identify {
             bootstrap: beside.bootstrap,
             essential: beside.essential,
             other_friction: lacking.friction,
+            hidden_delay: lacking.delay,
             shape_std,
             is_without_turns,
             ..estimate

@@ -64,6 +64,7 @@ impl Carried {
             delays: alone.delays.clone(),
             held_torques: alone.held_torques.clone(),
             other_friction: alone.other_friction.clone(),
+            hidden_delay: alone.hidden_delay,
             ..found
         };
         estimate.parameters.truncate(count);

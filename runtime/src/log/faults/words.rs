@@ -85,7 +85,7 @@ impl fmt::Display for Fault {
                 let (rest, way_out) = late.words();
                 write!(
                     f,
-                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} with it; its error is {:.0} % less without that: \
+                    "{channel} of joint `{joint}` is {:.5} s +- {std:.1e} {} against {rest} are off by what makes up for that; its error is {:.0} % less without that: \
                      {way_out}",
                     delay.abs(),
                     late_or_early(*delay),
@@ -122,11 +122,11 @@ impl LateChannel {
     const fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Torque => (
-                "the position, and friction and inertia are found",
+                "the position, and values of friction and inertia",
                 "`time_delay;` among the effects finds one delay of all joints, up to 0.03 s, longer ones are to be taken out of the log",
             ),
             Self::Position => (
-                "all other channels, and all that depends on it is found",
+                "all other channels, and values of all that depends on it",
                 "move the column by so much",
             ),
         }
