@@ -82,10 +82,13 @@ struct TermReport<'a> {
 
 #[derive(Serialize)]
 struct ShareReport {
-    /// position, velocity, acceleration, load or time
+    /// position, velocity, acceleration, load, time, position-and-velocity, or positions or velocities of two joints
     of: &'static str,
-    /// None of time.
+    /// The joint, the first of two; none of time.
     joint: Option<usize>,
+    /// Both of two.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    joints: Vec<usize>,
     /// Of the residual's power in the band of the fit, out of fold.
     share: f64,
 }
@@ -270,10 +273,14 @@ fn evidence(evidence: &Evidence) -> EvidenceReport<'_> {
 }
 
 fn whereabouts(one: &Whereabouts) -> WhereReport<'_> {
-    let share = |share: &Share| ShareReport {
-        of: share.of.name(),
-        joint: share.of.joint().map(|joint| joint + 1),
-        share: share.share,
+    let share = |share: &Share| {
+        let joints: Vec<usize> = share.of.joints().iter().map(|joint| joint + 1).collect();
+        ShareReport {
+            of: share.of.name(),
+            joint: joints.first().copied(),
+            joints: if joints.len() > 1 { joints } else { Vec::new() },
+            share: share.share,
+        }
     };
     WhereReport {
         joint: one.joint + 1,

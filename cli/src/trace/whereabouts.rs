@@ -1,7 +1,7 @@
 //! What the structure of a residual follows from, for people.
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Outcome, Quantity, Share, Step, Whereabouts};
+use robot_model::trace::{Outcome, Share, Step, Whereabouts};
 
 use crate::close_the_loop::Loop;
 use crate::output::significant;
@@ -14,7 +14,7 @@ const LEAST_PERCENT: f64 = 10.0;
 /// A step is what structure is where it takes this share off it.
 const MOST: f64 = 0.5;
 
-/// Position and velocity together are told where they say so much more than either alone.
+/// Two quantities at once are told where they say so much more than one alone.
 const MORE: f64 = 0.1;
 
 /// What is said of each joint's error that still follows the motion, or where it lives: the first says of which joint it is.
@@ -35,7 +35,11 @@ pub(super) fn structure_left(closed: &Loop) -> Vec<Vec<String>> {
             Some(step) if step.share > MOST => "is that of a level which changes",
             _ => "still follows the motion",
         };
-        let follows = format!("{share:.0} % of the error's power on {name} {follows}");
+        let follows = if left.is_material() {
+            format!("{share:.0} % of the error's power on {name} {follows}")
+        } else {
+            format!("the error on {name} follows the motion in part")
+        };
         let step = step.map(|step| stepped(closed, joint, &step));
         let exceeded = verdict.noise_floor[joint].exceeded();
         let exceeded = exceeded.filter(|_| verdict.outcome == Outcome::Unexplained);
@@ -68,7 +72,7 @@ fn stepped(closed: &Loop, joint: usize, step: &Step) -> String {
 /// One line: the term of the equations and the quantities a curve in which explains most of a joint's residual, and the highest line of its spectrum.
 fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
     let names = closed.before.arm.joints();
-    let is_both = |share: &&Share| matches!(share.of, Quantity::Motion(_));
+    let is_both = |share: &&Share| share.of.is_surface();
     let mut alone = one.shares.iter().filter(|share| !is_both(share));
     let most = alone.next().map_or(0.0, |share| share.share);
     let counts = |share: &&Share| !is_both(share) || share.share > most + MORE;
@@ -78,9 +82,15 @@ fn whereabouts(closed: &Loop, one: &Whereabouts) -> String {
         .filter(|(_, percent)| *percent >= LEAST_PERCENT)
         .map(|(of, percent)| {
             let name = of.name().replace('-', " ");
-            match of.joint() {
-                Some(joint) => format!("{percent:.0} % a function of {name} of {}", names[joint]),
-                None => format!("{percent:.0} % a function of {name}"),
+            let joints = of.joints();
+            let joints: Vec<&str> = joints.iter().map(|&k| names[k].as_str()).collect();
+            if joints.is_empty() {
+                format!("{percent:.0} % a function of {name}")
+            } else {
+                format!(
+                    "{percent:.0} % a function of {name} of {}",
+                    joints.join(" and ")
+                )
             }
         })
         .collect();

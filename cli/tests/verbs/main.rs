@@ -22,6 +22,7 @@ mod delays;
 mod dissect;
 mod doubts;
 mod drive_gains;
+mod elsewhere;
 mod energies;
 mod equations;
 mod eval;

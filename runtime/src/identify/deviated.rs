@@ -106,15 +106,18 @@ impl Identify {
     /// Standard deviations of a solution with further columns, slopes of its torque by shapes, beside its own; none of what the logs do not
     /// tell from others with all of them. Shapes stay where they were found.
     pub(crate) fn beside_slopes(&self, whole: &Stack, solution: &Solution) -> Vec<Option<f64>> {
-        let joint = Factors::new(whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
-        let mut with_shapes = solution.clone();
-        with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
-        with_shapes.unexcited = joint.unexcited;
-        let std = self.deviations(whole, &with_shapes);
-        let is_told = |k: &usize| !with_shapes.unexcited.contains(k);
-        (0..std.len())
-            .map(|k| is_told(&k).then_some(std[k]))
-            .collect()
+        told(whole, solution, &|with| self.deviations(whole, with))
+    }
+
+    /// The same, of noise alone: what rows at turns move values by is no part of them.
+    pub(crate) fn of_noise_beside_slopes(
+        &self,
+        whole: &Stack,
+        solution: &Solution,
+    ) -> Vec<Option<f64>> {
+        let of_noise =
+            |with: &Solution| hac::deviations(whole, with, &self.row_weights(whole, with));
+        told(whole, solution, &of_noise)
     }
 
     /// Standard deviations of a solution of least squares; see [`hac`]. What rows at turns move it by is a part of them.
@@ -202,4 +205,21 @@ impl Identify {
             _ => robust::of_all(stack),
         }
     }
+}
+
+/// Deviations of a solution with further columns that stay where they are; none of what the rows do not tell.
+fn told(
+    whole: &Stack,
+    solution: &Solution,
+    deviations: &dyn Fn(&Solution) -> Vec<f64>,
+) -> Vec<Option<f64>> {
+    let joint = Factors::new(whole).solve(&solution.scale, &vec![1.0; whole.dof()]);
+    let mut with_shapes = solution.clone();
+    with_shapes.estimate.resize(whole.unknowns.len(), 0.0);
+    with_shapes.unexcited = joint.unexcited;
+    let std = deviations(&with_shapes);
+    let is_told = |k: &usize| !with_shapes.unexcited.contains(k);
+    (0..std.len())
+        .map(|k| is_told(&k).then_some(std[k]))
+        .collect()
 }

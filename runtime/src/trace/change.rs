@@ -30,6 +30,8 @@ pub(super) struct Changed {
     pub(super) shapes: Vec<f64>,
     /// Their standard deviations, each beside all other unknowns.
     pub(super) std: Vec<Option<f64>>,
+    /// What noise makes of those: rows at turns, which have a gate of their own, are like others there.
+    pub(super) std_of_noise: Vec<Option<f64>>,
     /// Rows of the arm with it and with the effects that were accepted before; the last columns are slopes by its shapes.
     pub(super) stack: Stack,
     /// Mean square of the raw residual beyond that of the filtered one, per joint.
@@ -143,9 +145,11 @@ impl Search<'_> {
                 let segments = &state.stack.segments;
                 let structure = self.structure_in(segments, &raw, &filtered, &|_, _| 0.0);
                 let std = self.identify.beside_slopes(&stack, &plain);
+                let std_of_noise = self.identify.of_noise_beside_slopes(&stack, &plain);
                 return Ok(is_inside.then(|| Changed {
                     shapes: own,
                     std: std[unknowns..].to_vec(),
+                    std_of_noise: std_of_noise[unknowns..].to_vec(),
                     stack,
                     noise_power,
                     structure,

@@ -10,7 +10,7 @@ use crate::columns::Entry;
 use crate::identify::{JointRows, Stack};
 
 use super::folds::Fold;
-use super::normal::Normal;
+use super::normal::{Normal, Smooth};
 
 /// Products of one joint's columns, in the order unknowns then target, over one set of rows.
 pub(super) type Products = Mat<f64>;
@@ -97,11 +97,18 @@ impl Gram {
     /// Held-out mean squared error per fold and joint, each fold fitted on its training rows.
     pub(super) fn held_out(&self, sigma: &[f64]) -> HeldOut {
         let squares = self.squares(sigma);
-        let estimates: Vec<Vec<f64>> = self
-            .train
-            .iter()
-            .map(|train| Normal::new(&train.joints, sigma, &squares).solve())
-            .collect();
+        self.held_out_by(|train| Normal::new(&train.joints, sigma, &squares))
+    }
+
+    /// The same with a curve's columns that bend little.
+    pub(super) fn held_out_smooth(&self, sigma: &[f64], smooth: &Smooth<'_>) -> HeldOut {
+        let squares = self.squares(sigma);
+        self.held_out_by(|train| Normal::smooth(&train.joints, sigma, &squares, smooth))
+    }
+
+    fn held_out_by(&self, normal: impl Fn(&Part) -> Normal) -> HeldOut {
+        let estimates = self.train.iter().map(|train| normal(train).solve());
+        let estimates: Vec<Vec<f64>> = estimates.collect();
         let errors = estimates
             .iter()
             .zip(&self.test)

@@ -19,6 +19,7 @@ impl Search<'_> {
             let touched = trial.touched();
             let mut joints = touched.iter();
             joints.any(|j| judged.evidence.raw_percent[*j] >= MATERIAL_PERCENT)
+                || self.is_large_elsewhere(state, &judged, &projected)
         })
     }
 

@@ -106,6 +106,11 @@ impl Search<'_> {
                     }
                 }
                 let Some(change) = judged.trial.candidate.change() else {
+                    if judged.refusals == [Refusal::Small]
+                        && self.is_large_elsewhere(state, &judged, &projected)
+                    {
+                        judged.refusals.clear();
+                    }
                     let follows_torque = judged.trial.candidate.follows_torque();
                     if follows_torque && !self.is_of_structure(state, &judged) {
                         judged.refusals.push(Refusal::Noise);

@@ -231,7 +231,11 @@ impl<'a> Present<'a> {
     }
 
     /// The candidate's columns less the model's, `[joint][column][sample]`.
-    fn projected_columns(&self, entries: &[Entry], projected: &Projected) -> Vec<Vec<Vec<f64>>> {
+    pub(super) fn projected_columns(
+        &self,
+        entries: &[Entry],
+        projected: &Projected,
+    ) -> Vec<Vec<Vec<f64>>> {
         let count = projected.gain.len();
         let samples = self.stack.samples();
         (0..self.stack.dof())

@@ -140,6 +140,15 @@ impl<'a> Trace<'a> {
         self.traced(arm, &identify, bands, &logs, progress)
     }
 
+    /// Candidates of whose inputs every log has all: what a log does not hold cannot be judged.
+    fn judgeable(&self, logs: &[Log]) -> Vec<&'a dyn Candidate> {
+        let is_held = |candidate: &&dyn Candidate| {
+            let mut logs = logs.iter();
+            logs.all(|log| missing_input(candidate.inputs(), log).is_none())
+        };
+        self.candidates.iter().copied().filter(is_held).collect()
+    }
+
     /// The trace of logs of which it is known how slowly joints turn round.
     fn traced(
         &self,
@@ -181,16 +190,7 @@ impl<'a> Trace<'a> {
         let before = search.structure(&state).to_vec();
 
         progress(&Stage::whole("forming candidate columns"));
-        // What a log does not hold cannot be judged.
-        let candidates: Vec<&'a dyn Candidate> = self
-            .candidates
-            .iter()
-            .copied()
-            .filter(|candidate| {
-                logs.iter()
-                    .all(|log| missing_input(candidate.inputs(), log).is_none())
-            })
-            .collect();
+        let candidates = self.judgeable(logs);
         let mut grids = search.grids(&state, &candidates, |_| true);
         let mut tried = Vec::new();
         let mut of_terms = Vec::new();
@@ -243,9 +243,13 @@ impl<'a> Trace<'a> {
         let is_told = |joint: &usize| {
             after[*joint].is_material() || of_terms.contains(joint) || is_beyond(joint)
         };
-        let joints = 0..after.len();
-        let left = search.whereabouts(&state, joints.clone().filter(is_told).collect());
-        let any_beyond = joints.into_iter().any(|joint| is_beyond(&joint));
+        let left = if is_named || !of_terms.is_empty() {
+            search.whereabouts(&state, (0..after.len()).filter(is_told).collect())
+        } else {
+            search.unknown_functions(&state, &is_told)
+        };
+        let any_beyond = (0..after.len()).any(|joint| is_beyond(&joint))
+            || left.iter().any(|one| !is_told(&one.joint));
         let mut verdict = verdict(&state, before, after, &values, tried, any_beyond);
         if !of_terms.is_empty() {
             verdict = verdict.unexplained();

@@ -69,7 +69,7 @@ impl Search<'_> {
             }
         };
         if let Some(changed) = &judged.changed {
-            let mut shapes = changed.shapes.iter().zip(&changed.std);
+            let mut shapes = changed.shapes.iter().zip(&changed.std_of_noise);
             return shapes.any(is_beyond(TOLD_OF_CHANGE));
         }
         let mut stack = state.stack.clone();

@@ -224,7 +224,7 @@ impl fmt::Display for Outcome {
 }
 
 /// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
-const DOUBT_PERCENT: f64 = 10.0;
+pub(super) const DOUBT_PERCENT: f64 = 10.0;
 
 /// See [`Verdict::doubtful`].
 pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {

@@ -7,23 +7,14 @@
 
 use crate::columns::Entry;
 use crate::signal::Prepared;
-use crate::signal::resample::whole_steps;
 
-use super::gram::Gram;
+use super::curve::{Curve, STIFFNESS};
+use super::gram::{Gram, HeldOut};
+use super::normal::Smooth;
+use super::raw::mean_square;
 use super::search::{Accepted, Search, State};
 use super::step::{self, Step};
-
-/// A curve is straight between so many values of its quantity, among which samples are evenly spread.
-const KNOTS: usize = 24;
-
-/// The same of a surface in two quantities, for each of them.
-const FEW_KNOTS: usize = 8;
-
-/// Knots in time are further apart, s: a curve has to reach across the blocks that a fold leaves out.
-const KNOT_S: f64 = 6.0;
-
-/// A quantity that spans less than this of its largest value stands.
-const LEAST_SPAN: f64 = 1e-6;
+use super::verdict::DOUBT_PERCENT;
 
 /// Terms of equations that are kept of a joint.
 const MOST_TERMS: usize = 3;
@@ -45,6 +36,10 @@ pub enum Quantity {
     Load(usize),
     /// Position and velocity of a joint at once, one surface over both.
     Motion(usize),
+    /// Positions of a joint and of another one at once.
+    Positions(usize, usize),
+    /// Velocities of a joint and of another one at once; the surface may jump where the first turns round.
+    Velocities(usize, usize),
     /// Time since the start of a log.
     Time,
 }
@@ -64,67 +59,60 @@ impl Quantity {
             Self::Acceleration(_) => "acceleration",
             Self::Load(_) => "load",
             Self::Motion(_) => "position-and-velocity",
+            Self::Positions(..) => "positions",
+            Self::Velocities(..) => "velocities",
             Self::Time => "time",
         }
     }
 
-    /// The joint, from 0; none of time.
+    /// The joints, from 0; none of time.
     ///
     /// # Examples
     /// ```
-    /// assert_eq!(robot_model::trace::Quantity::Velocity(2).joint(), Some(2));
+    /// use robot_model::trace::Quantity;
+    /// assert_eq!(Quantity::Velocity(2).joints(), [2]);
+    /// assert_eq!(Quantity::Positions(2, 0).joints(), [2, 0]);
+    /// assert!(Quantity::Time.joints().is_empty());
     /// ```
     #[must_use]
-    pub const fn joint(self) -> Option<usize> {
+    pub fn joints(self) -> Vec<usize> {
         match self {
             Self::Position(joint)
             | Self::Velocity(joint)
             | Self::Acceleration(joint)
             | Self::Load(joint)
-            | Self::Motion(joint) => Some(joint),
-            Self::Time => None,
+            | Self::Motion(joint) => vec![joint],
+            Self::Positions(joint, other) | Self::Velocities(joint, other) => vec![joint, other],
+            Self::Time => Vec::new(),
         }
     }
 
-    /// Of a quantity that is several each of them; the last one may be a velocity.
-    fn axes(self) -> Vec<Self> {
-        match self {
-            Self::Motion(joint) => vec![Self::Position(joint), Self::Velocity(joint)],
-            one => vec![one],
-        }
+    /// Whether it is two quantities at once.
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::trace::Quantity;
+    /// assert!(Quantity::Motion(0).is_surface() && !Quantity::Load(0).is_surface());
+    /// ```
+    #[must_use]
+    pub const fn is_surface(self) -> bool {
+        matches!(
+            self,
+            Self::Motion(_) | Self::Positions(..) | Self::Velocities(..)
+        )
     }
 
-    fn values(self, log: &Prepared) -> &[f64] {
+    pub(super) fn values(self, log: &Prepared) -> &[f64] {
         let motion = &log.motion;
         match self {
-            Self::Position(joint) | Self::Motion(joint) => &motion.wide.q[joint],
-            Self::Velocity(joint) => &motion.wide.dq[joint],
+            Self::Position(joint) | Self::Motion(joint) | Self::Positions(joint, _) => {
+                &motion.wide.q[joint]
+            }
+            Self::Velocity(joint) | Self::Velocities(joint, _) => &motion.wide.dq[joint],
             Self::Acceleration(joint) => &motion.smooth.ddq[joint],
             Self::Load(joint) => &motion.rigid_torque[joint],
             Self::Time => &motion.time,
         }
-    }
-
-    /// The values between which a curve is straight; none of a quantity that stands.
-    fn knots(self, most: usize, logs: &[Prepared]) -> Option<Vec<f64>> {
-        let mut values: Vec<f64> = Vec::new();
-        for log in logs {
-            let of_log = self.values(log);
-            values.extend(log.shared.kept(of_log.len()).map(|k| of_log[k]));
-        }
-        values.sort_by(f64::total_cmp);
-        let (first, last) = (*values.first()?, *values.last()?);
-        let count = match self {
-            Self::Time => whole_steps((last - first) / KNOT_S).clamp(2, most),
-            _ => most,
-        };
-        let at = |k: usize| values[k * (values.len() - 1) / (count - 1)];
-        let mut knots: Vec<f64> = (0..count).map(at).collect();
-        // Where a joint rests many samples are the same.
-        let least = (last - first) / (8 * most) as f64;
-        knots.dedup_by(|next, before| *next - *before < least);
-        let stands = last - first <= LEAST_SPAN * first.abs().max(last.abs());
-        (knots.len() > 1 && !stands).then_some(knots)
     }
 }
 
@@ -204,7 +192,7 @@ impl Search<'_> {
         };
         let gram = Gram::new(stack, &self.folds);
         let without = gram.held_out(sigma);
-        // The model with columns beside it on a joint, and the share of the joint's residual that they take off.
+        // The model with columns beside it on a joint.
         let beside = |joint: usize, columns: Vec<Vec<f64>>| {
             let entries = columns.into_iter().enumerate();
             let entries = entries.map(|(column, values)| Entry {
@@ -217,22 +205,37 @@ impl Search<'_> {
             if let Some(away) = away {
                 away.clear(&mut entries);
             }
-            let with = gram.extended(stack, &entries, entries.len());
-            let held_out = with.held_out(sigma);
+            gram.extended(stack, &entries, entries.len())
+        };
+        // The share of the joint's residual that they take off.
+        let share = |joint: usize, held_out: &HeldOut| {
             let left = held_out.mean(joint) / without.mean(joint).max(f64::MIN_POSITIVE);
-            (with, (1.0 - left).max(0.0))
+            (1.0 - left).max(0.0)
         };
         let terms = self.terms();
         let steps = self.steps(state);
         let of_joint = |joint: usize| {
-            let shares = self.quantities(joint).filter_map(|of| {
-                let (_, share) = beside(joint, self.curve(of)?);
+            let quantities = self.quantities(joint).chain(self.pairs(joint));
+            let shares = quantities.filter_map(|of| {
+                let Curve { columns, bends } = self.curve(of)?;
+                let with = beside(joint, columns);
+                let shares = STIFFNESS.map(|stiffness| {
+                    let first = gram.unknowns();
+                    let smooth = Smooth {
+                        first,
+                        bends: &bends,
+                        stiffness,
+                    };
+                    share(joint, &with.held_out_smooth(sigma, &smooth))
+                });
+                let share = shares.into_iter().fold(0.0, f64::max);
                 Some(Share { of, share })
             });
             let mut shares: Vec<Share> = shares.collect();
             shares.sort_by(|a, b| b.share.total_cmp(&a.share));
             let terms = terms.iter().map(|(term, values)| {
-                let (with, share) = beside(joint, vec![values.clone()]);
+                let with = beside(joint, vec![values.clone()]);
+                let share = share(joint, &with.held_out(sigma));
                 let solved = with.normal(sigma).solve();
                 TermShare {
                     term: term.clone(),
@@ -285,49 +288,42 @@ impl Search<'_> {
         own.into_iter().chain(others.flat_map(of_others))
     }
 
-    /// Columns of a curve in a quantity, filtered: each is 1 at one knot and falls to 0 at its neighbors. None of a quantity that stands.
-    pub(super) fn curve(&self, of: Quantity) -> Option<Vec<Vec<f64>>> {
-        let axes = of.axes();
-        let most = if axes.len() > 1 { FEW_KNOTS } else { KNOTS };
-        let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));
-        let knots = knots.collect::<Option<Vec<_>>>()?;
-        let jumps = axes.last().filter(|of| matches!(of, Quantity::Velocity(_)));
-        let cells: usize = knots.iter().map(Vec::len).product();
-        let mut all = vec![Vec::new(); cells + usize::from(jumps.is_some())];
-        let mut filtered = Vec::new();
-        for log in &self.prepared {
-            let samples = log.motion.time.len();
-            let mut columns = vec![vec![0.0; samples]; all.len()];
-            for k in 0..samples {
-                let mut near = vec![(0, 1.0)];
-                for (axis, knots) in axes.iter().zip(&knots) {
-                    let (place, part) = between(knots, axis.values(log)[k]);
-                    let beside = |&(cell, weight): &(usize, f64)| {
-                        let cell = cell * knots.len() + place;
-                        [(cell, weight * (1.0 - part)), (cell + 1, weight * part)]
-                    };
-                    near = near.iter().flat_map(beside).collect();
-                }
-                for (cell, weight) in near {
-                    columns[cell][k] = weight;
-                }
-                if let Some(velocity) = jumps {
-                    columns[cells][k] = velocity.values(log)[k].signum();
-                }
-            }
-            for (all, column) in all.iter_mut().zip(&columns) {
-                log.shared.apply(column, &mut filtered);
-                all.extend_from_slice(&filtered);
-            }
-        }
-        Some(all)
+    /// What two joints do at once.
+    fn pairs(&self, joint: usize) -> impl Iterator<Item = Quantity> {
+        let others = (0..self.arm.dof()).filter(move |&other| other != joint);
+        others.flat_map(move |other| {
+            [
+                Quantity::Positions(joint, other),
+                Quantity::Velocities(joint, other),
+            ]
+        })
     }
-}
 
-/// The knot below a value, and how far that is on the way to the next one.
-fn between(knots: &[f64], value: f64) -> (usize, f64) {
-    let above = knots.partition_point(|knot| *knot <= value);
-    let above = above.clamp(1, knots.len() - 1);
-    let (low, high) = (knots[above - 1], knots[above]);
-    (above - 1, ((value - low) / (high - low)).clamp(0.0, 1.0))
+    /// Whereabouts on the joints that are told, and on others that a function of the motion has so large a share in that it would take as much
+    /// off their raw errors as makes a doubt, beyond what time has: a law that no structure shows, as noise is correlated over as long.
+    pub(super) fn unknown_functions(
+        &self,
+        state: &State,
+        is_told: &dyn Fn(&usize) -> bool,
+    ) -> Vec<Whereabouts> {
+        let raw = self.raw(state);
+        let filtered: Vec<f64> = state.residuals.iter().map(mean_square).collect();
+        let takes = |joint: usize, share: f64| {
+            let all = raw.noise_power[joint] + filtered[joint];
+            100.0 * (1.0 - (1.0 - share * filtered[joint] / all.max(f64::MIN_POSITIVE)).sqrt())
+        };
+        let may = |joint: &usize| is_told(joint) || takes(*joint, 1.0) >= DOUBT_PERCENT;
+        let joints = (0..self.arm.dof()).filter(may).collect();
+        let mut found = self.whereabouts(state, joints);
+        found.retain(|one| {
+            let most = |is: &dyn Fn(Quantity) -> bool| {
+                let shares = one.shares.iter().filter(|share| is(share.of));
+                shares.map(|share| share.share).fold(0.0, f64::max)
+            };
+            // A zero that wanders is as much a function of what is as slow.
+            let of_motion = most(&|of| of != Quantity::Time) - most(&|of| of == Quantity::Time);
+            is_told(&one.joint) || takes(one.joint, of_motion.max(0.0)) >= DOUBT_PERCENT
+        });
+        found
+    }
 }

@@ -1,0 +1,145 @@
+//! Curves and surfaces in quantities of the motion: columns that are 1 at one knot and fall to 0 at its neighbors, and how far they may bend.
+
+use crate::signal::Prepared;
+use crate::signal::resample::whole_steps;
+
+use super::search::Search;
+use super::whereabouts::Quantity;
+
+/// A curve is straight between so many values of its quantity, among which samples are evenly spread.
+const KNOTS: usize = 24;
+
+/// The same of a surface in two quantities, for each of them.
+const FEW_KNOTS: usize = 8;
+
+/// Knots in time are further apart, s: a curve has to reach across the blocks that a fold leaves out.
+const KNOT_S: f64 = 6.0;
+
+/// A quantity that spans less than this of its largest value stands.
+const LEAST_SPAN: f64 = 1e-6;
+
+/// How much a curve's bends count beside what its columns hold, the best of which is taken: a knot that a fold hardly sees goes on as its
+/// neighbors do (P-splines, Eilers & Marx 1996).
+pub(super) const STIFFNESS: [f64; 3] = [1e-2, 0.3, 10.0];
+
+/// A curve or surface, filtered.
+pub(super) struct Curve {
+    /// One a knot, and one more for a jump.
+    pub(super) columns: Vec<Vec<f64>>,
+    /// Columns of three knots in a row along an axis.
+    pub(super) bends: Vec<[usize; 3]>,
+}
+
+impl Quantity {
+    /// Of a quantity that is several each of them; the last one may be a velocity.
+    fn axes(self) -> Vec<Self> {
+        match self {
+            Self::Motion(joint) => vec![Self::Position(joint), Self::Velocity(joint)],
+            Self::Positions(joint, other) => vec![Self::Position(other), Self::Position(joint)],
+            Self::Velocities(joint, other) => vec![Self::Velocity(other), Self::Velocity(joint)],
+            one => vec![one],
+        }
+    }
+
+    /// The values between which a curve is straight; none of a quantity that stands.
+    fn knots(self, most: usize, logs: &[Prepared]) -> Option<Vec<f64>> {
+        let mut values: Vec<f64> = Vec::new();
+        for log in logs {
+            let of_log = self.values(log);
+            values.extend(log.shared.kept(of_log.len()).map(|k| of_log[k]));
+        }
+        values.sort_by(f64::total_cmp);
+        let (first, last) = (*values.first()?, *values.last()?);
+        let count = match self {
+            Self::Time => whole_steps((last - first) / KNOT_S).clamp(2, most),
+            _ => most,
+        };
+        let at = |k: usize| values[k * (values.len() - 1) / (count - 1)];
+        let mut knots: Vec<f64> = (0..count).map(at).collect();
+        // Where a joint rests many samples are the same.
+        let least = (last - first) / (8 * most) as f64;
+        knots.dedup_by(|next, before| *next - *before < least);
+        let stands = last - first <= LEAST_SPAN * first.abs().max(last.abs());
+        (knots.len() > 1 && !stands).then_some(knots)
+    }
+}
+
+impl Search<'_> {
+    /// Columns of a curve in a quantity, filtered: each is 1 at one knot and falls to 0 at its neighbors. None of a quantity that stands.
+    pub(super) fn curve(&self, of: Quantity) -> Option<Curve> {
+        let axes = of.axes();
+        let most = if axes.len() > 1 { FEW_KNOTS } else { KNOTS };
+        let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));
+        let knots = knots.collect::<Option<Vec<_>>>()?;
+        let jumps = axes.last().filter(|of| matches!(of, Quantity::Velocity(_)));
+        let cells: usize = knots.iter().map(Vec::len).product();
+        let mut all = vec![Vec::new(); cells + usize::from(jumps.is_some())];
+        let mut filtered = Vec::new();
+        for log in &self.prepared {
+            let samples = log.motion.time.len();
+            let mut columns = vec![vec![0.0; samples]; all.len()];
+            for k in 0..samples {
+                let mut near = vec![(0, 1.0)];
+                for (axis, knots) in axes.iter().zip(&knots) {
+                    let (place, part) = between(knots, axis.values(log)[k]);
+                    let beside = |&(cell, weight): &(usize, f64)| {
+                        let cell = cell * knots.len() + place;
+                        [(cell, weight * (1.0 - part)), (cell + 1, weight * part)]
+                    };
+                    near = near.iter().flat_map(beside).collect();
+                }
+                for (cell, weight) in near {
+                    columns[cell][k] = weight;
+                }
+                if let Some(velocity) = jumps {
+                    columns[cells][k] = velocity.values(log)[k].signum();
+                }
+            }
+            for (all, column) in all.iter_mut().zip(&columns) {
+                log.shared.apply(column, &mut filtered);
+                all.extend_from_slice(&filtered);
+            }
+        }
+        let lengths: Vec<usize> = knots.iter().map(Vec::len).collect();
+        Some(Curve {
+            columns: all,
+            bends: bends(&lengths),
+        })
+    }
+}
+
+/// Cells of three knots in a row along an axis of a grid, whose last axis runs fastest.
+fn bends(lengths: &[usize]) -> Vec<[usize; 3]> {
+    let cells: usize = lengths.iter().product();
+    let mut bends = Vec::new();
+    let mut stride = 1;
+    for length in lengths.iter().rev() {
+        let is_first = |cell: &usize| cell / stride % length + 2 < *length;
+        let three = |cell: usize| [cell, cell + stride, cell + 2 * stride];
+        bends.extend((0..cells).filter(is_first).map(three));
+        stride *= length;
+    }
+    bends
+}
+
+/// The knot below a value, and how far that is on the way to the next one.
+fn between(knots: &[f64], value: f64) -> (usize, f64) {
+    let above = knots.partition_point(|knot| *knot <= value);
+    let above = above.clamp(1, knots.len() - 1);
+    let (low, high) = (knots[above - 1], knots[above]);
+    (above - 1, ((value - low) / (high - low)).clamp(0.0, 1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bends;
+
+    #[test]
+    fn bends_run_along_the_axes() {
+        assert_eq!(bends(&[4]), [[0, 1, 2], [1, 2, 3]]);
+        assert_eq!(bends(&[2]), [[0; 3]; 0]);
+        // Two rows of three, which have no column of three.
+        assert_eq!(bends(&[2, 3]), [[0, 1, 2], [3, 4, 5]]);
+        assert_eq!(bends(&[3, 2]), [[0, 2, 4], [1, 3, 5]]);
+    }
+}
