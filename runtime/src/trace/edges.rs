@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn what_sets_in_and_ends_at_once_has_edges() {
         for seed in 0..10 {
-            let force = window().into_iter().map(|there| 2.0 * there);
+            let force = window().into_iter().map(|there| 6.0 * there);
             let residual: Vec<f64> = wandering(seed)
                 .into_iter()
                 .zip(force)
