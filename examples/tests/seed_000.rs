@@ -119,6 +119,20 @@ fn back_emf_makes_motions_robust() {
     assert_eq!(own.path, again);
     let most = own.path.iter().copied().fold(0.0, f64::max);
     assert!((1.4..1.8).contains(&most), "{most}");
+    // Smaller changes and larger ones carry by what is no function of the change: a range is told.
+    let nearby = &found().nearby;
+    assert_eq!(nearby.len(), 10);
+    for [by, apart] in nearby {
+        assert!(
+            (0.001..=0.02).contains(&by.abs()) && *apart > 0.1,
+            "{nearby:?}"
+        );
+    }
+    let printed = nearby
+        .iter()
+        .find(|[by, _]| (by - velocity.by).abs() < 1e-9);
+    let [_, apart] = printed.expect("the printed change");
+    assert!((apart - velocity.apart()).abs() < 1e-6, "{nearby:?}");
     for all in &found().carried {
         assert!(all.len() == 11 && all.is_sorted() && all[0] > 0.0);
         assert!(all[10] > 2.0 && all[5] < 2.0, "{all:?}");

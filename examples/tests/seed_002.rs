@@ -55,9 +55,19 @@ fn the_law_jumps_drives_and_has_neither_fall_nor_position() {
     let falls = [1.57, 1.47, 0.81, 2.55, 1.62, 1.77];
     let drives = [2.70, 2.61, 1.48, 4.66, 2.96, 3.39];
     for k in 0..6 {
-        assert!((results.peaks[k] - falls[k]).abs() < 0.006, "{k}");
+        let speeds = results.speeds[k];
+        assert!(
+            (speeds.falls_in_mean - falls[k]).abs() < 0.006,
+            "{speeds:?}"
+        );
+        // The square takes from one direction what it gives to the other.
+        let [least, most] = [f64::min, f64::max].map(|of| speeds.falls.into_iter().reduce(of));
+        assert!(least < Some(speeds.falls_in_mean) && Some(speeds.falls_in_mean) < most);
         let found = results.drives_from(1, k).expect("a speed");
         assert!((found - drives[k]).abs() < 0.006, "{k}: {found}");
+        // The audit's is that of the worse direction.
+        let scanned = speeds.drives[0].min(speeds.drives[1]);
+        assert!((found - scanned).abs() < 0.006, "{k}: {found} {scanned}");
     }
     // Without square and cube it brakes.
     assert_eq!(results.ours[0].findings("friction").len(), 6);

@@ -215,7 +215,6 @@ fn the_page_says_what_the_program_says() {
         "3.soft",
         "3.stall",
         "3.speed",
-        "3.bits",
     ];
     agrees(paper, "seed_003", page, [&["3.4.gains"], &impossible]);
     assert_eq!(paper.rows.len(), 22);

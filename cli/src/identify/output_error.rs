@@ -2,6 +2,7 @@
 
 mod beginning;
 mod bounds;
+mod constants;
 mod directions;
 mod hold;
 mod law;
@@ -30,6 +31,7 @@ use crate::output::{Files, names};
 use crate::progress::Progress;
 use beginning::Beginning;
 use bounds::{Said, bounds};
+use constants::Told;
 pub(super) use options::Options;
 use options::{HoldArgument, SearchArgument};
 use recordings::recordings;
@@ -130,6 +132,7 @@ impl IdentifyArguments {
             validation: validation.as_ref(),
             window: settings.window,
             faults: &faults,
+            constants: Told::new(&compiled, &found),
         };
         let printed = report.text();
         let drawn = |linear| OnLog::of(form.arm(), linear, &logs, validate.as_ref());

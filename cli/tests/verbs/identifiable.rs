@@ -51,6 +51,13 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
         said.contains("rank 8 of 11 with the spec's own constants: `I1`, `I2`, `m1`, `m2`, `l1`, `c1`, `c2` show in 5 sums"),
         "{said}"
     );
+    // A length is the ratio of two of the sums; it is that of the spec, with which the arm moved.
+    assert!(
+        said.contains("no value by itself has any of `I1`, `I2`, `m1`, `m2`, `c1`, `c2`; the sums tell l1 = 0.615"),
+        "{said}"
+    );
+    let own_directions = |line: &&str| line.starts_with("  not identified: ");
+    assert_eq!(said.lines().filter(own_directions).count(), 3, "{said}");
     assert!(said.contains("a common factor of I1r,"), "{said}");
     let fit = json(&folder.read("fit.json"));
     let parameters = fit["parameters"].as_array().expect("a list");
@@ -60,6 +67,15 @@ fn of_eleven_constants_of_an_arm_that_falls_eight_are_told_in_ratios() {
             .all(|parameter| parameter["value"].is_null()),
         "{said}"
     );
+    let constants = &fit["constants"];
+    assert_eq!(
+        (constants["rank"].as_u64(), constants["unknowns"].as_u64()),
+        (Some(8), Some(11))
+    );
+    let values = constants["values"].as_array().expect("a list");
+    for value in values {
+        assert_eq!(value[1].is_null(), value[0] != "l1", "{value}");
+    }
     // Eight ratios of nine parameters, whose factor nothing tells.
     let ratios = fit["ratios"].as_array().expect("a list");
     assert_eq!(ratios.len(), 8, "{said}");

@@ -41,6 +41,16 @@ impl Audited {
         own.filter_map(|quantity| quantity.of.as_deref()).collect()
     }
 
+    /// All that a check has a number of.
+    #[must_use]
+    pub fn told(&self, check: &str) -> Vec<&str> {
+        let quantities = self.check(check).into_iter();
+        let quantities = quantities.flat_map(|check| &check.quantities);
+        quantities
+            .filter_map(|quantity| quantity.of.as_deref())
+            .collect()
+    }
+
     /// Speed from which on a joint's friction drives it, rad/s.
     #[must_use]
     pub fn drives_from(&self, joint: &str) -> Option<f64> {

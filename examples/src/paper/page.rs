@@ -1,10 +1,10 @@
 //! A page of the docs beside what the program says: nothing on it may be of an older run.
 
 use super::table::wrapped;
-use super::{By, Paper, Row, Status, Table, numbers, row};
+use super::{Paper, Row, Status, Table, numbers, row};
 
 /// What heads the items on a page; they are its last part.
-const ITEMS: &str = "## Item by item";
+pub(super) const ITEMS: &str = "## Item by item";
 
 /// Places in a figure may differ by this, in pixels, as from one machine to another.
 const PIXELS: f64 = 2.0;
@@ -88,7 +88,7 @@ impl Paper {
         shown.filter(is_other).map(str::to_owned).collect()
     }
 
-    /// What a list of papers has otherwise than the program: `| .. | .. | reached | not reached | impossible by a check | by a comparison |`.
+    /// What a list of papers has otherwise than the program: `| .. | .. | reached | not reached | impossible as printed | remarks |`.
     #[must_use]
     pub fn counted_otherwise(&self, list: &str, name: &str) -> Option<String> {
         let count = |wanted: &dyn Fn(&Row) -> bool| {
@@ -101,8 +101,8 @@ impl Paper {
         let own = [
             count(&|row| matches!(row.status, Status::Reached)),
             count(&|row| matches!(row.status, Status::NotReached(_))),
-            count(&|row| row.is_impossible(By::Check)),
-            count(&|row| row.is_impossible(By::Comparison)),
+            count(&|row| matches!(row.status, Status::Impossible(_))),
+            count(&|row| matches!(row.status, Status::Remark(_))),
         ];
         let is_line = |line: &&str| line.starts_with(&format!("| [`{name}`]"));
         let line = list.lines().find(is_line).unwrap_or_default();
@@ -245,32 +245,30 @@ mod tests {
     }
 
     #[test]
-    fn what_is_compared_is_counted_apart_and_says_so() {
-        let wrong = |is_found| Row::wrong_in_print("9.3", "c", "4", "5", is_found, "of a digit");
+    fn remarks_are_counted_apart() {
         let of = |row| Paper {
             rows: vec![row],
             ..Paper::default()
         };
         let list = |cells: &str| format!("| [`seed_009`](seed_009.md) | costs |{cells}");
-        let checked = of(wrong(true));
-        assert_eq!(
-            checked.counted_otherwise(&list(" | | 1 | |"), "seed_009"),
-            None
-        );
-        assert!(!checked.text().contains("comparison"));
-        let compared = of(wrong(true).by_comparison());
-        assert_eq!(
-            compared.counted_otherwise(&list(" | | | 1 |"), "seed_009"),
-            None
-        );
-        assert!(compared.text().contains("found: by a comparison"));
-        // What is not found is found by nobody.
-        let missed = of(wrong(false).by_comparison());
-        assert_eq!(
-            missed.counted_otherwise(&list(" | 1 | | |"), "seed_009"),
-            None
-        );
-        assert!(!missed.text().contains("comparison"));
+        let wrong = of(Row::wrong_in_print(
+            "9.3",
+            "c",
+            "4",
+            "5",
+            true,
+            "of a digit",
+        ));
+        let cells = list(" | | 1 | |");
+        assert_eq!(wrong.counted_otherwise(&cells, "seed_009"), None);
+        let remark = |is_found| of(Row::remark("9.3", "c", "4", "5", is_found, "of a digit"));
+        let cells = list(" | | | 1 |");
+        assert_eq!(remark(true).counted_otherwise(&cells, "seed_009"), None);
+        assert!(remark(true).text().contains("a remark: of a digit"));
+        // What does not show is none.
+        let cells = list(" | 1 | | |");
+        assert_eq!(remark(false).counted_otherwise(&cells, "seed_009"), None);
+        assert!(!remark(false).text().contains("a remark"));
     }
 
     #[test]

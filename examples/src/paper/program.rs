@@ -6,7 +6,11 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
+use super::list::with_every_item;
 use super::{Error, Paper};
+
+/// Whose items the list of papers beside a page has.
+const PAPERS: [&str; 5] = ["seed_000", "seed_001", "seed_002", "seed_003", "seed_004"];
 
 /// Reproduce a paper: its tables beside ours, its figures, and what is wrong in it.
 #[derive(Debug, Parser)]
@@ -17,7 +21,8 @@ struct Options {
     /// Print tables as Markdown, as the docs have them.
     #[arg(long)]
     markdown: bool,
-    /// Write the tables, the items and the figures that this page of the docs shows anew; it has a folder `figures` beside it.
+    /// Write the tables, the items and the figures that this page of the docs shows anew, and its items in the list of papers, where that is beside
+    /// it; it has a folder `figures` beside it.
     #[arg(long, value_name = "FILE.md")]
     page: Option<PathBuf>,
 }
@@ -93,5 +98,20 @@ fn rewrite(page: &Path, name: &str, paper: &Paper) -> Result<(), Error> {
         }
     }
     fs::write(page, text)?;
+    list(page)
+}
+
+/// The list of papers beside a page with the items of all pages, where there are such.
+fn list(page: &Path) -> Result<(), Error> {
+    let list = page.with_file_name("README.md");
+    let page = |name: &&str| fs::read_to_string(page.with_file_name(format!("{name}.md")));
+    let pages: Result<Vec<String>, _> = PAPERS.iter().map(page).collect();
+    let (Ok(text), Ok(pages)) = (fs::read_to_string(&list), pages) else {
+        return Ok(());
+    };
+    let pages = PAPERS.into_iter().zip(pages.iter().map(String::as_str));
+    if let Some(text) = with_every_item(&text, pages) {
+        fs::write(list, text)?;
+    }
     Ok(())
 }

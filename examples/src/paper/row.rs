@@ -13,8 +13,10 @@ pub enum Status {
     Reached,
     /// It did not come out, and why.
     NotReached(String),
-    /// It cannot come out as it is printed, and why.
+    /// It cannot come out as it is printed, and why: a check of the tool says so.
     Impossible(String),
+    /// It is no item that has to come out, but something to know that no check of the tool says: the program compares numbers.
+    Remark(String),
 }
 
 impl Status {
@@ -25,6 +27,7 @@ impl Status {
             Self::Reached => "reached",
             Self::NotReached(_) => "not reached",
             Self::Impossible(_) => "impossible as printed",
+            Self::Remark(_) => "a remark",
         }
     }
 }
@@ -34,18 +37,11 @@ impl fmt::Display for Status {
         f.write_str(self.short())?;
         match self {
             Self::Reached => Ok(()),
-            Self::NotReached(why) | Self::Impossible(why) => write!(f, ": {why}"),
+            Self::NotReached(why) | Self::Impossible(why) | Self::Remark(why) => {
+                write!(f, ": {why}")
+            }
         }
     }
-}
-
-/// Who finds that something is wrong in print.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum By {
-    /// A check of the tool says so.
-    Check,
-    /// The program compares numbers; no check of the tool says so.
-    Comparison,
 }
 
 /// One item: what is printed and what came out here.
@@ -61,8 +57,6 @@ pub struct Row {
     pub ours: String,
     /// Whether that is what was to come out.
     pub status: Status,
-    /// Who finds it, where it is wrong in print.
-    pub by: By,
 }
 
 impl Row {
@@ -86,7 +80,6 @@ impl Row {
             printed: printed.into(),
             ours: ours.into(),
             status,
-            by: By::Check,
         }
     }
 
@@ -110,23 +103,30 @@ impl Row {
             printed: printed.into(),
             ours: found.into(),
             status,
-            by: By::Check,
         }
     }
 
-    /// The same, where the program compares numbers, and no check of the tool says that they do not agree.
-    #[must_use]
-    pub fn by_comparison(self) -> Self {
+    /// Something to know, where the program's own numbers show it; where they do not, it is not reached.
+    pub fn remark(
+        item: &'static str,
+        what: impl Into<String>,
+        printed: impl Into<String>,
+        found: impl Into<String>,
+        is_found: bool,
+        why: &str,
+    ) -> Self {
+        let status = if is_found {
+            Status::Remark(why.to_owned())
+        } else {
+            Status::NotReached("the numbers do not show it".to_owned())
+        };
         Self {
-            by: By::Comparison,
-            ..self
+            item,
+            what: what.into(),
+            printed: printed.into(),
+            ours: found.into(),
+            status,
         }
-    }
-
-    /// Whether it is impossible as printed, and by whom that is found.
-    #[must_use]
-    pub fn is_impossible(&self, by: By) -> bool {
-        matches!(self.status, Status::Impossible(_)) && self.by == by
     }
 
     /// What is told of it, each under a word.
@@ -137,10 +137,7 @@ impl Row {
             ("here", self.ours.clone()),
             ("outcome", self.status.to_string()),
         ];
-        let compared = self.is_impossible(By::Comparison);
-        let compared = compared.then(|| ("found", COMPARED.to_owned()));
-        let parts = [printed].into_iter().chain(wanted).chain(rest);
-        parts.chain(compared).collect()
+        [printed].into_iter().chain(wanted).chain(rest).collect()
     }
 
     /// As an entry of a list in Markdown.
@@ -166,9 +163,6 @@ impl Row {
         format!("  {what}\n{}", parts.collect::<String>())
     }
 }
-
-/// What is told of [`By::Comparison`].
-const COMPARED: &str = "by a comparison of the program's, no check of the tool";
 
 /// Letters of a line in Markdown, and what comes before a line of a block.
 const LINE: usize = 120;

@@ -34,6 +34,20 @@ pub fn table(changes: &[Change]) -> Table {
     table
 }
 
+/// Figure 8 with other changes than the printed one.
+#[must_use]
+pub fn nearby(nearby: &[[f64; 2]]) -> Table {
+    let mut table = Table::new(
+        "Figure 8 with other changes of the initial velocity",
+        ["by, rad/s", "largest distance, rad"],
+    )
+    .rough();
+    for [by, apart] in nearby {
+        table.push([format!("{by:+.3}"), format!("{apart:.1}")]);
+    }
+    table
+}
+
 /// Costs of the wrong law.
 #[must_use]
 pub fn by_factor(costs: &[(f64, f64)]) -> Table {

@@ -29,7 +29,7 @@ pub use misprint::{Beside, Pair, mended, pairs, start};
 pub use plant::Experiment;
 pub use replay::Own;
 pub use scale::{FACTORS, Told, costs_by_factor, told};
-pub use sensitivity::{Change, carried, changes};
+pub use sensitivity::{Change, carried, changes, nearby};
 pub use slopes::{slope_errors, upright_rate};
 pub use truth::{ARM, BACK_EMF, FIGURE_7, TABLE_1, TABLE_2};
 pub use turns::{Turns, turns};
@@ -55,7 +55,9 @@ pub struct Findings {
     pub tables: Tables,
     /// Figures 7 to 10, then 7 and 8 on a noisy log with the printed parameters and with the arm's own.
     pub changes: [Change; 8],
-    /// Distances of the last two on logs of other noise, rad, from the least on.
+    /// Other changes of figure 8, rad/s, and how far they carry, rad.
+    pub nearby: Vec<[f64; 2]>,
+    /// Distances of the last two of `changes` on logs of other noise, rad, from the least on.
     pub carried: [Vec<f64>; 2],
     /// Motions through turn-arounds.
     pub turns: [Turns; 2],
@@ -98,6 +100,7 @@ impl Findings {
             ],
             tables,
             changes: changes(&experiment, &data)?,
+            nearby: nearby(&data)?,
             carried: carried(OTHERS)?,
             turns: turns(&experiment)?,
             slope_errors: slope_errors(&data)?,
@@ -121,6 +124,7 @@ impl Findings {
         let mut tables = self.tables.beside();
         tables.extend([
             figures::table(&self.changes),
+            figures::nearby(&self.nearby),
             self.misprints.0.clone(),
             scale::table(&self.told),
             figures::by_factor(&self.by_factor),

@@ -162,6 +162,25 @@ pub fn changes(experiment: &Experiment, data: &Data) -> Result<[Change; 8], Erro
     Ok([first, second, e, f, a, b, c, d])
 }
 
+/// Changes of the initial velocity of figure 8, rad/s, to both sides.
+const NEARBY: [f64; 5] = [0.001, 0.002, 0.005, 0.01, 0.02];
+
+/// How far changes of figure 8 carry that are smaller and larger than the printed one, and less than nothing: the change, rad/s, and the largest
+/// distance, rad. The motion is nearly chaotic, so that no one of them says how far.
+///
+/// # Errors
+/// Where the simulator stops.
+pub fn nearby(data: &Data) -> Result<Vec<[f64; 2]>, Error> {
+    let own = Own::new(data.window.start, data.window.len())?;
+    let [angle, velocity] = own.start;
+    let changes = NEARBY.iter().rev().map(|by| -by).chain(NEARBY);
+    let distance = |by: f64| -> Result<[f64; 2], Error> {
+        let path = own.again(&FIGURE_7, [angle, velocity + by])?;
+        Ok([by, apart(&own.path, &path)])
+    };
+    changes.map(distance).collect()
+}
+
 /// How far changes carry in figures 7 and 8 with the arm's own parameters, on logs of other noise, rad, from the least on. How soon the arm
 /// falls along a measured input depends on the noise in it, and an arm that hangs down is not sensitive.
 ///

@@ -29,9 +29,15 @@ pub struct Differences {
     pub chain: f64,
     /// Terms that are left of each joint in symbols, where the printed equations are taken from those from energies.
     pub left: [Vec<String>; 2],
+    /// The same of those from frames, at all of [`LENGTHS`].
+    pub left_of_chain: [Vec<String>; 2],
     /// Names of the base parameters of the rigid body, from energies.
     pub base: Vec<String>,
 }
+
+/// Lengths of the first link, m, at which the equations from frames are compared in symbols: numbers in the frames, and three of them settle
+/// what is of the second degree in them.
+pub const LENGTHS: [f64; 3] = [CAD.l1, ESTIMATED.l1, 1.0];
 
 /// Over random states, with the parameters of Table 2 and of Table 6.
 ///
@@ -52,12 +58,20 @@ pub fn differences() -> Result<Differences, Error> {
         let beta = chain.base.beta(&of_chain(&chain, &rigid));
         frames = frames.max(difference(&chain, &beta, &rigid));
     }
+    let mut left_of_chain = [Vec::new(), Vec::new()];
+    for l1 in LENGTHS {
+        let left = symbols::left_of_chain(&chain(l1)?, l1, symbols::PRINTED)?;
+        for (all, left) in left_of_chain.iter_mut().zip(left) {
+            all.extend(left);
+        }
+    }
     let names = model.compiled.base.names.iter();
     let of_effects = |name: &&String| name.contains("friction");
     Ok(Differences {
         energies,
         chain: frames,
         left: symbols::left(&model.compiled, symbols::PRINTED)?,
+        left_of_chain,
         base: names.filter(|name| !of_effects(name)).cloned().collect(),
     })
 }

@@ -24,7 +24,7 @@ impl Results {
             near(one.mae, as_said.mae, 1e-4) || near(one.nrmse, as_said.nrmse, 1e-2)
         };
         let same = printed.iter().filter(same).count();
-        Row::wrong_in_print(
+        Row::remark(
             "1.errors",
             "the sentence that explains (7), (8), which are right: y and y-bar are both the output of the system; beside Tables 3, 4, 7 and 8",
             format!(
@@ -40,9 +40,8 @@ impl Results {
                 mended.nrmse
             ),
             is_blind && same == 0 && pairs.iter().any(|pair| pair[1] != mended),
-            "the sentence, not the equations: one of the two is the model's output",
+            "the sentence has the wrong symbols, the equations are right: one of the two is the model's output",
         )
-        .by_comparison()
     }
 
     pub(super) fn rank(&self) -> Row {
@@ -62,7 +61,7 @@ impl Results {
         Row::wrong_in_print(
             "1.rank",
             "eleven parameters from releases: m1 6.813 kg, m2 3.361 kg, ..; by the `identifiability` of the library's output error, which `identify --method \
-             output-error` prints; there is no verb of that name",
+             output-error` prints of the spec's own constants, too: rank, null directions, and which of them have no value; there is no verb of that name",
             "11 values (Tables 6, 11)",
             format!(
                 "rank {rank} of {}: the eighth singular value is {weakest:.1e} of the first, the ninth {null:.0e}; null directions move {}; told is {}; with {} known rank {} of {}",
@@ -94,7 +93,7 @@ impl Results {
         } else {
             "does not converge"
         };
-        Row::wrong_in_print(
+        Row::remark(
             "1.cost",
             "the sentences that explain (9), (10), which are right: the text looks for lambda, the measured angles, and calls theta the parameters; by counts",
             "lambda-hat = arg min of (9)",
@@ -103,9 +102,8 @@ impl Results {
                 HEIGHTS[HEIGHTS.len() - 1].angle
             ),
             angles != values && own.values.len() == values && own.ending == Ending::Converged,
-            "the sentences, not the equations: lambda and theta are exchanged",
+            "the sentences have the wrong symbols, the equations are right: lambda and theta are exchanged",
         )
-        .by_comparison()
     }
 
     pub(super) fn friction(&self) -> Row {
@@ -132,9 +130,9 @@ impl Results {
                 ratio(&cad, one)
             )
         });
-        Row::holds(
+        Row::remark(
             "1.friction",
-            "a caution, no misprint: what releases tell of friction, \"determined experimentally\" and then found oversized",
+            "what releases tell of friction, \"determined experimentally\" and then found oversized",
             "0.35 -> 0.335, 0.279, 0.203, 0.076",
             format!(
                 "{values} of four values in newton meters; over {} (Table 6, of the arm that is let go; Table 2): {}",
@@ -142,7 +140,7 @@ impl Results {
                 said.collect::<Vec<_>>().join(", ")
             ),
             values == 0 && frictions.len() == 4 && frictions.iter().all(is_right),
-            "friction has a value, or its ratios are off",
+            "no misprint: friction has no value in newton meters, only its ratios are told",
         )
     }
 

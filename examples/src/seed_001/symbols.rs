@@ -1,4 +1,5 @@
-//! Equations (3) and (4) term by term, as printed, less those that the compiler derives from the energies, multiplied out in symbols.
+//! Equations (3) and (4) term by term, as printed, less those that the compiler derives from the energies and from the frames, multiplied out
+//! in symbols.
 
 use robot_model_codegen::Compiled;
 use robot_model_codegen::expr::{Dag, ExprId, Function, Names, Style, Symbol};
@@ -85,23 +86,107 @@ pub fn left(compiled: &Compiled, equations: [&[Term]; 2]) -> Result<[Vec<String>
         parameters: compiled.standard.iter().map(|p| p.name.clone()).collect(),
         ..Names::default()
     };
+    let torque = compiled.dynamics.rigid_torque.clone();
+    let product = |dag: &mut Dag, product: &str| {
+        let mut own = names.parameters.iter();
+        let place = own.position(|name| name == product);
+        let place = place.ok_or_else(|| format!("`{product}` is no parameter of the spec"))?;
+        Ok(dag.symbol(Symbol::Parameter(place)))
+    };
+    less(&mut dag, &torque, equations, &names, &product)
+}
+
+/// The paper's constants but for the length, which is a number in the frames of a chain.
+const CONSTANTS: [&str; 6] = ["m1", "m2", "c1", "c2", "I1", "I2"];
+
+/// The same of the chain, whose standard parameters are what the paper's constants make them, with the number `l1` for its length.
+///
+/// Both sides are of the second degree in the length, so that three lengths settle all.
+///
+/// # Errors
+/// As [`left`].
+pub fn left_of_chain(
+    compiled: &Compiled,
+    l1: f64,
+    equations: [&[Term]; 2],
+) -> Result<[Vec<String>; 2], Error> {
+    let compiled = compiled.ungrouped();
+    let mut dag = compiled.dag.clone();
+    let standard = compiled.standard.iter().map(|p| p.name.clone());
+    // Behind the standard parameters, which all go.
+    let first = compiled.standard.len();
+    let parameters = standard.clone().chain(CONSTANTS.map(str::to_owned));
+    let names = Names {
+        parameters: parameters.collect(),
+        ..Names::default()
+    };
+    let [m1, m2, c1, c2, i1, i2] =
+        std::array::from_fn(|k| dag.symbol(Symbol::Parameter(first + k)));
+    let length = dag.constant(l1);
+    // The frame of the first link is at its end.
+    let x1 = dag.sub(c1, length);
+    let mut about = |mass: ExprId, x: ExprId, inertia: ExprId| {
+        let moment = dag.mul(mass, x);
+        let square = dag.mul(moment, x);
+        [moment, dag.add(inertia, square)]
+    };
+    let ([mx1, izz1], [mx2, izz2]) = (about(m1, x1, i1), about(m2, c2, i2));
+    let zero = dag.zero();
+    let of_name = |name: String| match name.as_str() {
+        "q1.m" => m1,
+        "q1.mx" => mx1,
+        "q1.izz" => izz1,
+        "q2.m" => m2,
+        "q2.mx" => mx2,
+        "q2.izz" => izz2,
+        _ => zero,
+    };
+    let values: Vec<ExprId> = standard.map(of_name).collect();
+    let torque = dag.substitute(&compiled.dynamics.rigid_torque, &|symbol| match symbol {
+        Symbol::Parameter(k) => values.get(k).copied(),
+        _ => None,
+    });
+    let product = |dag: &mut Dag, product: &str| {
+        let mut made = dag.constant(1.0);
+        for part in product.split('*') {
+            let (name, power) = part.split_once('^').unwrap_or((part, "1"));
+            let own = CONSTANTS.iter().position(|own| *own == name);
+            let own = match own {
+                Some(k) => dag.symbol(Symbol::Parameter(first + k)),
+                None if name == "l1" => dag.constant(l1),
+                None => return Err(format!("`{name}` is no constant of the paper").into()),
+            };
+            for _ in 0..power.parse::<u32>()? {
+                made = dag.mul(made, own);
+            }
+        }
+        Ok(made)
+    };
+    less(&mut dag, &torque, equations, &names, &product)
+}
+
+/// Terms of torques less those of equations, whose products of constants `product` makes.
+fn less(
+    dag: &mut Dag,
+    torque: &[ExprId],
+    equations: [&[Term]; 2],
+    names: &Names,
+    product: &dyn Fn(&mut Dag, &str) -> Result<ExprId, Error>,
+) -> Result<[Vec<String>; 2], Error> {
     let mut all = [Vec::new(), Vec::new()];
     for (joint, equation) in equations.into_iter().enumerate() {
-        let mut difference = compiled.dynamics.rigid_torque[joint];
-        for &(coefficient, product, factors) in equation {
-            let mut own = names.parameters.iter();
-            let place = own.position(|name| name == product);
-            let place = place.ok_or_else(|| format!("`{product}` is no parameter of the spec"))?;
-            let mut term = dag.symbol(Symbol::Parameter(place));
+        let mut difference = torque[joint];
+        for &(coefficient, constants, factors) in equation {
+            let mut term = product(dag, constants)?;
             for &own in factors {
-                let own = factor(&mut dag, own);
+                let own = factor(dag, own);
                 term = dag.mul(term, own);
             }
             let term = dag.scale(-coefficient, term);
             difference = dag.add(difference, term);
         }
-        let polynomial = expand(&mut dag, difference, &names).ok_or("too long")?;
-        let left = terms(&dag, &polynomial, &names, Style::Text).into_iter();
+        let polynomial = expand(dag, difference, names).ok_or("too long")?;
+        let left = terms(dag, &polynomial, names, Style::Text).into_iter();
         all[joint] = left.map(|(_, term)| term).collect();
     }
     Ok(all)

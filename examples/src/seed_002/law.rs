@@ -75,16 +75,36 @@ pub fn difference() -> Result<f64, Error> {
     Ok(most)
 }
 
-/// Speed at which the friction of a joint begins to fall, rad/s: the mean of both directions.
+/// Speeds from which on the friction of a joint does otherwise, rad/s, by a scan of the compiled law in steps of 1 mrad/s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Speeds {
+    /// From which it falls, forward and backward.
+    pub falls: [f64; 2],
+    /// The same of the mean of both directions.
+    pub falls_in_mean: f64,
+    /// From which it drives, forward and backward.
+    pub drives: [f64; 2],
+}
+
+/// Those of a joint.
 ///
 /// # Errors
 /// Those of [`compiled_friction`].
-pub fn peak(k: usize) -> Result<f64, Error> {
+pub fn scanned(k: usize) -> Result<Speeds, Error> {
     let law = compiled_friction(PRINTED, k)?;
-    let mean = |v: f64| 0.5 * (law(v) - law(-v));
-    let speeds = (20..6000_i32).map(|step| 1e-3 * f64::from(step));
-    let most = speeds.max_by(|x, y| mean(*x).total_cmp(&mean(*y)));
-    Ok(most.unwrap_or_default())
+    // Against the motion, forward and backward.
+    let braking = |v: f64| [law(v), -law(-v)];
+    let speeds = || (20..6000_i32).map(|step| 1e-3 * f64::from(step));
+    let peak = |of: &dyn Fn(f64) -> f64| {
+        let most = speeds().max_by(|x, y| of(*x).total_cmp(&of(*y)));
+        most.unwrap_or_default()
+    };
+    let drives = |way: usize| speeds().find(|v| braking(*v)[way] < 0.0);
+    Ok(Speeds {
+        falls: [0, 1].map(|way: usize| peak(&|v| braking(v)[way])),
+        falls_in_mean: peak(&|v| braking(v).iter().sum()),
+        drives: [0, 1].map(|way| drives(way).unwrap_or(f64::INFINITY)),
+    })
 }
 
 /// By how much `audit` finds the friction of joint `k` to jump, N m, and at what speed, rad/s; nothing where it finds no jump.

@@ -10,7 +10,7 @@ use super::base::{Base, base};
 use super::excitation::{Objectives, designs, objectives, request, violation, wanted};
 use super::experiment::{RIPPLE_2, measure, test_motion};
 use super::guiding::{Conventional, Guided, Modified, guide, identified};
-use super::law::{self, Besides};
+use super::law::{self, Besides, Speeds};
 use super::stacked::Standard;
 use super::streaming::{Streamed, stream, sums_of_squares};
 use super::table_one::{ours, printed};
@@ -25,8 +25,8 @@ pub struct Results {
     pub law_difference: f64,
     /// Jumps, `[printed, continuous]`.
     pub jumps: [[Option<[f64; 2]>; 6]; 2],
-    /// Speeds at which friction begins to fall, rad/s.
-    pub peaks: [f64; 6],
+    /// Speeds from which friction falls and drives, by a scan.
+    pub speeds: [Speeds; 6],
     /// What the tracer misses where friction falls at low speeds, with the printed law, and with `stribeck` beside it.
     pub missing_fall: [Vec<String>; 2],
     /// The same where friction depends on the position, and `position_dependent_friction`.
@@ -144,7 +144,7 @@ pub fn results() -> Result<Results, Error> {
             each(|k| law::jump(law::PRINTED, k))?,
             each(|k| law::jump(law::CONTINUOUS, k))?,
         ],
-        peaks: each(law::peak)?,
+        speeds: each(law::scanned)?,
         missing_fall: Besides::Falls.missing()?,
         missing_position: Besides::Position.missing()?,
         reads_position: [

@@ -1,15 +1,19 @@
 //! Tables of the publication beside ours.
 
+use super::arm::truth;
 use super::excitation::CRITERIA;
+use super::law::Speeds;
 use super::results::Results;
 use super::table_two::{Fit, WEIGHTS, drop, mean};
-use super::truth::{FRICTION, METHODS, TABLE_2};
+use super::truth::{FRICTION, METHODS, TABLE_1, TABLE_2};
 use crate::paper::Table;
 
 /// All of them.
 #[must_use]
 pub fn tables(results: &Results) -> Vec<Table> {
     vec![
+        rigid(results),
+        audited(results),
         table_1(results),
         friction(results),
         criteria(results),
@@ -38,6 +42,66 @@ fn streaming(results: &Results) -> Table {
 fn cells<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> Vec<String> {
     let values = values.into_iter().map(|x| format!("{x:.2}"));
     std::iter::once(name.to_owned()).chain(values).collect()
+}
+
+/// Links and rotors of Table I beside those of the arm that is simulated.
+fn rigid(results: &Results) -> Table {
+    let mut table = Table::new(
+        "Links and rotors of Table I, printed, and those of the simulated arm: kg, kg m, kg m^2",
+        ["", "1", "2", "3", "4", "5", "6"],
+    );
+    let ours = truth();
+    let rigid = TABLE_1
+        .iter()
+        .take_while(|(name, _)| !name.starts_with("rokae"));
+    for (name, printed) in rigid {
+        let short = if *name == "motor_inertia.ia" {
+            "J"
+        } else {
+            *name
+        };
+        // Without zeros at the end, and without a sign before zero.
+        let digits = |x: f64| format!("{}", (1e4 * x).round() / 1e4 + 0.0);
+        let cells = |said: &str, values: [f64; 6]| {
+            let first = std::iter::once(format!("{short}, {said}"));
+            first.chain(values.map(digits)).collect::<Vec<String>>()
+        };
+        table.push(cells("printed", *printed));
+        let here = std::array::from_fn(|k| {
+            ours.get(&format!("j{}.{name}", k + 1))
+                .copied()
+                .unwrap_or(f64::NAN)
+        });
+        table.push(cells("here", here));
+    }
+    let checks = [("printed", &results.table_1[1]), ("here", &results.ours[0])];
+    for (said, audited) in checks {
+        let (links, rotors) = (audited.told("bodies"), audited.told_of("signs", "value"));
+        let joint = |k: usize| format!("j{}", k + 1);
+        let of = |name: &str, is_wrong: &dyn Fn(usize) -> bool, wrong: &str| {
+            let cells = (0..6).map(|k| if is_wrong(k) { wrong } else { "possible" }.to_owned());
+            let first = std::iter::once(format!("{name}, {said}, by `audit`"));
+            first.chain(cells).collect::<Vec<String>>()
+        };
+        table.push(of("link", &|k| links.contains(&&*joint(k)), "no body"));
+        let is_below = |k: usize| rotors.contains(&&*format!("{}.motor_inertia.ia", joint(k)));
+        table.push(of("rotor", &is_below, "below zero"));
+    }
+    table
+}
+
+/// What the audit says of links and rotors, word by word.
+fn audited(results: &Results) -> Table {
+    let mut table = Table::new(
+        "What `audit` says of links and rotors of Table I",
+        ["check", "finding"],
+    );
+    for check in ["bodies", "signs", "inertia"] {
+        for finding in results.table_1[1].findings(check) {
+            table.push([check, finding]);
+        }
+    }
+    table
 }
 
 /// Friction of Table I, which the arm has that is simulated, and what comes back of it.
@@ -75,11 +139,23 @@ fn friction(results: &Results) -> Table {
     let jumps = results.jumps[0].map(|jump| jump.unwrap_or([f64::NAN; 2]));
     table.push(cells("jumps by, N m", &jumps.map(|[by, _]| by)));
     table.push(cells("jumps at, rad/s", &jumps.map(|[_, at]| at)));
-    table.push(cells("falls from, rad/s", &results.peaks));
+    let scanned = |of: &dyn Fn(&Speeds) -> f64| results.speeds.each_ref().map(of);
+    for (way, name) in ["forward", "backward"].into_iter().enumerate() {
+        let name = format!("falls from, {name}, rad/s");
+        table.push(cells(&name, &scanned(&|speeds| speeds.falls[way])));
+    }
+    table.push(cells(
+        "falls from, mean of both, rad/s",
+        &scanned(&|speeds| speeds.falls_in_mean),
+    ));
+    for (way, name) in ["forward", "backward"].into_iter().enumerate() {
+        let name = format!("drives from, {name}, rad/s");
+        table.push(cells(&name, &scanned(&|speeds| speeds.drives[way])));
+    }
     let drives: Vec<f64> = (0..6)
         .map(|k| results.drives_from(1, k).unwrap_or(f64::NAN))
         .collect();
-    table.push(cells("drives from, rad/s", &drives));
+    table.push(cells("drives from, `audit`, rad/s", &drives));
     table
 }
 

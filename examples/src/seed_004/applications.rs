@@ -36,15 +36,14 @@ fn uses(results: &Results) -> Vec<Row> {
             sentences.iter().all(|(_, [held, of])| held == of),
             "shares hang on the motion, which is drawn only: ours has the printed frequencies, with amplitudes of our own",
         ),
-        Row::wrong_in_print(
+        Row::remark(
             "4.8.gravity",
             "what section 4.1 says of gravity on joint 3 beside torques that are taken apart (`dissect`) with table 1: over that of UR with a force sensor, and with a gimbal and counterweight in UR and USD",
             "half of it; nearly none",
             format!("{sensor:.2}; {upright:.2}, {turned:.2}"),
             !super::shares::is_as_said(gravity),
             "gravity on joint 3 is pi8 sin(theta3), so that along one motion it is as pi8 is, and not with table 1 as the text has it",
-        )
-        .by_comparison(),
+        ),
         Row::holds(
             "4.9",
             "fc / fv of UR, deg/s",

@@ -83,6 +83,18 @@ pub fn without_friction() -> String {
     SPEC.replace(FRICTION, "")
 }
 
+/// The spec without viscous friction on the joints of which `is_left_out`.
+#[must_use]
+pub fn without_viscous(is_left_out: [bool; 3]) -> String {
+    let kept = (0..3).filter(|j| !is_left_out[*j]);
+    let kept = kept.map(|j| format!("viscous_friction on theta{}; ", j + 1));
+    let kept: String = kept.collect();
+    SPEC.replace(
+        FRICTION,
+        &format!("effects {{ {kept}coulomb_friction on all; }}"),
+    )
+}
+
 /// The spec with other limits of the positions, rad.
 #[must_use]
 pub fn within(low: [f64; 3], high: [f64; 3]) -> String {

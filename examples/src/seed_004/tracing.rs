@@ -22,6 +22,8 @@ pub struct Traces {
     pub with_friction: Verdict,
     /// A device with friction that falls with speed, by the whole model.
     pub falling: Verdict,
+    /// The same where viscous coefficients that came out below zero are held at zero, which is a model without them.
+    pub falling_held: Verdict,
     /// Viscous coefficients that the whole model has for it, N m s/rad.
     pub falling_viscous: [f64; 3],
     /// How many of the parameters of that fit `signs` of the audit finds below zero.
@@ -65,6 +67,7 @@ pub fn all(upright: &Log, motion: &Sines) -> Result<Traces, Error> {
         falling_signs: audited(SPEC, &falling.fitted)?.findings("signs").len(),
         falling_rms: falling.rms,
         falling: falling.verdict,
+        falling_held: falling.held,
         true_viscous: VISCOUS,
         equation_4,
     })
@@ -96,6 +99,8 @@ fn equation_4(motion: &Sines) -> Result<[Verdict; 2], Error> {
 pub struct Falling {
     /// What the tracer says of it by the whole model.
     pub verdict: Verdict,
+    /// The same where viscous coefficients below zero are held at zero.
+    pub held: Verdict,
     /// The whole model's parameters.
     pub fitted: Pi,
     /// RMS% of (15) on the other half, of a fit without rows at turns.
@@ -118,9 +123,13 @@ pub fn falling(motion: &Sines, part: f64, speed: f64) -> Result<Falling, Error> 
     let Halves { train, validate } = Halves::of(&record)?;
     let model = device::momentum(SPEC)?;
     let fit = fits::fit_with_turns(&model, &train)?;
+    let fitted = device::values(&fit);
+    let held = device::without_viscous([8, 9, 10].map(|k| fitted[k] < 0.0));
+    let [verdict, held] = two(in_threads(&[SPEC, &held], |text| trace(text, &train))?);
     Ok(Falling {
-        verdict: trace(SPEC, &train)?,
-        fitted: device::values(&fit),
+        verdict,
+        held,
+        fitted,
         rms: fits::rms(&fits::fit(&model, &train)?, &model, &validate)?,
     })
 }

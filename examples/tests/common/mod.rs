@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use robot_model_examples::Paper;
-use robot_model_examples::paper::lacking;
+use robot_model_examples::paper::{lacking, listed_otherwise};
 
 const LIST: &str = include_str!("../../../docs/papers/README.md");
 
@@ -12,6 +12,7 @@ const LIST: &str = include_str!("../../../docs/papers/README.md");
 pub fn agrees(paper: &Paper, name: &str, page: &str, outcomes: [&[&str]; 2]) {
     assert_eq!(paper.differences(page), [""; 0]);
     assert_eq!(paper.counted_otherwise(LIST, name), None);
+    assert_eq!(listed_otherwise(LIST, name, page), [""; 0]);
     let number = name.chars().last().expect("a number");
     assert_eq!(lacking(paper, number), [""; 0]);
     let [not_reached, impossible] = paper.failing();

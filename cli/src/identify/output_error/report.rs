@@ -6,12 +6,11 @@ use robot_model::identify::output_error::{Comparison, Distance, Ending, Hold, Ou
 use robot_model::identify::{relative_deviation, table_value};
 use robot_model::log::Fault;
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::Body;
-use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
 use super::super::data_faults::{FaultReport, fault_reports};
 use super::super::report::{CombinationReport, Parameter, combination, counted, shares};
+use super::constants::{ConstantsReport, Told};
 use super::directions::{DirectionReport, RatioReport, direction, hanging, ratio};
 use super::{Judged, listed};
 
@@ -28,6 +27,8 @@ pub(super) struct OutputReport<'a> {
     /// Of windows, s.
     pub window: Option<f64>,
     pub faults: &'a [(String, Fault)],
+    /// Of a robot that says its energies, where its constants are more than what logs tell.
+    pub constants: Option<Told>,
 }
 
 /// What `--json` writes; the first keys are those of other methods.
@@ -64,6 +65,8 @@ pub(super) struct JsonReport<'a> {
     ratios: Vec<RatioReport<'a>>,
     /// Sums of others that they do not tell apart.
     combinations: Vec<CombinationReport<'a>>,
+    /// Of constants of energies that are more than the sums of their products; null where they are not.
+    constants: Option<ConstantsReport<'a>>,
     /// What hangs on all that the model lacks: shares of values; null where nothing does by much.
     frail: Option<DirectionReport<'a>>,
     iterates: Vec<IterateReport<'a>>,
@@ -189,6 +192,7 @@ impl OutputReport<'_> {
                     values: &iterate.values,
                 })
                 .collect(),
+            constants: self.constants.as_ref().and_then(Told::report),
             frail: found.frail.as_ref().map(direction),
             data_faults: fault_reports(self.faults),
         }
@@ -235,7 +239,9 @@ impl OutputReport<'_> {
             self.names.len() - found.bound.len(),
             found.samples
         )?;
-        self.tell_constants(text)?;
+        if let Some(constants) = &self.constants {
+            write!(text, "{constants}")?;
+        }
         if found.ending == Ending::OutOfIterations {
             writeln!(
                 text,
@@ -286,34 +292,6 @@ impl OutputReport<'_> {
         }
         self.tell_iterates(text)?;
         self.distances(text)
-    }
-
-    /// Of a robot that says its energies, constants that show only in fewer sums of products.
-    fn tell_constants(&self, text: &mut String) -> std::fmt::Result {
-        let compiled = self.compiled;
-        let Body::Energies(energies) = &compiled.model.body else {
-            return Ok(());
-        };
-        let kept = compiled.base.kept.iter();
-        let of_effects =
-            kept.filter(|&&k| matches!(compiled.standard[k].owner, Owner::Effect { .. }));
-        let sums = compiled.base.kept.len() - of_effects.count();
-        let constants = energies.parameters.len();
-        if constants <= sums {
-            return Ok(());
-        }
-        let names: Vec<String> = energies
-            .parameters
-            .iter()
-            .map(|own| own.name.clone())
-            .collect();
-        writeln!(
-            text,
-            "rank {} of {} with the spec's own constants: {} show in {sums} sums of products alone, so none of them has a value by itself",
-            self.found.identifiability.rank,
-            self.names.len() - self.found.bound.len() + constants - sums,
-            listed(&names)
-        )
     }
 
     /// The way of the search: costs, and values where a line holds them.

@@ -98,15 +98,14 @@ pub(super) fn rig(results: &Results) -> Vec<Row> {
             findings.differences.is_told(),
             "slopes over stretches tell it; differences do with 20 bits",
         ),
-        Row::wrong_in_print(
+        Row::remark(
             "3.bits",
             "the encoder's step: that which `friction` finds in logs beside the printed one",
             format!("12 bits, {} degrees", truth::PRINTED_STEP_DEG),
             findings.encoder.text(),
             findings.encoder.is_told(),
             "12 bits are a turn of 4096 steps, which is what is found",
-        )
-        .by_comparison(),
+        ),
         Row::holds(
             "3.encoder",
             "which bristles an encoder tells",

@@ -48,8 +48,10 @@ pub struct Identifiability {
     /// Directions that change it little or not at all, the weakest last.
     pub directions: Vec<Direction>,
     identified: Vec<bool>,
-    /// Lengths of the columns, and directions with their singular values, without those that change nothing.
+    /// Lengths of the columns, without those of parameters that change nothing.
     lengths: DVector<f64>,
+    /// The factor of the sensitivities.
+    r: DMatrix<f64>,
 }
 
 /// Parameters that may move together while outputs (almost) do not.
@@ -201,6 +203,7 @@ impl Identifiability {
                 directions: Vec::new(),
                 identified: Vec::new(),
                 lengths,
+                r: r.clone(),
             };
         };
         let largest = singular.max();
@@ -253,7 +256,46 @@ impl Identifiability {
             directions,
             identified,
             lengths,
+            r: r.clone(),
         }
+    }
+
+    /// What the same logs say of other parameters, of which these are functions: `slopes` has a row for each of these and a column for each of
+    /// the others.
+    ///
+    /// # Panics
+    /// Where `slopes` has another number of rows than there are parameters here, or of columns than there are `values` and `names`.
+    ///
+    /// # Examples
+    /// ```
+    /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
+    /// # use block::{Block, measure};
+    /// use nalgebra::dmatrix;
+    /// use robot_model::identify::output_error::{Hold, OutputError, Recording};
+    /// let recording = Recording::new(&measure(), &[1.0], 0.0, Vec::new());
+    /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
+    /// let names = ["m", "c"].map(str::to_owned);
+    /// let found = settings.fit(&Block([3.0, 0.2]), &names, &[3.0, 0.2], &[recording], &mut |_| ())?;
+    /// // Of a mass that is a block's and a load's neither is told, friction is.
+    /// let [m, c] = [found.values[0], found.values[1]];
+    /// let names = ["own", "load", "c"].map(str::to_owned);
+    /// let slopes = dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 1.0];
+    /// let parts = found.identifiability.through(&slopes, &[m - 0.5, 0.5, c], &names);
+    /// assert_eq!((parts.rank, parts.directions.len()), (2, 1));
+    /// assert_eq!([0, 1, 2].map(|k| parts.is_identified(k)), [false, false, true]);
+    /// # Ok::<(), robot_model::identify::output_error::OutputErrorError>(())
+    /// ```
+    #[must_use]
+    pub fn through(&self, slopes: &DMatrix<f64>, values: &[f64], names: &[String]) -> Self {
+        assert_eq!(
+            (slopes.nrows(), slopes.ncols(), slopes.ncols()),
+            (self.r.ncols(), values.len(), names.len()),
+            "a slope for each pair of parameters"
+        );
+        let sensitivities = &self.r * slopes;
+        // As many singular values as parameters.
+        let rows = sensitivities.nrows().max(values.len());
+        Self::new(&sensitivities.resize_vertically(rows, 0.0), values, names)
     }
 
     /// Whether logs say anything of a parameter by itself.
