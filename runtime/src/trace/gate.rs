@@ -21,7 +21,7 @@ pub(super) const MATERIAL_PERCENT: f64 = 5.0;
 pub(super) const SIGNIFICANCE: f64 = 1e-3;
 
 /// The same of what takes as much off a joint's error that was not fitted, in every fold, and as much off the raw one, percent: a short log
-/// has few blocks, whose score may be no more beyond chance than that. Of 60 clean simulated arms whose zeros wander a law of no more than
+/// has few blocks, whose score may be no more beyond chance than that. Of 35 clean simulated arms whose zeros wander a law of no more than
 /// noise took at most a third off the one and an eighth off the other, and had a score that is certain among so many tests.
 const LARGE: [Large; 2] = [
     Large {
