@@ -97,8 +97,8 @@ pub struct Estimate {
     pub turns: Vec<usize>,
     /// Whether these rows are left out, see [`AtTurns`](super::AtTurns). Errors on other logs are of all rows but those of [`Self::held`] joints.
     pub is_without_turns: bool,
-    /// Names of the parameters that no rows but those at turns of one joint tell: it stands there longer than its law says, and they may be off by many
-    /// of their deviations. None of a [`Factor`](super::Factor).
+    /// Names of the parameters that no rows but those at turns of one joint tell: it stands there longer than its law says, and they
+    /// may be off by many of their deviations. None of a [`Factor`](super::Factor).
     pub told_at_turns: Vec<String>,
     /// Rows per joint that are left out because dry friction holds it nearly all the time.
     pub held: Vec<usize>,

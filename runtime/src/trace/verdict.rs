@@ -291,8 +291,9 @@ impl Verdict {
         }
     }
 
-    /// Where nothing was named: of the laws of the last round against which only their signs or ranges, folds that disagree or parameters that are traded speak the one that takes most
-    /// off the error of its joints, where that is a tenth or more. It is not the law, and something like it is missing.
+    /// Where nothing was named: of the laws of the last round against which only their signs or ranges, folds that disagree or parameters that
+    /// are traded speak, the one that takes most off the error of its joints, where that is a tenth or more. It is not the law, and something
+    /// like it is missing.
     ///
     /// # Examples
     /// ```
