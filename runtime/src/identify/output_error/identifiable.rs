@@ -270,7 +270,7 @@ impl Identifiability {
     /// ```
     /// # mod block { include!(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/doc/block.rs")); }
     /// # use block::{Block, measure};
-    /// use nalgebra::dmatrix;
+    /// use nalgebra::DMatrix;
     /// use robot_model::identify::output_error::{Hold, OutputError, Recording};
     /// let recording = Recording::new(&measure(), &[1.0], 0.0, Vec::new());
     /// let settings = OutputError { hold: Some(Hold::Sample), ..OutputError::default() };
@@ -279,7 +279,7 @@ impl Identifiability {
     /// // Of a mass that is a block's and a load's neither is told, friction is.
     /// let [m, c] = [found.values[0], found.values[1]];
     /// let names = ["own", "load", "c"].map(str::to_owned);
-    /// let slopes = dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 1.0];
+    /// let slopes = DMatrix::from_row_slice(2, 3, &[1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
     /// let parts = found.identifiability.through(&slopes, &[m - 0.5, 0.5, c], &names);
     /// assert_eq!((parts.rank, parts.directions.len()), (2, 1));
     /// assert_eq!([0, 1, 2].map(|k| parts.is_identified(k)), [false, false, true]);
