@@ -6,7 +6,7 @@ use plant::{Pendulums, Plant, column, sign};
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::log::Log;
 use robot_model::motion::{Kinematics, Motion};
-use robot_model::trace::{Outcome, Refusal, Trace, Verdict};
+use robot_model::trace::{Outcome, Quantity, Refusal, Trace, Verdict};
 
 /// One column on one joint, a function of `(q, dq, shape)`.
 struct Law {
@@ -222,6 +222,51 @@ fn an_effect_outside_the_library_gets_no_name() {
         assert_eq!(verdict.outcome, Outcome::Unexplained, "{verdict:#?}");
         assert!(verdict.findings.is_empty());
         assert!(verdict.after[0].is_material() && !verdict.after[1].is_material());
+        let most = &verdict.left[0].shares[0];
+        assert!(
+            most.of == Quantity::Velocities(0, 1) && most.share > 0.7,
+            "{:?}",
+            verdict.left
+        );
+    }
+}
+
+/// A torque in a window of positions, which a motion that does not come again passes now and then.
+#[test]
+fn a_window_of_positions_is_told_as_such() {
+    let verdict = trace(&Plant {
+        extra: |j, q, _| f64::from(u8::from(j == 0 && (0.1..0.5).contains(&q[0]))),
+        periodic: false,
+        ..Plant::default()
+    });
+    assert_eq!(verdict.outcome, Outcome::Unexplained, "{verdict:#?}");
+    let most = &verdict.left[0].shares[0];
+    assert!(
+        most.of == Quantity::Position(0) && most.share > 0.7,
+        "{:?}",
+        verdict.left
+    );
+}
+
+/// Noise that is alike over as long as a law is has no less power there than above, so that no structure is seen.
+#[test]
+fn a_law_that_hides_in_slow_noise_is_missing_all_the_same() {
+    for (size, wanted) in [(0.0, Outcome::NothingMissing), (1.0, Outcome::Unexplained)] {
+        let with: fn(usize, [f64; 2], [f64; 2]) -> f64 = if size > 0.0 {
+            |j, _, v| if j == 0 { 0.3 * v[0] * v[1] } else { 0.0 }
+        } else {
+            |_, _, _| 0.0
+        };
+        let verdict = trace(&Plant {
+            extra: with,
+            periodic: false,
+            seconds: 60,
+            colored: 0.3,
+            correlated_s: 0.03,
+            ..Plant::default()
+        });
+        assert!(!verdict.after[0].is_material(), "{:?}", verdict.after);
+        assert_eq!(verdict.outcome, wanted, "{:?}", verdict.left);
     }
 }
 

@@ -12,8 +12,10 @@ use super::doubts;
 use super::fit::Fit;
 use crate::output::names;
 
+mod candidate;
 mod excerpt;
 
+use candidate::{Candidate, Found, LESS, all, best};
 use excerpt::excerpt;
 
 /// Degrees are asked for where a joint moves further than this, rad: less is a motion of less than three degrees.
@@ -26,23 +28,12 @@ const WELL: f64 = 15.0;
 /// links of negative weight make up for the rest.
 const WELL_IN_SIGNS: f64 = 4.0;
 
-/// By which factor errors have to be less in another reading.
-const FACTOR: f64 = 2.0;
-
-/// By which factor that of one joint has to be less where no other one's is more: friction and encoders leave of a light joint what no reading
-/// mends.
-const FACTOR_OF_ONE: f64 = 4.0;
-const NO_MORE: f64 = 1.1;
-
 /// Turns are asked for where no joint moves by more of them than this.
 const MOST_TURNS: f64 = 3.0;
 
 /// A model that explains its torques to this, percent, has them in radians: positions that are six times too small leave a sixth of what
 /// gravity bends, which other parameters make up for.
 const WELL_IN_TURNS: f64 = 5.0;
-
-/// An exchange of columns is a step to their order where it leaves this share of the errors, and a reading is better than a plainer one.
-const LESS: f64 = 0.9;
 
 /// A unit of angles.
 #[derive(Clone, Copy)]
@@ -226,8 +217,7 @@ pub(super) fn others(
             candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
-    candidates.retain(|candidate| is_far_less(&candidate.found.left, &as_logged));
-    let best = candidates.into_iter().reduce(Candidate::better)?;
+    let best = best(candidates, &as_logged)?;
     let left = &best.found.left;
     // Of the joint that it mends most.
     let fall = |joint: &usize| as_logged[*joint] - left[*joint];
@@ -294,35 +284,6 @@ fn plain(identify: &Identify, found: &Estimate, log: &Log) -> Identify {
     }
 }
 
-/// What a fit leaves and finds.
-struct Found {
-    /// Of each joint's torque, percent.
-    left: Vec<f64>,
-    /// Parameters below zero that no arm has there.
-    impossible: usize,
-}
-
-/// A reading and what comes of it.
-struct Candidate {
-    reading: Reading,
-    found: Found,
-}
-
-impl Candidate {
-    /// The better of two. One torque the other way round is all others the other way round, with an arm of negative parameters: of readings
-    /// that are as good the possible one, and of these the first, which is the plainest.
-    fn better(self, next: Self) -> Self {
-        let [best, other] = [&self, &next].map(|one| all(&one.found.left));
-        let is_less = other < LESS * best;
-        let is_alike = LESS * other <= best;
-        if is_less || is_alike && next.found.impossible < self.found.impossible {
-            next
-        } else {
-            self
-        }
-    }
-}
-
 /// What is asked.
 struct Asked<'a> {
     form: &'a dyn Fit,
@@ -376,19 +337,4 @@ impl Asked<'_> {
         }
         best
     }
-}
-
-/// Whether a reading leaves so much less than the log as it is that the log is to be read like that.
-fn is_far_less(left: &[f64], as_logged: &[f64]) -> bool {
-    let pairs = || left.iter().zip(as_logged);
-    let is_no_more = pairs().all(|(left, before)| *left <= NO_MORE * before);
-    let mut ill = pairs().filter(|(_, before)| **before > WELL_IN_SIGNS);
-    FACTOR * all(left) < all(as_logged)
-        || is_no_more && ill.any(|(left, before)| FACTOR_OF_ONE * left < *before)
-}
-
-/// Percents of all joints as one.
-fn all(percents: &[f64]) -> f64 {
-    let squares: f64 = percents.iter().map(|percent| percent * percent).sum();
-    (squares / percents.len().max(1) as f64).sqrt()
 }

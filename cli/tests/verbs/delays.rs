@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use crate::common::{CART, Folder, cart_log, json};
+use crate::elsewhere::{PENDULUM, swinging};
 
 /// A log whose torques are so many samples late, or early where that is negative.
 pub(crate) fn late(log: &str, samples: isize) -> String {
@@ -350,5 +351,37 @@ fn commands_that_hold_at_a_low_rate_are_told() {
     assert!(
         (simulated / mass - 1.0).abs() < 0.02 && !is_told,
         "{simulated}"
+    );
+}
+
+/// Noise of 2 N m hides what a delay of 10 ms leaves of errors, and not what it makes of friction, whose deviation knows of it.
+#[test]
+fn a_delay_that_noise_hides_is_noted_and_in_deviations() {
+    let folder = Folder::new();
+    folder.write("arm.robot", PENDULUM);
+    let tones = [(1.3, 0.7, 0.0), (4.1, 0.3, 1.1), (11.0, 0.06, 0.4)];
+    let log = swinging(0.0, -1.45, tones, 2.0, 1);
+    let said = |samples: isize| {
+        folder.write("log.csv", &late(&log, samples));
+        let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "out.json"]);
+        assert!(!run.stderr.contains(" late against"), "{}", run.stderr);
+        let out = json(&folder.read("out.json"));
+        let parameters = out["parameters"].as_array().expect("a list").clone();
+        let friction = |one: &&serde_json::Value| one["name"] == "one.viscous_friction.fv";
+        let friction = parameters.iter().find(friction).expect("it is declared");
+        let [value, std] = ["value", "std"].map(|key| friction[key].as_f64().expect("a number"));
+        (run.stderr, (value - 0.3).abs(), std)
+    };
+    let told = "torques are late by ";
+    let (on_time, _, of_noise) = said(0);
+    assert!(!on_time.contains(told), "{on_time}");
+    let (hidden, off, std) = said(5);
+    assert!(
+        hidden.contains(told) && hidden.contains("or more"),
+        "{hidden}"
+    );
+    assert!(
+        off > 3.0 * of_noise && off < 2.0 * std,
+        "{off} {of_noise} {std}"
     );
 }

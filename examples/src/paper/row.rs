@@ -69,18 +69,14 @@ impl Row {
         holds: bool,
         otherwise: &str,
     ) -> Self {
-        let status = if holds {
-            Status::Reached
-        } else {
-            Status::NotReached(otherwise.to_owned())
-        };
-        Self {
+        Self::judged(
             item,
-            what: what.into(),
-            printed: printed.into(),
-            ours: ours.into(),
-            status,
-        }
+            what,
+            printed,
+            ours,
+            (holds, Status::Reached),
+            otherwise,
+        )
     }
 
     /// An item that the paper has wrong: a check of the tool found `found`, which shows it; where it did not, the item is not reached.
@@ -92,18 +88,9 @@ impl Row {
         is_found: bool,
         why: &str,
     ) -> Self {
-        let status = if is_found {
-            Status::Impossible(why.to_owned())
-        } else {
-            Status::NotReached("the checks do not show what is wrong".to_owned())
-        };
-        Self {
-            item,
-            what: what.into(),
-            printed: printed.into(),
-            ours: found.into(),
-            status,
-        }
+        let wrong = Status::Impossible(why.to_owned());
+        let otherwise = "the checks do not show what is wrong";
+        Self::judged(item, what, printed, found, (is_found, wrong), otherwise)
     }
 
     /// Something to know, where the program's own numbers show it; where they do not, it is not reached.
@@ -115,16 +102,30 @@ impl Row {
         is_found: bool,
         why: &str,
     ) -> Self {
-        let status = if is_found {
-            Status::Remark(why.to_owned())
+        let remark = Status::Remark(why.to_owned());
+        let otherwise = "the numbers do not show it";
+        Self::judged(item, what, printed, found, (is_found, remark), otherwise)
+    }
+
+    /// An item with an outcome where that holds, else not reached.
+    fn judged(
+        item: &'static str,
+        what: impl Into<String>,
+        printed: impl Into<String>,
+        ours: impl Into<String>,
+        (holds, outcome): (bool, Status),
+        otherwise: &str,
+    ) -> Self {
+        let status = if holds {
+            outcome
         } else {
-            Status::NotReached("the numbers do not show it".to_owned())
+            Status::NotReached(otherwise.to_owned())
         };
         Self {
             item,
             what: what.into(),
             printed: printed.into(),
-            ours: found.into(),
+            ours: ours.into(),
             status,
         }
     }

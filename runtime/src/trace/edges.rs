@@ -138,36 +138,15 @@ fn rows_in(segment: &Segment, seconds: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use super::super::series::{HZ, segment, white};
     use super::*;
 
     const ROWS: u32 = 1200;
-    const HZ: f64 = 40.0;
-
-    fn segment() -> Segment {
-        Segment {
-            start: 0,
-            time: (0..ROWS).map(|k| f64::from(k) / HZ).collect(),
-        }
-    }
-
-    /// White numbers of a deviation of one.
-    fn white(seed: u32) -> Vec<f64> {
-        let random = |k: u32| {
-            let hash = (k + 7919 * seed)
-                .wrapping_mul(2_654_435_761)
-                .rotate_left(13)
-                ^ 0x5bd1_e995;
-            let hash = hash.wrapping_mul(0x85eb_ca6b) ^ (hash >> 15);
-            (f64::from(hash.wrapping_mul(0xc2b2_ae35) >> 1) / f64::from(u32::MAX >> 1) - 0.5)
-                * 12_f64.sqrt()
-        };
-        (0..ROWS).map(random).collect()
-    }
 
     /// A zero that wanders within 5 s, with white noise on it.
     fn wandering(seed: u32) -> Vec<f64> {
         let mut zero = 0.0;
-        let steps = white(seed).into_iter().zip(white(seed + 100));
+        let steps = white(ROWS, seed).into_iter().zip(white(ROWS, seed + 100));
         let wander = steps.map(|(step, noise)| {
             zero += step / HZ.sqrt() - zero / (5.0 * HZ);
             zero + 0.1 * noise
@@ -184,7 +163,7 @@ mod tests {
     }
 
     fn chance_of(residual: Vec<f64>) -> f64 {
-        chance(&[segment()], &[1.0], &[vec![window()]], &[residual])
+        chance(&[segment(ROWS)], &[1.0], &[vec![window()]], &[residual])
     }
 
     #[test]
@@ -212,7 +191,7 @@ mod tests {
     #[test]
     fn means_are_of_a_second_before_and_after() {
         let straight: Vec<f64> = (0..ROWS).map(|k| 3.0 + 0.01 * f64::from(k)).collect();
-        let quick = quick(&[segment()], &straight);
+        let quick = quick(&[segment(ROWS)], &straight);
         assert!(quick[40..1160].iter().all(|x| x.abs() < 1e-9));
     }
 }

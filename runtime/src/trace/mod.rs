@@ -58,6 +58,8 @@ mod round;
 mod rows;
 mod score;
 mod search;
+#[cfg(test)]
+mod series;
 mod slopes;
 mod small;
 mod stage;
