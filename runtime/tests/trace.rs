@@ -1,104 +1,32 @@
 //! The tracer on a plant: names what is missing, says nothing when nothing is, abstains when it knows no name.
 
+mod laws;
 mod plant;
 
-use plant::{Pendulums, Plant, column, sign};
-use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
+use laws::{Law, names};
+use plant::{Pendulums, Plant, sign};
+use robot_model::columns::Candidate;
 use robot_model::log::Log;
-use robot_model::motion::{Kinematics, Motion};
-use robot_model::trace::{Outcome, Quantity, Refusal, Trace, Verdict};
+use robot_model::trace::{Outcome, Quantity, Trace, Verdict};
 
-/// One column on one joint, a function of `(q, dq, shape)`.
-struct Law {
-    kind: &'static str,
-    joint: [usize; 1],
-    unknowns: [Unknown; 1],
-    shapes: Vec<Shape>,
-    torque: fn(f64, f64, f64) -> f64,
-}
-
-impl Law {
-    fn new(
-        kind: &'static str,
-        joint: usize,
-        nonnegative: bool,
-        grid: Option<Vec<f64>>,
-        torque: fn(f64, f64, f64) -> f64,
-    ) -> Self {
-        Self {
-            kind,
-            joint: [joint],
-            unknowns: [Unknown {
-                name: format!("joint{}.{kind}.c", joint + 1),
-                nonnegative,
-            }],
-            shapes: grid
-                .into_iter()
-                .map(|grid| Shape {
-                    name: format!("joint{}.{kind}.shape", joint + 1),
-                    grid,
-                })
-                .collect(),
-            torque,
-        }
-    }
-
-    /// A small library on both joints.
-    fn library() -> Vec<Self> {
-        let speeds: Vec<f64> = (0..12)
-            .map(|k| 0.005 * 100.0_f64.powf(f64::from(k) / 11.0))
-            .collect();
-        (0..2)
-            .flat_map(|j| {
-                [
-                    Self::new("torque-offset", j, false, None, |_, _, _| 1.0),
-                    Self::new("asymmetric-viscous", j, false, None, |_, v, _| v.abs()),
-                    Self::new("quadratic-viscous", j, true, None, |_, v, _| v * v.abs()),
-                    Self::new("joint-spring", j, true, None, |q, _, _| q),
-                    Self::new("stribeck", j, true, Some(speeds.clone()), |_, v, s| {
-                        sign(v) * (-(v / s).powi(2)).exp()
-                    }),
-                ]
-            })
-            .collect()
-    }
-}
-
-impl Columns for Law {
-    fn unknowns(&self) -> &[Unknown] {
-        &self.unknowns
-    }
-
-    fn shapes(&self) -> &[Shape] {
-        &self.shapes
-    }
-
-    fn uses_rigid_torque(&self) -> bool {
-        false
-    }
-
-    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
-        let j = self.joint[0];
-        let shape = shapes.first().copied().unwrap_or(0.0);
-        let Kinematics { q, dq, .. } = &motion.wide;
-        vec![column(
-            q[j].iter()
-                .zip(&dq[j])
-                .map(|(q, v)| (self.torque)(*q, *v, shape)),
-            j,
-            0,
-        )]
-    }
-}
-
-impl Candidate for Law {
-    fn kind(&self) -> &str {
-        self.kind
-    }
-
-    fn joints(&self) -> &[usize] {
-        &self.joint
-    }
+/// A small library on both joints.
+fn library() -> Vec<Law> {
+    let speeds: Vec<f64> = (0..12)
+        .map(|k| 0.005 * 100.0_f64.powf(f64::from(k) / 11.0))
+        .collect();
+    (0..2)
+        .flat_map(|j| {
+            [
+                Law::new("torque-offset", j, false, None, |_, _, _| 1.0),
+                Law::new("asymmetric-viscous", j, false, None, |_, v, _| v.abs()),
+                Law::new("quadratic-viscous", j, true, None, |_, v, _| v * v.abs()),
+                Law::new("joint-spring", j, true, None, |q, _, _| q),
+                Law::new("stribeck", j, true, Some(speeds.clone()), |_, v, s| {
+                    sign(v) * (-(v / s).powi(2)).exp()
+                }),
+            ]
+        })
+        .collect()
 }
 
 fn trace(plant: &Plant) -> Verdict {
@@ -106,19 +34,11 @@ fn trace(plant: &Plant) -> Verdict {
 }
 
 fn traced(logs: &[Log]) -> Verdict {
-    let library = Law::library();
+    let library = library();
     let candidates = library.iter().map(|law| law as &dyn Candidate).collect();
     Trace::new(candidates)
         .run(&Pendulums::new(), logs, &mut |_| ())
         .expect("the logs are sound")
-}
-
-fn names(verdict: &Verdict) -> Vec<(&str, usize)> {
-    verdict
-        .findings
-        .iter()
-        .map(|finding| (finding.kind.as_str(), finding.joints[0] + 1))
-        .collect()
 }
 
 #[test]
@@ -315,80 +235,6 @@ fn what_comes_back_above_the_band_is_missing_all_the_same() {
     };
     assert_eq!(exceeded(&verdict), [true, false]);
     assert_eq!(exceeded(&traced(|_, _, _| 0.0)), [false, false]);
-}
-
-/// Two columns that are nearly one: their sum is told, neither of their parameters is.
-struct Traded([Unknown; 2]);
-
-impl Traded {
-    fn new() -> Self {
-        Self(["a", "b"].map(|name| Unknown {
-            name: format!("joint1.traded.{name}"),
-            nonnegative: false,
-        }))
-    }
-}
-
-impl Columns for Traded {
-    fn unknowns(&self) -> &[Unknown] {
-        &self.0
-    }
-
-    fn shapes(&self) -> &[Shape] {
-        &[]
-    }
-
-    fn uses_rigid_torque(&self) -> bool {
-        false
-    }
-
-    fn entries(&self, motion: &Motion, _: &[f64]) -> Vec<Entry> {
-        let Kinematics { q, dq, .. } = &motion.wide;
-        let drag = || dq[0].iter().map(|v| v * v.abs());
-        let other = drag()
-            .zip(&q[0])
-            .map(|(drag, q)| drag + 2e-3 * (9.0 * q).sin());
-        vec![column(drag(), 0, 0), column(other, 0, 1)]
-    }
-}
-
-impl Candidate for Traded {
-    fn kind(&self) -> &'static str {
-        "traded"
-    }
-
-    fn joints(&self) -> &[usize] {
-        &[0]
-    }
-}
-
-/// A law whose parameters trade with each other is not told by its fit, unless that is most of what is missing.
-#[test]
-fn a_law_whose_parameters_trade_is_told_where_it_is_most_of_the_error() {
-    let traded = |extra: fn(usize, [f64; 2], [f64; 2]) -> f64| {
-        let plant = Plant {
-            extra,
-            ..Plant::default()
-        };
-        Trace::new(vec![&Traded::new()])
-            .run(&Pendulums::new(), &[plant.log()], &mut |_| ())
-            .expect("the log is sound")
-    };
-    let small = traded(|j, _, v| {
-        if j == 0 {
-            0.03 * v[0] * v[0].abs()
-        } else {
-            0.0
-        }
-    });
-    assert!(small.findings.is_empty(), "{small:#?}");
-    assert_eq!(
-        small.tried[0].refusals,
-        [Refusal::Undetermined],
-        "{small:#?}"
-    );
-    let large = traded(|j, _, v| if j == 0 { 0.6 * v[0] * v[0].abs() } else { 0.0 });
-    assert_eq!(names(&large), [("traded", 1)], "{large:#?}");
 }
 
 /// A log in which a brake holds the second joint, with a torque that is noise.

@@ -24,6 +24,10 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
             "what is wrong with the logs accounts for what the declared model left"
         }
         Outcome::Explained => "these effects account for what the declared model left",
+        Outcome::Unexplained if !closed.verdict.series.is_empty() => {
+            "the residual follows the motion; effects listed here are together a curve of one joint's position, as a series of any laws of it \
+             would be, so none is named"
+        }
         Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
             "the residual follows the motion; the effects listed here pass the gates but do not account for its structure, so none is named"
         }
@@ -36,7 +40,9 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
 pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
     let why = match closed.outcome() {
         Outcome::Explained => "no spec declares what is wrong with these logs",
-        Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
+        Outcome::Unexplained
+            if closed.verdict.series.is_empty() && !closed.verdict.leads.is_empty() =>
+        {
             "no lead accounts for the structure of what is left"
         }
         _ => outcome(closed),

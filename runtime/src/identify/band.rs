@@ -5,7 +5,7 @@ use crate::log::Log;
 use crate::signal::resample::whole_steps;
 use crate::signal::{Bands, Prepared, band_density};
 
-use super::stack::torque_of;
+use super::stack::whole_torque;
 use super::{Identify, IdentifyError, check_logs, left_out, prepare_all, shapes, slowest_bands};
 
 /// The model's torque counts as seen where its power is at least this many times that of what it leaves.
@@ -76,17 +76,11 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
     let mut modeled = vec![vec![0.0; edges.len() - 1]; arm.dof()];
     let mut left = modeled.clone();
     for log in logs {
-        let torque = torque_of(arm, &log.motion, shapes, estimate, arm.dof());
-        let known = arm.known_torque(&log.motion, shapes);
-        for joint in 0..arm.dof() {
-            let total: Vec<f64> = torque[joint]
-                .iter()
-                .enumerate()
-                .map(|(k, t)| t + known[joint][k])
-                .collect();
+        let torque = whole_torque(arm, &log.motion, shapes, estimate);
+        for (joint, total) in torque.iter().enumerate() {
             let mut rest: Vec<f64> = log.tau[joint]
                 .iter()
-                .zip(&total)
+                .zip(total)
                 .map(|(tau, t)| arm.actuator_gain()[joint] * tau - t)
                 .collect();
             if left_out::samples(arm, log, joint)
@@ -105,7 +99,7 @@ pub(super) fn choose(arm: &dyn Arm, logs: &[Prepared], shapes: &[f64], estimate:
             for (sum, power) in
                 modeled[joint]
                     .iter_mut()
-                    .zip(band_density(&total, log.rate_hz, &edges))
+                    .zip(band_density(total, log.rate_hz, &edges))
             {
                 *sum += power;
             }

@@ -15,7 +15,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
 use super::least_squares::{Excited, Solution};
-use super::stack::{Stack, torque_of};
+use super::stack::{Stack, whole_torque};
 use super::{AtTurns, Beyond, Identify, IdentifyError, Method, logs::update_load};
 use crate::columns::Arm;
 use crate::log::Log;
@@ -99,8 +99,9 @@ pub(crate) fn torque_of_noise(
         let mut noisy = prepare(&noisy, bands)?.motion;
         noisy.turn_speeds.clone_from(&prepared.motion.turn_speeds);
         noisy.rigid_torque.clone_from(&prepared.motion.rigid_torque);
+        // What is known of the arm reads the same positions.
         let [with, without] =
-            [&noisy, &prepared.motion].map(|motion| torque_of(arm, motion, shapes, estimate, dof));
+            [&noisy, &prepared.motion].map(|motion| whole_torque(arm, motion, shapes, estimate));
         let border = prepared.shared.border();
         let inner = border..prepared.motion.time.len().saturating_sub(border);
         samples += inner.len();

@@ -3,7 +3,7 @@
 use super::clipped::rows_at;
 use super::errors::Errors;
 use super::logs::prepare_at_own_rate;
-use super::stack::{norm, percent, torque_of};
+use super::stack::{norm, percent, whole_torque};
 use super::{Estimate, IdentifyError, load_motion, turns};
 use crate::columns::Arm;
 use crate::log::Log;
@@ -163,13 +163,7 @@ impl Estimate {
         if arm.uses_rigid_torque() {
             load_motion(arm, &mut motion, &shapes, &values);
         }
-        let mut torque = torque_of(arm, &motion, &shapes, &values, arm.dof());
-        for (sum, known) in torque.iter_mut().zip(arm.known_torque(&motion, &shapes)) {
-            for (s, k) in sum.iter_mut().zip(known) {
-                *s += k;
-            }
-        }
-        torque
+        whole_torque(arm, &motion, &shapes, &values)
     }
 }
 

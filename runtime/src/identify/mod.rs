@@ -81,6 +81,7 @@ pub use payload::{Carried, DriveGain, Driven, KnownPayload};
 pub use possible::{Origin, Possible, PossibleArms, PossibleLink};
 pub(crate) use shapes::{golden, is_of_decades, moved, neighbors, with_slopes};
 pub use smoothed::Smoothed;
+pub(crate) use stack::whole_torque;
 pub use stack::{JointRows, Segment, Stack, filtered_columns, torque_of};
 pub use table::{is_shape_told, relative_deviation, table_value};
 pub use turns::AtTurns;

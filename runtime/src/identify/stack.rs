@@ -13,6 +13,7 @@ use crate::columns::{Arm, Entry, Unknown};
 use crate::signal::Prepared;
 
 pub(super) use columns::nameless;
+pub(crate) use columns::whole_torque;
 pub use columns::{filtered_columns, torque_of};
 
 /// Entries of a column below this, per unit of its parameter in SI, are rounding.

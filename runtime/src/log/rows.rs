@@ -131,6 +131,7 @@ pub(super) enum Input {
     not(feature = "mcap"),
     allow(
         unused_variables,
+        clippy::needless_pass_by_value,
         reason = "without the features files are refused unread"
     )
 )]

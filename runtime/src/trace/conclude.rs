@@ -60,6 +60,7 @@ pub(super) fn verdict(
         left: Vec::new(),
         noise_floor: values.floor.clone(),
         turn_speeds: values.turn_speeds.clone(),
+        series: Vec::new(),
         goes_on: false,
         is_settled,
     }
@@ -83,6 +84,7 @@ pub(super) fn changed(
         left: Vec::new(),
         noise_floor: values.floor.clone(),
         turn_speeds: values.turn_speeds.clone(),
+        series: Vec::new(),
         goes_on: true,
         is_settled: true,
     }

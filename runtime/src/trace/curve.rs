@@ -1,8 +1,11 @@
 //! Curves and surfaces in quantities of the motion: columns that are 1 at one knot and fall to 0 at its neighbors, and how far they may bend.
 
+use faer::Mat;
+
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
+use super::normal::{Normal, Smooth};
 use super::search::Search;
 use super::whereabouts::Quantity;
 
@@ -130,9 +133,41 @@ fn between(knots: &[f64], value: f64) -> (usize, f64) {
     (above - 1, ((value - low) / (high - low)).clamp(0.0, 1.0))
 }
 
+/// Least squares of a curve of each stiffness on values over some rows.
+pub(super) fn fitted(curve: &Curve, values: &[f64], rows: &[usize]) -> [Vec<f64>; STIFFNESS.len()] {
+    let products = [products(curve, values, rows)];
+    let squares: Vec<f64> = (0..curve.columns.len())
+        .map(|c| products[0][(c, c)])
+        .collect();
+    STIFFNESS.map(|stiffness| {
+        let smooth = Smooth {
+            first: 0,
+            bends: &curve.bends,
+            stiffness,
+        };
+        Normal::smooth(&products, &[1.0], &squares, &smooth).solve()
+    })
+}
+
+/// Products of a curve's columns and values over some rows, values last.
+fn products(curve: &Curve, values: &[f64], rows: &[usize]) -> Mat<f64> {
+    let columns = curve.columns.iter().map(Vec::as_slice);
+    let all: Vec<&[f64]> = columns.chain([values]).collect();
+    let dot = |a: &[f64], b: &[f64]| rows.iter().map(|&k| a[k] * b[k]).sum::<f64>();
+    let mut products = Mat::<f64>::zeros(all.len(), all.len());
+    for a in 0..all.len() {
+        for b in 0..=a {
+            let product = dot(all[a], all[b]);
+            products[(a, b)] = product;
+            products[(b, a)] = product;
+        }
+    }
+    products
+}
+
 #[cfg(test)]
 mod tests {
-    use super::bends;
+    use super::*;
 
     #[test]
     fn bends_run_along_the_axes() {
@@ -141,5 +176,29 @@ mod tests {
         // Two rows of three, which have no column of three.
         assert_eq!(bends(&[2, 3]), [[0, 1, 2], [3, 4, 5]]);
         assert_eq!(bends(&[3, 2]), [[0, 2, 4], [1, 3, 5]]);
+    }
+
+    /// A straight line by five knots, of which rows that it may see are beside the first two and the last two.
+    #[test]
+    fn a_curve_goes_on_where_no_row_may_be_seen() {
+        let place = |k: i32| 0.04 * f64::from(k);
+        let near = |knot: i32, k: i32| (1.0 - (place(k) - f64::from(knot)).abs()).max(0.0);
+        let columns = (0..5).map(|knot| (0..=100).map(|k| near(knot, k)).collect());
+        let curve = Curve {
+            columns: columns.collect(),
+            bends: vec![[0, 1, 2], [1, 2, 3], [2, 3, 4]],
+        };
+        let is_seen = |k: &i32| place(*k) <= 1.0 || place(*k) >= 3.0;
+        let line = |k: i32| 2.0 - 0.5 * place(k);
+        let value = |k: i32| if is_seen(&k) { line(k) } else { 1e6 };
+        let values: Vec<f64> = (0..=100).map(value).collect();
+        let rows = (0..=100).filter(is_seen).map(|k| k.unsigned_abs() as usize);
+        let rows: Vec<usize> = rows.collect();
+        for (gain, stiffness) in fitted(&curve, &values, &rows).iter().zip(STIFFNESS) {
+            for (knot, gain) in gain.iter().enumerate() {
+                let wanted = 2.0 - 0.5 * knot as f64;
+                assert!((gain - wanted).abs() < 0.15, "{stiffness}: {knot} {gain}");
+            }
+        }
     }
 }

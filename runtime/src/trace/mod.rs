@@ -66,6 +66,7 @@ mod stage;
 mod step;
 mod structure;
 mod sure;
+mod together;
 mod trial;
 mod verdict;
 mod wander;

@@ -1,7 +1,7 @@
 //! What the present model leaves of the raw torque, at the full rate of the motion.
 
 use crate::columns::Arm;
-use crate::identify::{Segment, left_out, torque_of};
+use crate::identify::{Segment, left_out, torque_of, whole_torque};
 use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
@@ -161,7 +161,7 @@ fn torque(
     log: &Prepared,
 ) -> Vec<Vec<f64>> {
     let dof = arm.dof();
-    let mut torque = torque_of(arm, &log.motion, shapes, estimate, dof);
+    let mut torque = whole_torque(arm, &log.motion, shapes, estimate);
     let mut first = arm.unknowns().len();
     for effect in accepted {
         let trial = &effect.trial;
@@ -171,10 +171,6 @@ fn torque(
             sum.iter_mut().zip(part).for_each(|(s, p)| *s += p);
         }
         first += trial.count();
-    }
-    let known = arm.known_torque(&log.motion, shapes);
-    for (sum, known) in torque.iter_mut().zip(known) {
-        sum.iter_mut().zip(known).for_each(|(s, k)| *s += k);
     }
     torque
 }

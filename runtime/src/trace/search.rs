@@ -251,10 +251,15 @@ impl<'a> Trace<'a> {
         let any_beyond = (0..after.len()).any(|joint| is_beyond(&joint))
             || left.iter().any(|one| !is_told(&one.joint));
         let mut verdict = verdict(&state, before, after, &values, tried, any_beyond);
-        if !of_terms.is_empty() {
+        let series = search.with_a_series(&state);
+        if !of_terms.is_empty() || !series.is_empty() {
             verdict = verdict.unexplained();
         }
-        Ok(Verdict { left, ..verdict })
+        Ok(Verdict {
+            left,
+            series,
+            ..verdict
+        })
     }
 }
 

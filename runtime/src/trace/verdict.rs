@@ -271,6 +271,9 @@ pub struct Verdict {
     pub noise_floor: Vec<Floor>,
     /// Speeds below which dry friction does not act in full with the findings, one a joint, rad/s or m/s: see [`Log::with_turn_speeds`](crate::log::Log::with_turn_speeds).
     pub turn_speeds: Vec<f64>,
+    /// Joints, from 0, on which two leads are smooth curves of the joint's position and nothing else: terms of a series, which fits whatever
+    /// curve the joint has, so that neither is named.
+    pub series: Vec<usize>,
     /// Whether the last finding changes the arm: what else is missing is to be asked of the arm with the findings declared, by
     /// [`Trace::since`](super::Trace::since).
     pub goes_on: bool,
@@ -368,6 +371,7 @@ impl Verdict {
             left: next.left,
             noise_floor: next.noise_floor,
             turn_speeds: next.turn_speeds,
+            series: next.series,
             goes_on: next.goes_on,
             is_settled: next.is_settled,
         }

@@ -1,7 +1,7 @@
 //! Columns over motions: filtered as the torque of logs is, or summed to a torque.
 
 use super::subtract;
-use crate::columns::{Columns, Entry, Unknown};
+use crate::columns::{Arm, Columns, Entry, Unknown};
 use crate::motion::Motion;
 use crate::signal::Prepared;
 
@@ -96,6 +96,20 @@ pub fn torque_of<C: Columns + ?Sized>(
             -estimate[entry.column],
             &entry.values,
         );
+    }
+    torque
+}
+
+/// Torque of an arm at every sample of a motion, what is known of it included, `[joint][sample]`.
+pub(crate) fn whole_torque(
+    arm: &dyn Arm,
+    motion: &Motion,
+    shapes: &[f64],
+    estimate: &[f64],
+) -> Vec<Vec<f64>> {
+    let mut torque = torque_of(arm, motion, shapes, estimate, arm.dof());
+    for (sum, known) in torque.iter_mut().zip(arm.known_torque(motion, shapes)) {
+        subtract(sum, -1.0, &known);
     }
     torque
 }

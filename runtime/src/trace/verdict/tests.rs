@@ -34,6 +34,7 @@ fn verdict(outcome: Outcome, findings: Vec<Finding>, is_settled: bool) -> Verdic
         left: Vec::new(),
         noise_floor: Vec::new(),
         turn_speeds: Vec::new(),
+        series: Vec::new(),
         goes_on: false,
         is_settled,
     }
