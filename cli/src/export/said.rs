@@ -1,7 +1,7 @@
 //! What is said of an arm that is written: which of its values the parameters tell, and what the format has no place for.
 
 use robot_model_codegen::Compiled;
-use robot_model_spec::model::{Inertial, LinearParameter};
+use robot_model_spec::model::{Inertial, LinearParameter, Link};
 use robot_model_spec::parameter::{InertialElement, Owner};
 
 use super::Format;
@@ -83,6 +83,9 @@ fn short(list: &[&str]) -> String {
         .map(|name| name.rsplit('.').next().unwrap_or(name));
     plain.collect::<Vec<_>>().join(", ")
 }
+
+/// Masses are the same where they differ by less, as a share.
+const SAME_MASS: f64 = 1e-3;
 
 /// How many base parameters are named.
 const NAMED: usize = 4;
@@ -173,12 +176,53 @@ pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<Strin
         .into_iter()
         .flat_map(|chain| &chain.links);
     let links = links.zip(remarks).filter(|(_, remark)| !remark.is_empty());
-    let links: Vec<&str> = links.map(|(link, _)| link.name.as_str()).collect();
-    (!links.is_empty()).then(|| {
+    let (nominal, others): (Vec<_>, Vec<_>) =
+        links.partition(|(link, _)| matches!(link.inertial, Inertial::Nominal(_)));
+    let list = |links: &[(&Link, &String)]| {
+        let links: Vec<&str> = links.iter().map(|(link, _)| link.name.as_str()).collect();
+        names(&links)
+    };
+    let of = [
+        (nominal, "the nearest to the nominal values"),
+        (others, "of which the spec has no nominal values"),
+    ];
+    let of = of.iter().filter(|(links, _)| !links.is_empty());
+    let of: Vec<String> = of
+        .map(|(links, which)| format!("{} one of the sets that move alike, {which}", list(links)))
+        .collect();
+    (!of.is_empty()).then(|| {
         format!(
-            "the parameters do not tell each number of the inertials of {}; written is one of the sets that move alike, the nearest to the \
-             nominal values (comments in the file have the names)",
-            names(&links)
+            "the parameters do not tell each number of the inertials; written is of {} (comments in the file have the names)",
+            of.join(", of ")
+        )
+    })
+}
+
+/// A sentence about links whose given masses no body has that moves so.
+pub(super) fn masses(compiled: &Compiled, standard: &Standard) -> Option<String> {
+    let links = compiled
+        .model
+        .chain()
+        .into_iter()
+        .flat_map(|chain| &chain.links);
+    let count = InertialElement::ALL.len();
+    let tens = standard.values.chunks_exact(count);
+    let others = links.zip(tens).filter_map(|(link, ten)| {
+        let Inertial::Nominal(given) = link.inertial else {
+            return None;
+        };
+        let [given, written] = [given[0], ten[0]];
+        let is_other = (written - given).abs() > SAME_MASS * given;
+        is_other.then(|| {
+            let [given, written] = [given, written].map(|mass| significant(mass, 4));
+            format!("`{}` {written} kg in place of {given} kg", link.name)
+        })
+    });
+    let others: Vec<String> = others.collect();
+    (!standard.is_given && !others.is_empty()).then(|| {
+        format!(
+            "with the nominal masses some links are no bodies that move so, or torques tell them: {}; other masses are the nominal ones",
+            others.join(", ")
         )
     })
 }

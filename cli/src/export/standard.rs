@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use robot_model::Inertial;
-use robot_model::identify::PossibleArms;
+use robot_model::identify::{PossibleArms, PossibleLink};
 use robot_model_codegen::Compiled;
 
 use super::Format;
@@ -139,27 +139,81 @@ fn search(
             link.nominal = ten.or(link.nominal);
         }
     }
-    let found = WIDTHS.iter().find_map(|width| {
-        let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
-        arms.nearest_to(&values.beta, &widths)
-    });
-    let (_, near) = found?;
-    let exact = exact(compiled, &arms, &near, &values.beta);
-    Some(if are_possible(compiled, &exact) {
-        exact
-    } else {
-        near
-    })
+    let is_given = |link: &&PossibleLink| link.nominal.is_some();
+    let mass = |link: &&PossibleLink| link.parameters[0];
+    // Masses that no torque tells alone, or if not those that none tells at all, or none.
+    let silent = arms.links.iter().filter(is_given);
+    let silent = silent.filter(|link| !arms.kept.contains(&mass(link)));
+    let without = arms.links.iter().filter(is_given);
+    let without = without.filter(|link| compiled.base.unidentifiable.contains(&mass(link)));
+    let choices = [silent.collect(), without.collect(), Vec::new()];
+    let mut nearest = None;
+    for held in choices {
+        let (possible, near) = with_masses(compiled, &arms, held, (&values.beta, widths));
+        if possible.is_some() {
+            return possible;
+        }
+        nearest = near;
+    }
+    nearest
+}
+
+/// The nearest arm with some links' masses as they are given, but of those that are no bodies with them, if there is one that has the base
+/// parameters; and the nearest to these.
+fn with_masses(
+    compiled: &Compiled,
+    arms: &PossibleArms,
+    mut held: Vec<&PossibleLink>,
+    (beta, widths): (&[f64], &[f64]),
+) -> (Option<Vec<f64>>, Option<Vec<f64>>) {
+    loop {
+        let (weighed, without) = weighed(compiled, (arms, &held), beta);
+        let found = WIDTHS.iter().find_map(|width| {
+            let widths: Vec<f64> = widths.iter().map(|one| one * width).collect();
+            weighed.nearest_to(&without, &widths)
+        });
+        let Some((_, near)) = found else {
+            return (None, None);
+        };
+        let exact = exact(compiled, &arms.kept, &near, beta);
+        if are_possible(compiled, &exact) {
+            return (Some(exact), Some(near));
+        }
+        let all = held.len();
+        held.retain(|link| is_body(link.parameters.map(|k| exact[k])));
+        if held.len() == all {
+            return (None, Some(near));
+        }
+    }
+}
+
+/// The same arms with some links' masses as they are given, and base parameters without them: bodies whose inertia is far from the given one,
+/// as where a rotor's is in it, are nearest with another mass, too, and masses are what is known best.
+fn weighed(
+    compiled: &Compiled,
+    (arms, held): (&PossibleArms, &[&PossibleLink]),
+    beta: &[f64],
+) -> (PossibleArms, Vec<f64>) {
+    let (mut arms, mut beta) = (arms.clone(), beta.to_vec());
+    for link in held {
+        let (mass, nominal) = (link.parameters[0], link.nominal.map_or(0.0, |ten| ten[0]));
+        arms.fixed[mass] = Some(nominal);
+        for (sum, combination) in beta.iter_mut().zip(&compiled.base.combinations) {
+            let own = combination.iter().filter(|(k, _)| *k == mass);
+            *sum -= own.map(|(_, share)| share * nominal).sum::<f64>();
+        }
+    }
+    (arms, beta)
 }
 
 /// The same with what is left of the base parameters in the standard parameters that stand for them.
-fn exact(compiled: &Compiled, arms: &PossibleArms, near: &[f64], beta: &[f64]) -> Vec<f64> {
+fn exact(compiled: &Compiled, kept: &[usize], near: &[f64], beta: &[f64]) -> Vec<f64> {
     let mut exact = near.to_vec();
     let sums = compiled.base.combinations.iter().map(|combination| {
         let terms = combination.iter();
         terms.map(|&(k, share)| share * near[k]).sum::<f64>()
     });
-    for ((&kept, wanted), sum) in arms.kept.iter().zip(beta).zip(sums) {
+    for ((&kept, wanted), sum) in kept.iter().zip(beta).zip(sums) {
         exact[kept] += wanted - sum;
     }
     exact

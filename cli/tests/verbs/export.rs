@@ -18,8 +18,13 @@ fn arm(effects: &str) -> String {
 
 /// A folder with the arm and a fit of its log.
 fn fitted(effects: &str) -> Folder {
+    fitted_with(effects, VALUES)
+}
+
+/// The same with other values.
+fn fitted_with(effects: &str, values: &str) -> Folder {
     let folder = Folder::new();
-    moved(&folder, &arm(EFFECTS), VALUES, |t| {
+    moved(&folder, &arm(EFFECTS), values, |t| {
         [
             0.6 * (1.3 * t).sin() + 0.2 * (2.9 * t).sin(),
             0.5 * (1.9 * t).sin() - 0.3 * (3.3 * t).cos(),
@@ -80,7 +85,7 @@ fn a_urdf_has_the_torques_of_the_fit() {
         &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
     );
     assert!(
-        said.contains("note: arm.robot: the parameters do not tell each number of the inertials of `upper`, `lower`"),
+        said.contains("note: arm.robot: the parameters do not tell each number of the inertials; written is of `upper`, `lower` one of the sets"),
         "{said}"
     );
     assert!(
@@ -182,6 +187,39 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
 }
 
 /// Values by name are those that are written; what no body has is not.
+/// A rotor of ten times the link's inertia about its axis has no place in a URDF but in the link, whose mass is that of CAD all the same.
+#[test]
+fn a_rotor_in_a_link_changes_no_mass() {
+    let rotor = VALUES.replace(
+        "\"upper.motor_inertia.ia\": 0.2",
+        "\"upper.motor_inertia.ia\": 2.0",
+    );
+    let folder = fitted_with(EFFECTS, &rotor);
+    let said = export(
+        &folder,
+        &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
+    );
+    import_back(&folder);
+    let masses = |text: &str| -> Vec<f64> {
+        let spec = robot_model_spec::load("a spec", text).expect("a spec");
+        let links = &spec.chain().expect("a chain").links;
+        let masses = links.iter().map(|link| match link.inertial {
+            robot_model_spec::model::Inertial::Nominal(ten) => ten[0],
+            _ => panic!("nominal"),
+        });
+        masses.collect()
+    };
+    let [given, written] = ["arm.robot", "back.robot"].map(|file| masses(&folder.read(file)));
+    for (given, written) in given.iter().zip(&written) {
+        assert!(
+            (given - written).abs() < 1e-3 * given,
+            "{given} {written}\n{said}"
+        );
+    }
+    assert_eq!((given.len(), written.len()), (2, 2));
+    assert!(!said.contains("in place of"), "{said}");
+}
+
 #[test]
 fn values_by_name_are_written_as_they_are_where_bodies_have_them() {
     let folder = Folder::new();
@@ -208,7 +246,7 @@ fn values_by_name_are_written_as_they_are_where_bodies_have_them() {
         ],
     );
     assert!(
-        said.contains("do not tell each number of the inertials of"),
+        said.contains("do not tell each number of the inertials; written is of"),
         "{said}"
     );
     folder.succeed(&[

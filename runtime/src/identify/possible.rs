@@ -49,7 +49,7 @@ const THIN: f64 = 1e-2;
 pub struct PossibleArms {
     /// Names of the standard parameters.
     pub names: Vec<String>,
-    /// What the spec fixes, by standard parameter.
+    /// What is fixed, by standard parameter: unknowns are sums of the others.
     pub fixed: Vec<Option<f64>>,
     /// Per unknown its combination `(standard parameter, coefficient)`.
     pub combinations: Vec<Vec<(usize, f64)>>,
@@ -263,10 +263,12 @@ impl PossibleArms {
         };
         let loose = self.kept.iter().chain(&silent).enumerate();
         let loose = loose.filter(|&(variable, &standard)| !is_held(variable, standard));
+        let fixed: Vec<f64> = self.fixed.iter().map(|x| x.unwrap_or(0.0)).collect();
         let barrier = Barrier {
             factor,
             unknowns,
             by_variable: &by_variable,
+            fixed: &fixed,
             cones: &cones,
             loose: loose.map(|(variable, _)| variable).collect(),
         };
@@ -276,10 +278,7 @@ impl PossibleArms {
             cost,
             gap,
         } = barrier.minimize(first)?;
-        let mut standard = barrier.standard(&variables);
-        for (value, fixed) in standard.iter_mut().zip(&self.fixed) {
-            *value = fixed.unwrap_or(*value);
-        }
+        let standard = barrier.standard(&variables);
         Some(Nearest {
             estimate: variables[..unknowns].to_vec(),
             standard,
@@ -298,10 +297,11 @@ impl PossibleArms {
         start
     }
 
-    /// Combinations of standard parameters.
+    /// Combinations of standard parameters that are not fixed.
     fn unknowns_of(&self, standard: &[f64]) -> Vec<f64> {
         let sum = |combination: &Vec<(usize, f64)>| -> f64 {
-            combination.iter().map(|&(k, c)| c * standard[k]).sum()
+            let free = combination.iter().filter(|(k, _)| self.fixed[*k].is_none());
+            free.map(|&(k, c)| c * standard[k]).sum()
         };
         self.combinations.iter().map(sum).collect()
     }

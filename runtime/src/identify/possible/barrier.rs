@@ -141,7 +141,7 @@ fn trace_of_product(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
     entries.map(|(i, k)| a[(i, k)] * b[(k, i)]).sum()
 }
 
-/// `|| R x - r ||^2 / 2` for the first variables `x`, and a barrier of standard parameters that are linear in all variables.
+/// `|| R x - r ||^2 / 2` for the first variables `x`, and a barrier of standard parameters that are linear in all variables, or fixed.
 pub(super) struct Barrier<'a> {
     /// `[R | r]`, in units of the residuals' deviation.
     pub factor: &'a Mat<f64>,
@@ -149,6 +149,8 @@ pub(super) struct Barrier<'a> {
     pub unknowns: usize,
     /// Standard parameters by variables.
     pub by_variable: &'a Mat<f64>,
+    /// Those that are fixed; zero of the others.
+    pub fixed: &'a [f64],
     pub cones: &'a [Cone],
     /// Variables that neither the residual nor a matrix holds: a square does.
     pub loose: Vec<usize>,
@@ -177,7 +179,8 @@ enum Step {
 impl Barrier<'_> {
     pub(super) fn standard(&self, variables: &[f64]) -> Vec<f64> {
         let product = self.by_variable * column(variables);
-        product.col(0).iter().copied().collect()
+        let free = product.col(0).iter().zip(self.fixed);
+        free.map(|(free, fixed)| free + fixed).collect()
     }
 
     /// Residuals of the rows.
