@@ -14,8 +14,9 @@ pub use crate::data_checks::Check;
 use crate::data_checks::checks;
 use crate::data_gate;
 pub use crate::data_gate::DataFault;
-use crate::identify::doubts;
+use crate::identify::fit::ByAcceleration;
 use crate::identify::noted::too_slow;
+use crate::identify::{doubts, readings};
 use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
 use crate::spec::clear;
@@ -42,6 +43,8 @@ pub struct Loop {
     pub faults: Vec<DataFault>,
     /// What the logs were looked through for, and what that found.
     pub checks: Vec<Check>,
+    /// Another way to read the logs, with which the declared model explains them far better.
+    pub reading: Option<String>,
     /// The logs without it, which were traced.
     pub traced: Vec<Log>,
     /// The log that was not fitted, with all that effects may read of it.
@@ -124,6 +127,7 @@ pub fn close(
     if let Some(slow) = turned.as_ref().and_then(|log| too_slow(estimate, log)) {
         progress.note(&format!("note: {slow}"));
     }
+    let reading = readings::others(&ByAcceleration(arm), &Identify::default(), &sound, estimate);
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
     if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
@@ -162,6 +166,7 @@ pub fn close(
         before,
         faults,
         checks,
+        reading,
         traced: on_time,
         unseen,
         verdict,

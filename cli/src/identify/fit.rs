@@ -1,5 +1,7 @@
 //! Both forms of the equations behind one face.
 
+use std::borrow::Borrow;
+
 use robot_model::columns::{Arm, Columns, Shape, Unknown};
 use robot_model::identify::{Errors, Estimate, Factor, FactorBlock, Form, Identify, IdentifyError};
 use robot_model::log::Log;
@@ -14,6 +16,8 @@ use crate::interpreted::{InterpretedArm, InterpretedMomentum};
 pub(crate) trait Fit: Sync {
     fn arm(&self) -> &dyn Arm;
     fn compiled(&self) -> &Compiled;
+    /// The same form of another arm, if it has one.
+    fn of(&self, compiled: Compiled) -> Option<Box<dyn Fit>>;
     fn model(&self) -> &Model {
         &self.compiled().model
     }
@@ -48,31 +52,36 @@ fn with_values(estimate: &Estimate, values: &[f64]) -> Estimate {
     other
 }
 
-pub(crate) struct ByAcceleration(pub InterpretedArm);
+/// An arm, owned or lent.
+pub(crate) struct ByAcceleration<A = InterpretedArm>(pub A);
 
-impl Fit for ByAcceleration {
+impl<A: Borrow<InterpretedArm> + Sync> Fit for ByAcceleration<A> {
     fn arm(&self) -> &dyn Arm {
-        &self.0
+        self.0.borrow()
     }
 
     fn compiled(&self) -> &Compiled {
-        self.0.compiled()
+        self.0.borrow().compiled()
+    }
+
+    fn of(&self, compiled: Compiled) -> Option<Box<dyn Fit>> {
+        Some(Box::new(ByAcceleration(InterpretedArm::new(compiled))))
     }
 
     fn unknowns(&self) -> &[Unknown] {
-        self.0.unknowns()
+        self.0.borrow().unknowns()
     }
 
     fn shapes(&self) -> &[Shape] {
-        self.0.shapes()
+        self.0.borrow().shapes()
     }
 
     fn fit(&self, identify: &Identify, logs: &[Log]) -> Result<Estimate, IdentifyError> {
-        identify.fit(&self.0, logs)
+        identify.fit(self.0.borrow(), logs)
     }
 
     fn errors(&self, estimate: &Estimate, log: &Log) -> Result<Errors, IdentifyError> {
-        estimate.errors(&self.0, log)
+        estimate.errors(self.0.borrow(), log)
     }
 
     fn predict(
@@ -81,19 +90,19 @@ impl Fit for ByAcceleration {
         estimate: &Estimate,
         log: &Log,
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
-        with_values(estimate, values).predict(&self.0, log)
+        with_values(estimate, values).predict(self.0.borrow(), log)
     }
 
     fn bands_of(&self, identify: &Identify, log: &Log) -> Result<Bands, IdentifyError> {
-        identify.bands_of(&self.0, log)
+        identify.bands_of(self.0.borrow(), log)
     }
 
     fn factor(&self, bands: Bands) -> Result<Factor, IdentifyError> {
-        Factor::new(&self.0, bands)
+        Factor::new(self.0.borrow(), bands)
     }
 
     fn reduced(&self, log: &Log, bands: &Bands) -> Result<Vec<FactorBlock>, IdentifyError> {
-        FactorBlock::of_log(&self.0, log, bands)
+        FactorBlock::of_log(self.0.borrow(), log, bands)
     }
 }
 
@@ -117,6 +126,11 @@ impl Fit for Filtered {
 
     fn compiled(&self) -> &Compiled {
         self.arm.compiled()
+    }
+
+    fn of(&self, compiled: Compiled) -> Option<Box<dyn Fit>> {
+        let form = Self::new(compiled, self.corner).ok()?;
+        Some(Box::new(form))
     }
 
     fn unknowns(&self) -> &[Unknown] {

@@ -22,7 +22,7 @@ mod other_friction;
 mod output_error;
 mod page;
 mod payload;
-mod readings;
+pub(crate) mod readings;
 mod reduced;
 pub(crate) mod report;
 mod results;

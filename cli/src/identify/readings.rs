@@ -1,5 +1,5 @@
 //! Whether a log is to be read in another way than the spec says, asked of its torques: angles in another unit, columns of another sign or in
-//! another order.
+//! another order, gravity along another axis.
 //!
 //! In: logs whose torques a model does not explain. Out: a sentence about the reading with which it explains them far better, if any.
 
@@ -14,6 +14,7 @@ use crate::output::names;
 
 mod candidate;
 mod excerpt;
+mod gravity;
 
 use candidate::{Candidate, Found, LESS, all, best};
 use excerpt::excerpt;
@@ -73,6 +74,8 @@ enum Reading {
     Mirrored(Channel, usize),
     /// Joint `k` of the spec has the columns of joint `order[k]`.
     Ordered(Columns, Vec<usize>),
+    /// The arm stands otherwise: gravity in the base frame, m/s^2.
+    Gravity([f64; 3]),
 }
 
 /// A column of a joint that may have the other sign.
@@ -102,6 +105,7 @@ impl Reading {
                     .iter_mut()
                     .for_each(|value| *value = -*value);
             }
+            Self::Gravity(_) => {}
             Self::Ordered(columns, order) => {
                 if !matches!(columns, Columns::Positions) {
                     read.tau = ordered(&log.tau, order);
@@ -148,6 +152,7 @@ impl Reading {
                     ),
                 ]
             }
+            Self::Gravity(gravity) => gravity::said(*gravity),
             Self::Ordered(columns, order) => {
                 let columns = match columns {
                     Columns::Torques => "the torques",
@@ -176,9 +181,10 @@ fn ordered<T: Clone>(columns: &[T], order: &[usize]) -> Vec<T> {
     known.collect()
 }
 
-/// Says so where the torques follow positions in degrees or revolutions, or columns in another order, far better than as the spec has them.
+/// Says so where the torques follow positions in degrees or revolutions, columns in another order or another gravity far better than what the
+/// spec has.
 /// Where nothing bends with positions, as on a lone joint without gravity, no torque can tell.
-pub(super) fn others(
+pub(crate) fn others(
     form: &dyn Fit,
     identify: &Identify,
     logs: &[Log],
@@ -209,6 +215,9 @@ pub(super) fn others(
             channels.map(|channel| Reading::Mirrored(channel, joint))
         });
         candidates.extend(signs.filter_map(|reading| asked.read(reading)));
+    }
+    if worst > WELL_IN_SIGNS {
+        candidates.extend(asked.stand());
     }
     let ill = found.relative_percent.iter().map(|left| *left > WELL);
     let ill: Vec<bool> = ill.collect();
@@ -293,9 +302,13 @@ struct Asked<'a> {
 
 impl Asked<'_> {
     fn fit(&self, log: &Log) -> Option<Found> {
-        let found = self.form.fit(&self.identify, std::slice::from_ref(log));
+        self.fit_of(self.form, log)
+    }
+
+    fn fit_of(&self, form: &dyn Fit, log: &Log) -> Option<Found> {
+        let found = form.fit(&self.identify, std::slice::from_ref(log));
         let found = found.ok()?;
-        let pairs = found.parameters.iter().zip(self.form.unknowns());
+        let pairs = found.parameters.iter().zip(form.unknowns());
         let impossible = pairs.filter(|(own, unknown)| unknown.nonnegative && own.value < 0.0);
         let impossible = impossible.count();
         let left = found.relative_percent;

@@ -66,8 +66,9 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
 
 /// What is to be known of a verdict before anybody acts on it, a sentence each.
 pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
-    let of_logs = said_of_doubtful(closed)
-        .into_iter()
+    let of_logs = closed.reading.clone().into_iter();
+    let of_logs = of_logs
+        .chain(said_of_doubtful(closed))
         .chain(impossible(closed));
     of_logs
         .chain(not_borne_out(closed))

@@ -330,3 +330,27 @@ fn a_torque_of_the_other_sign_is_told_where_the_arm_fits_all_the_same() {
     assert!(said("other.csv").contains(asked), "{}", said("other.csv"));
     assert!(!said("log.csv").contains(asked), "{}", said("log.csv"));
 }
+
+/// A spec says how the arm stands; another way is told, by `identify` and by `trace`.
+#[test]
+fn gravity_along_another_axis_is_told_by_the_torques() {
+    let folder = Folder::new();
+    let (header, rows) = moved(&folder);
+    folder.write("log.csv", &format!("{header}\n{rows}"));
+    let told = "with gravity along [0 m/s^2, 0 m/s^2, -9.81 m/s^2] the model leaves";
+    for gravity in ["[0, 0, 9.81]", "[9.81, 0, 0]"] {
+        let other = three_joints("").replace("[0, 0, -9.81]", gravity);
+        folder.write("other.robot", &other);
+        for verb in ["identify", "trace"] {
+            let said = folder.run(&[verb, "other.robot", "log.csv"]);
+            assert_eq!(said.code, Some(0), "{}", said.stderr);
+            let both = format!("{}{}", said.stdout, said.stderr);
+            assert!(both.contains(told), "{verb} {gravity}: {both}");
+        }
+    }
+    for verb in ["identify", "trace"] {
+        let right = folder.run(&[verb, "arm.robot", "log.csv"]);
+        let both = format!("{}{}", right.stdout, right.stderr);
+        assert!(!both.contains("with gravity along"), "{both}");
+    }
+}

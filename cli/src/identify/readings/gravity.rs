@@ -1,0 +1,76 @@
+//! An arm that stands otherwise than its spec says: it hangs from a ceiling, or is on a wall.
+
+use robot_model_codegen::compile_model;
+use robot_model_spec::Model;
+use robot_model_spec::model::Body;
+
+use super::candidate::Candidate;
+use super::{Asked, Reading};
+
+impl Asked<'_> {
+    /// What arms leave on which gravity acts along the other axes of the base, either way.
+    pub(super) fn stand(&self) -> Vec<Candidate> {
+        let model = self.form.model();
+        let others = model.chain().map(|chain| others(chain.gravity));
+        let candidate = |gravity: [f64; 3]| {
+            let form = self.form.of(compile_model(&with(model, gravity)))?;
+            let found = self.fit_of(&*form, &self.log)?;
+            let reading = Reading::Gravity(gravity);
+            Some(Candidate { reading, found })
+        };
+        others.into_iter().flatten().filter_map(candidate).collect()
+    }
+}
+
+/// The other directions along axes, the opposite one first; none where gravity is along no axis.
+fn others(gravity: [f64; 3]) -> Vec<[f64; 3]> {
+    let size = gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+    let along = |axis: usize, value: f64| {
+        let mut all = [0.0; 3];
+        all[axis] = value;
+        all
+    };
+    let is_axis = |axis: &usize| size > 0.0 && gravity[*axis].abs() > 0.999 * size;
+    let Some(own) = (0..3).find(is_axis) else {
+        return Vec::new();
+    };
+    let rest = (0..3).filter(|axis| *axis != own);
+    let both = rest.flat_map(|axis| [along(axis, -size), along(axis, size)]);
+    let opposite = along(own, -gravity[own]);
+    std::iter::once(opposite).chain(both).collect()
+}
+
+/// The model with another gravity.
+fn with(model: &Model, gravity: [f64; 3]) -> Model {
+    let mut other = model.clone();
+    if let Body::Chain(chain) = &mut other.body {
+        chain.gravity = gravity;
+    }
+    other
+}
+
+/// What it is, and a question.
+pub(super) fn said(gravity: [f64; 3]) -> [String; 2] {
+    let [x, y, z] = gravity.map(|g| format!("{g} m/s^2"));
+    [
+        format!("gravity along [{x}, {y}, {z}]"),
+        format!(
+            "how does the arm stand, or hang? The spec has gravity in the frame of the base: `gravity = [{x}, {y}, {z}];`"
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_opposite_comes_first_and_no_direction_twice() {
+        let found = others([0.0, 0.0, -9.81]);
+        assert_eq!(found[0], [0.0, 0.0, 9.81]);
+        assert_eq!(found.len(), 5);
+        assert!(!found.contains(&[0.0, 0.0, -9.81]));
+        // Of a tilted base and of an arm without gravity nothing is asked.
+        assert!(others([1.0, 0.0, -9.7]).is_empty() && others([0.0; 3]).is_empty());
+    }
+}
