@@ -144,7 +144,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         });
     }
     size::check(urdf)?;
-    place::check_root(urdf)?;
+    place::check_elements(urdf)?;
     let robot = urdf_rs::read_from_string(urdf)
         .map_err(|error| ImportError::Parse(place::explain(urdf, &error.to_string())))?;
     let tree = tree::Tree::new(&robot)?;
@@ -164,7 +164,7 @@ pub fn import(urdf: &str, options: &ImportOptions) -> Result<Imported, ImportErr
         warnings.extend(body::massless(&names.links, &carried));
         warnings.extend(body::impossible(&names.links, &carried));
     }
-    warnings.extend(unlikely::warnings(&robot));
+    warnings.extend(unlikely::warnings(&robot, options.gravity));
     warnings.extend(names.renamed(&chain));
     let gravity = options.gravity.is_none().then(write::assumed_gravity);
     let notes = [

@@ -130,22 +130,30 @@ fn other_root(name: &str) -> String {
     format!("the file is of `<{name}>`: a URDF has all inside `<robot name=\"..\">`")
 }
 
-/// Refuses a file of another root, of which what reads URDFs would say that it has no links.
-pub(super) fn check_root(urdf: &str) -> Result<(), ImportError> {
+/// Refuses a file of another root, of which what reads URDFs would say that it has no links, and one that is to be expanded first.
+pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
     let mut reader = EventReader::from_str(urdf);
+    let mut is_root = true;
     loop {
         let event = reader.next();
         let line = reader.position().row + 1;
-        match event {
-            Ok(XmlEvent::StartElement { name, .. }) if name.local_name == "robot" => return Ok(()),
-            Ok(XmlEvent::StartElement { name, .. }) => {
-                let fault = other_root(&name.local_name);
-                return Err(ImportError::Parse(format!("line {line}: {fault}")));
+        let fault = match event {
+            // What reads URDFs goes past it, and so past all that it would expand to.
+            Ok(XmlEvent::StartElement { name, .. }) if name.prefix.as_deref() == Some("xacro") => {
+                format!("`<xacro:{}>` {XACRO}", name.local_name)
+            }
+            Ok(XmlEvent::StartElement { name, .. }) if is_root && name.local_name != "robot" => {
+                other_root(&name.local_name)
+            }
+            Ok(XmlEvent::StartElement { .. }) => {
+                is_root = false;
+                continue;
             }
             // What is no XML is told by what reads it.
             Ok(XmlEvent::EndDocument) | Err(_) => return Ok(()),
-            Ok(_) => {}
-        }
+            Ok(_) => continue,
+        };
+        return Err(ImportError::Parse(format!("line {line}: {fault}")));
     }
 }
 

@@ -7,8 +7,11 @@ use crate::check::{Dimension, is_unlikely};
 /// Angles of a frame beyond this are degrees.
 const TURN: f64 = std::f64::consts::TAU + 1e-6;
 
+/// A joint of a larger range has none.
+const NO_RANGE: f64 = 1000.0;
+
 /// Numbers that are larger than those of any usual arm. A URDF is in m, kg, rad and s.
-pub(super) fn warnings(robot: &Robot) -> Vec<String> {
+pub(super) fn warnings(robot: &Robot, gravity: Option<[f64; 3]>) -> Vec<String> {
     let mut told = Vec::new();
     let mut tell = |numbers: &[f64], dimension: Dimension, what: &str, owner: &str, meant: &str| {
         let all = numbers.iter();
@@ -20,6 +23,14 @@ pub(super) fn warnings(robot: &Robot) -> Vec<String> {
         let owner = format!("joint `{}`", joint.name);
         let xyz = &joint.origin.xyz.0;
         tell(xyz, Dimension::LENGTH, "origin", &owner, MILLIMETERS);
+        let (position, meant) = match joint.joint_type {
+            JointType::Prismatic => (Dimension::LENGTH, MILLIMETERS),
+            _ => (Dimension::ANGLE, "a URDF has rad; were degrees meant?"),
+        };
+        // Such a number may stand for no limit at all.
+        let range = [joint.limit.lower, joint.limit.upper]
+            .map(|end| if end.abs() < NO_RANGE { end } else { 0.0 });
+        tell(&range, position, "range", &owner, meant);
         let (speed, meant) = match joint.joint_type {
             JointType::Prismatic => (
                 Dimension::SPEED,
@@ -38,6 +49,15 @@ pub(super) fn warnings(robot: &Robot) -> Vec<String> {
             meant,
         );
     }
+    let meant = "accelerations are in m/s^2; were mm/s^2 meant?";
+    let gravity = gravity.unwrap_or_default();
+    tell(
+        &gravity,
+        Dimension::ACCELERATION,
+        "gravity",
+        "the arm",
+        meant,
+    );
     for link in &robot.links {
         let owner = format!("link `{}`", link.name);
         let inertial = &link.inertial;
@@ -124,10 +144,35 @@ mod tests {
                 "joint `turn` has 180 in its limit of speed",
                 "velocity = 180 rad/s",
             ),
+            (
+                "lower=\"-1\"",
+                "lower=\"-150\"",
+                "joint `turn` has -150 in its range: a URDF has rad; were degrees",
+                "position = -150 rad",
+            ),
         ] {
             let found = import(&SOUND.replace(number, other));
             assert!(is_told(&found.warnings, words), "{:?}", found.warnings);
             assert!(found.spec.contains(written), "{}", found.spec);
         }
+        // A joint that turns without end may say so by a large number.
+        let endless = import(&SOUND.replace("\"-1\"", "\"-1e6\"")).warnings;
+        assert!(!is_told(&endless, "in its range"), "{endless:?}");
+    }
+
+    #[test]
+    fn gravity_in_millimeters_is_told() {
+        let options = ImportOptions {
+            gravity: Some([0.0, 0.0, -9810.0]),
+            ..ImportOptions::default()
+        };
+        let warnings = super::super::import(SOUND, &options)
+            .expect("a sound URDF")
+            .warnings;
+        let told = "the arm has -9810 in its gravity: accelerations are in m/s^2";
+        assert!(
+            warnings.iter().any(|one| one.contains(told)),
+            "{warnings:?}"
+        );
     }
 }

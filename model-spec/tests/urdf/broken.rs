@@ -27,6 +27,22 @@ fn refused(from: &str, to: &str, options: &ImportOptions) -> String {
     error.to_string()
 }
 
+/// An element of xacro in a file that declares its prefix is XML, and what reads URDFs goes past it.
+#[test]
+fn xacro_that_was_not_expanded_is_told_with_its_line() {
+    let xacro = "<robot name=\"arm\" xmlns:xacro=\"http://www.ros.org/wiki/xacro\">";
+    let declared = SOUND.replace("<robot name=\"arm\">", xacro);
+    let options = ImportOptions::default();
+    // `xacro` itself leaves the declaration behind.
+    assert!(import(&declared, &options).is_ok());
+    let called = declared.replace("</robot>", "  <xacro:gripper parent=\"fore\"/>\n</robot>");
+    let error = import(&called, &options).expect_err("must be refused");
+    assert_eq!(
+        error.to_string(),
+        "the URDF does not parse: line 16: `<xacro:gripper>` is of xacro: expand the file first, `xacro arm.urdf.xacro > arm.urdf`"
+    );
+}
+
 #[test]
 fn what_does_not_parse_is_told_with_its_line() {
     for (from, to, said) in [
