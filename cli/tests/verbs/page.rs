@@ -176,7 +176,7 @@ fn a_report_has_enough_contrast() {
     assert_eq!(looked_at, 3);
 }
 
-/// However long a log is, a figure has so many dots; so a page grows with its joints alone.
+/// However long a log is, a figure has so many dots; so a page grows with its joints alone. That of `identify` is asked of seven joints.
 #[test]
 fn a_report_of_seven_joints_is_light() {
     let html = traced().read("page/index.html");

@@ -1,8 +1,10 @@
 //! What stands on the pages of `identify --report`.
 
+use std::fmt::Write;
+
 use scraper::{ElementRef, Html, Selector};
 
-use crate::common::{CART, Folder, cart_log, json};
+use crate::common::{CART, Folder, cart_log, json, white};
 use crate::page::{all, text};
 
 /// The report of an identification.
@@ -140,4 +142,45 @@ fn a_refused_identification_leaves_no_report() {
     let before = folder.files();
     folder.refuse(&["identify", "cart.robot", "log.csv", "--report", "page"]);
     assert_eq!(folder.files(), before);
+}
+
+/// Seven joints for a minute at 100 Hz, and as long a log to judge by: torques of no arm, of which a page has as much to draw as of any.
+#[test]
+fn the_report_of_seven_joints_and_a_minute_is_light() {
+    let folder = Folder::new();
+    let joints = (1..=7).map(|k| {
+        let alpha = if k % 2 == 0 { 90 } else { -90 };
+        format!("joint j{k}: revolute {{ a = 0.1; alpha = {alpha} deg; d = 0.3; }}\n")
+    });
+    let joints: String = joints.collect();
+    let effects = "effects { viscous_friction on all; coulomb_friction on all; }";
+    folder.write(
+        "arm.robot",
+        &format!("robot Seven {{ gravity = [0, 0, -9.81]; convention = standard_dh;\n{joints}{effects} }}"),
+    );
+    let mut state = 7;
+    for file in ["log.csv", "other.csv"] {
+        let mut log = String::from("time,q1,q2,q3,q4,q5,q6,q7,tau1,tau2,tau3,tau4,tau5,tau6,tau7");
+        for row in 0..=6000 {
+            let t = f64::from(row) / 100.0;
+            let of = |joint: i32| (t * (1.0 + 0.37 * f64::from(joint))).sin();
+            let positions = (0..7).map(of);
+            let torques = (0..7).map(|joint| 5.0 * of(joint + 1) + white(&mut state));
+            write!(log, "\n{t}").expect("a string takes all");
+            for value in positions.chain(torques) {
+                write!(log, ",{value:.6}").expect("a string takes all");
+            }
+        }
+        folder.write(file, &log);
+    }
+    let validate = ["--validate", "other.csv", "--report", "page"];
+    folder.succeed(&[&["identify", "arm.robot", "log.csv"][..], &validate].concat());
+    let html = folder.read("page/index.html");
+    let figures = all(&Html::parse_document(&html), "svg").len();
+    assert!(figures >= 7, "{figures} figures");
+    assert!(
+        (100_000..3_000_000).contains(&html.len()),
+        "{} bytes",
+        html.len()
+    );
 }
