@@ -51,12 +51,12 @@ impl Page {
 
     /// A paragraph.
     pub(crate) fn text(&mut self, text: &str) {
-        writeln!(self.body, "<p>{}</p>", escaped(text)).expect(PUT);
+        writeln!(self.body, "<p>{}</p>", prose(text)).expect(PUT);
     }
 
     /// The outcome, set off from the rest; `class` is that of its color.
     pub(crate) fn verdict(&mut self, class: &str, word: &str, text: &str) {
-        let (word, text) = (escaped(word), escaped(text));
+        let (word, text) = (prose(word), prose(text));
         writeln!(
             self.body,
             "<div class=\"verdict {class}\"><strong>{word}</strong> {text}</div>"
@@ -68,7 +68,7 @@ impl Page {
     pub(crate) fn list(&mut self, items: &[String]) {
         self.body.push_str("<ul>\n");
         for item in items {
-            writeln!(self.body, "<li>{}</li>", escaped(item)).expect(PUT);
+            writeln!(self.body, "<li>{}</li>", prose(item)).expect(PUT);
         }
         self.body.push_str("</ul>\n");
     }
@@ -88,14 +88,16 @@ impl Page {
         writeln!(
             self.body,
             "<div class=\"wide\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>",
-            escaped(caption)
+            prose(caption)
         )
         .expect(PUT);
-        for name in head {
+        for (column, name) in head.iter().enumerate() {
+            let is_number = column > 0 && rows.iter().any(|row| number(&row[column]).is_some());
+            let class = if is_number { " class=\"number\"" } else { "" };
             writeln!(
                 self.body,
-                "<th scope=\"col\"><button type=\"button\">{}</button></th>",
-                escaped(name)
+                "<th scope=\"col\"{class}><button type=\"button\">{}</button></th>",
+                prose(name)
             )
             .expect(PUT);
         }
@@ -103,7 +105,7 @@ impl Page {
         for row in rows {
             self.body.push_str("<tr>");
             for (column, cell) in row.iter().enumerate() {
-                let text = escaped(cell);
+                let text = prose(cell);
                 let cell = match (column, number(cell)) {
                     (0, _) => format!("<th scope=\"row\">{text}</th>"),
                     (_, Some(value)) => {
@@ -135,14 +137,14 @@ impl Page {
             self.body,
             "</div><figcaption>Figure {}. {}",
             self.figures,
-            escaped(caption)
+            prose(caption)
         )
         .expect(PUT);
         for (color, name) in legend {
             writeln!(
                 self.body,
                 " <span class=\"key\"><span class=\"{color}\" aria-hidden=\"true\"></span>{}</span>",
-                escaped(name)
+                prose(name)
             )
             .expect(PUT);
         }
@@ -155,7 +157,7 @@ impl Page {
         writeln!(
             self.body,
             "<details{open}><summary>{}</summary>",
-            escaped(summary)
+            prose(summary)
         )
         .expect(PUT);
         inside(self);
@@ -184,6 +186,37 @@ impl Page {
 fn number(cell: &str) -> Option<f64> {
     let first = cell.split_whitespace().next()?;
     first.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
+/// A sentence as a page sets it: words between backticks as code, signs and powers as in print.
+fn prose(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut parts = text.split('`').peekable();
+    let mut is_code = false;
+    while let Some(part) = parts.next() {
+        // A backtick without its other one stands for itself.
+        match (is_code, parts.peek()) {
+            (true, Some(_)) => {
+                out.push_str("<code>");
+                out.push_str(&escaped(part));
+                out.push_str("</code>");
+            }
+            (true, None) => {
+                out.push('`');
+                out.push_str(&set(part));
+            }
+            (false, _) => out.push_str(&set(part)),
+        }
+        is_code = !is_code;
+    }
+    out
+}
+
+/// Plain words of it.
+fn set(text: &str) -> String {
+    let escaped = escaped(text);
+    let signs = escaped.replace("+- ", "± ").replace("+-", "±");
+    signs.replace("^2", "²").replace("^3", "³")
 }
 
 /// Text that HTML shows as it is.
@@ -226,5 +259,19 @@ mod tests {
         );
         assert!(html.contains("<th scope=\"row\">&lt;x&gt;</th>"), "{html}");
         assert!(html.contains("data-value=\"1.5\">1.5 %</td>"), "{html}");
+        assert!(
+            html.contains("<th scope=\"col\" class=\"number\">"),
+            "{html}"
+        );
+    }
+
+    #[test]
+    fn sentences_are_set_as_in_print() {
+        assert_eq!(
+            prose("`a<b` is 2 +- 0.1 kg m^2, `x^2"),
+            "<code>a&lt;b</code> is 2 ± 0.1 kg m², `x²"
+        );
+        // What stands between backticks is what a file says.
+        assert_eq!(prose("write `q^2`"), "write <code>q^2</code>");
     }
 }
