@@ -4,9 +4,10 @@ mod laws;
 mod plant;
 
 use laws::{Law, names};
-use plant::{Pendulums, Plant, sign};
-use robot_model::columns::Candidate;
+use plant::{Pendulums, Plant, TRUTH, sign};
+use robot_model::columns::{Arm, Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::log::Log;
+use robot_model::motion::Motion;
 use robot_model::trace::{Outcome, Quantity, Trace, Verdict};
 
 /// A small library on both joints.
@@ -267,14 +268,82 @@ fn rows_that_a_fit_leaves_out_are_none_of_a_law_either() {
     assert!((value - 1.5).abs() < 0.1, "{value}");
 }
 
+/// The pendulums with inertia and gravity that are known.
+struct Known {
+    arm: Pendulums,
+    friction: Vec<Unknown>,
+}
+
+impl Known {
+    fn new() -> Self {
+        let arm = Pendulums::new();
+        let of_friction = arm.unknowns().iter().filter(|unknown| unknown.nonnegative);
+        let friction = of_friction.cloned().collect();
+        Self { arm, friction }
+    }
+}
+
+impl Columns for Known {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.friction
+    }
+
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let all = self.arm.entries(motion, shapes).into_iter();
+        let friction = all.filter(|entry| entry.column % 4 >= 2);
+        let numbered = friction.enumerate();
+        numbered
+            .map(|(column, entry)| Entry { column, ..entry })
+            .collect()
+    }
+}
+
+impl Arm for Known {
+    fn dof(&self) -> usize {
+        2
+    }
+
+    fn joints(&self) -> &[String] {
+        self.arm.joints()
+    }
+
+    fn actuator_gain(&self) -> &[f64] {
+        self.arm.actuator_gain()
+    }
+
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.rigid_torque(motion, shapes, &TRUTH)
+    }
+
+    fn rigid_torque(&self, motion: &Motion, shapes: &[f64], _: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.rigid_torque(motion, shapes, &TRUTH)
+    }
+}
+
 /// Where a motion repeats to the last digit its encoder's steps do, too, and what they make of the torque is the same in every period.
 #[test]
 fn steps_of_a_coarse_encoder_come_back_and_are_nothing() {
-    let verdict = trace(&Plant {
+    let plant = Plant {
         encoder: std::f64::consts::TAU / 4096.0,
         white: 0.02,
         ..Plant::default()
-    });
-    let floors = &verdict.noise_floor;
-    assert_eq!(verdict.outcome, Outcome::NothingMissing, "{floors:?}");
+    };
+    let arms: [&dyn Arm; 2] = [&Pendulums::new(), &Known::new()];
+    for arm in arms {
+        let verdict = Trace::new(Vec::new())
+            .run(arm, &[plant.log()], &mut |_| ())
+            .expect("the log is sound");
+        let floors = &verdict.noise_floor;
+        assert_eq!(verdict.outcome, Outcome::NothingMissing, "{floors:?}");
+        // They are what the model leaves, above the floor.
+        assert!(floors[0].rms < 0.1, "{floors:?}");
+    }
 }
