@@ -75,6 +75,7 @@ impl Loop {
     #[must_use]
     pub fn outcome(&self) -> Outcome {
         match self.verdict.outcome {
+            _ if self.reading.is_some() => Outcome::Unexplained,
             _ if self.faults.iter().any(|fault| fault.is_last) => Outcome::Explained,
             Outcome::NothingMissing if !self.faults.is_empty() => Outcome::Explained,
             other => other,
@@ -130,7 +131,9 @@ pub fn close(
     let reading = readings::others(&ByAcceleration(arm), &Identify::default(), &sound, estimate);
     let mut faults: Vec<DataFault> = Vec::new();
     faults.extend(data_gate::corrupt(arm, estimate, logs, &mended)?);
-    if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
+    if reading.is_some() {
+        // Columns of other joints, or of another sign, look late, and like any law.
+    } else if let Some(smoothed) = data_gate::smoothed(arm, estimate, &sound)? {
         faults.push(smoothed);
     } else if let Some(late) = data_gate::late_position(estimate, progress) {
         faults.push(late);
@@ -141,7 +144,7 @@ pub fn close(
     }
     let checks = checks(arm, &mended, estimate, &faults);
     let declared: Vec<Amendment> = faults.iter().filter_map(of_fault).collect();
-    let is_last = faults.iter().any(|fault| fault.is_last);
+    let is_last = reading.is_some() || faults.iter().any(|fault| fault.is_last);
     let verdict = trace(source_name, text, &on_time, !is_last, progress)?;
     let unseen = unseen.map(|log| log.with_turn_speeds(verdict.turn_speeds.clone()));
     let found = verdict.findings.iter();

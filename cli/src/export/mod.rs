@@ -119,7 +119,7 @@ impl Export {
             .collect();
         let remarks: Vec<String> = links.iter().map(|link| link.remark.clone()).collect();
         told.extend(said::not_alone(compiled, &remarks));
-        told.extend(said::masses(compiled, standard));
+        told.extend(said::masses(standard));
         for (joint, ten) in bodies(model, shapes, &value) {
             for (sum, more) in links[joint].inertial.iter_mut().zip(ten) {
                 *sum += more;

@@ -84,9 +84,6 @@ fn short(list: &[&str]) -> String {
     plain.collect::<Vec<_>>().join(", ")
 }
 
-/// Masses are the same where they differ by less, as a share.
-const SAME_MASS: f64 = 1e-3;
-
 /// How many base parameters are named.
 const NAMED: usize = 4;
 
@@ -198,30 +195,16 @@ pub(super) fn not_alone(compiled: &Compiled, remarks: &[String]) -> Option<Strin
     })
 }
 
-/// A sentence about links whose given masses no body has that moves so.
-pub(super) fn masses(compiled: &Compiled, standard: &Standard) -> Option<String> {
-    let links = compiled
-        .model
-        .chain()
-        .into_iter()
-        .flat_map(|chain| &chain.links);
-    let count = InertialElement::ALL.len();
-    let tens = standard.values.chunks_exact(count);
-    let others = links.zip(tens).filter_map(|(link, ten)| {
-        let Inertial::Nominal(given) = link.inertial else {
-            return None;
-        };
-        let [given, written] = [given[0], ten[0]];
-        let is_other = (written - given).abs() > SAME_MASS * given;
-        is_other.then(|| {
-            let [given, written] = [given, written].map(|mass| significant(mass, 4));
-            format!("`{}` {written} kg in place of {given} kg", link.name)
-        })
+/// A sentence about links with another mass than the given one.
+pub(super) fn masses(standard: &Standard) -> Option<String> {
+    let others = standard.masses.iter().map(|(link, both)| {
+        let [given, written] = both.map(|mass| significant(mass, 4));
+        format!("`{link}` {written} kg in place of {given} kg")
     });
     let others: Vec<String> = others.collect();
-    (!standard.is_given && !others.is_empty()).then(|| {
+    (!others.is_empty()).then(|| {
         format!(
-            "with the nominal masses some links are no bodies that move so, or torques tell them: {}; other masses are the nominal ones",
+            "some masses are not the nominal ones, since torques tell them in a sum, or links are no bodies with them that move so: {}",
             others.join(", ")
         )
     })

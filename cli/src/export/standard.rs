@@ -19,6 +19,9 @@ const WIDTHS: [f64; 6] = [1e-3, 1e-2, 1e-1, 1.0, 1e1, 1e2];
 /// Base parameters are the same where they differ by less: as a share, and in deviations.
 const SAME: f64 = 1e-6;
 
+/// Masses are the same where they differ by less, as a share.
+const SAME_MASS: f64 = 1e-3;
+
 /// The arm that is written.
 pub(super) struct Standard {
     /// One value a standard parameter.
@@ -27,6 +30,8 @@ pub(super) struct Standard {
     pub is_given: bool,
     /// Base parameters that no arm has, and what the arm has in their place.
     pub moved: Vec<Moved>,
+    /// Links, with the mass that is given and the other one that is written.
+    pub masses: Vec<(String, [f64; 2])>,
 }
 
 /// A base parameter of which another value is written.
@@ -52,6 +57,7 @@ pub(super) fn standard(
             values,
             is_given: true,
             moved: Vec::new(),
+            masses: Vec::new(),
         });
     }
     let deviations = file.map(|file| parameters::deviations(compiled, file));
@@ -61,7 +67,7 @@ pub(super) fn standard(
     let widths: Vec<f64> = (0..shares.len())
         .map(|k| known(k).unwrap_or(shares[k]))
         .collect();
-    let found = search(compiled, values, &widths, format).ok_or_else(|| {
+    let (found, masses) = search(compiled, values, &widths, format).ok_or_else(|| {
         Error::Argument(format!(
             "{}: the search for an arm whose links are bodies came to no end near these parameters; `identify --method physical` \
              finds one on the logs",
@@ -85,6 +91,7 @@ pub(super) fn standard(
         moved: moved.collect(),
         values: found,
         is_given: false,
+        masses,
     })
 }
 
@@ -121,12 +128,13 @@ fn regrouped(compiled: &Compiled, format: Format) -> Vec<usize> {
     unsaid.map(|(k, _)| k).collect()
 }
 
+/// The arm, and the masses that are not as they were given.
 fn search(
     compiled: &Compiled,
     values: &Values,
     widths: &[f64],
     format: Format,
-) -> Option<Vec<f64>> {
+) -> Option<(Vec<f64>, Vec<(String, [f64; 2])>)> {
     let mut arms = possible_arms(compiled)?;
     for k in regrouped(compiled, format) {
         arms.fixed[k] = Some(0.0);
@@ -139,7 +147,7 @@ fn search(
             link.nominal = ten.or(link.nominal);
         }
     }
-    let is_given = |link: &&PossibleLink| link.nominal.is_some();
+    let is_given = |link: &&PossibleLink| link.nominal.is_some_and(|ten| ten[0] > 0.0);
     let mass = |link: &&PossibleLink| link.parameters[0];
     // Masses that no torque tells alone, or if not those that none tells at all, or none.
     let silent = arms.links.iter().filter(is_given);
@@ -150,12 +158,20 @@ fn search(
     let mut nearest = None;
     for held in choices {
         let (possible, near) = with_masses(compiled, &arms, held, (&values.beta, widths));
-        if possible.is_some() {
-            return possible;
+        let is_possible = possible.is_some();
+        nearest = possible.or(near).or(nearest);
+        if is_possible {
+            break;
         }
-        nearest = near;
     }
-    nearest
+    let found = nearest?;
+    let others = arms.links.iter().filter_map(|link| {
+        let both = [link.nominal?[0], found[link.parameters[0]]];
+        let is_other = (both[1] - both[0]).abs() > SAME_MASS * both[0];
+        is_other.then(|| (link.name.clone(), both))
+    });
+    let others = others.collect();
+    Some((found, others))
 }
 
 /// The nearest arm with some links' masses as they are given, but of those that are no bodies with them, if there is one that has the base

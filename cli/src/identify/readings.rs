@@ -216,9 +216,6 @@ pub(crate) fn others(
         });
         candidates.extend(signs.filter_map(|reading| asked.read(reading)));
     }
-    if worst > WELL_IN_SIGNS {
-        candidates.extend(asked.stand());
-    }
     let ill = found.relative_percent.iter().map(|left| *left > WELL);
     let ill: Vec<bool> = ill.collect();
     if ill.iter().filter(|is_ill| **is_ill).count() > 1 {
@@ -226,7 +223,11 @@ pub(crate) fn others(
             candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
-    let best = best(candidates, &as_logged)?;
+    let mut found_best = best(candidates, &as_logged);
+    if found_best.is_none() && worst > WELL_IN_SIGNS {
+        found_best = best(asked.stand(&as_logged), &as_logged);
+    }
+    let best = found_best?;
     let left = &best.found.left;
     // Of the joint that it mends most.
     let fall = |joint: &usize| as_logged[*joint] - left[*joint];

@@ -92,7 +92,10 @@ impl Page {
         )
         .expect(PUT);
         for (column, name) in head.iter().enumerate() {
-            let is_number = column > 0 && rows.iter().any(|row| number(&row[column]).is_some());
+            let mut cells = rows.iter().filter_map(|row| row.get(column));
+            let is_number = column > 0
+                && cells.clone().any(|cell| number(cell).is_some())
+                && cells.all(|cell| number(cell).is_some() || cell.len() < 2);
             let class = if is_number { " class=\"number\"" } else { "" };
             writeln!(
                 self.body,
@@ -214,9 +217,29 @@ fn prose(text: &str) -> String {
 
 /// Plain words of it.
 fn set(text: &str) -> String {
-    let escaped = escaped(text);
-    let signs = escaped.replace("+- ", "± ").replace("+-", "±");
-    signs.replace("^2", "²").replace("^3", "³")
+    let signs = escaped(text).replace(" +- ", " ± ");
+    let mut set = String::with_capacity(signs.len());
+    let mut rest = signs.as_str();
+    while let Some(at) = rest.find('^') {
+        let (before, power) = rest.split_at(at);
+        set.push_str(before);
+        let mut after = power[1..].chars();
+        let (digit, next) = (after.next(), after.next());
+        // A power of several digits stays.
+        let is_one = !next.is_some_and(|next| next.is_ascii_digit());
+        let sign = match digit.filter(|_| is_one) {
+            Some('2') => "²",
+            Some('3') => "³",
+            _ => {
+                set.push('^');
+                rest = &power[1..];
+                continue;
+            }
+        };
+        set.push_str(sign);
+        rest = &power[2..];
+    }
+    set + rest
 }
 
 /// Text that HTML shows as it is.
@@ -271,6 +294,7 @@ mod tests {
             prose("`a<b` is 2 +- 0.1 kg m^2, `x^2"),
             "<code>a&lt;b</code> is 2 ± 0.1 kg m², `x²"
         );
+        assert_eq!(prose("2^32 at a+-b, x^3"), "2^32 at a+-b, x³");
         // What stands between backticks is what a file says.
         assert_eq!(prose("write `q^2`"), "write <code>q^2</code>");
     }

@@ -35,6 +35,8 @@ pub(crate) struct Report<'a> {
     structure_after: Vec<f64>,
     /// Of what the structure after is a function, for every joint where it matters.
     structure_where: Vec<WhereReport<'a>>,
+    /// Another way to read the logs, with which the declared model explains them far better: then nothing else was asked of them.
+    reading: Option<&'a str>,
     /// Joints on which leads are together a curve of the joint's position.
     series: Vec<usize>,
     /// Parameters of the last model that no arm has below zero, and that are by more than three deviations.
@@ -214,6 +216,7 @@ impl<'a> Report<'a> {
             structure_before: verdict.before.iter().map(|s| s.share).collect(),
             structure_after: verdict.after.iter().map(|s| s.share).collect(),
             structure_where: verdict.left.iter().map(whereabouts).collect(),
+            reading: closed.reading.as_deref(),
             series: verdict.series.iter().map(|joint| joint + 1).collect(),
             borne_out: borne_out(closed),
             unlike_validation: unlike(closed).iter().map(|joint| joint + 1).collect(),

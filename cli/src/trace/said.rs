@@ -25,8 +25,11 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         }
         Outcome::Explained => "these effects account for what the declared model left",
         Outcome::Unexplained if !closed.verdict.series.is_empty() => {
-            "the residual follows the motion; effects listed here are together a curve of one joint's position, as a series of any laws of it \
-             would be, so none is named"
+            "the residual follows the motion; effects listed here that are both laws of one joint's position fit any curve of it together, so \
+             none is named"
+        }
+        Outcome::Unexplained if closed.reading.is_some() => {
+            "how the logs are to be read comes first, and nothing else was asked of them"
         }
         Outcome::Unexplained if !closed.verdict.leads.is_empty() => {
             "the residual follows the motion; the effects listed here pass the gates but do not account for its structure, so none is named"

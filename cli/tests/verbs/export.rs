@@ -186,7 +186,6 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
     );
 }
 
-/// Values by name are those that are written; what no body has is not.
 /// A rotor of ten times the link's inertia about its axis has no place in a URDF but in the link, whose mass is that of CAD all the same.
 #[test]
 fn a_rotor_in_a_link_changes_no_mass() {
@@ -194,6 +193,7 @@ fn a_rotor_in_a_link_changes_no_mass() {
         "\"upper.motor_inertia.ia\": 0.2",
         "\"upper.motor_inertia.ia\": 2.0",
     );
+    assert_ne!(rotor, VALUES);
     let folder = fitted_with(EFFECTS, &rotor);
     let said = export(
         &folder,
@@ -220,6 +220,7 @@ fn a_rotor_in_a_link_changes_no_mass() {
     assert!(!said.contains("in place of"), "{said}");
 }
 
+/// Values by name are those that are written; what no body has is not.
 #[test]
 fn values_by_name_are_written_as_they_are_where_bodies_have_them() {
     let folder = Folder::new();

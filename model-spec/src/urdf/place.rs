@@ -4,6 +4,7 @@
 
 use xml::attribute::OwnedAttribute;
 use xml::common::Position as _;
+use xml::name::OwnedName;
 use xml::reader::{EventReader, XmlEvent};
 
 use super::ImportError;
@@ -130,6 +131,11 @@ fn other_root(name: &str) -> String {
     format!("the file is of `<{name}>`: a URDF has all inside `<robot name=\"..\">`")
 }
 
+fn is_of_xacro(name: &OwnedName) -> bool {
+    let is_named = |space: &str| space.ends_with("xacro");
+    name.prefix.as_deref() == Some("xacro") || name.namespace.as_deref().is_some_and(is_named)
+}
+
 /// Refuses a file of another root, of which what reads URDFs would say that it has no links, and one that is to be expanded first.
 pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
     let mut reader = EventReader::from_str(urdf);
@@ -139,8 +145,9 @@ pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
         let line = reader.position().row + 1;
         let fault = match event {
             // What reads URDFs goes past it, and so past all that it would expand to.
-            Ok(XmlEvent::StartElement { name, .. }) if name.prefix.as_deref() == Some("xacro") => {
-                format!("`<xacro:{}>` {XACRO}", name.local_name)
+            Ok(XmlEvent::StartElement { name, .. }) if is_of_xacro(&name) => {
+                let prefix = name.prefix.as_deref().unwrap_or_default();
+                format!("`<{prefix}:{}>` {XACRO}", name.local_name)
             }
             Ok(XmlEvent::StartElement { name, .. }) if is_root && name.local_name != "robot" => {
                 other_root(&name.local_name)

@@ -7,8 +7,8 @@ use crate::check::{Dimension, is_unlikely};
 /// Angles of a frame beyond this are degrees.
 const TURN: f64 = std::f64::consts::TAU + 1e-6;
 
-/// A joint of a larger range has none.
-const NO_RANGE: f64 = 1000.0;
+/// A joint that turns further, rad, turns without end; ten turns in degrees are less.
+const NO_RANGE: f64 = 3601.0;
 
 /// Numbers that are larger than those of any usual arm. A URDF is in m, kg, rad and s.
 pub(super) fn warnings(robot: &Robot, gravity: Option<[f64; 3]>) -> Vec<String> {
@@ -23,13 +23,15 @@ pub(super) fn warnings(robot: &Robot, gravity: Option<[f64; 3]>) -> Vec<String> 
         let owner = format!("joint `{}`", joint.name);
         let xyz = &joint.origin.xyz.0;
         tell(xyz, Dimension::LENGTH, "origin", &owner, MILLIMETERS);
-        let (position, meant) = match joint.joint_type {
-            JointType::Prismatic => (Dimension::LENGTH, MILLIMETERS),
-            _ => (Dimension::ANGLE, "a URDF has rad; were degrees meant?"),
+        let range = [joint.limit.lower, joint.limit.upper];
+        let (position, range, meant) = match joint.joint_type {
+            JointType::Prismatic => (Dimension::LENGTH, range, MILLIMETERS),
+            JointType::Revolute if range.iter().all(|end| end.abs() < NO_RANGE) => {
+                let meant = "a URDF has rad; were degrees meant?";
+                (Dimension::ANGLE, range, meant)
+            }
+            _ => (Dimension::ANGLE, [0.0; 2], ""),
         };
-        // Such a number may stand for no limit at all.
-        let range = [joint.limit.lower, joint.limit.upper]
-            .map(|end| if end.abs() < NO_RANGE { end } else { 0.0 });
         tell(&range, position, "range", &owner, meant);
         let (speed, meant) = match joint.joint_type {
             JointType::Prismatic => (

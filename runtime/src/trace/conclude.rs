@@ -1,5 +1,7 @@
 //! From accepted effects and what they leave to a verdict.
 
+use std::ops::Range;
+
 use super::floor::Floor;
 use super::search::{Accepted, State};
 use super::structure::Structure;
@@ -14,6 +16,23 @@ const LEFT_SHARE: f64 = 0.3;
 const LEFT_OF_LAW: f64 = 0.15;
 const LEFT_BY_FILTERS: f64 = 0.06;
 const STAYS: f64 = 0.5;
+
+impl<'a> State<'a> {
+    /// Accepted effects with the places of their parameters among the unknowns; none of changes of the arm, which have none.
+    pub(super) fn placed(&self) -> impl Iterator<Item = (&Accepted<'a>, Range<usize>)> {
+        let all = || {
+            let effects = self.accepted.iter();
+            effects.filter(|effect| effect.changed.is_none())
+        };
+        let count: usize = all().map(|effect| effect.trial.count()).sum();
+        let mut next = self.stack.unknowns.len() - count;
+        all().map(move |effect| {
+            let first = next;
+            next += effect.trial.count();
+            (effect, first..next)
+        })
+    }
+}
 
 /// What is told of the last model beside what it is made of.
 pub(super) struct Told {
@@ -92,19 +111,14 @@ pub(super) fn changed(
 
 /// Accepted effects with their values.
 fn findings(state: &State, std: &[Vec<Option<f64>>]) -> Vec<Finding> {
-    let torques = state
-        .accepted
-        .iter()
-        .filter(|effect| effect.changed.is_none());
-    let mut first =
-        state.stack.unknowns.len() - torques.map(|effect| effect.trial.count()).sum::<usize>();
+    let mut places = state.placed();
     let last_part = |name: &str| name.rsplit('.').next().unwrap_or(name).to_owned();
     let found = state.accepted.iter().zip(std).filter_map(|(effect, std)| {
         let candidate = effect.trial.candidate;
         let mut parameters = Vec::new();
         if effect.changed.is_none() {
-            let values = &state.solution.estimate[first..first + effect.trial.count()];
-            first += effect.trial.count();
+            let (_, place) = places.next().expect("one an effect");
+            let values = &state.solution.estimate[place];
             let linear = candidate.unknowns().iter().zip(values);
             let linear = linear.zip(std);
             parameters.extend(linear.map(|((unknown, value), std)| FoundParameter {

@@ -70,8 +70,13 @@ impl Quantity {
 impl Search<'_> {
     /// Columns of a curve in a quantity, filtered: each is 1 at one knot and falls to 0 at its neighbors. None of a quantity that stands.
     pub(super) fn curve(&self, of: Quantity) -> Option<Curve> {
+        let is_surface = of.axes().len() > 1;
+        self.smooth(of, if is_surface { FEW_KNOTS } else { KNOTS })
+    }
+
+    /// The same with so many knots along each quantity.
+    pub(super) fn smooth(&self, of: Quantity, most: usize) -> Option<Curve> {
         let axes = of.axes();
-        let most = if axes.len() > 1 { FEW_KNOTS } else { KNOTS };
         let knots = axes.iter().map(|axis| axis.knots(most, &self.prepared));
         let knots = knots.collect::<Option<Vec<_>>>()?;
         let jumps = axes.last().filter(|of| matches!(of, Quantity::Velocity(_)));

@@ -15,29 +15,24 @@ const TOLD_OF_CHANGE: f64 = 3.0;
 /// A law without which a joint's errors are twice what they are with it, held out and raw, is there whatever its parameters trade.
 const MOST_PERCENT: f64 = 50.0;
 
+/// A law of one column is told where it takes so much off a joint's errors, held out and raw.
+const MUCH_PERCENT: (f64, f64) = (20.0, 7.5);
+
 impl Search<'_> {
     /// Standard deviations of the parameters of every accepted effect, linear ones first, then shapes: each beside all other unknowns, the
     /// torque linearized in the shapes. None of what another unknown can stand for, and of changes of the arm.
     pub(super) fn deviations(&self, state: &State) -> Vec<Vec<Option<f64>>> {
-        let effects = || {
-            let effects = state.accepted.iter();
-            effects.filter(|effect| effect.changed.is_none())
-        };
-        let linear = state.stack.unknowns.len();
-        let mut first = linear - effects().map(|effect| effect.trial.count()).sum::<usize>();
         let mut stack = state.stack.clone();
         let rows = Rows::new(&self.prepared, &state.stack);
         let mut places = Vec::new();
-        for effect in effects() {
-            let count = effect.trial.count();
-            let gain = &state.solution.estimate[first..first + count];
+        for (effect, place) in state.placed() {
+            let gain = &state.solution.estimate[place.clone()];
             let trial = &effect.trial;
             let slopes = rows.slopes(trial.candidate, &trial.shapes, gain);
             let unknowns = unknowns(trial.candidate);
             let shapes = stack.unknowns.len();
-            places.push((first..first + count, shapes..shapes + unknowns.len()));
+            places.push((place, shapes..shapes + unknowns.len()));
             stack.append(&unknowns, &slopes);
-            first += count;
         }
         let std = self.identify.beside_slopes(&stack, &state.solution);
         let mut places = places.into_iter();
@@ -60,10 +55,14 @@ impl Search<'_> {
         let evidence = &judged.evidence;
         let falls = evidence.held_out_percent.iter().zip(&evidence.raw_percent);
         let is_most = |(held_out, raw): (&f64, &f64)| held_out.min(*raw) > MOST_PERCENT;
-        // One column fits next to nothing that is another law's, whatever it trades with its one shape: of `fv exp(-beta T)` beside viscous
-        // friction a small `beta` and a large `fv` say the same, and how friction falls with the temperature is told.
+        // One column that takes so much off fits next to nothing that is another law's, whatever it trades with its one shape: of
+        // `fv exp(-beta T)` beside viscous friction a small `beta` and a large `fv` say the same, and how friction falls with the temperature is
+        // told.
         let is_simple = trial.count() == 1 && trial.shapes.len() < 2;
-        if judged.changed.is_none() && (is_simple || falls.into_iter().any(is_most)) {
+        let is_much =
+            |(held_out, raw): (&f64, &f64)| *held_out > MUCH_PERCENT.0 && *raw > MUCH_PERCENT.1;
+        let told = |is: &dyn Fn((&f64, &f64)) -> bool| falls.clone().any(is);
+        if judged.changed.is_none() && (told(&is_most) || is_simple && told(&is_much)) {
             return true;
         }
         let is_beyond = |times: f64| {

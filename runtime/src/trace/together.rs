@@ -1,10 +1,16 @@
 //! Laws that are together what none of them is.
 
-use super::curve::fitted;
+use super::curve::{Curve, fitted};
+use super::raw::mean_square;
 use super::search::{Accepted, Search, State};
 use super::whereabouts::Quantity;
+use crate::columns::Entry;
 
-/// A curve of a joint's position leaves less than this share of the power of a law that is one.
+/// Values between which a curve is straight that a term of a series follows: a wave of four periods and more over the travel of a joint does not,
+/// and is told by them.
+const KNOTS: usize = 12;
+
+/// A curve leaves less than this share of the power of a law that it follows.
 const LEFT: f64 = 0.01;
 
 /// A law has at least this share of its power about its mean, or it is a constant.
@@ -14,22 +20,12 @@ impl Search<'_> {
     /// Joints on which two findings are smooth curves of the joint's position, each of them nothing else: two springs, or one and a wave of few
     /// periods, are terms of a series, and fit whatever curve the joint has.
     pub(super) fn with_a_series(&self, state: &State) -> Vec<usize> {
-        let own = state.stack.unknowns.len()
-            - (state.accepted.iter())
-                .filter(|effect| effect.changed.is_none())
-                .map(|effect| effect.trial.count())
-                .sum::<usize>();
-        let mut first = own;
         let mut curves = vec![0; self.arm.dof()];
-        for effect in &state.accepted {
-            if effect.changed.is_some() {
-                continue;
-            }
-            let gain = &state.solution.estimate[first..first + effect.trial.count()];
-            first += effect.trial.count();
+        for (effect, place) in state.placed() {
+            let gain = &state.solution.estimate[place];
             if let [joint] = effect.trial.touched()[..]
                 && !effect.is_small
-                && self.is_of_position(effect, gain, joint)
+                && self.is_of_position(state, (effect, gain), joint)
             {
                 curves[joint] += 1;
             }
@@ -39,31 +35,60 @@ impl Search<'_> {
         several.map(|(joint, _)| joint).collect()
     }
 
-    /// Whether the torque of an effect is a smooth curve of a joint's position, and no constant.
-    fn is_of_position(&self, effect: &Accepted, gain: &[f64], joint: usize) -> bool {
-        let Some(curve) = self.curve(Quantity::Position(joint)) else {
+    /// Whether the torque of an effect is a smooth curve of a joint's position, and no constant. Along a motion of one wave the size of the
+    /// velocity is one, too, but it is as much one of the velocity.
+    fn is_of_position(&self, state: &State, of: (&Accepted, &[f64]), joint: usize) -> bool {
+        let curves = [Quantity::Position(joint), Quantity::Velocity(joint)];
+        let [position, velocity] = curves.map(|quantity| self.smooth(quantity, KNOTS));
+        let Some(position) = position else {
             return false;
         };
-        let mut torque = vec![0.0; curve.columns[0].len()];
-        for entry in effect.trial.entries.iter().filter(|e| e.joint == joint) {
-            for (sum, value) in torque.iter_mut().zip(&entry.values) {
-                *sum += gain[entry.column] * value;
+        let (torque, rows) = torque(state, of, joint);
+        let power = |values: &[f64]| {
+            let values: Vec<f64> = rows.iter().map(|&row| values[row]).collect();
+            mean_square(&values)
+        };
+        let mean = rows.iter().map(|&row| torque[row]).sum::<f64>() / rows.len().max(1) as f64;
+        let about: Vec<f64> = torque.iter().map(|value| value - mean).collect();
+        let change = power(&about);
+        let follows = |curve: &Curve| {
+            let [knots, ..] = fitted(curve, &about, &rows);
+            let mut rest = about.clone();
+            for (knot, column) in knots.iter().zip(&curve.columns) {
+                for (rest, value) in rest.iter_mut().zip(column) {
+                    *rest -= knot * value;
+                }
             }
-        }
-        let mean = torque.iter().sum::<f64>() / torque.len().max(1) as f64;
-        let power = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
-        let all = power(&torque);
-        for value in &mut torque {
-            *value -= mean;
-        }
-        let change = power(&torque);
-        let rows: Vec<usize> = (0..torque.len()).collect();
-        let [follows, ..] = fitted(&curve, &torque, &rows);
-        for (knot, column) in follows.iter().zip(&curve.columns) {
-            for (rest, value) in torque.iter_mut().zip(column) {
-                *rest -= knot * value;
-            }
-        }
-        change > LEAST_CHANGE * all && power(&torque) < LEFT * change
+            power(&rest) < LEFT * change
+        };
+        change > LEAST_CHANGE * power(&torque)
+            && follows(&position)
+            && !velocity.is_some_and(|curve| follows(&curve))
     }
+}
+
+/// The filtered torque of an effect on a joint, and the rows that the fit does not leave out.
+fn torque(
+    state: &State,
+    (effect, gain): (&Accepted, &[f64]),
+    joint: usize,
+) -> (Vec<f64>, Vec<usize>) {
+    let samples = state.stack.samples();
+    let mut torque = vec![0.0; samples];
+    for entry in effect.trial.entries.iter().filter(|e| e.joint == joint) {
+        for (sum, value) in torque.iter_mut().zip(&entry.values) {
+            *sum += gain[entry.column] * value;
+        }
+    }
+    let mut ones = [Entry {
+        joint,
+        column: 0,
+        values: vec![1.0; samples],
+    }];
+    state.stack.clear_left_out(&mut ones);
+    let rows = 0..samples;
+    (
+        torque,
+        rows.filter(|&row| ones[0].values[row] != 0.0).collect(),
+    )
 }

@@ -3,7 +3,7 @@
 use super::{Reading, WELL_IN_SIGNS};
 
 /// By which factor errors have to be less in another reading.
-const FACTOR: f64 = 2.0;
+pub(super) const FACTOR: f64 = 2.0;
 
 /// By which factor that of one joint has to be less where no other one's is more: friction and encoders leave of a light joint what no reading
 /// mends.

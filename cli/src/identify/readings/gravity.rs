@@ -4,19 +4,21 @@ use robot_model_codegen::compile_model;
 use robot_model_spec::Model;
 use robot_model_spec::model::Body;
 
-use super::candidate::Candidate;
-use super::{Asked, Reading};
+use super::candidate::{Candidate, FACTOR};
+use super::{Asked, Reading, WELL_IN_SIGNS};
 
 impl Asked<'_> {
-    /// What arms leave on which gravity acts along the other axes of the base, either way.
-    pub(super) fn stand(&self) -> Vec<Candidate> {
+    /// What arms leave on which gravity acts along the other axes of the base, either way; `as_logged` is left as the spec has it.
+    pub(super) fn stand(&self, as_logged: &[f64]) -> Vec<Candidate> {
         let model = self.form.model();
         let others = model.chain().map(|chain| others(chain.gravity));
         let candidate = |gravity: [f64; 3]| {
             let form = self.form.of(compile_model(&with(model, gravity)))?;
             let found = self.fit_of(&*form, &self.log)?;
+            let has_more = form.unknowns().len() > self.form.unknowns().len();
+            let is_of_arm = !has_more || mends_the_arm(&found.left, as_logged);
             let reading = Reading::Gravity(gravity);
-            Some(Candidate { reading, found })
+            is_of_arm.then_some(Candidate { reading, found })
         };
         others.into_iter().flatten().filter_map(candidate).collect()
     }
@@ -40,6 +42,16 @@ fn others(gravity: [f64; 3]) -> Vec<[f64; 3]> {
     std::iter::once(opposite).chain(both).collect()
 }
 
+/// A gravity that bends joints which the declared one does not has parameters of its own, which may stand for a spring of one joint: the arm
+/// stands otherwise where every joint that was explained ill is explained far better, several of them.
+fn mends_the_arm(left: &[f64], as_logged: &[f64]) -> bool {
+    let ill = || {
+        let pairs = left.iter().zip(as_logged);
+        pairs.filter(|(_, before)| **before > WELL_IN_SIGNS)
+    };
+    ill().count() > 1 && ill().all(|(left, before)| FACTOR * left < *before)
+}
+
 /// The model with another gravity.
 fn with(model: &Model, gravity: [f64; 3]) -> Model {
     let mut other = model.clone();
@@ -51,11 +63,12 @@ fn with(model: &Model, gravity: [f64; 3]) -> Model {
 
 /// What it is, and a question.
 pub(super) fn said(gravity: [f64; 3]) -> [String; 2] {
-    let [x, y, z] = gravity.map(|g| format!("{g} m/s^2"));
+    let [x, y, z] = gravity.map(|g| format!("{} m/s^2", (1e3 * g).round() / 1e3));
     [
         format!("gravity along [{x}, {y}, {z}]"),
         format!(
-            "how does the arm stand, or hang? The spec has gravity in the frame of the base: `gravity = [{x}, {y}, {z}];`"
+            "how does the arm stand, or hang, and where is the zero of its first joint? The spec has gravity in the frame of the base: \
+             `gravity = [{x}, {y}, {z}];`"
         ),
     ]
 }
@@ -72,5 +85,12 @@ mod tests {
         assert!(!found.contains(&[0.0, 0.0, -9.81]));
         // Of a tilted base and of an arm without gravity nothing is asked.
         assert!(others([1.0, 0.0, -9.7]).is_empty() && others([0.0; 3]).is_empty());
+    }
+
+    #[test]
+    fn parameters_that_explain_one_joint_are_no_other_gravity() {
+        assert!(!mends_the_arm(&[1.0, 6.0], &[60.0, 6.5]));
+        assert!(!mends_the_arm(&[1.0], &[60.0]));
+        assert!(mends_the_arm(&[1.0, 0.8, 2.0], &[60.0, 30.0, 2.5]));
     }
 }
