@@ -1,7 +1,7 @@
 //! A log that is read piece by piece, in memory that does not grow with it.
 
 use std::fs::File;
-use std::io::{Read, Seek};
+use std::io::{ErrorKind, Read, Seek};
 use std::path::Path;
 
 use super::header::Header;
@@ -71,7 +71,12 @@ impl Log {
             Ok(file) => Ok((source, file)),
             Err(error) => Err(LogError::Open {
                 source_name: source,
-                reason: error.to_string(),
+                reason: match error.kind() {
+                    ErrorKind::NotFound => {
+                        "there is no such file; check its name and folder".to_owned()
+                    }
+                    _ => error.to_string(),
+                },
             }),
         }
     }
