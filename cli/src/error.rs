@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use robot_model::identify::IdentifyError;
 use robot_model::log::LogError;
 use robot_model_spec::Diagnostics;
+use robot_model_spec::suggest::nearest;
 use thiserror::Error;
 
 /// Why a command ended without a result. Exit code 1, the message on stderr.
@@ -64,7 +65,19 @@ impl Error {
     pub fn render(&self, color: bool) -> String {
         match self {
             Self::Spec(diagnostics) => diagnostics.render(color),
-            Self::Log(LogError::MissingColumns { .. }) => format!("error: {self}\n{COLUMNS_HELP}"),
+            Self::Log(LogError::Misspelled { lines, .. } | LogError::NoSuchJoint { lines, .. })
+                if !lines.is_empty() =>
+            {
+                let lines: Vec<String> = lines.iter().map(|line| format!("`{line}`")).collect();
+                format!(
+                    "error: {self}\n  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is: `[log]`, and \
+                     below it {}; the `log {{ .. }}` of the spec can say the same",
+                    lines.join(" and ")
+                )
+            }
+            Self::Log(LogError::MissingColumns { .. } | LogError::NoSuchJoint { .. }) => {
+                format!("error: {self}\n{COLUMNS_HELP}")
+            }
             other => format!("error: {other}"),
         }
     }
@@ -72,7 +85,10 @@ impl Error {
     pub(crate) fn read(path: &Path, error: &std::io::Error) -> Self {
         Self::Read {
             path: path.to_owned(),
-            reason: error.to_string(),
+            reason: match error.kind() {
+                std::io::ErrorKind::NotFound => not_there(path),
+                _ => error.to_string(),
+            },
         }
     }
 
@@ -82,6 +98,34 @@ impl Error {
             line: None,
             reason: reason.to_string(),
         }
+    }
+}
+
+/// What is said of a file that is not there, with one of nearly its name.
+fn not_there(path: &Path) -> String {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    let folder = folder.unwrap_or(Path::new("."));
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return format!("there is no folder `{}`; check its name", folder.display());
+    };
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut names: Vec<String> = names.take(1000).collect();
+    names.sort();
+    let own = path
+        .file_name()
+        .and_then(std::ffi::OsStr::to_str)
+        .unwrap_or_default();
+    match nearest(own, names.iter().map(String::as_str)) {
+        Some(near) => format!(
+            "there is no such file; is `{}` meant?",
+            path.with_file_name(near).display()
+        ),
+        None => format!(
+            "there is no such file in `{}`; check its name",
+            folder.display()
+        ),
     }
 }
 

@@ -28,6 +28,7 @@ mod json;
 mod log_settings;
 mod manual;
 mod merge;
+mod misplaced;
 mod new;
 
 pub mod interpreted;

@@ -101,6 +101,12 @@ fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumn
         ),
         _ => String::new(),
     };
+    if said.is_empty() {
+        progress.note(&format!(
+            "note: {name} says nothing of logs; write channels under its `[log]`, such as `q = {{ columns = [\"axis1\", ..], unit = \"deg\" }}`"
+        ));
+        return Ok(found.columns);
+    }
     progress.note(&format!(
         "note: {name} says which columns of logs are {}{over}",
         said.join(", ")

@@ -110,6 +110,25 @@ impl Files {
     }
 }
 
+impl Files {
+    /// Claims a figure that may not be asked for: figures are SVG.
+    pub(crate) fn claim_figure(&mut self, path: Option<&Path>) -> Result<Option<OutFile>, Error> {
+        let other = path.filter(|path| {
+            let end = path.extension();
+            end.is_some_and(|end| !end.eq_ignore_ascii_case("svg"))
+        });
+        if let Some(path) = other {
+            let meant = path.with_extension("svg");
+            return Err(Error::Argument(format!(
+                "--figure {}: figures are written as SVG; name it `{}`",
+                path.display(),
+                meant.display()
+            )));
+        }
+        self.claim_if(path)
+    }
+}
+
 /// One path for all names of a file, as far as it exists; the rest is compared as it is written.
 fn identity(path: &Path) -> PathBuf {
     if let Ok(found) = fs::canonicalize(path) {

@@ -10,6 +10,7 @@ use robot_model_codegen::{Compiled, compile_model};
 use robot_model_spec::Model;
 
 use crate::log_settings::LogSettings;
+use crate::misplaced::instead_of_a_spec;
 use crate::parameters::no_body;
 use crate::progress::Progress;
 use crate::{Error, output};
@@ -22,20 +23,32 @@ const LARGEST_SPEC: usize = 1 << 20;
 
 /// Reads a text file.
 pub(crate) fn read_text(path: &Path) -> Result<String, Error> {
-    read_at_most(path, LARGEST_TEXT)
+    text_of(path, read_at_most(path, LARGEST_TEXT)?, LARGEST_TEXT)
 }
 
 /// Reads the text of a spec.
 pub(crate) fn read_spec(path: &Path) -> Result<String, Error> {
-    read_at_most(path, LARGEST_SPEC)
+    let bytes = read_at_most(path, LARGEST_SPEC)?;
+    match instead_of_a_spec(path, &bytes) {
+        Some(reason) => Err(Error::Read {
+            path: path.to_owned(),
+            reason,
+        }),
+        None => text_of(path, bytes, LARGEST_SPEC),
+    }
 }
 
-fn read_at_most(path: &Path, most: usize) -> Result<String, Error> {
+/// The bytes of a file, and one more where there are more than the most.
+fn read_at_most(path: &Path, most: usize) -> Result<Vec<u8>, Error> {
     let failed = |error: &io::Error| Error::read(path, error);
     let mut bytes = Vec::new();
     File::open(path)
         .and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes))
         .map_err(|error| failed(&error))?;
+    Ok(bytes)
+}
+
+fn text_of(path: &Path, bytes: Vec<u8>, most: usize) -> Result<String, Error> {
     if bytes.len() > most {
         return Err(Error::Read {
             path: path.to_owned(),

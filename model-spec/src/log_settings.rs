@@ -6,6 +6,9 @@
 //! What is read becomes the tree that a `log { .. }` is parsed into, its tokens placed where they stand in the file; rules and
 //! words of mistakes are those of the block.
 
+mod kind;
+
+use std::borrow::Cow;
 use std::ops::Range;
 
 use proc_macro2::{Span, TokenStream};
@@ -19,6 +22,7 @@ use crate::diagnostic::{Diagnostic, Diagnostics};
 use crate::model::{LogColumns, Model};
 use crate::parse::parse_value;
 use crate::suggest;
+use kind::kind;
 
 /// Bytes of a file; one with a column for each of forty joints has four thousand.
 const LARGEST: usize = 64 * 1024;
@@ -155,6 +159,13 @@ impl Reader<'_> {
     fn file(&mut self, table: &DeTable) -> Vec<LogChannel> {
         let mut channels = Vec::new();
         let mut is_there = false;
+        if let Some(key) = self.above_log(table) {
+            let message = format!("`{}` stands under no `[log]`", key.get_ref());
+            let error = Diagnostic::in_text(key.span(), message, "a channel of logs");
+            let help = "put `[log]` on a line of its own above the channels";
+            self.errors.push(error.help(help));
+            return channels;
+        }
         for (key, value) in table {
             if key.get_ref() != "log" {
                 let message = format!("log settings have no `{}`", key.get_ref());
@@ -180,6 +191,14 @@ impl Reader<'_> {
             self.errors.push(error.help(help));
         }
         channels
+    }
+
+    /// The first key of a file whose channels stand under no table.
+    fn above_log<'a, 'b>(&self, table: &'a DeTable<'b>) -> Option<&'a Spanned<Cow<'b, str>>> {
+        let is_channel = |key: &str| ["time", "q", "dq", "tau", "topic"].contains(&key);
+        let mut keys = table.iter().map(|(key, _)| key);
+        let is_elsewhere = table.keys().all(|key| key.get_ref() != "log");
+        keys.find(|key| is_elsewhere && is_channel(key.get_ref()))
     }
 
     fn channels(&mut self, log: &DeTable) -> Vec<LogChannel> {
@@ -344,6 +363,7 @@ impl Reader<'_> {
         let place = value.span();
         let written = &self.text[place.clone()];
         let text = match value.get_ref() {
+            DeValue::String(unit) if unit.contains('\u{b0}') => &unit.replace('\u{b0}', "deg"),
             DeValue::String(unit) => unit.as_ref(),
             DeValue::Integer(_) | DeValue::Float(_) => written,
             other => {
@@ -374,16 +394,4 @@ fn span_of(place: Range<usize>) -> Span {
     let tokens: Result<TokenStream, _> = (" ".repeat(place.start) + &word).parse();
     let word = tokens.ok().and_then(|tokens| tokens.into_iter().next());
     word.map_or_else(Span::call_site, |word| word.span())
-}
-
-/// What a value is, in messages.
-const fn kind(value: &DeValue) -> &'static str {
-    match value {
-        DeValue::String(_) => "text",
-        DeValue::Integer(_) | DeValue::Float(_) => "a number",
-        DeValue::Boolean(_) => "`true` or `false`",
-        DeValue::Datetime(_) => "a date",
-        DeValue::Array(_) => "a list",
-        DeValue::Table(_) => "a table",
-    }
 }

@@ -132,7 +132,7 @@ impl BackEmf {
         let settings = &self.log_settings;
         let mut files = Files::reading([self.log.as_path()]).and(settings.files([&self.log]));
         let json = files.claim_if(self.json.as_deref())?;
-        let figure = files.claim_if(self.figure.as_deref())?;
+        let figure = files.claim_figure(self.figure.as_deref())?;
         let table = Table::read(&self.log, &wanted, settings)?;
         let refused = |error: CalibrateError| table.refused(&error);
         let [time, current, moved, voltage @ ..] = &table.columns[..] else {

@@ -99,7 +99,7 @@ impl Static {
         let settings = &self.log_settings;
         let mut files = Files::reading([self.table.as_path()]).and(settings.files([&self.table]));
         let json = files.claim_if(self.json.as_deref())?;
-        let figure = files.claim_if(self.figure.as_deref())?;
+        let figure = files.claim_figure(self.figure.as_deref())?;
         let current = ("--current", self.current.as_str(), ColumnKind::Current);
         let table = Table::read(&self.table, &[current, measured], settings)?;
         let current = &table.columns[0];

@@ -169,7 +169,7 @@ impl Excite {
         let mut files = Files::reading(inputs.into_iter().flatten().map(PathBuf::as_path));
         let out = files.claim(&self.out)?;
         let coefficients = files.claim_if(self.coefficients.as_deref())?;
-        let figure = files.claim_if(self.figure.as_deref())?;
+        let figure = files.claim_figure(self.figure.as_deref())?;
         let json = files.claim_if(self.json.as_deref())?;
         // A period that is none is told by whoever designs with it.
         let is_long = self.period.is_finite() && self.rate * self.period > 1e7;

@@ -39,7 +39,7 @@ pub(crate) struct Friction {
     /// or MCAP, a bag of ROS 2 with joint states.
     #[arg(required = true, value_name = "LOG")]
     logs: Vec<PathBuf>,
-    /// The joint, by its name.
+    /// The joint, by its name or by its number from 1.
     #[arg(long, value_name = "NAME")]
     joint: String,
     /// A log in which the torque rises slowly from rest until the joint breaks away: for the stiffness of its bristles.
@@ -68,7 +68,7 @@ impl Friction {
         let mut files = Files::reading(inputs.map(PathBuf::as_path))
             .and(settings.files(self.logs.iter().chain(&self.pre_sliding)));
         let json = files.claim_if(self.json.as_deref())?;
-        let figure = files.claim_if(self.figure.as_deref())?;
+        let figure = files.claim_figure(self.figure.as_deref())?;
         let compiled = compile_instantaneous(&self.spec)?;
         let joint = self.joint(&compiled)?;
         let progress = Progress::new();
@@ -113,7 +113,10 @@ impl Friction {
 
     fn joint(&self, compiled: &Compiled) -> Result<usize, Error> {
         let joints = &compiled.model.joints;
-        let found = joints.iter().position(|joint| joint.name == self.joint);
+        let named = joints.iter().position(|joint| joint.name == self.joint);
+        let number = self.joint.parse::<usize>().ok();
+        let numbered = number.filter(|number| (1..=joints.len()).contains(number));
+        let found = named.or_else(|| numbered.map(|number| number - 1));
         found.ok_or_else(|| {
             let known: Vec<&str> = joints.iter().map(|joint| joint.name.as_str()).collect();
             Error::Argument(format!(

@@ -1,6 +1,6 @@
 //! The folder of a report.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::interrupt::MadeFolder;
@@ -9,29 +9,26 @@ use crate::output::{Files, OutFile};
 /// The page in the folder.
 const PAGE: &str = "index.html";
 
-/// A folder that a report is to be written to; one that was made for it goes away with the report that never came.
+/// A folder that a report is to be written to; one that is not there is made with its page, so that none stays empty, whatever ends the
+/// program before.
 #[derive(Debug)]
 pub(crate) struct ReportFolder {
     page: OutFile,
-    /// Where it was not there before.
-    _made: Option<MadeFolder>,
+    folder: PathBuf,
 }
 
 impl ReportFolder {
-    /// Claims the page of a folder, which is made where it is not there.
+    /// Claims the page of a folder that is there, or that can be made.
     pub(crate) fn claim(files: &mut Files, folder: &Path) -> Result<Self, Error> {
-        let made = if folder.exists() {
+        // It goes away again behind the claim.
+        let _trial = if folder.exists() {
             None
         } else {
-            let made = MadeFolder::make(folder).map_err(|error| Error::Write {
-                path: folder.to_owned(),
-                reason: format!("the folder of a report cannot be made: {error}"),
-            })?;
-            Some(made)
+            Some(made(folder)?)
         };
         Ok(Self {
             page: files.claim(&folder.join(PAGE))?,
-            _made: made,
+            folder: folder.to_owned(),
         })
     }
 
@@ -46,7 +43,19 @@ impl ReportFolder {
     /// Puts the page in place and says where it is.
     pub(crate) fn commit(self, html: &str) -> Result<String, Error> {
         let path = self.page.path().display().to_string();
+        let _made = if self.folder.exists() {
+            None
+        } else {
+            Some(made(&self.folder)?)
+        };
         self.page.commit(html.as_bytes())?;
         Ok(path)
     }
+}
+
+fn made(folder: &Path) -> Result<MadeFolder, Error> {
+    MadeFolder::make(folder).map_err(|error| Error::Write {
+        path: folder.to_owned(),
+        reason: format!("the folder of a report cannot be made: {error}"),
+    })
 }

@@ -57,6 +57,7 @@ mod readings;
 mod reproducible;
 mod shells;
 mod simulate;
+mod slips;
 mod slower;
 mod starts;
 mod sticks;

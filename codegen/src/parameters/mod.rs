@@ -190,11 +190,19 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), String> {
     if !unknown.is_empty() {
         let shapes = compiled.shape_names();
         let all = accepted.iter().chain(&base).copied();
-        let near = match unknown[..] {
-            [only] => nearest(only, all.chain(shapes.iter().map(String::as_str))),
-            _ => None,
+        let all = all.chain(shapes.iter().map(String::as_str));
+        let few = unknown.iter().take_while(|_| unknown.len() <= 3);
+        let near: Option<Vec<&str>> = few.map(|name| nearest(name, all.clone())).collect();
+        let meant = match near.as_deref() {
+            Some(near @ [_]) => format!("; is {} meant?", names(near)),
+            Some(near @ [_, ..]) => format!("; are {} meant?", names(near)),
+            // Most names of another arm are those of no parameter here.
+            _ if 2 * unknown.len() > given.len() => {
+                "; the file seems to be of another arm: name the spec that it was identified with"
+                    .to_owned()
+            }
+            _ => String::new(),
         };
-        let meant = near.map_or_else(String::new, |name| format!("; is `{name}` meant?"));
         return Err(format!(
             "{robot} has no parameter {}{meant}",
             names(&unknown)

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "log-settings")]
 mod settings;
+mod word;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -129,8 +130,12 @@ impl Arm<'_> {
         errors: &mut Errors,
     ) {
         let mut read = |dimension: &dyn Fn(&Joint) -> Option<Dimension>| -> Vec<LogColumn> {
+            let kinds: Vec<Dimension> = self.joints.iter().filter_map(dimension).collect();
             let pairs = channel.columns.iter().zip(self.joints);
-            let columns = pairs.map(|(column, joint)| worth(column, dimension(joint)));
+            let columns = pairs.map(|(column, joint)| {
+                word::check(column, &kinds)?;
+                worth(column, dimension(joint))
+            });
             let columns = columns.map(|column| column.map_err(|error| errors.push(error)));
             columns.flatten().collect()
         };
@@ -140,8 +145,11 @@ impl Arm<'_> {
             Channel::Velocity => columns.dq = read(&|j| Some(speed_dimension(j.kind))),
             Channel::Torque => {
                 let joints = self.joints.iter().zip(&self.gains);
+                let kinds = self.joints.iter().map(|joint| torque_dimension(joint.kind));
+                let kinds: Vec<Dimension> = kinds.chain([Dimension::CURRENT]).collect();
                 for (column, (joint, gain)) in channel.columns.iter().zip(joints) {
-                    let sound = worth(column, None)
+                    let sound = word::check(column, &kinds)
+                        .and_then(|()| worth(column, None))
                         .and_then(|own| check_torque(column, joint, gain.as_ref()).map(|()| own));
                     match sound {
                         Ok(own) => columns.tau.push(own),

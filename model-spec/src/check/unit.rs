@@ -93,6 +93,18 @@ impl Dimension {
         text.join(between)
     }
 
+    /// Words of its units, as the log of an arm may have them.
+    pub(super) fn unit_words(self) -> impl Iterator<Item = &'static str> {
+        let words = UNITS.iter().filter(move |(.., of)| *of == self);
+        let quotients: &[&str] = match self {
+            Self::SPEED => &["m/s", "mm/s"],
+            Self::ANGULAR_SPEED => &["rad/s", "deg/s"],
+            _ => &[],
+        };
+        let words = words.map(|(word, ..)| *word);
+        words.chain(quotients.iter().copied())
+    }
+
     /// Units to write it in.
     pub(super) fn units(self) -> &'static str {
         NAMES

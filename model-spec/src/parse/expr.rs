@@ -65,6 +65,13 @@ impl Climber {
         loop {
             let op = if input.peek(Token![*]) {
                 input.parse::<Token![*]>()?;
+                if input.peek(Token![*]) {
+                    return Err(syn_error(
+                        input.span(),
+                        "`**` is no operator",
+                        Some("write powers with `^`, as in `l^2`"),
+                    ));
+                }
                 BinaryOp::Mul
             } else if input.peek(Token![/]) {
                 input.parse::<Token![/]>()?;

@@ -44,13 +44,23 @@ pub(crate) fn parse_value(text: &str) -> Result<Expr, Vec<Diagnostic>> {
 /// The tokens of a text.
 fn tokens(text: &str) -> Result<TokenStream, Vec<Diagnostic>> {
     TokenStream::from_str(text).map_err(|error| {
+        let has_hash = text
+            .lines()
+            .any(|line| line.contains('#') && !line.trim_start().starts_with("//"));
+        let comments = if has_hash {
+            "; comments begin with `//`, not with `#`"
+        } else {
+            ""
+        };
         let general = || {
             Diagnostic::new(
                 error.span(),
                 "the text is not made of words, numbers and brackets",
                 "from here on",
             )
-            .help("remove characters that belong to no word or number, and close every `\"`")
+            .help(format!(
+                "remove characters that belong to no word or number, and close every `\"`{comments}"
+            ))
         };
         vec![brackets::unbalanced(text).unwrap_or_else(general)]
     })
@@ -184,6 +194,26 @@ fn word(input: ParseStream, expected: &str) -> syn::Result<Ident> {
     ))
 }
 
+/// A name, which goes on behind no hyphen.
+fn name(input: ParseStream, expected: &str) -> syn::Result<Ident> {
+    let name = word(input, expected)?;
+    if !input.peek(Token![-]) {
+        return Ok(name);
+    }
+    let start = name.span();
+    let mut whole = name.to_string();
+    while input.peek(Token![-]) {
+        input.parse::<Token![-]>()?;
+        whole.push('-');
+        whole.push_str(&word(input, expected)?.to_string());
+    }
+    Err(syn_error(
+        start,
+        &format!("a name has no hyphens, found `{whole}`"),
+        Some(&format!("write `{}`", whole.replace('-', "_"))),
+    ))
+}
+
 /// ", found `x`", or that the text or bracket ends here.
 fn found(input: ParseStream) -> String {
     match input.fork().parse::<TokenTree>() {
@@ -204,7 +234,10 @@ fn semicolon(input: ParseStream) -> syn::Result<()> {
         input.parse::<Token![;]>()?;
         return Ok(());
     }
-    let help = if goes_on_with_a_value(input) {
+    let is_decimal = input.peek(Token![,]) && input.peek2(syn::Lit);
+    let help = if is_decimal {
+        "write decimals with a point, as in `0.5`; `;` ends the statement"
+    } else if goes_on_with_a_value(input) {
         "write one number, and join its units with `*` or `/`, as in `9.81 m/s^2` or `3 N*m`; `;` ends the statement"
     } else {
         "end every setting and declaration with `;`"
@@ -236,6 +269,13 @@ fn goes_on_with_a_value(input: ParseStream) -> bool {
 
 /// The lines of `///` in front of an item, without their margin.
 fn doc_comment(input: ParseStream) -> syn::Result<String> {
+    if input.peek(Token![#]) && !input.peek2(syn::token::Bracket) {
+        return Err(syn_error(
+            input.span(),
+            "`#` begins no statement",
+            Some("begin comments with `//`"),
+        ));
+    }
     let mut lines = Vec::new();
     for attribute in input.call(Attribute::parse_outer)? {
         let text = match &attribute.meta {

@@ -3,7 +3,9 @@
 use syn::parse::{Parse, ParseStream};
 use syn::{Ident, Token};
 
-use super::{Sink, block, doc_comment, energies, log, semicolon, statements, with_sink, word};
+use super::{
+    Sink, block, doc_comment, energies, log, name, semicolon, statements, with_sink, word,
+};
 use crate::ast::{
     DeclaredEffect, Effects, Energies, Expr, Joint, Limits, Link, Robot, Setting, Target, Targets,
     Value, join,
@@ -11,7 +13,7 @@ use crate::ast::{
 
 /// Behind the word `robot`.
 pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot> {
-    let name = word(input, "the robot's name")?;
+    let name = name(input, "the robot's name")?;
     let (content, close) = block(input, "`{` and the robot's description")?;
     let mut robot = Robot {
         name,
@@ -30,7 +32,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
             robot.energies.bindings.push(energies::binding(input)?);
             return semicolon(input);
         }
-        if input.peek2(Token![=]) {
+        if input.peek2(Token![=]) || input.peek2(Token![:]) {
             robot.settings.push(statement_setting(input)?);
             return Ok(());
         }
@@ -70,7 +72,7 @@ pub(super) fn robot(input: ParseStream, errors: &mut Sink) -> syn::Result<Robot>
 }
 
 fn joint(input: ParseStream, errors: &mut Sink) -> syn::Result<Joint> {
-    let name = word(input, "the joint's name")?;
+    let name = name(input, "the joint's name")?;
     if !input.peek(Token![:]) {
         return Err(crate::diagnostic::syn_error(
             input.span(),
@@ -90,7 +92,7 @@ fn joint(input: ParseStream, errors: &mut Sink) -> syn::Result<Joint> {
 }
 
 fn link(input: ParseStream, errors: &mut Sink) -> syn::Result<Link> {
-    let name = word(input, "the link's name")?;
+    let name = name(input, "the link's name")?;
     let status = if input.peek(Token![:]) {
         input.parse::<Token![:]>()?;
         Some(word(input, "`nominal` or `fixed`")?)
@@ -106,7 +108,7 @@ fn link(input: ParseStream, errors: &mut Sink) -> syn::Result<Link> {
 
 fn limits(input: ParseStream, errors: &mut Sink) -> syn::Result<Limits> {
     Ok(Limits {
-        name: word(input, "the coordinate's name")?,
+        name: name(input, "the coordinate's name")?,
         settings: settings(input, errors)?,
     })
 }
@@ -190,7 +192,7 @@ impl Parse for Value {
 impl Parse for DeclaredEffect {
     /// `name(shape = value) on targets`, or without targets
     fn parse(input: ParseStream) -> syn::Result<Self> {
-        let name = word(input, "the name of an effect")?;
+        let name = name(input, "the name of an effect")?;
         let shapes = if input.peek(syn::token::Paren) {
             let content;
             syn::parenthesized!(content in input);
@@ -236,13 +238,13 @@ impl Parse for Target {
             let content;
             let paren = syn::parenthesized!(content in input);
             let joints =
-                content.parse_terminated(|input| word(input, "a joint's name"), Token![,])?;
+                content.parse_terminated(|input| name(input, "a joint's name"), Token![,])?;
             return Ok(Self {
                 joints: joints.into_iter().collect(),
                 span: paren.span.join(),
             });
         }
-        let joint = word(input, "a joint's name, `(first, second)` or `all`")?;
+        let joint = name(input, "a joint's name, `(first, second)` or `all`")?;
         Ok(Self {
             span: join(joint.span(), joint.span()),
             joints: vec![joint],

@@ -1,8 +1,12 @@
 //! What can be wrong with a log, and the words for it.
 
+mod text;
+
 use thiserror::Error;
 
-use super::words::{columns, hertz, in_unit, joints, list, plural, way_out};
+pub use text::TextError;
+
+use super::words::{columns, field, hertz, in_unit, joints, list, plural, way_out};
 
 /// Why a log cannot be used. `source_name` is the file, `line` counts from 1; what is wrong with a header is told of line 1, whatever comments
 /// stand above it.
@@ -39,31 +43,28 @@ pub enum LogError {
         /// The file.
         source_name: String,
     },
-    /// The header has one field, with other separators in it.
-    #[error(
-        "{source_name}:1: the columns are not separated by commas; separate columns with commas, and write decimals with a point"
-    )]
-    Separator {
+    /// A text that is no table of numbers.
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// A file of another kind.
+    #[error("{source_name}:1: no log is read from {what}; {way_out}")]
+    Foreign {
         /// The file.
         source_name: String,
-    },
-    /// Bytes that are no text.
-    #[error(
-        "{source_name}:{line}: the log is not UTF-8 text; save it as CSV in UTF-8, plain or gzip"
-    )]
-    NotText {
-        /// The file.
-        source_name: String,
-        /// Line of the first such bytes.
-        line: u64,
+        /// What it is.
+        what: &'static str,
+        /// How a log is made of it.
+        way_out: &'static str,
     },
     /// A header field is empty.
     #[error(
-        "{source_name}:1: column {column} has no name; name every column, and end no line with a comma"
+        "{source_name}:{line}: column {column} has no name; name every column of numbers; only one in front that counts the rows may have none"
     )]
     UnnamedColumn {
         /// The file.
         source_name: String,
+        /// Line of the header, or of the row that shows that it is a column.
+        line: u64,
         /// Its place, from 1.
         column: usize,
     },
@@ -106,7 +107,8 @@ pub enum LogError {
     },
     /// Two columns of one name.
     #[error(
-        "{source_name}:1: column `{name}` stands there twice; delete one of them, or give it another name"
+        "{source_name}:1: column `{}` stands there twice; delete one of them, or give it another name",
+        field(name)
     )]
     DuplicateColumn {
         /// The file.
@@ -125,7 +127,7 @@ pub enum LogError {
         name: String,
     },
     /// A column of a known family for a joint that the arm does not have.
-    #[error("{source_name}:1: unknown column `{name}`: the arm has {dof} joint{}, {}", plural(*.dof), joints(*.dof))]
+    #[error("{source_name}:1: unknown column `{}`: the arm has {dof} joint{}, {}", field(name), plural(*.dof), joints(*.dof))]
     NoSuchJoint {
         /// The file.
         source_name: String,
@@ -133,11 +135,14 @@ pub enum LogError {
         name: String,
         /// Joints of the arm.
         dof: usize,
+        /// Settings that would name the columns as they are.
+        lines: Vec<String>,
     },
     /// Nearly the name of a known column.
     #[error(
-        "{source_name}:1: unknown column `{name}`: write `{suggestion}`, or give the channel a name that cannot be \
-         mistaken for it"
+        "{source_name}:1: unknown column `{}`: write `{suggestion}`, or give the channel a name that cannot be \
+         mistaken for it",
+        field(name)
     )]
     Misspelled {
         /// The file.
@@ -146,6 +151,8 @@ pub enum LogError {
         name: String,
         /// What may be meant.
         suggestion: String,
+        /// Settings that would name the columns as they are.
+        lines: Vec<String>,
     },
     /// Columns that a log of this arm must have.
     #[error("{source_name}:1: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), columns(present))]
@@ -243,7 +250,8 @@ pub enum LogError {
     },
     /// A field that is no number.
     #[error(
-        "{source_name}:{line}: `{text}` in column `{column}` is not a number; {}",
+        "{source_name}:{line}: `{text}` in column `{}` is not a number; {}",
+        field(column),
         way_out(text)
     )]
     NotANumber {
@@ -258,7 +266,8 @@ pub enum LogError {
     },
     /// NaN or infinity.
     #[error(
-        "{source_name}:{line}: `{text}` in column `{column}` is not finite; remove or repair the row"
+        "{source_name}:{line}: `{text}` in column `{}` is not finite; remove or repair the row",
+        field(column)
     )]
     NotFinite {
         /// The file.

@@ -5,11 +5,13 @@
 
 use std::collections::BTreeSet;
 
-use super::limits;
-use super::{Column, Columns, LogError};
+use super::note::Note;
+use super::rows::Rows;
+use super::units::Channels;
+use super::{Column, Columns, LogError, limits, mapping};
 
 /// Families of one channel a joint.
-const FAMILIES: [&str; 3] = ["q", "dq", "tau"];
+pub(super) const FAMILIES: [&str; 3] = ["q", "dq", "tau"];
 
 /// Where a channel is in a row, and what a one there is worth.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,9 +34,28 @@ pub(super) struct Header {
     declared: usize,
     /// The file has the standard columns in place of the arm's own.
     pub is_standard_instead: bool,
+    /// What was assumed of the columns.
+    pub notes: Vec<Note>,
 }
 
 impl Header {
+    /// Finds the channels of a file that may say units below its names.
+    pub(super) fn of(source: &str, rows: &dyn Rows, columns: &Columns) -> Result<Self, LogError> {
+        let names = rows.names();
+        let mut header = Self::resolve(source, names, &rows.columns(columns))?;
+        if let Some(units) = rows.units() {
+            let channels = Channels {
+                time: &mut header.time,
+                q: &mut header.q,
+                dq: &mut header.dq,
+                tau: &mut header.tau,
+            };
+            let note = units.apply(source, names, channels)?;
+            header.notes.push(note);
+        }
+        Ok(header)
+    }
+
     /// Finds the channels. A log that has none of the arm's own names, and all standard ones, comes from a simulation or was
     /// rewritten already.
     pub(super) fn resolve(
@@ -78,10 +99,20 @@ impl Header {
         };
         let time = find(&columns.time);
         let q = columns.q.iter().map(&mut find).collect();
-        // Velocities are optional, but not for some joints only.
+        // Velocities are optional, but not for some of the joints that are there only.
         let has_dq = columns.dq.iter().any(|own| place(own).is_some());
+        let is_there = |joint: usize| {
+            let own = columns
+                .q
+                .get(joint)
+                .into_iter()
+                .chain(columns.tau.get(joint));
+            own.filter_map(place).count() > 0
+        };
         let dq = if has_dq { columns.dq.as_slice() } else { &[] };
-        let dq = dq.iter().map(&mut find).collect();
+        let dq = dq.iter().enumerate();
+        let dq = dq.filter(|(joint, own)| is_there(*joint) || place(own).is_some());
+        let dq = dq.map(|(_, own)| find(own)).collect();
         let tau = columns.tau.iter().map(&mut find).collect();
         let of_arm = columns.extra.iter();
         let of_arm = of_arm.filter_map(|(name, own)| Some((name.clone(), place(own)?)));
@@ -104,6 +135,7 @@ impl Header {
                 extra,
                 declared,
                 is_standard_instead: false,
+                notes: Vec::new(),
             })
         } else {
             Err(LogError::MissingColumns {
@@ -131,6 +163,7 @@ fn check_names(source: &str, names: &[String]) -> Result<(), LogError> {
         if name.is_empty() {
             return Err(LogError::UnnamedColumn {
                 source_name: source.to_owned(),
+                line: 1,
                 column: column + 1,
             });
         }
@@ -179,6 +212,12 @@ fn others(
     let standard = standard.filter(|(_, columns)| !has_own(columns));
     let standard: Vec<&str> = standard.map(|(family, _)| family).collect();
     let time = !own.contains(&columns.time.name.as_str());
+    let lines = || {
+        let meant = names
+            .iter()
+            .filter_map(|name| Some((name.clone(), Meant::of(name)?)));
+        mapping::lines(&meant.collect::<Vec<_>>(), columns.dof())
+    };
     let mut others = Vec::new();
     for (column, name) in names.iter().enumerate() {
         if columns.all().any(|known| known.name == *name) {
@@ -191,6 +230,7 @@ fn others(
                     source_name: source_name(),
                     name: name.clone(),
                     dof: columns.dof(),
+                    lines: lines(),
                 });
             }
             Kind::NearMiss(suggestion) => {
@@ -198,6 +238,7 @@ fn others(
                     source_name: source_name(),
                     name: name.clone(),
                     suggestion,
+                    lines: lines(),
                 });
             }
         }
@@ -227,24 +268,45 @@ fn classify(name: &str, dof: usize, families: &[&str], time: bool) -> Kind {
             _ => Kind::NoSuchJoint,
         };
     }
-    // `Q1`, `q_1` and `q[1]` are spellings of `q1`.
-    let plain: String = name
-        .chars()
-        .filter(char::is_ascii_alphanumeric)
-        .collect::<String>()
-        .to_ascii_lowercase();
-    let (stem, digits) = split(&plain);
-    let meant = if digits.is_empty() {
-        (time && nearly(stem, "time")).then_some("time")
-    } else {
-        families.iter().copied().find(|family| nearly(stem, family))
-    };
-    // Measured accelerations are a channel of their own right.
-    match meant {
-        Some(family) if name != format!("ddq{digits}") => {
-            Kind::NearMiss(format!("{family}{digits}"))
+    match Meant::of(name) {
+        Some(Meant::Time) if time => Kind::NearMiss("time".to_owned()),
+        Some(Meant::Joint(family, joint)) if families.contains(&family) => {
+            if (1..=dof).contains(&joint) {
+                Kind::NearMiss(format!("{family}{joint}"))
+            } else {
+                Kind::NoSuchJoint
+            }
         }
         _ => Kind::Extra,
+    }
+}
+
+/// The channel that a name is nearly that of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Meant {
+    Time,
+    /// A family, and the number of a joint.
+    Joint(&'static str, usize),
+}
+
+impl Meant {
+    /// `Q1`, `q_1` and `q[1]` are spellings of `q1`.
+    fn of(name: &str) -> Option<Self> {
+        let plain: String = name
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .collect::<String>()
+            .to_ascii_lowercase();
+        let (stem, digits) = split(&plain);
+        // Measured accelerations are a channel of their own right.
+        if digits.is_empty() {
+            return nearly(stem, "time").then_some(Self::Time);
+        }
+        if name == format!("ddq{digits}") {
+            return None;
+        }
+        let family = FAMILIES.into_iter().find(|family| nearly(stem, family))?;
+        Some(Self::Joint(family, digits.parse().ok()?))
     }
 }
 

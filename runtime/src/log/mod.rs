@@ -8,9 +8,12 @@ mod columns;
 mod csv;
 mod error;
 mod faults;
+mod foreign;
+mod from_table;
 mod gaps;
 mod header;
 mod limits;
+mod mapping;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod middle;
@@ -23,6 +26,7 @@ mod rows;
 mod sparse;
 mod turns;
 mod uniform;
+mod units;
 mod words;
 
 use std::io::Read;
@@ -30,7 +34,7 @@ use std::ops::Range;
 use std::path::Path;
 
 pub use columns::{Column, Columns};
-pub use error::LogError;
+pub use error::{LogError, TextError};
 pub use faults::{Fault, LateChannel, Mended, Stretches};
 #[cfg(feature = "mcap")]
 pub use mcap::{JointStates, NotABag};
@@ -38,11 +42,10 @@ pub use note::Note;
 pub use phase::MOTION_PHASE;
 pub use pieces::Pieces;
 
-use header::{Header, Place};
+use header::Header;
 pub(crate) use limits::MOST_NUMBERS;
 use limits::too_large;
-use rows::{Lost, Rows, Table};
-use sparse::fill;
+use rows::{Lost, Rows};
 
 /// One measured run of an arm, in SI units, on a uniform time grid.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,70 +190,15 @@ impl Log {
         columns: &Columns,
         most_numbers: usize,
     ) -> Result<Self, LogError> {
-        let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
+        let header = Header::of(&source, &*rows, columns)?;
         let mut table = rows.table(&header.needed());
         let width = table.columns.len();
         let most = most_numbers / width.max(1);
         if rows.fill(&mut table, most)? {
             return Err(too_large(&source, most as u64, width));
         }
-        Self::from_table(source, table, &header)
-    }
-
-    fn from_table(source: String, table: Table, header: &Header) -> Result<Self, LogError> {
-        let mut columns = table.columns;
-        let is_there = |place: &Place| {
-            let values = &columns[place.column];
-            table.is_number[place.column] && values.iter().any(|value| value.is_finite())
-        };
-        let (numbers, words): (Vec<_>, Vec<_>) =
-            header.extra.iter().partition(|(_, place)| is_there(place));
-        let sparse = numbers
-            .iter()
-            .filter(|(_, place)| fill(&mut columns[place.column]));
-        let sparse: Vec<String> = sparse.map(|(name, _)| name.clone()).collect();
-        let mut take = |place: &Place| {
-            let mut values = std::mem::take(&mut columns[place.column]);
-            for value in &mut values {
-                *value *= place.unit;
-            }
-            values
-        };
-        let lost = table.lost.few(table.lines.len())?;
-        let mut report = Vec::new();
-        if let Some((rows, first)) = lost {
-            let first = first.to_string();
-            report.push(Note::LostRows { rows, first });
-        }
-        if header.is_standard_instead {
-            report.push(Note::StandardColumns);
-        }
-        if !words.is_empty() {
-            let names = words.into_iter().map(|(name, _)| name.clone()).collect();
-            report.push(Note::NoNumbers { names });
-        }
-        if !sparse.is_empty() {
-            report.push(Note::Sparse { names: sparse });
-        }
-        let log = Self {
-            time: take(&header.time),
-            q: header.q.iter().map(&mut take).collect(),
-            dq: header.dq.iter().map(&mut take).collect(),
-            tau: header.tau.iter().map(&mut take).collect(),
-            extra: numbers
-                .into_iter()
-                .map(|(name, place)| Channel {
-                    name: name.clone(),
-                    values: take(place),
-                })
-                .collect(),
-            source,
-            report,
-            holes: Vec::new(),
-            clipped: Vec::new(),
-            turn_speeds: Vec::new(),
-        };
-        log.finish(Some(&table.lines), &table.lost)
+        let notes = [header.notes.clone(), rows.take_notes()].concat();
+        Self::from_table(source, table, &header, notes)
     }
 
     /// A log from samples in memory: `q` and `tau` are `[joint][sample]`, as long as `time`.

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::Stretches;
-use super::words::list;
+use super::words::{list, plural};
 
 /// Something about a log that its user should know, and that is no error.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +26,36 @@ pub enum Note {
     },
     /// The file has none of the columns that were asked for, but the standard ones: those were read, in SI units.
     StandardColumns,
+    /// Lines above the header that are no comments.
+    Above {
+        /// How many.
+        lines: usize,
+        /// The first.
+        first: String,
+    },
+    /// A column in front without a name, which counts the rows.
+    RowNumbers,
+    /// Commas stand before decimals.
+    DecimalCommas,
+    /// A line below the names says units.
+    Units {
+        /// The line.
+        line: u64,
+        /// Columns that are read in them.
+        said: Vec<String>,
+    },
+    /// Dates or times of day in place of seconds.
+    Clock {
+        /// The first.
+        first: String,
+    },
+    /// Time in two columns.
+    TwoTimes {
+        /// That of seconds.
+        seconds: String,
+        /// That of nanoseconds.
+        nanoseconds: String,
+    },
     /// Rows that hold no finite number somewhere: they count as missing.
     LostRows {
         /// How many.
@@ -79,6 +109,35 @@ impl fmt::Display for Note {
             Self::StandardColumns => write!(
                 f,
                 "it lacks the columns that the spec's `log` names, or its settings, and has `time`, `q1` and so on: these are read, in SI units"
+            ),
+            Self::Above { lines, first } => write!(
+                f,
+                "{lines} line{} above the header {} passed over: `{first}`{}",
+                plural(*lines),
+                if *lines == 1 { "is" } else { "are" },
+                if *lines == 1 { "" } else { " and so on" }
+            ),
+            Self::RowNumbers => write!(
+                f,
+                "the first column has no name and counts the rows: it is left out"
+            ),
+            Self::DecimalCommas => write!(f, "commas in numbers are read as decimal points"),
+            Self::Units { line, said } if said.is_empty() => {
+                write!(f, "line {line} has no unit that is not said elsewhere")
+            }
+            Self::Units { line, said } => {
+                write!(f, "line {line} says units: {} are read so", said.join(", "))
+            }
+            Self::Clock { first } => write!(
+                f,
+                "time is in times of day: it is read as seconds since the first, `{first}`"
+            ),
+            Self::TwoTimes {
+                seconds,
+                nanoseconds,
+            } => write!(
+                f,
+                "time is the sum of `{seconds}` and `{nanoseconds}`, in seconds since the first"
             ),
             Self::LostRows { rows, first } => {
                 write!(

@@ -1,7 +1,7 @@
 //! A log that is read piece by piece, in memory that does not grow with it.
 
 use std::fs::File;
-use std::io::{Read, Seek};
+use std::io::{ErrorKind, Read, Seek};
 use std::path::Path;
 
 use super::header::Header;
@@ -71,7 +71,12 @@ impl Log {
             Ok(file) => Ok((source, file)),
             Err(error) => Err(LogError::Open {
                 source_name: source,
-                reason: error.to_string(),
+                reason: match error.kind() {
+                    ErrorKind::NotFound => {
+                        "there is no such file; check its name and folder".to_owned()
+                    }
+                    _ => error.to_string(),
+                },
             }),
         }
     }
@@ -114,7 +119,7 @@ impl<'a> Pieces<'a> {
         samples: usize,
         overlap: f64,
     ) -> Result<Self, LogError> {
-        let header = Header::resolve(&source, rows.names(), &rows.columns(columns))?;
+        let header = Header::of(&source, &*rows, columns)?;
         Ok(Self {
             table: rows.table(&header.needed()),
             header,
@@ -171,6 +176,7 @@ impl Iterator for Pieces<'_> {
                 source,
                 self.rows.table(&self.header.needed()),
                 &self.header,
+                Vec::new(),
             ));
         }
         // What overlaps is no more than half, so that every piece has samples of its own.
@@ -180,7 +186,12 @@ impl Iterator for Pieces<'_> {
         let overlap = whole_steps((self.overlap * rate_hz).ceil()).min(count / 2);
         let table = self.table.split(count, overlap);
         let source = self.source.clone();
-        let piece = Log::from_table(source, table, &self.header);
+        let notes = [
+            std::mem::take(&mut self.header.notes),
+            self.rows.take_notes(),
+        ]
+        .concat();
+        let piece = Log::from_table(source, table, &self.header, notes);
         self.is_over |= piece.is_err();
         Some(piece)
     }

@@ -6,8 +6,10 @@ use std::io::{Cursor, Read, Seek};
 use super::csv::CsvRows;
 #[cfg(feature = "mcap")]
 use super::mcap::McapRows;
+use super::note::Note;
 #[cfg(feature = "parquet")]
 use super::parquet::ParquetRows;
+use super::units::Line;
 use super::{Columns, LogError};
 
 /// Rows below a header, read as they are asked for. A kind of files is one implementation, and its first bytes in [`Kind`].
@@ -20,10 +22,20 @@ pub(super) trait Rows {
         wanted.clone()
     }
 
+    /// The units that a line below the names says.
+    fn units(&self) -> Option<&Line> {
+        None
+    }
+
+    /// What was assumed in reading and is not told yet.
+    fn take_notes(&mut self) -> Vec<Note> {
+        Vec::new()
+    }
+
     /// Adds rows to a table until it has `most`; false where there are no more.
     fn fill(&mut self, table: &mut Table, most: usize) -> Result<bool, LogError>;
 
-    /// Room for rows, of which some columns have to hold numbers.
+    /// Room for rows, of which some columns have to hold numbers, the first of them the time.
     fn table(&self, needed: &[usize]) -> Table {
         let count = self.names().len();
         let mut is_needed = vec![false; count];
@@ -34,6 +46,8 @@ pub(super) trait Rows {
             columns: vec![Vec::new(); count],
             is_needed,
             is_number: vec![true; count],
+            time: needed.first().copied().unwrap_or_default(),
+            is_clock: false,
             lines: Vec::new(),
             lost: Lost::default(),
         }
@@ -93,7 +107,7 @@ pub(super) fn of_file(
     let Some(kind) = Kind::of(&start) else {
         Kind::check_text(source, &start)?;
         let whole = Cursor::new(start).chain(file);
-        return Ok(Box::new(CsvRows::new(source, whole)?));
+        return Ok(Box::new(CsvRows::new(source, whole, columns)?));
     };
     let back = file.rewind();
     back.map_err(|error| unreadable(source, 1, &error))?;
@@ -110,7 +124,7 @@ pub(super) fn of_reader<'a>(
     let Some(kind) = Kind::of(&start) else {
         Kind::check_text(source, &start)?;
         let whole = Cursor::new(start).chain(reader);
-        return Ok(Box::new(CsvRows::new(source, whole)?));
+        return Ok(Box::new(CsvRows::new(source, whole, columns)?));
     };
     let rest = reader.read_to_end(&mut start);
     rest.map_err(|error| unreadable(source, 1, &error))?;
@@ -171,6 +185,10 @@ pub(super) struct Table {
     pub is_needed: Vec<bool>,
     /// Columns that hold numbers, as far as rows were read.
     pub is_number: Vec<bool>,
+    /// The column of the time.
+    pub time: usize,
+    /// It has times of day, and holds seconds whatever its unit.
+    pub is_clock: bool,
     /// Line of each row.
     pub lines: Vec<u64>,
     /// Rows that are left out.
@@ -275,6 +293,8 @@ impl Table {
             columns: self.columns.iter_mut().map(&mut first).collect(),
             is_needed: self.is_needed.clone(),
             is_number: self.is_number.clone(),
+            time: self.time,
+            is_clock: self.is_clock,
             lost: std::mem::take(&mut self.lost),
             lines: {
                 let lines = self.lines[..count].to_vec();

@@ -12,7 +12,7 @@ pub(super) fn columns(names: &[String]) -> String {
 
 fn first(names: &[String], most: usize) -> String {
     let shown = names.iter().take(most);
-    let mut text: Vec<String> = shown.map(|name| format!("`{name}`")).collect();
+    let mut text: Vec<String> = shown.map(|name| format!("`{}`", field(name))).collect();
     if names.len() > most {
         text.push(format!("and {} more", names.len() - most));
     }

@@ -3,7 +3,7 @@
 use super::super::Errors;
 use super::super::chain::torque_unit;
 use super::super::unit::Dimension;
-use super::{Arm, Inputs, Other, worth};
+use super::{Arm, Inputs, Other, word, worth};
 use crate::ast::{self, LogChannel};
 use crate::diagnostic::Diagnostic;
 use crate::log_settings::ColumnKind;
@@ -72,5 +72,6 @@ pub(crate) fn check_unit(column: &ast::LogColumn, kind: ColumnKind) -> Result<f6
         ColumnKind::Current => Dimension::CURRENT,
         ColumnKind::Voltage => Dimension::NONE,
     };
+    word::check(column, &[dimension])?;
     worth(column, Some(dimension)).map(|own| own.unit)
 }

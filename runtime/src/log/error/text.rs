@@ -1,0 +1,88 @@
+//! What can be wrong with the text of a log.
+
+use thiserror::Error;
+
+use super::super::words::{field, list};
+
+/// Why a text is no table of numbers. `source_name` is the file, `line` counts from 1.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum TextError {
+    /// The header has one field.
+    #[error(
+        "{source_name}:{line}: the header `{header}` is one column; write one name a column, separated by `,`, `;`, `|`, tabs or blanks"
+    )]
+    Separator {
+        /// The file.
+        source_name: String,
+        /// Line of the header.
+        line: u64,
+        /// What it says.
+        header: String,
+    },
+    /// Lines above the header that may be columns, too.
+    #[error(
+        "{source_name}:{line}: the line has other columns than the rows, whose header seems to be line {header}; remove the lines above it, \
+         or begin each with `#`"
+    )]
+    Above {
+        /// The file.
+        source_name: String,
+        /// The first line that is no comment.
+        line: u64,
+        /// The line that names the columns of the rows.
+        header: u64,
+    },
+    /// Bytes that are no text.
+    #[error(
+        "{source_name}:{line}: byte 0x{byte:02x} in `{text}` is no UTF-8 text; save the log as CSV in UTF-8, or convert it: \
+         `iconv -f {} -t utf8 {source_name} > utf8.csv`",
+        if *.byte == 0 { "utf16" } else { "latin1" }
+    )]
+    NotText {
+        /// The file.
+        source_name: String,
+        /// Line of the first such bytes.
+        line: u64,
+        /// The first of them.
+        byte: u8,
+        /// The field that has it.
+        text: String,
+    },
+    /// A line of words below the names that are no units of their columns.
+    #[error(
+        "{source_name}:{line}: the line below the names has no numbers, and as a unit `{text}` is none of column `{}`; write one of {}, or remove the \
+         line and say in the spec's `log`, or in its settings, what the columns are in",
+        field(column),
+        list(known)
+    )]
+    Unit {
+        /// The file.
+        source_name: String,
+        /// Its line.
+        line: u64,
+        /// Its column.
+        column: String,
+        /// The field.
+        text: String,
+        /// Units that may stand there.
+        known: Vec<String>,
+    },
+    /// A decimal comma beside decimal points, or the other way round.
+    #[error(
+        "{source_name}:{line}: `{text}` in column `{}` is not a number: decimals above have a {mark}; write all with a point",
+        field(column)
+    )]
+    MixedDecimals {
+        /// The file.
+        source_name: String,
+        /// Its line.
+        line: u64,
+        /// Its column.
+        column: String,
+        /// The field.
+        text: String,
+        /// What stands before the decimals of others.
+        mark: &'static str,
+    },
+}

@@ -1,0 +1,172 @@
+//! A line of units below the names of columns.
+
+use std::f64::consts::{PI, TAU};
+
+use super::header::Place;
+use super::note::Note;
+use super::words;
+use super::{LogError, TextError};
+
+/// What a unit is of: joints that turn, and those that slide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Time,
+    Turning,
+    Sliding,
+}
+
+/// Words of a channel, as settings of logs have them, too: what a one is worth, and of which joints.
+type Words = [(&'static str, f64, Kind)];
+
+const TIMES: [(&str, f64, Kind); 5] = [
+    ("s", 1.0, Kind::Time),
+    ("ms", 1e-3, Kind::Time),
+    ("us", 1e-6, Kind::Time),
+    ("ns", 1e-9, Kind::Time),
+    ("min", 60.0, Kind::Time),
+];
+const POSITIONS: [(&str, f64, Kind); 7] = [
+    ("rad", 1.0, Kind::Turning),
+    ("deg", PI / 180.0, Kind::Turning),
+    ("rev", TAU, Kind::Turning),
+    ("m", 1.0, Kind::Sliding),
+    ("cm", 1e-2, Kind::Sliding),
+    ("mm", 1e-3, Kind::Sliding),
+    ("um", 1e-6, Kind::Sliding),
+];
+const SPEEDS: [(&str, f64, Kind); 7] = [
+    ("rad/s", 1.0, Kind::Turning),
+    ("deg/s", PI / 180.0, Kind::Turning),
+    ("rev/s", TAU, Kind::Turning),
+    ("rpm", TAU / 60.0, Kind::Turning),
+    ("m/s", 1.0, Kind::Sliding),
+    ("cm/s", 1e-2, Kind::Sliding),
+    ("mm/s", 1e-3, Kind::Sliding),
+];
+const TORQUES: [(&str, f64, Kind); 3] = [
+    ("Nm", 1.0, Kind::Turning),
+    ("N", 1.0, Kind::Sliding),
+    ("kN", 1e3, Kind::Sliding),
+];
+
+/// A line in which every field is a word.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Line {
+    number: u64,
+    /// One a column, empty where there is none.
+    words: Vec<String>,
+}
+
+/// Channels of a log whose columns have units.
+pub(super) struct Channels<'a> {
+    pub time: &'a mut Place,
+    pub q: &'a mut [Place],
+    pub dq: &'a mut [Place],
+    pub tau: &'a mut [Place],
+}
+
+impl Line {
+    /// The fields of a line where none is a number, and two or more are words.
+    pub fn of<'a>(
+        fields: impl Iterator<Item = &'a [u8]>,
+        columns: usize,
+        number: u64,
+        is_number: impl Fn(&str) -> bool,
+    ) -> Option<Self> {
+        let words: Vec<String> = fields
+            .take(columns)
+            .map(|field| String::from_utf8_lossy(field).into_owned())
+            .collect();
+        let mut said = words.iter().filter(|word| !word.is_empty());
+        let is_sound = said.clone().count() > 1 && said.all(|word| !is_number(word));
+        is_sound.then_some(Self { number, words })
+    }
+
+    /// Gives columns their units where settings give them none.
+    ///
+    /// # Errors
+    /// [`TextError::Unit`]
+    pub fn apply(
+        &self,
+        source: &str,
+        names: &[String],
+        channels: Channels,
+    ) -> Result<Note, LogError> {
+        let mut reading = Reading {
+            source,
+            names,
+            line: self,
+            said: Vec::new(),
+        };
+        reading.take(channels.time, &TIMES, None)?;
+        for (joint, place) in channels.q.iter_mut().enumerate() {
+            let kind = reading.take(place, &POSITIONS, None)?;
+            let kind = match channels.dq.get_mut(joint) {
+                Some(place) => reading.take(place, &SPEEDS, kind)?,
+                None => kind,
+            };
+            reading.take(&mut channels.tau[joint], &TORQUES, kind)?;
+        }
+        Ok(Note::Units {
+            line: self.number,
+            said: reading.said,
+        })
+    }
+}
+
+/// What becomes of a line.
+struct Reading<'a> {
+    source: &'a str,
+    names: &'a [String],
+    line: &'a Line,
+    /// Columns with their units.
+    said: Vec<String>,
+}
+
+impl Reading<'_> {
+    /// Reads the unit of one channel of a joint that turns or slides, as far as that is known; whether it does.
+    fn take(
+        &mut self,
+        place: &mut Place,
+        words: &'static Words,
+        joint: Option<Kind>,
+    ) -> Result<Option<Kind>, LogError> {
+        let written = self.line.words.get(place.column).map_or("", String::as_str);
+        // What settings say of a column holds.
+        if written.is_empty() || (place.unit - 1.0).abs() > 0.0 {
+            return Ok(joint);
+        }
+        let plain = plain(written);
+        let known = || {
+            let own = words.iter();
+            own.filter(move |(.., kind)| joint.is_none_or(|joint| *kind == joint))
+        };
+        let Some((word, unit, kind)) = known().find(|(word, ..)| *word == plain) else {
+            return Err(TextError::Unit {
+                source_name: self.source.to_owned(),
+                line: self.line.number,
+                column: self.names[place.column].clone(),
+                text: words::field(written),
+                known: known().map(|(word, ..)| (*word).to_owned()).collect(),
+            }
+            .into());
+        };
+        place.unit = *unit;
+        let name = words::field(&self.names[place.column]);
+        self.said.push(format!("`{name}` in {word}"));
+        Ok(Some(*kind))
+    }
+}
+
+/// A unit as the tables have it: without brackets, with a word for a sign.
+fn plain(written: &str) -> String {
+    let bare = written.trim_matches(['[', ']', '(', ')']).trim();
+    let spelled = bare
+        .replace('\u{b0}', "deg")
+        .replace(['\u{b5}', '\u{3bc}'], "u");
+    match spelled.as_str() {
+        "N m" | "N*m" | "N.m" | "N\u{b7}m" | "N-m" => "Nm".to_owned(),
+        "sec" => "s".to_owned(),
+        _ => spelled,
+    }
+}
