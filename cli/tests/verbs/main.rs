@@ -31,6 +31,7 @@ mod excite;
 mod export;
 mod filtered_factors;
 mod friction;
+mod gravity;
 mod identifiable;
 mod identify;
 mod import;
