@@ -316,7 +316,7 @@ fn a_damaged_file_is_refused_with_its_place() {
         ("[log]\nq = ['a'\n", "--> robot-model.toml:"),
         (
             "[log]\nq = { column = 'a', unit = 'degs' }\n",
-            "help: write `deg`",
+            "help: write one of `m`, `cm`, `mm`, `um`, or a number times one of these",
         ),
         ("[log]\ntua = 'a'\n", "help: write `tau`"),
         (
