@@ -223,11 +223,16 @@ pub(crate) fn others(
             candidates.extend(asked.order(columns, &ill, &as_logged));
         }
     }
-    let mut found_best = best(candidates, &as_logged);
-    if found_best.is_none() && worst > WELL_IN_SIGNS {
-        found_best = best(asked.stand(&as_logged), &as_logged);
+    let mut best_so_far = best(candidates, &as_logged);
+    let explains = |candidate: &Candidate| {
+        let mut left = candidate.found.left.iter();
+        left.all(|left| *left <= WELL_IN_SIGNS)
+    };
+    if worst > WELL_IN_SIGNS && !best_so_far.as_ref().is_some_and(explains) {
+        let more = best_so_far.into_iter().chain(asked.stand(&as_logged));
+        best_so_far = best(more.collect(), &as_logged);
     }
-    let best = found_best?;
+    let best = best_so_far?;
     let left = &best.found.left;
     // Of the joint that it mends most.
     let fall = |joint: &usize| as_logged[*joint] - left[*joint];
