@@ -159,7 +159,7 @@ impl Reader<'_> {
     fn file(&mut self, table: &DeTable) -> Vec<LogChannel> {
         let mut channels = Vec::new();
         let mut is_there = false;
-        if let Some(key) = self.above_log(table) {
+        if let Some(key) = above_log(table) {
             let message = format!("`{}` stands under no `[log]`", key.get_ref());
             let error = Diagnostic::in_text(key.span(), message, "a channel of logs");
             let help = "put `[log]` on a line of its own above the channels";
@@ -191,14 +191,6 @@ impl Reader<'_> {
             self.errors.push(error.help(help));
         }
         channels
-    }
-
-    /// The first key of a file whose channels stand under no table.
-    fn above_log<'a, 'b>(&self, table: &'a DeTable<'b>) -> Option<&'a Spanned<Cow<'b, str>>> {
-        let is_channel = |key: &str| ["time", "q", "dq", "tau", "topic"].contains(&key);
-        let mut keys = table.iter().map(|(key, _)| key);
-        let is_elsewhere = table.keys().all(|key| key.get_ref() != "log");
-        keys.find(|key| is_elsewhere && is_channel(key.get_ref()))
     }
 
     fn channels(&mut self, log: &DeTable) -> Vec<LogChannel> {
@@ -386,6 +378,14 @@ impl Reader<'_> {
             }
         }
     }
+}
+
+/// The first key of a file whose channels stand under no table.
+fn above_log<'a, 'b>(table: &'a DeTable<'b>) -> Option<&'a Spanned<Cow<'b, str>>> {
+    let is_channel = |key: &str| ["time", "q", "dq", "tau", "topic"].contains(&key);
+    let mut keys = table.iter().map(|(key, _)| key);
+    let is_elsewhere = table.keys().all(|key| key.get_ref() != "log");
+    keys.find(|key| is_elsewhere && is_channel(key.get_ref()))
 }
 
 /// The span of a place in a text that is not made of tokens: that of a word of the same length at the same place.
