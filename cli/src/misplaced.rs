@@ -17,7 +17,10 @@ pub(crate) fn instead_of_a_spec(path: &Path, bytes: &[u8]) -> Option<String> {
     let is_empty = bytes.trim_ascii().is_empty();
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
     let start = start.trim_start_matches('\u{feff}').trim_start();
-    if lower.ends_with(".urdf") || (start.starts_with('<') && start.contains("<robot")) {
+    let is_urdf = path
+        .extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
+    if is_urdf || (start.starts_with('<') && start.contains("<robot")) {
         return Some(format!(
             "it looks like a URDF, and a spec has to stand here; write one from it: `robot-model import {name} -o arm.robot`"
         ));

@@ -30,9 +30,12 @@ pub(super) struct Standard {
     pub is_given: bool,
     /// Base parameters that no arm has, and what the arm has in their place.
     pub moved: Vec<Moved>,
-    /// Links, with the mass that is given and the other one that is written.
-    pub masses: Vec<(String, [f64; 2])>,
+    /// Links of another mass than the given one.
+    pub masses: Vec<OtherMass>,
 }
+
+/// A link, the mass that is given, and the one that is written.
+type OtherMass = (String, [f64; 2]);
 
 /// A base parameter of which another value is written.
 pub(super) struct Moved {
@@ -134,7 +137,7 @@ fn search(
     values: &Values,
     widths: &[f64],
     format: Format,
-) -> Option<(Vec<f64>, Vec<(String, [f64; 2])>)> {
+) -> Option<(Vec<f64>, Vec<OtherMass>)> {
     let mut arms = possible_arms(compiled)?;
     for k in regrouped(compiled, format) {
         arms.fixed[k] = Some(0.0);

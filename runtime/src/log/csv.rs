@@ -94,7 +94,7 @@ fn decoded<'a>(source: &str, reader: impl Read + 'a) -> Result<Box<dyn Read + 'a
     };
     let start = begin(&mut text, foreign::BYTES).map_err(|error| damaged(source, 1, &error))?;
     foreign::check(source, &start)?;
-    let order = start.first_chunk().and_then(utf16::order);
+    let order = start.first_chunk().copied().and_then(utf16::order);
     Ok(match order {
         Some(order) => {
             let rest = Cursor::new(start[2..].to_vec()).chain(text);

@@ -44,13 +44,13 @@ impl Header {
         let names = rows.names();
         let mut header = Self::resolve(source, names, &rows.columns(columns))?;
         if let Some(units) = rows.units() {
-            let channels = Channels {
+            let mut channels = Channels {
                 time: &mut header.time,
                 q: &mut header.q,
                 dq: &mut header.dq,
                 tau: &mut header.tau,
             };
-            let note = units.apply(source, names, channels)?;
+            let note = units.apply(source, names, &mut channels)?;
             header.notes.push(note);
         }
         Ok(header)

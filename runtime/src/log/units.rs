@@ -90,7 +90,7 @@ impl Line {
         &self,
         source: &str,
         names: &[String],
-        channels: Channels,
+        channels: &mut Channels,
     ) -> Result<Note, LogError> {
         let mut reading = Reading {
             source,
@@ -98,7 +98,7 @@ impl Line {
             line: self,
             said: Vec::new(),
         };
-        reading.take(channels.time, &TIMES, None)?;
+        reading.take(&mut *channels.time, &TIMES, None)?;
         for (joint, place) in channels.q.iter_mut().enumerate() {
             let kind = reading.take(place, &POSITIONS, None)?;
             let kind = match channels.dq.get_mut(joint) {

@@ -20,8 +20,8 @@ pub(super) struct FromUtf16<R> {
 }
 
 /// How the text that such a mark stands in front of is to be decoded.
-pub(super) fn order(mark: &[u8; 2]) -> Option<fn([u8; 2]) -> u16> {
-    let found = MARKS.iter().position(|own| mark == own)?;
+pub(super) fn order(mark: [u8; 2]) -> Option<fn([u8; 2]) -> u16> {
+    let found = MARKS.iter().position(|own| mark == *own)?;
     let orders: [fn([u8; 2]) -> u16; 2] = [u16::from_le_bytes, u16::from_be_bytes];
     Some(orders[found])
 }
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     fn decoded(bytes: &[u8]) -> Vec<u8> {
-        let order = order(bytes.first_chunk().expect("two bytes")).expect("a mark");
+        let order = order(*bytes.first_chunk().expect("two bytes")).expect("a mark");
         let mut out = Vec::new();
         let mut text = FromUtf16::new(&bytes[2..], order);
         text.read_to_end(&mut out).expect("memory");

@@ -105,7 +105,7 @@ fn row_numbers_of_pandas_are_no_column() {
             &(|k: usize| (k % 20).to_string()) as &dyn Fn(usize) -> String,
             22,
         ),
-        (&|k| format!("{}.5", k), 2),
+        (&|k| format!("{k}.5"), 2),
         (&|_| "x".to_owned(), 2),
     ] {
         let said = refusal(&numbered(number), 1);
