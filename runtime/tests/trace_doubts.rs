@@ -111,7 +111,7 @@ fn two_curves_of_one_position_are_terms_of_a_series() {
     };
     let series = traced(|j, q, _| {
         if j == 0 {
-            3.0 * q[0] * q[0] + 0.4 * (5.0 * q[0]).sin()
+            3.0 * q[0] * q[0] + 0.4 * (3.5 * q[0]).sin()
         } else {
             0.0
         }

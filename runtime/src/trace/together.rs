@@ -6,7 +6,7 @@ use super::search::{Accepted, Search, State};
 use super::whereabouts::Quantity;
 use crate::columns::Entry;
 
-/// Values between which a curve is straight that a term of a series follows: a wave of four periods and more over the travel of a joint does not,
+/// Values between which a curve is straight that a term of a series follows: a wave of more than three periods over the travel of a joint does not,
 /// and is told by them.
 const KNOTS: usize = 12;
 
