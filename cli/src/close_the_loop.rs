@@ -1,11 +1,10 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{Errors, Estimate, Identified, Identify};
+use robot_model::identify::{Beyond, Errors, Estimate, Identified, Identify};
 use robot_model::log::Log;
-use robot_model::signal::Bands;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
-use robot_model_codegen::compile_model;
+use robot_model_codegen::compile_for_rows;
 use robot_model_spec::amend::{Amendment, amend};
 use robot_model_spec::load;
 
@@ -120,7 +119,7 @@ pub fn close(
     let mut on_time = sound.clone();
     let turned = validate.map(|log| log.clone().with_turn_speeds(speeds));
     inside(3, "the fit");
-    let estimate = fitted(&declared, &sound, None)?;
+    let estimate = Identify::default().fit(&declared, &sound)?;
     inside(4, "the band in which raw errors are least");
     let before = Stage::judged(declared, estimate, &sound, turned.as_ref())?;
     inside(5, "faults of the logs");
@@ -160,9 +159,14 @@ pub fn close(
         let arm = compiled(source_name, &amended)?;
         // The same band as before, so that the errors are those of the same samples, but for links that follow the load, which have
         // their own.
-        let bands = (!arm.follows_load()).then_some(estimate.bands);
+        let identify = Identify {
+            bands: (!arm.follows_load()).then_some(estimate.bands),
+            // Whether channels are late was asked with the declared model.
+            beyond: Beyond::Deviations,
+            ..Identify::default()
+        };
         let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);
-        let estimate = fitted(&arm, &sound, bands)?;
+        let estimate = identify.fit(&arm, &sound)?;
         Some(Stage::judged(arm, estimate, &sound, unseen.as_ref())?)
     };
     Ok(Loop {
@@ -222,15 +226,7 @@ fn trace(
 
 pub(crate) fn compiled(source_name: &str, text: &str) -> Result<InterpretedArm, Error> {
     let model = load(source_name, text)?;
-    Ok(InterpretedArm::new(clear(compile_model(&model))?))
-}
-
-fn fitted(arm: &InterpretedArm, logs: &[Log], bands: Option<Bands>) -> Result<Estimate, Error> {
-    let identify = Identify {
-        bands,
-        ..Identify::default()
-    };
-    Ok(identify.fit(arm, logs)?)
+    Ok(InterpretedArm::new(clear(compile_for_rows(&model))?))
 }
 
 impl Stage {

@@ -58,7 +58,21 @@ pub struct Compiled {
 /// [`BaseForm::rank`](base::BaseForm::rank).
 #[must_use]
 pub fn compile_model(model: &Model) -> Compiled {
-    assemble(model, &Parameters::Base)
+    assemble(model, &Parameters::Base, Sought::All)
+}
+
+/// The same for an arm of which rows are wanted and little more: the base regressor alone is sought in the form with the fewest operations,
+/// for which most of the time goes. All else has the same values by more of them.
+#[must_use]
+pub fn compile_for_rows(model: &Model) -> Compiled {
+    assemble(model, &Parameters::Base, Sought::BaseRegressor)
+}
+
+/// Which equations are sought in the form with the fewest operations; the others are computed as they are read.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Sought {
+    All,
+    BaseRegressor,
 }
 
 /// What equations are written in.
@@ -71,7 +85,7 @@ enum Parameters<'a> {
     Standard(&'a BaseForm),
 }
 
-fn assemble(model: &Model, parameters: &Parameters<'_>) -> Compiled {
+fn assemble(model: &Model, parameters: &Parameters<'_>, sought: Sought) -> Compiled {
     let mut dag = Dag::new();
     let standard = model.standard_parameters();
     let dof = model.joints.len();
@@ -102,12 +116,17 @@ fn assemble(model: &Model, parameters: &Parameters<'_>) -> Compiled {
     };
     let values = base_values(&standard, &base, baked.as_deref());
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
-    let computed = dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values);
-    let (computed_linear, computed_base) =
-        regressor::computed(&mut dag, model, &linear, &base.kept);
+    let all: Vec<usize> = (0..standard.len()).collect();
+    let (computed, computed_linear) = match sought {
+        Sought::All => (
+            dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values),
+            regressor::computed(&mut dag, model, &linear, &all),
+        ),
+        Sought::BaseRegressor => (Computed::as_read(&dynamics), linear.clone()),
+    };
     let computed_candidates = match form {
         Some(_) => candidates.clone(),
-        None => computed_base,
+        None => regressor::computed(&mut dag, model, &linear, &base.kept),
     };
     let partials = Partials::new(&mut dag, &dynamics);
     let symbols = vec![Value::Symbol; standard.len()];
@@ -266,7 +285,7 @@ impl Compiled {
     /// its link are not the same thing. An identification needs base parameters.
     #[must_use]
     pub fn ungrouped(&self) -> Self {
-        assemble(&self.model, &Parameters::Standard(&self.base))
+        assemble(&self.model, &Parameters::Standard(&self.base), Sought::All)
     }
 
     /// Values for base parameters, by the standard parameter that each symbol names: `bind` for [`Symbol::Parameter`](crate::expr::Symbol::Parameter).
@@ -320,7 +339,8 @@ impl Compiled {
                 *shape = Some(*value);
             }
         }
-        Ok(assemble(&model, &Parameters::Baked(&self.base, beta)))
+        let parameters = Parameters::Baked(&self.base, beta);
+        Ok(assemble(&model, &parameters, Sought::All))
     }
 
     /// The internal states of the declared effects, one entry per effect that has some; slopes are added to `dag`, a copy of

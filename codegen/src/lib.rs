@@ -46,7 +46,7 @@ pub use baked::{BakeError, Given, Origin};
 pub use build_script::{CompileError, compile, compile_text};
 #[cfg(feature = "parameters")]
 pub use build_script::{compile_text_with, compile_with};
-pub use compiled::{Block, Compiled, compile_model};
+pub use compiled::{Block, Compiled, compile_for_rows, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use linkage::{Driven, Linkage};
 pub use measured::NotInstantaneous;

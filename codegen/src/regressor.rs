@@ -5,7 +5,7 @@
 use robot_model_spec::model::Model;
 
 use crate::dynamics::energy::EnergyForm;
-use crate::dynamics::{self, Regressors, Value, effect};
+use crate::dynamics::{self, Value, effect};
 use crate::expr::{Dag, ExprId, Symbol};
 
 /// `tau = Y * standard`, with the load of load-dependent effects as [`Symbol::RigidTorque`].
@@ -81,21 +81,11 @@ pub fn linearize(dag: &mut Dag, model: &Model, form: Option<&EnergyForm>) -> Lin
     LinearForm { regressor }
 }
 
-/// The same form to be computed, all of it or the columns of `kept` parameters, which have base parameters.
-pub fn computed(
-    dag: &mut Dag,
-    model: &Model,
-    form: &LinearForm,
-    kept: &[usize],
-) -> (LinearForm, LinearForm) {
+/// The same form to be computed, in the columns of the `wanted` parameters; others have values too.
+pub fn computed(dag: &mut Dag, model: &Model, form: &LinearForm, wanted: &[usize]) -> LinearForm {
     let standard = model.standard_parameters();
     let is_rigid = |parameter: usize| model.is_rigid(&standard[parameter]);
-    let Regressors { standard, base } =
-        dynamics::regressors(dag, model, &form.regressor, &is_rigid, kept);
-    (
-        LinearForm {
-            regressor: standard,
-        },
-        LinearForm { regressor: base },
-    )
+    LinearForm {
+        regressor: dynamics::cheapest_regressor(dag, model, &form.regressor, &is_rigid, wanted),
+    }
 }

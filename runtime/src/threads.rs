@@ -1,34 +1,55 @@
 //! Work that is shared among all cores, with the same results as on one.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc;
 
 /// A function of every item, on all cores, in the order of the items.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], of: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    map_told(items, of, &mut |_| ())
+}
+
+/// The same, which tells how many items are done whenever one is.
+pub(crate) fn map_told<T: Sync, R: Send>(
+    items: &[T],
+    of: impl Fn(&T) -> R + Sync,
+    told: &mut dyn FnMut(usize),
+) -> Vec<R> {
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let workers = workers.min(items.len());
     if workers < 2 {
-        return items.iter().map(of).collect();
+        let each = items.iter().enumerate().map(|(number, item)| {
+            let result = of(item);
+            told(number + 1);
+            result
+        });
+        return each.collect();
     }
-    let (next, done) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
-    let work = || {
+    let next = AtomicUsize::new(0);
+    let (next, of) = (&next, &of);
+    let (sender, receiver) = mpsc::channel();
+    let work = |sender: mpsc::Sender<(usize, R)>| {
         loop {
             let number = next.fetch_add(1, Ordering::Relaxed);
             let Some(item) = items.get(number) else {
                 return;
             };
-            let result = of(item);
-            done.lock()
-                .expect("no panic while it is held")
-                .push((number, result));
+            // Nobody hears of it where another thread has panicked.
+            let _ = sender.send((number, of(item)));
         }
     };
-    std::thread::scope(|scope| {
+    let mut done = std::thread::scope(|scope| {
         for _ in 0..workers {
-            scope.spawn(work);
+            let sender = sender.clone();
+            scope.spawn(move || work(sender));
         }
+        drop(sender);
+        let mut done = Vec::with_capacity(items.len());
+        for result in receiver {
+            done.push(result);
+            told(done.len());
+        }
+        done
     });
-    let mut done = done.into_inner().expect("no panic while it is held");
     // The same results, whatever thread came to an item first.
     done.sort_by_key(|(number, _)| *number);
     done.into_iter().map(|(_, result)| result).collect()
@@ -46,5 +67,15 @@ mod tests {
         assert_eq!(found, items);
         assert_eq!(super::map(&[7], |x| x + 1), [8]);
         assert!(super::map(&[], |x: &u64| *x).is_empty());
+    }
+
+    #[test]
+    fn every_item_is_told_as_it_is_done() {
+        for count in [0, 1, 7] {
+            let items: Vec<usize> = (0..count).collect();
+            let mut told = Vec::new();
+            super::map_told(&items, |item| *item, &mut |done| told.push(done));
+            assert_eq!(told, (1..=count).collect::<Vec<_>>());
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use robot_model::identify::{Beyond, Estimate, Identify, Method};
 use robot_model::log::Log;
-use robot_model_codegen::compile_model;
+use robot_model_codegen::compile_for_rows;
 use robot_model_spec::model::Inertial;
 
 use super::fit::{Fit, of_form};
@@ -43,7 +43,7 @@ pub(super) fn doubt(form: &dyn Fit, estimate: &Estimate, logs: &[Log]) -> Option
         ..Identify::default()
     };
     let free = |links: &[usize]| {
-        let form = of_form(compile_model(&model.freeing(links)), estimate.form).ok()?;
+        let form = of_form(compile_for_rows(&model.freeing(links)), estimate.form).ok()?;
         form.fit(&identify, logs).ok()
     };
     let before = form.fit(&identify, logs).ok()?;

@@ -5,8 +5,6 @@
 
 use robot_model::identify::{Beyond, Estimate, Identify, Method};
 use robot_model::log::Log;
-use robot_model_spec::Model;
-use robot_model_spec::model::JointKind;
 
 use super::doubts;
 use super::fit::Fit;
@@ -15,12 +13,11 @@ use crate::output::names;
 mod candidate;
 mod excerpt;
 mod gravity;
+mod units;
 
 use candidate::{Candidate, Found, LESS, all, best};
 use excerpt::excerpt;
-
-/// Degrees are asked for where a joint moves further than this, rad: less is a motion of less than three degrees.
-const LEAST_RANGE: f64 = 3.0;
+use units::Units;
 
 /// A model that explains its torques to this, percent, has their unit and order.
 const WELL: f64 = 15.0;
@@ -29,33 +26,9 @@ const WELL: f64 = 15.0;
 /// links of negative weight make up for the rest.
 const WELL_IN_SIGNS: f64 = 4.0;
 
-/// Turns are asked for where no joint moves by more of them than this.
-const MOST_TURNS: f64 = 3.0;
-
 /// A model that explains its torques to this, percent, has them in radians: positions that are six times too small leave a sixth of what
 /// gravity bends, which other parameters make up for.
 const WELL_IN_TURNS: f64 = 5.0;
-
-/// A unit of angles.
-#[derive(Clone, Copy)]
-struct Unit {
-    plural: &'static str,
-    /// Name in a spec.
-    name: &'static str,
-    /// Its size, rad.
-    size: f64,
-}
-
-const DEGREES: Unit = Unit {
-    plural: "degrees",
-    name: "deg",
-    size: std::f64::consts::PI / 180.0,
-};
-const TURNS: Unit = Unit {
-    plural: "revolutions",
-    name: "rev",
-    size: std::f64::consts::TAU,
-};
 
 /// Columns that are in an order of joints.
 #[derive(Clone, Copy)]
@@ -68,8 +41,8 @@ enum Columns {
 /// What is done to a log.
 #[derive(Clone)]
 enum Reading {
-    /// Positions of joints are in a unit.
-    In(Unit, Vec<usize>),
+    /// Positions of joints are in another unit.
+    In(Units, Vec<usize>),
     /// A column of a joint has the other sign.
     Mirrored(Channel, usize),
     /// Joint `k` of the spec has the columns of joint `order[k]`.
@@ -89,10 +62,10 @@ impl Reading {
     fn of(&self, log: &Log) -> Log {
         let mut read = log.clone();
         match self {
-            Self::In(unit, joints) => {
+            Self::In(units, joints) => {
                 for &joint in joints {
                     for q in &mut read.q[joint] {
-                        *q *= unit.size;
+                        *q *= units.factor();
                     }
                 }
             }
@@ -124,21 +97,7 @@ impl Reading {
     /// What it is, and a question.
     fn said(&self, joints: &[String]) -> [String; 2] {
         match self {
-            Self::In(Unit { plural, name, .. }, which) => {
-                let (positions, are_they) = match which.as_slice() {
-                    [joint] if joints.len() > 1 => {
-                        (format!("the position of `{}`", joints[*joint]), "is it")
-                    }
-                    _ => ("positions".to_owned(), "are they"),
-                };
-                let first = which.first().map_or(1, |joint| joint + 1);
-                [
-                    format!("{positions} in {plural}"),
-                    format!(
-                        "{are_they} in {plural}? Logs are in rad, or as the spec says: `log {{ q = \"q{first}\": {name}, ..; }}`"
-                    ),
-                ]
-            }
+            Self::In(units, which) => units.said(which, joints),
             Self::Mirrored(channel, joint) => {
                 let (what, column, unit) = match channel {
                     Channel::Position => ("position", "q", "rad"),
@@ -205,7 +164,7 @@ pub(crate) fn others(
     };
     let as_logged = asked.fit(&asked.log)?.left;
     let mut candidates = Vec::new();
-    for reading in units(form.model(), &asked.log, worst) {
+    for reading in units::readings(form.model(), &asked.log, worst) {
         candidates.extend(asked.read(reading));
     }
     if asks_signs {
@@ -242,46 +201,6 @@ pub(crate) fn others(
         "with {what} the model leaves {:.1} % of the torque of `{}`, as logged {:.0} %: {question}",
         left[joint], found.joints[joint], as_logged[joint]
     ))
-}
-
-/// Units that a log may be in.
-fn units(model: &Model, log: &Log, worst: f64) -> Vec<Reading> {
-    let ranges = ranges(model, log);
-    let all = || ranges.iter().map(|(joint, _)| *joint).collect::<Vec<_>>();
-    let far: Vec<usize> = ranges
-        .iter()
-        .filter(|(_, range)| *range > LEAST_RANGE)
-        .map(|(joint, _)| *joint)
-        .collect();
-    let mut readings = Vec::new();
-    if worst > WELL && !far.is_empty() {
-        readings.push(Reading::In(DEGREES, all()));
-    }
-    if worst > WELL_IN_TURNS && ranges.iter().all(|(_, range)| *range < MOST_TURNS) {
-        readings.push(Reading::In(TURNS, all()));
-    }
-    if worst > WELL && ranges.len() > 1 {
-        readings.extend(
-            far.into_iter()
-                .map(|joint| Reading::In(DEGREES, vec![joint])),
-        );
-    }
-    readings
-}
-
-/// How far revolute joints move in a log, by joint.
-fn ranges(model: &Model, log: &Log) -> Vec<(usize, f64)> {
-    let joints = model.joints.iter().enumerate();
-    let revolute = joints.filter(|(_, joint)| joint.kind != JointKind::Prismatic);
-    let range = |joint: usize| {
-        let (low, high) = log.q[joint]
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), q| {
-                (low.min(*q), high.max(*q))
-            });
-        high - low
-    };
-    revolute.map(|(k, _)| (k, range(k))).collect()
 }
 
 /// Without what units and orders do not need: bands and shapes are those that were found.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use robot_model::columns::{Candidate, Columns, Entry, Shape, Unknown};
 use robot_model::motion::Motion;
-use robot_model_codegen::compile_model;
+use robot_model_codegen::compile_for_rows;
 use robot_model_spec::model::{Act, EffectDefinition};
 use robot_model_spec::parameter::Owner;
 
@@ -77,7 +77,7 @@ impl InterpretedBody {
     fn new(arm: &InterpretedArm, definition: &Arc<EffectDefinition>, joint: usize) -> Option<Self> {
         let model = arm.compiled.model.with(definition, &[joint]);
         let own = model.effects.len() - 1;
-        let with = InterpretedArm::new(compile_model(&model));
+        let with = InterpretedArm::new(compile_for_rows(&model));
         let base = &with.compiled.base;
         let is_new = |column: usize| {
             matches!(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use robot_model::columns::{Arm, Candidate, Change, Columns, Entry, Shape, Unknown};
 use robot_model::identify::is_delay;
 use robot_model::motion::{Kinematics, Motion};
-use robot_model_codegen::compile_model;
+use robot_model_codegen::compile_for_rows;
 use robot_model_spec::model::{Act, EffectDefinition};
 
 use super::InterpretedArm;
@@ -99,7 +99,7 @@ impl InterpretedChange {
     ) -> Option<Self> {
         let model = arm.compiled.model.with(definition, &joints);
         let prefix = model.effect_name(model.effects.len() - 1);
-        let with = InterpretedArm::new(compile_model(&model));
+        let with = InterpretedArm::new(compile_for_rows(&model));
         if !with.compiled.base.rank.is_clear() {
             return None;
         }

@@ -202,17 +202,18 @@ fn path_of(dots: Option<(&str, String)>) -> String {
 /// Ticks below this share of an axis are zero, and off it by rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A number at an axis.
+/// A number at an axis, with a minus sign where print has one.
 pub(super) fn tick(value: f64) -> String {
     let text = format!("{value:.6}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if value != 0.0 && (value.abs() < 1e-4 || value.abs() >= 1e6) {
+    let text = if value != 0.0 && (value.abs() < 1e-4 || value.abs() >= 1e6) {
         format!("{value:.1e}")
     } else if text == "-0" {
         "0".to_owned()
     } else {
         text.to_owned()
-    }
+    };
+    text.replace('-', "\u{2212}")
 }
 
 /// The values with some room.

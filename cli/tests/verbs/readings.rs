@@ -79,6 +79,23 @@ fn revolutions_are_told_by_the_torques() {
     assert!(!told("plain.robot", "radians.csv"));
 }
 
+/// A spec that has a unit, and a log in another one.
+#[test]
+fn a_log_in_radians_is_told_where_the_spec_has_another_unit() {
+    let folder = Folder::new();
+    folder.write("radians.csv", &swinging(1.0, 5.0));
+    for (unit, plural) in [("deg", "degrees"), ("rev", "revolutions")] {
+        let declared = format!("log {{ q = \"q1\": {unit}; }}");
+        folder.write("declared.robot", &SPEC.replace("LOG", &declared));
+        let said = folder.run(&["identify", "declared.robot", "radians.csv"]);
+        let asked = format!(
+            "are they in radians? The spec, or a robot-model.toml, has them in {plural}: `log {{ q = \"q1\": rad, ..; }}` in the one, \
+             `unit = \"rad\"` in the other"
+        );
+        assert!(said.stderr.contains(&asked), "{}", said.stderr);
+    }
+}
+
 /// An arm of three joints with friction; of its links the spec knows nothing, or all.
 pub(crate) fn three_joints(links: &str) -> String {
     format!(

@@ -10,7 +10,7 @@ use super::energy::EnergyForm;
 use super::lean::{Choice, LeanChain, Wanted};
 use super::rigid::{RigidBody, Terms};
 use super::vanishing::without_vanishing;
-use super::{Means, Value, effect_torque, parameter_expressions};
+use super::{Dynamics, Means, Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
 use crate::optimize::{self, Cost, optimize};
 
@@ -29,6 +29,20 @@ pub struct Computed {
     pub mass_matrix: Vec<Vec<ExprId>>,
     /// `C(q, dq)` of Christoffel, `[row][column]`.
     pub coriolis_matrix: Vec<Vec<ExprId>>,
+}
+
+impl Computed {
+    /// The equations as they are read.
+    pub fn as_read(dynamics: &Dynamics) -> Self {
+        Self {
+            rigid_torque: dynamics.rigid_torque.clone(),
+            inverse_dynamics: dynamics.inverse_dynamics.clone(),
+            bias: dynamics.bias.clone(),
+            gravity: dynamics.gravity.clone(),
+            mass_matrix: dynamics.mass_matrix.clone(),
+            coriolis_matrix: dynamics.coriolis_matrix.clone(),
+        }
+    }
 }
 
 /// Derives what [`derive`](super::derive) derives, to be computed. With numbers for all parameters that is the arm itself:
@@ -117,23 +131,15 @@ fn rows(matrix: &[ExprId]) -> Vec<Vec<ExprId>> {
     matrix.chunks(dof).map(<[ExprId]>::to_vec).collect()
 }
 
-/// A regressor to be computed, `[joint][parameter]`, by what is wanted of it.
-pub struct Regressors {
-    /// All of it.
-    pub standard: Vec<Vec<ExprId>>,
-    /// The columns of the kept parameters; others have values too.
-    pub base: Vec<Vec<ExprId>>,
-}
-
-/// The regressor of the rigid body from the columns of its links, `[joint][parameter]`: the entries of `regressor` are replaced
-/// where `is_rigid`, and none that is zero is computed. `kept` parameters have base parameters.
-pub fn regressors(
+/// The regressor of the rigid body from the columns of its links, `[joint][parameter]`, where that takes fewer operations in the columns of
+/// the `wanted` parameters: the entries of `regressor` are replaced where `is_rigid`, and none that is zero is computed.
+pub fn cheapest_regressor(
     dag: &mut Dag,
     model: &Model,
     regressor: &[Vec<ExprId>],
     is_rigid: &dyn Fn(usize) -> bool,
-    kept: &[usize],
-) -> Regressors {
+    wanted: &[usize],
+) -> Vec<Vec<ExprId>> {
     let count = regressor.first().map_or(0, Vec::len);
     let symbols = vec![Value::Symbol; count];
     let parameters = parameter_expressions(dag, &symbols);
@@ -141,29 +147,22 @@ pub fn regressors(
         .chain()
         .is_some()
         .then(|| RigidBody::new(dag, model, None, &parameters));
-    let all: Vec<usize> = (0..count).collect();
-    let mut fewest = |wanted: &[usize]| {
-        let entries = |rows: &[Vec<ExprId>]| -> Vec<ExprId> {
-            let entries = rows.iter().flat_map(|row| wanted.iter().map(|&k| row[k]));
-            entries.collect()
-        };
-        let Some(RigidBody::Chain(chain)) = &body else {
-            return regressor.to_vec();
-        };
-        let is_wanted =
-            |link: usize, element: usize| wanted.binary_search(&(10 * link + element)).is_ok();
-        let way = best_way(model, &symbols, &is_wanted);
-        let columns = columns::columns(dag, chain, &way, &is_wanted);
-        let computed = by_columns(dag, chain, regressor, is_rigid, &columns);
-        if operations(dag, &entries(regressor)) < operations(dag, &entries(&computed)) {
-            regressor.to_vec()
-        } else {
-            computed
-        }
+    let Some(RigidBody::Chain(chain)) = &body else {
+        return regressor.to_vec();
     };
-    Regressors {
-        standard: fewest(&all),
-        base: fewest(kept),
+    let is_wanted =
+        |link: usize, element: usize| wanted.binary_search(&(10 * link + element)).is_ok();
+    let way = best_way(model, &symbols, &is_wanted);
+    let columns = columns::columns(dag, chain, &way, &is_wanted);
+    let computed = by_columns(dag, chain, regressor, is_rigid, &columns);
+    let of_wanted = |rows: &[Vec<ExprId>]| -> Vec<ExprId> {
+        let entries = rows.iter().flat_map(|row| wanted.iter().map(|&k| row[k]));
+        entries.collect()
+    };
+    if operations(dag, &of_wanted(regressor)) < operations(dag, &of_wanted(&computed)) {
+        regressor.to_vec()
+    } else {
+        computed
     }
 }
 

@@ -33,7 +33,7 @@ use robot_model_spec::model::{Act, EffectDefinition, Model};
 use crate::expr::{Dag, ExprId, Label, Symbol};
 use chain::Chain;
 pub use changes::Changes;
-pub use computed::{Computed, Regressors, compute, regressors};
+pub use computed::{Computed, cheapest_regressor, compute};
 pub(crate) use effect::Means;
 pub use energies::Energies;
 use energy::EnergyForm;

@@ -25,6 +25,7 @@ const STILL: f64 = 1e-3;
 const FACTOR: f64 = 3.0;
 
 /// A change as what it is.
+#[derive(Clone)]
 pub(super) struct Changed {
     /// Values of its own shapes.
     pub(super) shapes: Vec<f64>,

@@ -1,6 +1,6 @@
 //! Does a candidate hold on data that it was not fitted on?
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::columns::Change;
 
@@ -55,12 +55,13 @@ pub(super) struct Baseline<'a> {
     gram: Gram,
     held_out: HeldOut,
     /// The residual on raw samples.
-    raw: Rc<Raw<'a>>,
+    raw: Arc<Raw<'a>>,
     /// Independent tests that all candidates and shapes are worth.
     tests: f64,
 }
 
 /// A candidate's trial, judged.
+#[derive(Clone)]
 pub(super) struct Judged<'a> {
     pub(super) trial: Trial<'a>,
     pub(super) evidence: Evidence,
@@ -90,7 +91,7 @@ impl Search<'_> {
             present: Present::new(stack, &gram, sigma, &state.residuals),
             held_out: gram.held_out(sigma),
             gram,
-            raw: Rc::new(self.raw(state)),
+            raw: Arc::new(self.raw(state)),
             tests,
         }
     }
@@ -105,7 +106,7 @@ impl<'a> Baseline<'a> {
             present: Present::new(present.stack, &gram, present.sigma, present.residuals),
             held_out: gram.held_out(present.sigma),
             gram,
-            raw: Rc::clone(&self.raw),
+            raw: Arc::clone(&self.raw),
             tests: self.tests,
         }
     }

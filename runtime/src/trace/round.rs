@@ -1,8 +1,8 @@
 //! One round of the search: candidates are judged, and the best that passes is chosen.
 
-use crate::columns::Change;
 use crate::identify::longest_period;
 use crate::motion::Motion;
+use crate::threads;
 
 use super::choose::choose;
 use super::gate::{self, Baseline, Judged, MATERIAL_PERCENT};
@@ -26,6 +26,16 @@ const LEFT_OF_PERIOD: f64 = 0.15;
 
 /// Changes of the arm that are tried as what they are in a round.
 const CHANGES: usize = 3;
+
+/// Share of a round's time in which finalists are judged first; in the rest changes are solved for.
+const FIRST: f64 = 0.5;
+
+/// A finalist as it is judged first, a change by its first order.
+struct First<'a> {
+    judged: Judged<'a>,
+    /// Its parameters beside the model.
+    gain: Vec<f64>,
+}
 
 impl Search<'_> {
     /// One round: the best candidate that passes, with its rivals. `done` gets what part of it is behind.
@@ -84,51 +94,76 @@ impl Search<'_> {
             .filter_map(|grid| grid.best(&baseline.present, rows, &motions))
             .collect();
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let mut changes = 0;
         best.truncate(FINALISTS);
-        let count = best.len();
-        best.into_iter()
+        let finalists: Vec<(usize, Trial)> = best
+            .into_iter()
             .enumerate()
-            .filter_map(|(place, (_, trial))| {
-                if place > 0 {
-                    done(place as f64 / count as f64);
-                }
-                let trial = trial.refined(&baseline.present, rows, place < FINELY);
-                let projected = trial.project(&baseline.present)?;
-                let mut judged = match self.own_folds(&trial, &state.stack.segments) {
-                    Some(folds) => baseline.on(&folds).judge(trial, &projected),
-                    None => baseline.judge(trial, &projected),
-                };
-                if is_of_phase(judged.trial.candidate) {
-                    let rest = baseline.present.rest(&judged.trial.entries, &projected);
-                    if self.comes_back(state, &judged, &rest) {
-                        judged.refusals.push(Refusal::ComesBack);
-                    }
-                }
-                let Some(change) = judged.trial.candidate.change() else {
-                    if judged.refusals == [Refusal::Small]
-                        && self.is_large_elsewhere(state, &judged, &projected)
-                    {
-                        judged.refusals.clear();
-                    }
-                    let follows_torque = judged.trial.candidate.follows_torque();
-                    if follows_torque && !self.is_of_structure(state, &judged) {
-                        judged.refusals.push(Refusal::Noise);
-                    }
-                    if Self::is_trimming(state, &judged)
-                        && !judged.refusals.contains(&Refusal::Small)
-                    {
-                        judged.refusals.push(Refusal::Small);
-                    }
-                    return Some(judged);
-                };
-                if changes == CHANGES || !gate::is_promising(&judged) {
-                    return None;
-                }
-                changes += 1;
-                Some(self.as_what_it_is(state, &baseline, judged, change, &projected.gain))
-            })
+            .map(|(place, (_, trial))| (place, trial))
+            .collect();
+        let part = |done: usize, of: usize| done as f64 / of as f64;
+        let first = threads::map_told(
+            &finalists,
+            |(place, trial)| self.first_judged(state, &baseline, trial, *place < FINELY),
+            &mut |judged| done(FIRST * part(judged, finalists.len())),
+        );
+        let mut first: Vec<First> = first.into_iter().flatten().collect();
+        let mut changes = 0;
+        first.retain(|first| {
+            let is_change = first.judged.trial.candidate.change().is_some();
+            let is_tried = !is_change || (changes < CHANGES && gate::is_promising(&first.judged));
+            changes += usize::from(is_change && is_tried);
+            is_tried
+        });
+        let whole = threads::map_told(
+            &first,
+            |first| self.as_what_it_is(state, &baseline, first),
+            &mut |judged| done(FIRST + (1.0 - FIRST) * part(judged, first.len())),
+        );
+        let pairs = first.into_iter().zip(whole);
+        pairs
+            .map(|(first, whole)| whole.unwrap_or(first.judged))
             .collect()
+    }
+
+    /// A finalist with all that is asked of a torque that is added, and of the first order of a change; nothing where the model spans it.
+    fn first_judged<'a>(
+        &self,
+        state: &State,
+        baseline: &Baseline,
+        trial: &Trial<'a>,
+        finely: bool,
+    ) -> Option<First<'a>> {
+        let rows = Rows::new(&self.prepared, &state.stack);
+        let trial = trial.clone().refined(&baseline.present, rows, finely);
+        let projected = trial.project(&baseline.present)?;
+        let mut judged = match self.own_folds(&trial, &state.stack.segments) {
+            Some(folds) => baseline.on(&folds).judge(trial, &projected),
+            None => baseline.judge(trial, &projected),
+        };
+        if is_of_phase(judged.trial.candidate) {
+            let rest = baseline.present.rest(&judged.trial.entries, &projected);
+            if self.comes_back(state, &judged, &rest) {
+                judged.refusals.push(Refusal::ComesBack);
+            }
+        }
+        if judged.trial.candidate.change().is_none() {
+            if judged.refusals == [Refusal::Small]
+                && self.is_large_elsewhere(state, &judged, &projected)
+            {
+                judged.refusals.clear();
+            }
+            let follows_torque = judged.trial.candidate.follows_torque();
+            if follows_torque && !self.is_of_structure(state, &judged) {
+                judged.refusals.push(Refusal::Noise);
+            }
+            if Self::is_trimming(state, &judged) && !judged.refusals.contains(&Refusal::Small) {
+                judged.refusals.push(Refusal::Small);
+            }
+        }
+        Some(First {
+            judged,
+            gain: projected.gain,
+        })
     }
 
     /// Whether a law is there already on the same joints, and a second instance of it takes off less than matters of the error that there was
@@ -145,23 +180,24 @@ impl Search<'_> {
         })
     }
 
-    /// A change whose first order is promising, tried as what it is.
+    /// A change whose first order is promising, tried as what it is; nothing of a torque that is added.
     fn as_what_it_is<'t>(
         &self,
         state: &State,
         baseline: &Baseline,
-        mut first: Judged<'t>,
-        change: &dyn Change,
-        gain: &[f64],
-    ) -> Judged<'t> {
+        first: &First<'t>,
+    ) -> Option<Judged<'t>> {
+        let change = first.judged.trial.candidate.change()?;
+        let mut judged = first.judged.clone();
         // What cannot be solved for has no merit.
-        let Some(changed) = self.solve_change(state, change, gain).ok().flatten() else {
-            first.refusals.push(Refusal::Unsolved);
-            return first;
+        let solved = self.solve_change(state, change, &first.gain);
+        let Some(changed) = solved.ok().flatten() else {
+            judged.refusals.push(Refusal::Unsolved);
+            return Some(judged);
         };
         let counts = change.counts(&changed.shapes, longest_period(&self.prepared));
         let follows_torque = changed.follows_torque;
-        let mut judged = baseline.judge_changed(first, changed, &self.folds);
+        judged = baseline.judge_changed(judged, changed, &self.folds);
         // What bends and gaps do is at turns, too.
         if judged.passes() && !follows_torque && !self.holds_away_from_turns(state, &judged) {
             judged.refusals.push(Refusal::AtTurns);
@@ -172,7 +208,7 @@ impl Search<'_> {
         if !counts && !judged.refusals.contains(&Refusal::Small) {
             judged.refusals.push(Refusal::Small);
         }
-        judged
+        Some(judged)
     }
 
     /// Whether a law of the part of a period leaves too much of what comes back in every period on the joints where it matters, which any

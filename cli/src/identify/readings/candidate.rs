@@ -65,7 +65,8 @@ pub(super) fn all(percents: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Channel, TURNS};
+    use super::super::Channel;
+    use super::super::units::Units;
     use super::*;
 
     fn candidate(reading: Reading, left: [f64; 2]) -> Candidate {
@@ -79,7 +80,7 @@ mod tests {
     #[test]
     fn a_reading_that_mends_one_joint_goes_before_one_that_mends_none() {
         let all = |left| {
-            let turns = candidate(Reading::In(TURNS, vec![0, 1]), [10.0, 6.0]);
+            let turns = candidate(Reading::In(Units::ALL[1], vec![0, 1]), [10.0, 6.0]);
             let mirrored = candidate(Reading::Mirrored(Channel::Torque, 1), left);
             best(vec![turns, mirrored], &[12.0, 6.0])
         };

@@ -1,6 +1,6 @@
 //! An arm that stands otherwise than its spec says: it hangs from a ceiling, or is on a wall.
 
-use robot_model_codegen::compile_model;
+use robot_model_codegen::compile_for_rows;
 use robot_model_spec::Model;
 use robot_model_spec::model::Body;
 
@@ -13,7 +13,7 @@ impl Asked<'_> {
         let model = self.form.model();
         let others = model.chain().map(|chain| others(chain.gravity));
         let candidate = |gravity: [f64; 3]| {
-            let form = self.form.of(compile_model(&with(model, gravity)))?;
+            let form = self.form.of(compile_for_rows(&with(model, gravity)))?;
             let found = self.fit_of(&*form, &self.log)?;
             let has_more = form.unknowns().len() > self.form.unknowns().len();
             let is_of_arm = !has_more || mends_the_arm(&found.left, as_logged);

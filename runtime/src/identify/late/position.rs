@@ -12,6 +12,7 @@ use crate::identify::Identify;
 use crate::identify::stack::{Stack, nameless};
 use crate::log::LateChannel;
 use crate::signal::Prepared;
+use crate::threads;
 
 /// By how much the sum of the logarithms of residuals has to be less without it than without late torques, of which there are more.
 const FITS_BETTER: f64 = 0.05;
@@ -39,8 +40,8 @@ impl Identify {
         let before = self.solve_stack(&rows.stack).ok()?;
         let before = rows.stack.residuals(&before.estimate);
         let moving = (0..rows.arm.dof()).filter(|joint| rows.moves(*joint));
-        let delays = moving.filter_map(|joint| {
-            let found = self.moved_back(rows, joint, at)?;
+        let delays = threads::map(&moving.collect::<Vec<_>>(), |&joint| {
+            let found = self.moved_back(rows, joint, at, left)?;
             let left = logarithm(lengths(&found.residuals));
             let delay = Delay {
                 channel: LateChannel::Position,
@@ -51,6 +52,7 @@ impl Identify {
             };
             Some((left, delay))
         });
+        let delays = delays.into_iter().flatten();
         let (least, delay) = delays.min_by(|x, y| x.0.total_cmp(&y.0))?;
         // What a drive's sampling makes early in a torque, it makes late in a position.
         let is_told = least < left - FITS_BETTER
@@ -60,8 +62,15 @@ impl Identify {
         is_told.then_some(delay)
     }
 
-    /// The delay of a joint's position that leaves least; `None` where it does not settle.
-    fn moved_back(&self, rows: &Rows<'_>, joint: usize, at: (&[f64], &[f64])) -> Option<Found> {
+    /// The delay of a joint's position that leaves least; `None` where it does not settle, or a step does not promise less than late torques
+    /// leave.
+    fn moved_back(
+        &self,
+        rows: &Rows<'_>,
+        joint: usize,
+        at: (&[f64], &[f64]),
+        of_torques: f64,
+    ) -> Option<Found> {
         let h = longest_period(rows.logs);
         let mut seconds = self.nearest_position(rows, joint, at)?;
         for _ in 0..ROUNDS {
@@ -78,6 +87,10 @@ impl Identify {
             });
             here.append(&[nameless()], &slopes.collect::<Vec<_>>());
             let mut solution = self.solve_stack(&here).ok()?;
+            let residuals = here.residuals(&solution.estimate);
+            if logarithm(lengths(&residuals)) > of_torques {
+                return None;
+            }
             solution.std = self.deviations_of_products(&here, &solution);
             let own = here.unknowns.len() - 1;
             if !solution.is_told(own) {
@@ -88,7 +101,7 @@ impl Identify {
                 return Some(Found {
                     seconds: seconds + step,
                     std,
-                    residuals: here.residuals(&solution.estimate),
+                    residuals,
                 });
             }
             seconds += step.clamp(-MOST, MOST);
