@@ -11,7 +11,7 @@ const UNITS: [&str; 17] = [
 ];
 
 /// Unit and meaning as a comment has them, for a joint. Where it does not end in a unit, all of it is the meaning.
-pub(super) fn unit_and_meaning(doc: &str, joint: Option<JointKind>) -> (String, String) {
+pub(crate) fn unit_and_meaning(doc: &str, joint: Option<JointKind>) -> (String, String) {
     let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
     let (first, rest) = match doc.split_once(". ") {
         Some((first, rest)) => (first, rest),

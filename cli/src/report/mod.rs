@@ -17,6 +17,7 @@ mod series;
 pub(crate) use again::again;
 pub(crate) use bars::Bars;
 pub(crate) use chart::Ink;
+pub(crate) use comment::unit_and_meaning;
 pub(crate) use folder::ReportFolder;
 pub(crate) use map::Map;
 pub(crate) use page::Page;

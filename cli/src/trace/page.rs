@@ -7,7 +7,7 @@ use robot_model::trace::{FloorFrom, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
-use super::said::{errors_of, nothing_added, outcome, sentence};
+use super::said::{errors_of, nothing_added, outcome, parameter, sentence};
 use super::tried::rows;
 use super::whereabouts::structure_left;
 use crate::Error;
@@ -76,15 +76,12 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     let found = verdict.findings.iter().chain(&verdict.leads).enumerate();
     items.extend(found.map(|(place, finding)| {
         let values = effect(finding, closed, place).parameters;
-        let values = values.iter().map(|one| match one.interval {
-            Some([low, high]) => format!(
-                "{} = {} ({} .. {})",
-                one.name,
-                significant(one.value, 4),
-                significant(low, 4),
-                significant(high, 4)
-            ),
-            None => format!("{} = {}", one.name, significant(one.value, 4)),
+        let values = values.iter().map(|own| {
+            let told = (own.name, own.value, own.std);
+            parameter(closed, finding, told, |decimals| match own.interval {
+                Some([low, high]) => format!(" ({low:.decimals$} .. {high:.decimals$})"),
+                None => String::new(),
+            })
         });
         let lead = if verdict.outcome == Outcome::Unexplained {
             "a lead: "

@@ -1,9 +1,10 @@
 //! How a trace ended and what its errors are of: sentences that the terminal and the page have in common.
 
-use robot_model::trace::Outcome;
+use robot_model::trace::{Finding, Outcome};
 
 use crate::close_the_loop::{Loop, Stage};
-use crate::output::significant;
+use crate::output::{decimals, significant};
+use crate::report::unit_and_meaning;
 use crate::units::Units;
 
 /// How it ended, without a capital and a full stop.
@@ -54,6 +55,44 @@ pub(super) fn nothing_added(closed: &Loop) -> Option<String> {
         .changed
         .is_none()
         .then(|| format!("nothing was added to the spec: {why}"))
+}
+
+/// A parameter of a finding with its unit, and what stands beside its value where there is a deviation: `fc = 1.82 +- 0.01 N m`. The value
+/// has the decimals of two digits of the deviation.
+pub(super) fn parameter(
+    closed: &Loop,
+    finding: &Finding,
+    (name, value, std): (&str, f64, Option<f64>),
+    beside: impl FnOnce(usize) -> String,
+) -> String {
+    let unit = match unit(closed, finding, name).as_str() {
+        "" | "1" => String::new(),
+        unit => format!(" {unit}"),
+    };
+    match std.filter(|std| *std > 0.0) {
+        Some(std) => {
+            let decimals = decimals(std, 2);
+            let beside = beside(decimals);
+            format!("{name} = {value:.decimals$}{beside}{unit}")
+        }
+        None => format!("{name} = {}{unit}", significant(value, 4)),
+    }
+}
+
+/// The unit of a finding's parameter, as its effect's definition has it.
+fn unit(closed: &Loop, finding: &Finding, name: &str) -> String {
+    let model = &closed.before.arm.compiled().model;
+    let definition = model.definitions.iter();
+    let definition = definition.filter(|one| one.name == finding.effect);
+    let docs = definition.flat_map(|one| {
+        let linear = one.linear.iter().map(|own| (&own.name, &own.doc));
+        linear.chain(one.shapes.iter().map(|own| (&own.name, &own.doc)))
+    });
+    let mut docs = docs.filter(|(own, _)| *own == name);
+    let joint = finding.joints.first();
+    let joint = joint.map(|joint| model.joints[*joint].kind);
+    docs.next()
+        .map_or_else(String::new, |(_, doc)| unit_and_meaning(doc, joint).0)
 }
 
 /// With a capital and a full stop.

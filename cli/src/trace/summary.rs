@@ -7,7 +7,7 @@ use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
-use super::said::{errors_of, outcome};
+use super::said::{errors_of, outcome, parameter};
 use super::tried::tried;
 use super::whereabouts::structure_left;
 use crate::close_the_loop::Loop;
@@ -30,12 +30,12 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         let parameters: Vec<String> = effect
             .parameters
             .iter()
-            .map(|parameter| {
-                let value = format!("{} = {:.4}", parameter.name, parameter.value);
-                let std = parameter
-                    .std
-                    .map(|std| format!(" +- {}", significant(std, 2)));
-                value + &std.unwrap_or_default()
+            .map(|own| {
+                let told = (own.name, own.value, own.std);
+                parameter(closed, finding, told, |decimals| {
+                    let std = own.std.unwrap_or_default();
+                    format!(" +- {std:.decimals$}")
+                })
             })
             .collect();
         writeln!(

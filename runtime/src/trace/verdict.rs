@@ -226,23 +226,38 @@ impl fmt::Display for Outcome {
 /// From which share of a joint's error on, percent, a law that may not be named says that something is missing all the same.
 pub(super) const DOUBT_PERCENT: f64 = 10.0;
 
+/// The same of a law that is no better in every fold, as a gap is not that the joint crosses in some of them: what takes so much off the error
+/// of all folds together is more than what a fit has by being a fit.
+const UNEVEN_PERCENT: f64 = 20.0;
+
 /// See [`Verdict::doubtful`].
 pub(super) fn doubtful(tried: &[Tried]) -> Option<&Tried> {
     let last = tried.iter().map(|tried| tried.round).max()?;
-    let most = |tried: &Tried| {
-        let percent = |joint: &usize| tried.evidence.raw_percent[*joint];
-        let joints = tried.joints.iter();
-        joints.map(percent).fold(f64::NEG_INFINITY, f64::max)
+    let of_joints = |tried: &Tried, percents: &[f64]| {
+        let joints = tried.joints.iter().map(|joint| percents[*joint]);
+        joints.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let most = |tried: &Tried| of_joints(tried, &tried.evidence.raw_percent);
+    let takes_much = |tried: &Tried| {
+        if tried.refusals.contains(&Refusal::HeldOut) {
+            let held_out = of_joints(tried, &tried.evidence.held_out_percent);
+            most(tried).min(held_out) >= UNEVEN_PERCENT
+        } else {
+            most(tried) >= DOUBT_PERCENT
+        }
     };
     let is_of_law = |refusal: &Refusal| {
-        use Refusal::{EndOfRange, Sign, Undetermined, Unsteady};
-        matches!(refusal, EndOfRange | Sign | Undetermined | Unsteady)
+        use Refusal::{EndOfRange, HeldOut, Sign, Undetermined, Unsteady};
+        matches!(
+            refusal,
+            EndOfRange | HeldOut | Sign | Undetermined | Unsteady
+        )
     };
     let doubted = tried.iter().filter(|tried| {
         tried.round == last
             && !tried.refusals.is_empty()
             && tried.refusals.iter().all(is_of_law)
-            && most(tried) >= DOUBT_PERCENT
+            && takes_much(tried)
     });
     doubted.max_by(|a, b| most(a).total_cmp(&most(b)))
 }

@@ -3,7 +3,8 @@
 
 use std::ops::Range;
 
-use super::{Steps, quantile};
+use super::quantile;
+use crate::signal::encoder_step;
 
 /// Fewest samples that a speed is taken of.
 const REACH: usize = 10;
@@ -20,8 +21,7 @@ pub(super) fn without(mut found: Vec<Range<usize>>, positions: &[Vec<f64>]) -> V
     if found.is_empty() {
         return found;
     }
-    let quanta = positions.iter().map(|position| Steps::of(position).quantum);
-    let quanta: Vec<f64> = quanta.collect();
+    let quanta: Vec<f64> = positions.iter().map(|own| resolution(own)).collect();
     let strongest = |range: &Range<usize>| -> Option<f64> {
         let joints = positions.iter().zip(&quanta);
         let pushes = joints.filter_map(|(position, quantum)| push(position, *quantum, range));
@@ -38,6 +38,17 @@ pub(super) fn without(mut found: Vec<Range<usize>>, positions: &[Vec<f64>]) -> V
         push.is_none_or(|push| push <= PUSHED_ALONE)
     });
     found
+}
+
+/// What an encoder resolves; of a joint that hardly moves, or has none, its smallest step. Most steps of a joint that moves are larger, and
+/// a push is small beside them.
+fn resolution(position: &[f64]) -> f64 {
+    encoder_step(position).unwrap_or_else(|| {
+        let steps = position.windows(2);
+        let sizes = steps.map(|pair| (pair[1] - pair[0]).abs());
+        let moved = sizes.filter(|size| *size > 0.0);
+        moved.reduce(f64::min).unwrap_or_default()
+    })
 }
 
 /// By how many times as much the speed changes across samples as it does before and behind; none near the ends.
@@ -73,6 +84,20 @@ mod tests {
             (0..1000).map(|k| (f(k) / 1e-5).round() * 1e-5).collect()
         };
         vec![rounded(&steady), rounded(&faster)]
+    }
+
+    /// A joint that always moves by many steps of its encoder, and is pushed for one sample by an eighth of such a change.
+    #[test]
+    fn a_push_is_small_beside_the_steps_of_a_joint_that_moves() {
+        let position = |k: usize| {
+            let faster = 1.5e-4 * k.saturating_sub(500) as f64;
+            1e-3 * k as f64 + 0.02 * (2e-2 * k as f64).sin() + faster
+        };
+        let rounded = |k: usize| (position(k) / 5e-6).round() * 5e-6;
+        let positions = vec![(0..1000).map(rounded).collect()];
+        assert_eq!(without(vec![500..501], &positions), Vec::new());
+        let fault = 300..301;
+        assert_eq!(without(vec![fault.clone()], &positions), [fault]);
     }
 
     #[test]

@@ -73,6 +73,9 @@ fn a_law_that_may_not_be_named_says_that_something_is_missing() {
         let alone = [tried("it", 1, 12.0, &[refusal])];
         assert_eq!(doubtful(&alone).is_some(), is_of_law, "{refusal}");
     }
+    let in_some_folds =
+        |percent| doubtful(&[tried("a gap", 1, percent, &[Refusal::HeldOut])]).is_some();
+    assert!(in_some_folds(24.0) && !in_some_folds(18.0));
     // What was found speaks for itself.
     let of = |outcome, findings| Verdict {
         tried: all.to_vec(),
