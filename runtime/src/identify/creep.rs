@@ -13,9 +13,11 @@ use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
 /// Widths that are tried, as shares of a joint's root-mean-square speed: each so many times the one before. None is narrower than what the
-/// encoder does not tell.
+/// encoder does not tell. What holds a joint does not know how fast its motion is, so a slow joint, as one along a rail, may have twice the
+/// width that others are taken to have where logs do not tell.
 const LOWEST: f64 = 2e-4;
 const HIGHEST: f64 = 0.015;
+const HIGHEST_OF_SLOW: f64 = 0.05;
 const STEP: f64 = 1.5;
 
 /// How often the step between widths is halved after that.
@@ -194,7 +196,7 @@ impl Turns {
         Self {
             joint,
             lowest: (LOWEST * speed).max(STEP.sqrt() * current),
-            highest: HIGHEST * speed,
+            highest: (2.0 * CREEP).clamp(HIGHEST * speed, HIGHEST_OF_SLOW * speed),
             current,
             friction: None,
         }
