@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
 use robot_model::log::{Column, Columns};
-use robot_model_spec::model::{LogColumn, LogColumns};
+use robot_model_spec::model::{GainUnit, LogColumn, LogColumns};
 use robot_model_spec::{ColumnKind, Model};
 
 use crate::progress::Progress;
@@ -118,7 +118,7 @@ fn settings(path: &Path, model: &Model, progress: &Progress) -> Result<LogColumn
 fn columns(model: &Model, log: &LogColumns) -> Columns {
     let column = |own: &LogColumn| Column {
         name: own.name.clone(),
-        unit: own.unit,
+        unit: own.is_unit_written.then_some(own.unit),
     };
     let mut columns = Columns::standard(model.joints.len());
     if let Some(time) = &log.time {
@@ -132,6 +132,16 @@ fn columns(model: &Model, log: &LogColumns) -> Columns {
     for (standard, own) in families {
         if !own.is_empty() {
             *standard = own.iter().map(column).collect();
+        }
+    }
+    for (column, joint) in columns.tau.iter_mut().zip(&model.joints) {
+        let gain = joint.actuator_gain_unit;
+        columns
+            .currents
+            .push(gain == Some(GainUnit::TorquePerAmpere));
+        // A plain gain makes torques of whatever the log has.
+        if matches!(gain, Some(GainUnit::Plain | GainUnit::Torque)) {
+            column.unit.get_or_insert(1.0);
         }
     }
     let inputs = log.inputs.iter();

@@ -48,7 +48,7 @@ use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
 use fit::{ByAcceleration, Filtered, Fit, errors_of_each};
-use noted::{factor_doubts, told_apart, too_slow};
+use noted::{factor_doubts, mixed, told_apart, too_slow};
 use options::{FormArgument, MethodArgument, RowOptions, WeightsArgument};
 use options::{parse_bands, parse_center, parse_corner, parse_mass};
 use page::{Evidence, OnLog};
@@ -158,12 +158,8 @@ impl IdentifyArguments {
         let Some(method) = self.method.of_equations() else {
             return self.by_simulation(compiled);
         };
-        if let (true, Some(name)) = (compiled.displacements().is_some(), compiled.mixed().first()) {
-            output::say(&format!(
-                "note: {}: `{name}` is of a motor and of its link, and the load that displaces the link has both; springs come out wrong \
-                 where the motor has a share in it, `--method output-error` tells them apart",
-                compiled.model.source
-            ));
+        if let Some(said) = mixed(&compiled) {
+            output::say(&format!("note: {}: {said}", compiled.model.source));
         }
         let form: Box<dyn Fit> = match self.form {
             FormArgument::Acceleration => {

@@ -2,6 +2,7 @@
 
 use robot_model::identify::{Errors, Estimate};
 use robot_model::log::Log;
+use robot_model_codegen::Compiled;
 
 use super::fit::Fit;
 use super::{
@@ -23,6 +24,17 @@ pub(crate) fn told_apart(estimate: &Estimate) -> Result<(), Error> {
         let clauses: Vec<String> = clauses.into_iter().flatten().collect();
         Error::Argument(clauses.join(between))
     })
+}
+
+/// That a parameter is of a motor and of a link that a spring parts from it.
+pub(crate) fn mixed(compiled: &Compiled) -> Option<String> {
+    compiled.displacements()?;
+    let mixed = compiled.mixed();
+    let name = mixed.first()?;
+    Some(format!(
+        "`{name}` is of a motor and of its link, and the load that displaces the link has both; springs come out wrong where the motor has a \
+         share in it, `identify --method output-error` tells them apart"
+    ))
 }
 
 /// Joints that tell nothing since they hardly move.

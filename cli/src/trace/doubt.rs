@@ -9,6 +9,7 @@ use robot_model_spec::model::EffectLeaf;
 use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::excite::have_own_columns;
+use crate::identify::noted::mixed;
 use crate::output::significant;
 
 /// An error that is smaller is at most this share of what it was.
@@ -22,6 +23,9 @@ const MUCH_PERCENT: f64 = 5.0;
 /// A law that takes this share off a joint's error on the logs that were fitted takes more than this part of it off on any log that shows it.
 const FALL: f64 = 0.2;
 const PART: f64 = 0.25;
+
+/// Laws whose errors differ by less, percent, do the same along the logs.
+const SAME_PERCENT: f64 = 0.05;
 
 const PUT: &str = "a string takes all";
 
@@ -39,13 +43,18 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
         )
         .expect(PUT);
     }
-    let command = alternatives.iter().find_map(|rival| {
+    // Those that the logs tell apart by something first: no motion may tell the others.
+    let is_same = |rival: &&Alternative| rival.worse_percent.abs() < SAME_PERCENT;
+    let apart = alternatives.iter().filter(|rival| !is_same(rival));
+    let mut by_hope = apart.chain(alternatives.iter().filter(is_same));
+    let command = by_hope.find_map(|rival| {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
         let both = rivals(closed, finding, place, rival)?;
-        have_own_columns(spec, text, &both[0], &both[1]).then(|| experiment(spec, &both))
+        have_own_columns(spec, text, &both[0], &both[1])
+            .then(|| (experiment(spec, &both), is_same(&rival)))
     });
-    if let Some(command) = command {
+    if let Some((command, is_same)) = command {
         let joints = &closed.before.arm.compiled().model.joints;
         let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
         let first = unbound.map(|joint| {
@@ -55,11 +64,12 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
             )
         });
         let first = first.unwrap_or_default();
-        writeln!(
-            out,
-            "  these logs do not settle it; the motion that tells them apart best{first}: {command}"
-        )
-        .expect(PUT);
+        let what = if is_same {
+            "along these logs they are the same; whether some motion tells them apart, and which one"
+        } else {
+            "these logs do not settle it; the motion that tells them apart best"
+        };
+        writeln!(out, "  {what}{first}: {command}").expect(PUT);
     }
     out
 }
@@ -69,7 +79,8 @@ pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
     let of_logs = closed.reading.clone().into_iter();
     let of_logs = of_logs
         .chain(said_of_doubtful(closed))
-        .chain(impossible(closed));
+        .chain(impossible(closed))
+        .chain(of_springs(closed));
     of_logs
         .chain(not_borne_out(closed))
         .chain(hardly_borne_out(closed))
@@ -120,6 +131,11 @@ fn relative_percent(closed: &Loop) -> Option<(&[f64], &[f64])> {
     let after = closed.after();
     let unseen = &after.validation.as_ref()?.relative_percent;
     Some((unseen, &after.estimate.relative_percent))
+}
+
+/// That a spring which was found may have a share of its motor in it.
+fn of_springs(closed: &Loop) -> Option<String> {
+    mixed(closed.changed.as_ref()?.arm.compiled())
 }
 
 /// That the log which was not fitted shows what those that were do not: no verdict is of that.

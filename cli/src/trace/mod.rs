@@ -136,7 +136,7 @@ fn prediction(closed: &Loop, log: &Log, columns: &Columns) -> Result<String, Err
     let is_standard = log.report.contains(&Note::StandardColumns);
     let gains = after.arm.actuator_gain().iter().zip(&columns.tau);
     for (values, (gain, column)) in torque.iter_mut().zip(gains) {
-        let unit = if is_standard { 1.0 } else { column.unit };
+        let unit = column.unit.filter(|_| !is_standard).unwrap_or(1.0);
         for value in values {
             *value /= gain * unit;
         }

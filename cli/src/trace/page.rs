@@ -7,7 +7,7 @@ use robot_model::trace::{FloorFrom, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
 use super::report::effect;
-use super::said::{errors_of, nothing_added, outcome, parameter, sentence};
+use super::said::{errors_of, fall, nothing_added, outcome, parameter, sentence};
 use super::tried::rows;
 use super::whereabouts::structure_left;
 use crate::Error;
@@ -94,6 +94,7 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
             values.collect::<Vec<_>>().join(", ")
         )
     }));
+    items.extend(fall(closed));
     items.extend(doubts(closed));
     if !items.is_empty() {
         page.list(&items);

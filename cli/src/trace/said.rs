@@ -1,5 +1,6 @@
 //! How a trace ended and what its errors are of: sentences that the terminal and the page have in common.
 
+use robot_model::columns::Arm;
 use robot_model::trace::{Finding, Outcome};
 
 use crate::close_the_loop::{Loop, Stage};
@@ -23,6 +24,9 @@ pub(super) fn outcome(closed: &Loop) -> &'static str {
         }
         Outcome::Explained if has_faults => {
             "what is wrong with the logs accounts for what the declared model left"
+        }
+        Outcome::Explained if !closed.verdict.left.is_empty() => {
+            "these effects account for most of what the declared model left; where the rest lives is told, too"
         }
         Outcome::Explained => "these effects account for what the declared model left",
         Outcome::Unexplained if !closed.verdict.series.is_empty() => {
@@ -93,6 +97,23 @@ fn unit(closed: &Loop, finding: &Finding, name: &str) -> String {
     let joint = joint.map(|joint| model.joints[*joint].kind);
     docs.next()
         .map_or_else(String::new, |(_, doc)| unit_and_meaning(doc, joint).0)
+}
+
+/// By how much the error falls on the log that was not fitted, of the joint where that is most of its torque; none where it does not.
+pub(super) fn fall(closed: &Loop) -> Option<String> {
+    let after = closed.changed.as_ref()?.validation.as_ref()?;
+    let before = closed.before.validation.as_ref()?;
+    let (before, after) = (&before.relative_percent, &after.relative_percent);
+    let fall = |joint: usize| before[joint] - after[joint];
+    let joint = (0..before.len()).max_by(|a, b| fall(*a).total_cmp(&fall(*b)))?;
+    (fall(joint) > 0.01 * before[joint]).then(|| {
+        format!(
+            "on the log that was not fitted the error of {} falls from {:.2} to {:.2} % of its torque",
+            closed.before.arm.joints()[joint],
+            before[joint],
+            after[joint]
+        )
+    })
 }
 
 /// With a capital and a full stop.

@@ -33,6 +33,7 @@ pub struct Computed {
 
 impl Computed {
     /// The equations as they are read.
+    #[must_use]
     pub fn as_read(dynamics: &Dynamics) -> Self {
         Self {
             rigid_torque: dynamics.rigid_torque.clone(),

@@ -324,6 +324,7 @@ fn worth(column: &ast::LogColumn, dimension: Option<Dimension>) -> Result<LogCol
         _ => Ok(LogColumn {
             name: column.name.value().trim().to_owned(),
             unit,
+            is_unit_written: column.unit.is_some(),
         }),
     }
 }

@@ -43,4 +43,6 @@ pub struct LogColumn {
     pub name: String,
     /// What a one in it is worth, in SI units; amperes where it is a current.
     pub unit: f64,
+    /// Whether that is written; else the unit is 1.
+    pub is_unit_written: bool,
 }

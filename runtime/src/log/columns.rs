@@ -5,8 +5,9 @@
 pub struct Column {
     /// Its name in the header.
     pub name: String,
-    /// What a one in it is worth: SI units for time, positions and velocities; for torques and others whatever the arm reads.
-    pub unit: f64,
+    /// What a one in it is worth: SI units for time, positions and velocities; for torques and others whatever the arm reads. Without it that is
+    /// what a line of units in the log says, else 1.
+    pub unit: Option<f64>,
 }
 
 /// The columns of an arm's logs.
@@ -14,7 +15,7 @@ pub struct Column {
 /// # Examples
 /// ```
 /// use robot_model::log::{Column, Columns, Log};
-/// let column = |name: &str, unit: f64| Column { name: name.to_owned(), unit };
+/// let column = |name: &str, unit: f64| Column { name: name.to_owned(), unit: Some(unit) };
 /// let mut columns = Columns::standard(1);
 /// columns.time = column("stamp", 1e-3);
 /// columns.q = vec![column("angle", std::f64::consts::PI / 180.0)];
@@ -39,6 +40,8 @@ pub struct Columns {
     pub tau: Vec<Column>,
     /// Other channels that have a name of their own for the arm: that name, and their column.
     pub extra: Vec<(String, Column)>,
+    /// Whether the drive logs a current in place of a torque, one a joint; may be empty where none does. A line of units may say `A` then.
+    pub currents: Vec<bool>,
     /// What the joints are called, in their order, for files that have them by name, as bags of ROS 2 do; may be empty for others.
     pub joints: Vec<String>,
     /// The topic of a bag of ROS 2; without it the only one that has joint states.
@@ -67,6 +70,7 @@ impl Columns {
             dq: family("dq"),
             tau: family("tau"),
             extra: Vec::new(),
+            currents: Vec::new(),
             joints: Vec::new(),
             topic: None,
         }
@@ -97,7 +101,11 @@ impl Columns {
     /// Names by which a file shows that it is written for these columns: those that are not the standard ones, or that have a unit.
     pub(super) fn marks(&self) -> Vec<&str> {
         let standard = Self::standard(self.dof());
-        let is_standard = |own: &Column| standard.of_arm().any(|known| known == own);
+        let is_plain = |own: &Column| (own.worth() - 1.0).abs() == 0.0;
+        let is_standard = |own: &Column| {
+            let mut standard = standard.of_arm();
+            is_plain(own) && standard.any(|known| known.name == own.name)
+        };
         let marks = self.all().filter(|own| !is_standard(own));
         marks.map(|own| own.name.as_str()).collect()
     }
@@ -117,7 +125,12 @@ impl Column {
     fn standard(name: &str) -> Self {
         Self {
             name: name.to_owned(),
-            unit: 1.0,
+            unit: None,
         }
+    }
+
+    /// What a one in it is worth where the log says nothing of it.
+    pub(super) fn worth(&self) -> f64 {
+        self.unit.unwrap_or(1.0)
     }
 }

@@ -125,7 +125,7 @@ impl<'a> CsvRows<'a> {
         let units = Line::of(fields, names.len(), records.line, is_number).filter(|_| is_ahead);
         let time = &columns.time;
         let two_times = TwoTimes::of(&names)
-            .filter(|_| !names.contains(&time.name) && (time.unit - 1.0).abs() == 0.0);
+            .filter(|_| !names.contains(&time.name) && (time.worth() - 1.0).abs() == 0.0);
         if two_times.is_some() {
             names.push(time.name.clone());
         }

@@ -250,7 +250,8 @@ pub enum LogError {
     },
     /// A field that is no number.
     #[error(
-        "{source_name}:{line}: `{text}` in column `{}` is not a number; {}",
+        "{source_name}:{line}: {} in column `{}` is not a number; {}",
+        if text.is_empty() { "an empty field".to_owned() } else { format!("`{text}`") },
         field(column),
         way_out(text)
     )]

@@ -18,6 +18,19 @@ pub(super) const FAMILIES: [&str; 3] = ["q", "dq", "tau"];
 pub(super) struct Place {
     pub column: usize,
     pub unit: f64,
+    /// Whether that is said, by settings.
+    pub is_said: bool,
+}
+
+impl Place {
+    /// Of what nobody says anything.
+    fn plain(column: usize) -> Self {
+        Self {
+            column,
+            unit: 1.0,
+            is_said: false,
+        }
+    }
 }
 
 /// Places of each channel.
@@ -49,6 +62,7 @@ impl Header {
                 q: &mut header.q,
                 dq: &mut header.dq,
                 tau: &mut header.tau,
+                currents: &columns.currents,
             };
             let note = units.apply(source, names, &mut channels)?;
             header.notes.push(note);
@@ -85,16 +99,14 @@ impl Header {
             let place = names.iter().position(|name| *name == column.name)?;
             Some(Place {
                 column: place,
-                unit: column.unit,
+                unit: column.worth(),
+                is_said: column.unit.is_some(),
             })
         };
         let mut find = |column: &Column| {
             place(column).unwrap_or_else(|| {
                 missing.push(column.name.clone());
-                Place {
-                    column: 0,
-                    unit: 1.0,
-                }
+                Place::plain(0)
             })
         };
         let time = find(&columns.time);
@@ -224,7 +236,7 @@ fn others(
             continue;
         }
         match classify(name, columns.dof(), &standard, time) {
-            Kind::Known | Kind::Extra => others.push((name.clone(), Place { column, unit: 1.0 })),
+            Kind::Known | Kind::Extra => others.push((name.clone(), Place::plain(column))),
             Kind::NoSuchJoint => {
                 return Err(LogError::NoSuchJoint {
                     source_name: source_name(),

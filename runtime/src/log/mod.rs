@@ -124,7 +124,7 @@ impl Log {
     /// let rows: String = (0..20).map(|k| format!("{},180,{k}\n", 0.01 * f64::from(k))).collect();
     /// std::fs::write(&path, format!("time,q1,tau1\n{rows}"))?;
     /// let mut columns = Columns::standard(1);
-    /// columns.q[0].unit = std::f64::consts::PI / 180.0;
+    /// columns.q[0].unit = Some(std::f64::consts::PI / 180.0);
     /// assert_eq!(Log::read_as(&path, &columns)?.q[0][7], std::f64::consts::PI);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -169,7 +169,7 @@ impl Log {
     /// use robot_model::log::{Columns, Log};
     /// let rows: String = (0..20).map(|k| format!("{},180,{k}\n", 0.01 * f64::from(k))).collect();
     /// let mut degrees = Columns::standard(1);
-    /// degrees.q[0].unit = std::f64::consts::PI / 180.0;
+    /// degrees.q[0].unit = Some(std::f64::consts::PI / 180.0);
     /// let log = Log::from_reader_as("memory", format!("time,q1,tau1\n{rows}").as_bytes(), &degrees)?;
     /// assert_eq!(log.q[0][7], std::f64::consts::PI);
     /// # Ok::<(), robot_model::log::LogError>(())

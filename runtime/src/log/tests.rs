@@ -123,7 +123,7 @@ fn bad_fields_are_told_with_line_and_column() {
     );
     assert_eq!(
         with(8, "0.06,,1"),
-        "monday.csv:8: `` in column `q1` is not a number; repair or remove the row"
+        "monday.csv:8: an empty field in column `q1` is not a number; repair or remove the row"
     );
     assert_eq!(
         with(9, "0.07,1"),

@@ -7,12 +7,13 @@ use super::note::Note;
 use super::words;
 use super::{LogError, TextError};
 
-/// What a unit is of: joints that turn, and those that slide.
+/// What a unit is of: joints that turn, those that slide, and both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Time,
     Turning,
     Sliding,
+    Either,
 }
 
 /// Words of a channel, as settings of logs have them, too: what a one is worth, and of which joints.
@@ -49,6 +50,8 @@ const TORQUES: [(&str, f64, Kind); 3] = [
     ("kN", 1e3, Kind::Sliding),
 ];
 
+const CURRENTS: [(&str, f64, Kind); 2] = [("A", 1.0, Kind::Either), ("mA", 1e-3, Kind::Either)];
+
 /// A line in which every field is a word.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Line {
@@ -63,6 +66,8 @@ pub(super) struct Channels<'a> {
     pub q: &'a mut [Place],
     pub dq: &'a mut [Place],
     pub tau: &'a mut [Place],
+    /// Which joints log currents in place of torques.
+    pub currents: &'a [bool],
 }
 
 impl Line {
@@ -105,7 +110,12 @@ impl Line {
                 Some(place) => reading.take(place, &SPEEDS, kind)?,
                 None => kind,
             };
-            reading.take(&mut channels.tau[joint], &TORQUES, kind)?;
+            let place = &mut channels.tau[joint];
+            if channels.currents.get(joint).is_some_and(|current| *current) {
+                reading.take(place, &CURRENTS, None)?;
+            } else {
+                reading.take(place, &TORQUES, kind)?;
+            }
         }
         Ok(Note::Units {
             line: self.number,
@@ -133,7 +143,7 @@ impl Reading<'_> {
     ) -> Result<Option<Kind>, LogError> {
         let written = self.line.words.get(place.column).map_or("", String::as_str);
         // What settings say of a column holds.
-        if written.is_empty() || (place.unit - 1.0).abs() > 0.0 {
+        if written.is_empty() || place.is_said {
             return Ok(joint);
         }
         let plain = plain(written);
@@ -148,6 +158,7 @@ impl Reading<'_> {
                 column: self.names[place.column].clone(),
                 text: words::field(written),
                 known: known().map(|(word, ..)| (*word).to_owned()).collect(),
+                hint: hint(words, &plain),
             }
             .into());
         };
@@ -155,6 +166,18 @@ impl Reading<'_> {
         let name = words::field(&self.names[place.column]);
         self.said.push(format!("`{name}` in {word}"));
         Ok(Some(*kind))
+    }
+}
+
+/// What a current is beside a torque: the arm says which of them a drive logs.
+fn hint(words: &Words, written: &str) -> &'static str {
+    let is_of = |table: &Words| table.iter().any(|(word, ..)| *word == written);
+    if words == CURRENTS && is_of(&TORQUES) {
+        " (the joint's `actuator_gain` makes a torque of a current; a log of torques wants a spec without it)"
+    } else if words == TORQUES && is_of(&CURRENTS) {
+        " (a current wants an `actuator_gain` of the joint in the spec, such as `0.1 Nm/A`)"
+    } else {
+        ""
     }
 }
 

@@ -52,7 +52,7 @@ pub enum TextError {
     /// A line of words below the names that are no units of their columns.
     #[error(
         "{source_name}:{line}: the line below the names has no numbers, and as a unit `{text}` is none of column `{}`; write one of {}, or remove the \
-         line and say in the spec's `log`, or in its settings, what the columns are in",
+         line and say in the spec's `log`, or in its settings, what the columns are in{hint}",
         field(column),
         list(known)
     )]
@@ -67,6 +67,8 @@ pub enum TextError {
         text: String,
         /// Units that may stand there.
         known: Vec<String>,
+        /// What else to do, where there is more.
+        hint: &'static str,
     },
     /// A decimal comma beside decimal points, or the other way round.
     #[error(

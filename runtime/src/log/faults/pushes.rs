@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::quantile;
+use super::{moved, quantile};
 use crate::signal::encoder_step;
 
 /// Fewest samples that a speed is taken of.
@@ -12,6 +12,9 @@ const REACH: usize = 10;
 /// How many times the changes of speed around one is that a push makes, where that is so of most; and where it is so of a single one.
 const PUSHED: f64 = 6.0;
 const PUSHED_ALONE: f64 = 20.0;
+
+/// One of the smallest: rounding makes smaller ones here and there.
+const FEWEST: f64 = 0.1;
 
 /// Changes of speed that are looked at on either side.
 const AROUND: usize = 8;
@@ -40,14 +43,13 @@ pub(super) fn without(mut found: Vec<Range<usize>>, positions: &[Vec<f64>]) -> V
     found
 }
 
-/// What an encoder resolves; of a joint that hardly moves, or has none, its smallest step. Most steps of a joint that moves are larger, and
-/// a push is small beside them.
+/// What an encoder resolves. Where a joint moves by many steps at a time these do not say it, but how they change from one to the next does.
 fn resolution(position: &[f64]) -> f64 {
     encoder_step(position).unwrap_or_else(|| {
-        let steps = position.windows(2);
-        let sizes = steps.map(|pair| (pair[1] - pair[0]).abs());
-        let moved = sizes.filter(|size| *size > 0.0);
-        moved.reduce(f64::min).unwrap_or_default()
+        let bends = position
+            .windows(3)
+            .map(|p| (p[2] - 2.0 * p[1] + p[0]).abs());
+        quantile(moved(&bends.collect::<Vec<_>>()), FEWEST)
     })
 }
 
@@ -95,8 +97,8 @@ mod tests {
         };
         let rounded = |k: usize| (position(k) / 5e-6).round() * 5e-6;
         let positions = vec![(0..1000).map(rounded).collect()];
-        assert_eq!(without(vec![500..501], &positions), Vec::new());
-        let fault = 300..301;
+        let (push, fault) = (500..501, 300..301);
+        assert_eq!(without(vec![push], &positions), Vec::new());
         assert_eq!(without(vec![fault.clone()], &positions), [fault]);
     }
 

@@ -246,7 +246,7 @@ fn joints_that_are_not_there_are_told() {
     // A log block that has its own names for CSV files does not stand in the way; one that names the bag's is followed.
     let column = |name: &str, unit: f64| Column {
         name: name.to_owned(),
-        unit,
+        unit: Some(unit),
     };
     let of_csv = Columns {
         q: vec![column("pos 1", 0.5)],

@@ -214,7 +214,7 @@ fn parquet_columns() -> Columns {
     Columns {
         time: Column {
             name: "stamp".to_owned(),
-            unit: 1e-6,
+            unit: Some(1e-6),
         },
         ..Columns::standard(1)
     }

@@ -7,7 +7,7 @@ use super::*;
 fn columns_may_have_other_names_and_units() {
     let column = |name: &str, unit: f64| Column {
         name: name.to_owned(),
-        unit,
+        unit: Some(unit),
     };
     let columns = Columns {
         time: column("stamp", 1e-3),
@@ -57,7 +57,7 @@ fn standard_columns_stand_in_for_others() {
     let columns = Columns {
         tau: vec![Column {
             name: "current".to_owned(),
-            unit: 2.0,
+            unit: Some(2.0),
         }],
         ..Columns::standard(1)
     };
@@ -86,7 +86,7 @@ fn standard_columns_stand_in_for_others() {
 fn columns_are_not_mixed_up() {
     let column = |name: &str| Column {
         name: name.to_owned(),
-        unit: 0.1,
+        unit: Some(0.1),
     };
     let mut columns = Columns::standard(1);
     columns.extra = vec![("temperature".to_owned(), column("tau1"))];

@@ -145,10 +145,24 @@ fn units_below_the_names_are_read() {
     assert!((sliding.q[0][7] - 0.7e-3).abs() < 1e-15);
     // What settings say of a column holds.
     let mut columns = Columns::standard(1);
-    columns.q[0].unit = -2.0;
+    columns.q[0].unit = Some(-2.0);
     let own =
         Log::from_reader_as("monday.csv", with("s,counts,Nm").as_bytes(), &columns).expect("a log");
     assert!((own.q[0][7] + 1.4).abs() < 1e-15);
+    // A unit that is 1 is said, too.
+    let mut columns = Columns::standard(1);
+    columns.tau[0].unit = Some(1.0);
+    let own = Log::from_reader_as("monday.csv", with("s,rad,A").as_bytes(), &columns);
+    assert!((own.expect("a log").tau[0][7] - log(&with("s,rad,Nm")).tau[0][7]).abs() < 1e-15);
+    // Where the arm makes torques of currents a line may say these, and no torques.
+    let mut columns = Columns::standard(1);
+    columns.currents = vec![true];
+    let read = |units: &str| Log::from_reader_as("monday.csv", with(units).as_bytes(), &columns);
+    let [amperes, milliamperes] =
+        ["s,rad,A", "s,rad,[mA]"].map(|units| read(units).expect("a log").tau[0][7]);
+    assert!((amperes - 1e3 * milliamperes).abs() < 1e-12);
+    let refused = read("s,rad,Nm").expect_err("a torque").to_string();
+    assert!(refused.contains("wants a spec without it"), "{refused}");
     for (units, words) in [
         (
             "s,turns,Nm",
@@ -160,7 +174,7 @@ fn units_below_the_names_are_read() {
         ),
         (
             "s,rad,A",
-            "as a unit `A` is none of column `tau1`; write one of `Nm`, or",
+            "as a unit `A` is none of column `tau1`; write one of `Nm`, or remove the line and say in the spec's `log`, or in its settings, what the columns are in (a current wants an `actuator_gain`",
         ),
     ] {
         let said = refusal(&with(units), 1);
