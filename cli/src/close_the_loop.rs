@@ -1,7 +1,7 @@
 //! The loop itself: mend the logs, identify, trace, amend the text, compile that text, identify again, compare.
 
 use robot_model::columns::{Arm, Columns};
-use robot_model::identify::{Beyond, Errors, Estimate, Identified, Identify};
+use robot_model::identify::{Errors, Estimate, Identified, Identify};
 use robot_model::log::Log;
 use robot_model::trace::{Finding, MOST_EFFECTS, Outcome, Trace, Verdict};
 use robot_model_codegen::compile_for_rows;
@@ -161,8 +161,6 @@ pub fn close(
         // their own.
         let identify = Identify {
             bands: (!arm.follows_load()).then_some(estimate.bands),
-            // Whether channels are late was asked with the declared model.
-            beyond: Beyond::Deviations,
             ..Identify::default()
         };
         let sound = Log::all_with_turn_speeds(&sound, &verdict.turn_speeds);

@@ -33,8 +33,10 @@ pub(crate) fn map_told<T: Sync, R: Send>(
             let Some(item) = items.get(number) else {
                 return;
             };
-            // Nobody hears of it where another thread has panicked.
-            let _ = sender.send((number, of(item)));
+            // Nobody listens any more where `told` has panicked.
+            if sender.send((number, of(item))).is_err() {
+                return;
+            }
         }
     };
     let mut done = std::thread::scope(|scope| {

@@ -276,7 +276,11 @@ mod tests {
             chart.svg()
         };
         let linear = svg(false, vec![(-0.3, -0.3), (0.3, 0.3)]);
-        assert!(!linear.contains("e-1"), "{linear}");
+        assert!(!linear.contains("e\u{2212}1"), "{linear}");
+        assert!(
+            linear.contains("\u{2212}0.2") && !linear.contains("-0.2"),
+            "{linear}"
+        );
         let logarithmic = svg(true, vec![(0.25, 0.009), (100.0, 0.02)]);
         let ticks = logarithmic
             .lines()

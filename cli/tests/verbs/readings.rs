@@ -89,8 +89,8 @@ fn a_log_in_radians_is_told_where_the_spec_has_another_unit() {
         folder.write("declared.robot", &SPEC.replace("LOG", &declared));
         let said = folder.run(&["identify", "declared.robot", "radians.csv"]);
         let asked = format!(
-            "are they in radians? The spec, or a robot-model.toml, has them in {plural}: `log {{ q = \"q1\": rad, ..; }}` in the one, \
-             `unit = \"rad\"` in the other"
+            "are they in radians? They are read as if the spec, a robot-model.toml or a line of units had them in {plural}: \
+             `log {{ q = \"q1\": rad, ..; }}`, or `unit = \"rad\"` in the settings"
         );
         assert!(said.stderr.contains(&asked), "{}", said.stderr);
     }

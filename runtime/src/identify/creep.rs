@@ -96,7 +96,7 @@ impl Identify {
         let turns = turns;
         let found = self.tried(&without, &turns, logs, &vec![None; turns.len()])?;
         let before: Vec<f64> = found.iter().map(|tried| tried.squares).collect();
-        let count = whole_steps(((HIGHEST / LOWEST).ln() / STEP.ln()).ceil());
+        let count = whole_steps(((HIGHEST_OF_SLOW / LOWEST).ln() / STEP.ln()).ceil());
         let mut best: Vec<(usize, Tried)> = vec![(0, Tried::NONE); turns.len()];
         let at = |turns: &Turns, place: usize| turns.lowest * STEP.powf(place as f64);
         for place in 0..count {

@@ -50,7 +50,7 @@ const TORQUES: [(&str, f64, Kind); 3] = [
     ("kN", 1e3, Kind::Sliding),
 ];
 
-const CURRENTS: [(&str, f64, Kind); 2] = [("A", 1.0, Kind::Either), ("mA", 1e-3, Kind::Either)];
+const CURRENTS: [(&str, f64, Kind); 1] = [("A", 1.0, Kind::Either)];
 
 /// A line in which every field is a word.
 #[derive(Debug, Clone, PartialEq)]

@@ -83,7 +83,7 @@ impl Units {
             format!("Logs are in rad, or as the spec says: {line}")
         } else {
             format!(
-                "The spec, or a robot-model.toml, has them in {}: {line} in the one, `unit = \"{name}\"` in the other",
+                "They are read as if the spec, a robot-model.toml or a line of units had them in {}: {line}, or `unit = \"{name}\"` in the settings",
                 self.read.plural
             )
         };

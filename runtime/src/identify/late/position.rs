@@ -73,7 +73,7 @@ impl Identify {
     ) -> Option<Found> {
         let h = longest_period(rows.logs);
         let mut seconds = self.nearest_position(rows, joint, at)?;
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
             let mut here = self.rows_without(rows, (joint, seconds), at);
             let solution = self.solve_stack(&here).ok()?;
             let next = self.rows_without(rows, (joint, seconds + h), at);
@@ -88,7 +88,8 @@ impl Identify {
             here.append(&[nameless()], &slopes.collect::<Vec<_>>());
             let mut solution = self.solve_stack(&here).ok()?;
             let residuals = here.residuals(&solution.estimate);
-            if logarithm(lengths(&residuals)) > of_torques {
+            // The first step begins far from where it ends.
+            if round > 0 && logarithm(lengths(&residuals)) > of_torques {
                 return None;
             }
             solution.std = self.deviations_of_products(&here, &solution);
