@@ -3,7 +3,7 @@
 use robot_model_spec::Model;
 use robot_model_spec::model::EffectDefinition;
 
-use crate::compiled::Block;
+use crate::block::Block;
 use crate::dynamics::{self, effect};
 use crate::expr::{Dag, ExprId, Symbol};
 use crate::states::{self, StateProgram};

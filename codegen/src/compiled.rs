@@ -5,9 +5,10 @@ use robot_model_spec::parameter::{StandardParameter, Status};
 
 use crate::baked::{BakeError, Origin};
 use crate::base::{self, BaseForm};
+use crate::block::Block;
 use crate::dynamics::energy::EnergyForm;
 use crate::dynamics::{self, Computed, Dynamics, Kinematics, Partials, Point, Value, energy};
-use crate::expr::{Dag, ExprId, Names};
+use crate::expr::{Dag, Names};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
 use crate::lumps;
@@ -185,29 +186,6 @@ fn fixed_value(parameter: &StandardParameter) -> f64 {
     match parameter.status {
         Status::Fixed(value) => value,
         Status::Unknown | Status::Nominal(_) => 0.0,
-    }
-}
-
-/// The entries of some regressor columns that are not zero by structure, with the program that evaluates them.
-#[derive(Debug, Clone)]
-pub struct Block {
-    /// `(joint, column)` of output `k` of the program; both from 0.
-    pub entries: Vec<(usize, usize)>,
-    /// One output per entry.
-    pub program: Program,
-}
-
-impl Block {
-    pub(crate) fn new(dag: &Dag, entries: Vec<(usize, usize, ExprId)>) -> Self {
-        let outputs: Vec<ExprId> = entries.iter().map(|entry| entry.2).collect();
-        let entries = entries
-            .into_iter()
-            .map(|(joint, column, _)| (joint, column))
-            .collect();
-        Self {
-            entries,
-            program: Program::new(dag, &outputs),
-        }
     }
 }
 

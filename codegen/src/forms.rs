@@ -2,7 +2,8 @@
 
 use robot_model_spec::parameter::Status;
 
-use crate::compiled::{Block, Compiled};
+use crate::block::Block;
+use crate::compiled::Compiled;
 use crate::expr::{Dag, ExprId};
 use crate::interpreter::Program;
 

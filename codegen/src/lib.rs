@@ -31,6 +31,7 @@ pub mod states;
 mod alone;
 mod audited;
 mod baked;
+mod block;
 mod build_script;
 mod compiled;
 mod design;
@@ -43,10 +44,11 @@ mod terms;
 
 pub use alone::{EffectColumns, effect_columns};
 pub use baked::{BakeError, Given, Origin};
+pub use block::Block;
 pub use build_script::{CompileError, compile, compile_text};
 #[cfg(feature = "parameters")]
 pub use build_script::{compile_text_with, compile_with};
-pub use compiled::{Block, Compiled, compile_for_rows, compile_model};
+pub use compiled::{Compiled, compile_for_rows, compile_model};
 pub use design::{DesignColumn, DesignColumns, Differentiable, Nominal, Remembering, RivalColumns};
 pub use linkage::{Driven, Linkage};
 pub use measured::NotInstantaneous;

@@ -8,7 +8,8 @@ use std::fmt;
 
 use robot_model_spec::Model;
 
-use crate::compiled::{Block, Compiled};
+use crate::block::Block;
+use crate::compiled::Compiled;
 use crate::dynamics::Changes;
 use crate::expr::{Dag, ExprId};
 use crate::interpreter::Program;

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "log-settings")]
 mod settings;
+mod torque;
 mod word;
 
 use std::collections::BTreeMap;
@@ -10,15 +11,14 @@ use std::sync::Arc;
 use proc_macro2::Span;
 use syn::Ident;
 
-use super::chain::{
-    coordinate_dimension, gain_dimension, speed_dimension, torque_dimension, torque_unit,
-};
+use super::chain::{coordinate_dimension, speed_dimension, torque_dimension};
 use super::unit::Dimension;
 use super::{Errors, value};
-use crate::ast::{self, LogChannel, Robot, Setting};
+use crate::ast::{self, LogChannel, Robot};
 use crate::diagnostic::Diagnostic;
 use crate::model::{EffectDefinition, Joint, LogColumn, LogColumns};
 use crate::suggest;
+use torque::{check_torque, gain_of};
 
 #[cfg(feature = "log-settings")]
 pub(crate) use settings::{check_settings, check_unit};
@@ -327,75 +327,4 @@ fn worth(column: &ast::LogColumn, dimension: Option<Dimension>) -> Result<LogCol
             is_unit_written: column.unit.is_some(),
         }),
     }
-}
-
-/// A torque, a current with a gain, or a number with a gain of any kind.
-fn check_torque(
-    column: &ast::LogColumn,
-    joint: &Joint,
-    gain: Option<&Other>,
-) -> Result<(), Diagnostic> {
-    let Some(unit) = &column.unit else {
-        return Ok(());
-    };
-    let torque = torque_dimension(joint.kind);
-    let dimension = value::constant(unit)?.dimension;
-    let of_gain = joint.actuator_gain_unit;
-    let of_gain = of_gain.map(|unit| gain_dimension(unit, joint.kind));
-    let name = &joint.name;
-    let in_torque = torque_unit(joint.kind);
-    match (dimension, of_gain) {
-        (Some(Dimension::CURRENT), None) => Err(Diagnostic::new(
-            unit.span,
-            format!("joint `{name}` logs a current and has no `actuator_gain`"),
-            "a current",
-        )
-        .help(format!(
-            "write `actuator_gain = 0.1 {in_torque}/A;` into the joint, with the torque per ampere"
-        ))),
-        (Some(found), _) if found != torque && found != Dimension::CURRENT => Err(Diagnostic::new(
-            unit.span,
-            format!("expected {}, found {}", torque.describe(), found.describe()),
-            format!("this is {}", found.describe()),
-        )
-        .help(format!(
-            "write it in `{in_torque}`, in `A` with an `actuator_gain`, or as a plain number"
-        ))),
-        (Some(found), Some(Some(of_gain))) if found.times(of_gain, 1) != torque => {
-            let error = Diagnostic::new(
-                unit.span,
-                format!(
-                    "the unit of joint `{name}`'s log times that of its `actuator_gain` is not {}",
-                    torque.describe()
-                ),
-                format!("{} here", found.describe()),
-            );
-            let help = format!(
-                "write the gain in `{in_torque}/A` where the log is in `A`, and as a plain number where it is in `{in_torque}`"
-            );
-            Err(match gain {
-                Some(gain) => gain.beside(error, of_gain.describe(), &help),
-                None => error.help(help),
-            })
-        }
-        _ => Ok(()),
-    }
-}
-
-/// Where the joint's `actuator_gain` is written.
-fn gain_of(robot: &Robot, joint: &Joint) -> Option<Other> {
-    let of_chain = robot.joints.iter().map(|own| (&own.name, &own.settings));
-    let of_energies = robot
-        .energies
-        .limits
-        .iter()
-        .map(|own| (&own.name, &own.settings));
-    let mut own = of_chain
-        .chain(of_energies)
-        .filter(|(name, _)| **name == joint.name);
-    let settings: &[Setting] = own.next()?.1;
-    let gain = settings
-        .iter()
-        .find(|setting| setting.key == "actuator_gain")?;
-    Some(Other::Here(gain.value.span()))
 }

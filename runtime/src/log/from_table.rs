@@ -1,6 +1,7 @@
 //! The columns of a file to a log.
 
-use super::header::{Header, Place};
+use super::header::Header;
+use super::place::Place;
 use super::rows::Table;
 use super::sparse::fill;
 use super::{Channel, Log, LogError, Note};

@@ -6,32 +6,13 @@
 use std::collections::BTreeSet;
 
 use super::note::Note;
+use super::place::Place;
 use super::rows::Rows;
 use super::units::Channels;
 use super::{Column, Columns, LogError, limits, mapping};
 
 /// Families of one channel a joint.
 pub(super) const FAMILIES: [&str; 3] = ["q", "dq", "tau"];
-
-/// Where a channel is in a row, and what a one there is worth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
-    pub column: usize,
-    pub unit: f64,
-    /// Whether that is said, by settings.
-    pub is_said: bool,
-}
-
-impl Place {
-    /// Of what nobody says anything.
-    fn plain(column: usize) -> Self {
-        Self {
-            column,
-            unit: 1.0,
-            is_said: false,
-        }
-    }
-}
 
 /// Places of each channel.
 #[derive(Debug, PartialEq)]
@@ -62,7 +43,7 @@ impl Header {
                 q: &mut header.q,
                 dq: &mut header.dq,
                 tau: &mut header.tau,
-                currents: &columns.currents,
+                signals: &columns.signals,
             };
             let note = units.apply(source, names, &mut channels)?;
             header.notes.push(note);
