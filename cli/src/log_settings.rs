@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
-use robot_model::log::{Column, Columns};
+use robot_model::log::{Column, Columns, DriveSignal};
 use robot_model_spec::model::{GainUnit, LogColumn, LogColumns};
 use robot_model_spec::{ColumnKind, Model};
 
@@ -134,16 +134,15 @@ fn columns(model: &Model, log: &LogColumns) -> Columns {
             *standard = own.iter().map(column).collect();
         }
     }
-    for (column, joint) in columns.tau.iter_mut().zip(&model.joints) {
-        let gain = joint.actuator_gain_unit;
-        columns
-            .currents
-            .push(gain == Some(GainUnit::TorquePerAmpere));
-        // A plain gain makes torques of whatever the log has.
-        if matches!(gain, Some(GainUnit::Plain | GainUnit::Torque)) {
-            column.unit.get_or_insert(1.0);
-        }
-    }
+    let signals = model
+        .joints
+        .iter()
+        .map(|joint| match joint.actuator_gain_unit {
+            None => DriveSignal::Torque,
+            Some(GainUnit::TorquePerAmpere) => DriveSignal::Current,
+            Some(GainUnit::Plain | GainUnit::Torque) => DriveSignal::Number,
+        });
+    columns.signals = signals.collect();
     let inputs = log.inputs.iter();
     columns.extra = inputs
         .map(|(name, own)| (name.clone(), column(own)))

@@ -10,6 +10,19 @@ pub struct Column {
     pub unit: Option<f64>,
 }
 
+/// What the drive of a joint logs as its torque.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum DriveSignal {
+    /// A torque or force: a line of units in the log may say `Nm`, `N` or `kN`.
+    #[default]
+    Torque,
+    /// A current, of which the arm makes a torque: a line of units may say `A`.
+    Current,
+    /// A number of any unit, of which the arm makes a torque: a line of units says nothing of it.
+    Number,
+}
+
 /// The columns of an arm's logs.
 ///
 /// # Examples
@@ -40,8 +53,8 @@ pub struct Columns {
     pub tau: Vec<Column>,
     /// Other channels that have a name of their own for the arm: that name, and their column.
     pub extra: Vec<(String, Column)>,
-    /// Whether the drive logs a current in place of a torque, one a joint; may be empty where none does. A line of units may say `A` then.
-    pub currents: Vec<bool>,
+    /// What drives log, one a joint; torques where it is empty.
+    pub signals: Vec<DriveSignal>,
     /// What the joints are called, in their order, for files that have them by name, as bags of ROS 2 do; may be empty for others.
     pub joints: Vec<String>,
     /// The topic of a bag of ROS 2; without it the only one that has joint states.
@@ -70,7 +83,7 @@ impl Columns {
             dq: family("dq"),
             tau: family("tau"),
             extra: Vec::new(),
-            currents: Vec::new(),
+            signals: Vec::new(),
             joints: Vec::new(),
             topic: None,
         }

@@ -22,6 +22,7 @@ mod note;
 mod parquet;
 mod phase;
 mod pieces;
+mod place;
 mod rows;
 mod sparse;
 mod turns;
@@ -33,7 +34,7 @@ use std::io::Read;
 use std::ops::Range;
 use std::path::Path;
 
-pub use columns::{Column, Columns};
+pub use columns::{Column, Columns, DriveSignal};
 pub use error::{LogError, TextError};
 pub use faults::{Fault, LateChannel, Mended, Stretches};
 #[cfg(feature = "mcap")]

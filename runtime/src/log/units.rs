@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::header::Place;
+use super::columns::DriveSignal;
 use super::note::Note;
+use super::place::Place;
 use super::words;
 use super::{LogError, TextError};
 
@@ -66,8 +67,7 @@ pub(super) struct Channels<'a> {
     pub q: &'a mut [Place],
     pub dq: &'a mut [Place],
     pub tau: &'a mut [Place],
-    /// Which joints log currents in place of torques.
-    pub currents: &'a [bool],
+    pub signals: &'a [DriveSignal],
 }
 
 impl Line {
@@ -111,11 +111,11 @@ impl Line {
                 None => kind,
             };
             let place = &mut channels.tau[joint];
-            if channels.currents.get(joint).is_some_and(|current| *current) {
-                reading.take(place, &CURRENTS, None)?;
-            } else {
-                reading.take(place, &TORQUES, kind)?;
-            }
+            match channels.signals.get(joint).copied().unwrap_or_default() {
+                DriveSignal::Torque => reading.take(place, &TORQUES, kind)?,
+                DriveSignal::Current => reading.take(place, &CURRENTS, None)?,
+                DriveSignal::Number => None,
+            };
         }
         Ok(Note::Units {
             line: self.number,

@@ -1,6 +1,6 @@
 //! Logs as spreadsheets, pandas, test rigs and ROS write them: read as they are, with a note of what is assumed.
 
-use super::{Columns, Log, Note, Pieces, read, refusal, rows, text};
+use super::{Columns, DriveSignal, Log, Note, Pieces, read, refusal, rows, text};
 
 fn plain() -> Log {
     read(&text("time,q1,tau1", &rows(40)), 1).expect("a log")
@@ -156,12 +156,17 @@ fn units_below_the_names_are_read() {
     assert!((own.expect("a log").tau[0][7] - log(&with("s,rad,Nm")).tau[0][7]).abs() < 1e-15);
     // Where the arm makes torques of currents a line may say these, and no torques.
     let mut columns = Columns::standard(1);
-    columns.currents = vec![true];
+    columns.signals = vec![DriveSignal::Current];
     let read = |units: &str| Log::from_reader_as("monday.csv", with(units).as_bytes(), &columns);
     let amperes = read("s,rad,[A]").expect("a log").tau[0][7];
     assert!((amperes - plain().tau[0][7]).abs() < 1e-15);
     let refused = read("s,rad,Nm").expect_err("a torque").to_string();
     assert!(refused.contains("wants a spec without it"), "{refused}");
+    // Of plain numbers it says nothing.
+    let mut columns = Columns::standard(1);
+    columns.signals = vec![DriveSignal::Number];
+    let numbers = Log::from_reader_as("monday.csv", with("s,rad,kN").as_bytes(), &columns);
+    assert!((numbers.expect("a log").tau[0][7] - plain().tau[0][7]).abs() < 1e-15);
     for (units, words) in [
         (
             "s,turns,Nm",
