@@ -2,7 +2,7 @@
 
 use robot_model_codegen::expr::{Dag, ExprId, Node, Symbol};
 use robot_model_codegen::optimize::optimize;
-use robot_model_codegen::{Compiled, compile_model};
+use robot_model_codegen::{Compiled, compile_for_rows, compile_model};
 
 fn compiled() -> Vec<(String, Compiled)> {
     let folder = format!("{}/../tests/specs/pass", env!("CARGO_MANIFEST_DIR"));
@@ -42,14 +42,23 @@ fn value(symbol: Symbol) -> f64 {
 const TOLERANCE: f64 = 1e-12;
 
 fn assert_equal(robot: &str, form: &str, model: &Compiled, computed: &[ExprId], shown: &[ExprId]) {
-    let of = |outputs: &[ExprId]| -> Vec<f64> {
-        let values = outputs.iter().map(|&x| model.dag.evaluate(x, &value));
-        values.collect()
-    };
-    let (computed, shown) = (of(computed), of(shown));
+    assert_near(
+        robot,
+        form,
+        &at_state(model, computed),
+        &at_state(model, shown),
+    );
+}
+
+fn at_state(model: &Compiled, outputs: &[ExprId]) -> Vec<f64> {
+    let values = outputs.iter().map(|&x| model.dag.evaluate(x, &value));
+    values.collect()
+}
+
+fn assert_near(robot: &str, form: &str, computed: &[f64], shown: &[f64]) {
     let size = shown.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
     assert_eq!(computed.len(), shown.len(), "{robot} {form}");
-    for (k, (x, y)) in computed.iter().zip(&shown).enumerate() {
+    for (k, (x, y)) in computed.iter().zip(shown).enumerate() {
         assert!(
             (x - y).abs() <= TOLERANCE * size,
             "{robot} {form} {k}: {x} {y}"
@@ -92,6 +101,38 @@ fn what_is_computed_is_what_is_shown() {
             ),
         ] {
             assert_equal(&robot, form, &model, computed, shown);
+        }
+    }
+}
+
+/// What is not sought for rows has the same values, and their columns are as cheap.
+#[test]
+fn what_is_compiled_for_rows_is_the_same_arm() {
+    for (robot, all) in compiled() {
+        let rows = compile_for_rows(&all.model);
+        assert_eq!(rows.base.names, all.base.names, "{robot}");
+        let columns = |model: &Compiled| -> Vec<ExprId> {
+            let kept = model.base.kept.iter();
+            let columns = kept.flat_map(|&k| model.computed_candidates.column(&model.dag, k));
+            columns.map(|(_, entry)| entry).collect()
+        };
+        let operations = |model: &Compiled| optimize(&model.dag, &columns(model)).cost();
+        assert_eq!(operations(&rows), operations(&all), "{robot}");
+        let of = |model: &Compiled| {
+            let computed = &model.computed;
+            [
+                columns(model),
+                computed.rigid_torque.clone(),
+                computed.inverse_dynamics.clone(),
+                computed.mass_matrix.concat(),
+                computed.coriolis_matrix.concat(),
+                computed.bias.clone(),
+                model.computed_linear.regressor.concat(),
+            ]
+            .map(|outputs| at_state(model, &outputs))
+        };
+        for (form, (rows, all)) in of(&rows).iter().zip(of(&all)).enumerate() {
+            assert_near(&robot, &form.to_string(), rows, &all);
         }
     }
 }

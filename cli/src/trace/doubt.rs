@@ -135,7 +135,9 @@ fn relative_percent(closed: &Loop) -> Option<(&[f64], &[f64])> {
 
 /// That a spring which was found may have a share of its motor in it.
 fn of_springs(closed: &Loop) -> Option<String> {
-    mixed(closed.changed.as_ref()?.arm.compiled())
+    let is_declared = mixed(closed.before.arm.compiled()).is_some();
+    let changed = closed.changed.as_ref().filter(|_| !is_declared)?;
+    mixed(changed.arm.compiled())
 }
 
 /// That the log which was not fitted shows what those that were do not: no verdict is of that.

@@ -207,7 +207,11 @@ fn a_joint_that_creeps_where_it_turns_lacks_nothing() {
             [0.02, 1.9, 2.0],
         ]
     };
-    let creeping = |phase| cart_with(200, 80, &slow(phase), |_, dq| 4.0 * (dq / 0.0006).tanh());
+    let creeping = |width: f64, phase| {
+        cart_with(200, 80, &slow(phase), move |_, dq| {
+            4.0 * (dq / width).tanh()
+        })
+    };
     // An encoder of a micrometer.
     let encoded = |log: &str| -> String {
         let rows = log.lines().enumerate().map(|(k, row)| {
@@ -221,13 +225,15 @@ fn a_joint_that_creeps_where_it_turns_lacks_nothing() {
         rows.collect()
     };
     let exact = |log: &str| log.to_owned();
-    for measured in [&encoded as &dyn Fn(&str) -> String, &exact] {
-        folder.write("log.csv", &measured(&creeping(0.0)));
-        folder.write("other.csv", &measured(&creeping(0.7)));
+    // The last is 2.4 % of the speed, which a cart that is slow has.
+    let encoded = &encoded as &dyn Fn(&str) -> String;
+    for (measured, width) in [(encoded, 0.0006), (&exact, 0.0006), (encoded, 0.002)] {
+        folder.write("log.csv", &measured(&creeping(width, 0.0)));
+        folder.write("other.csv", &measured(&creeping(width, 0.7)));
         let told = folder.succeed(&TRACE);
         assert!(told.starts_with("nothing missing"), "{told}");
         let out = json(&folder.read("out.json"));
         let speed = out["turn_speeds"][0].as_f64().expect("a number");
-        assert!((speed - 0.0006).abs() < 0.0001, "{speed}");
+        assert!((speed - width).abs() < width / 6.0, "{speed}");
     }
 }

@@ -53,6 +53,32 @@ fn where_nothing_is_missing_the_page_says_that_nothing_was_added() {
 }
 
 #[test]
+fn a_verdict_has_units_and_the_fall_of_the_error() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 4.0, 0.0));
+    folder.write("other.csv", &cart_log(40, 4.0, 0.7));
+    let validated = ["--validate", "other.csv", "--report", "page"];
+    let told = folder.succeed(&[&["trace", "cart.robot", "log.csv"][..], &validated].concat());
+    let finding = told.lines().nth(1).expect("a finding");
+    assert!(
+        finding.starts_with("  coulomb-friction on rail: fc = 4.0")
+            && finding.contains(" N (score"),
+        "{finding}"
+    );
+    let html = folder.read("page/index.html");
+    let page = Html::parse_document(&html);
+    let items: Vec<String> = all(&page, "li").into_iter().map(text).collect();
+    let has = |start: &str, end: &str| {
+        let mut items = items.iter();
+        items.any(|item| item.starts_with(start) && item.ends_with(end))
+    };
+    assert!(has("coulomb-friction on rail: fc = 4.0", " N"), "{items:?}");
+    let fall = "on the log that was not fitted the error of rail falls from ";
+    assert!(has(fall, " % of its torque"), "{items:?}");
+}
+
+#[test]
 fn a_delay_is_said_to_be_found_by_the_data_gate() {
     let (_, html) = traced(CART, &late(&cart_log(20, 0.0, 0.0), 4));
     let page = Html::parse_document(&html);

@@ -175,6 +175,34 @@ fn logs_of_spreadsheets_give_what_plain_ones_give() {
     }
 }
 
+/// A gain per ampere makes forces of currents: the line below the names may say these, and no forces, which would be taken times the gain.
+#[test]
+fn units_below_the_names_are_what_the_gain_takes() {
+    let folder = Folder::new();
+    let log = cart_log(20, 0.0, 0.0);
+    let (header, rows) = log.split_once('\n').expect("rows");
+    let identified = |gain: &str, units: &str| {
+        let spec = CART.replace(
+            "prismatic {",
+            &format!("prismatic {{ actuator_gain = {gain};"),
+        );
+        folder.write("gain.robot", &spec);
+        folder.write("units.csv", &format!("{header}\n{units}\n{rows}"));
+        folder.run(&["identify", "gain.robot", "units.csv"])
+    };
+    let amperes = identified("2 N/A", "s,m,A");
+    assert_eq!(amperes.code, Some(0), "{}", amperes.stderr);
+    // A number with a gain is of any unit.
+    assert_eq!(identified("2", "s,m,A").stdout, amperes.stdout);
+    let newtons = identified("2 N/A", "s,m,N");
+    assert_eq!(newtons.code, Some(1));
+    assert!(
+        newtons.stderr.contains("units.csv:2: ") && newtons.stderr.contains("write one of `A`"),
+        "{}",
+        newtons.stderr
+    );
+}
+
 /// The message has the settings that read the log as it is.
 #[test]
 fn names_that_are_nearly_standard_come_with_the_lines_that_say_so() {

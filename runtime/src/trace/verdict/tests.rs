@@ -76,6 +76,9 @@ fn a_law_that_may_not_be_named_says_that_something_is_missing() {
     let in_some_folds =
         |percent| doubtful(&[tried("a gap", 1, percent, &[Refusal::HeldOut])]).is_some();
     assert!(in_some_folds(24.0) && !in_some_folds(18.0));
+    let mut uneven = tried("a gap", 1, 24.0, &[Refusal::HeldOut]);
+    uneven.evidence.held_out_percent = vec![0.0, 10.0];
+    assert_eq!(doubtful(&[uneven]), None);
     // What was found speaks for itself.
     let of = |outcome, findings| Verdict {
         tried: all.to_vec(),
