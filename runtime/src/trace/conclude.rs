@@ -32,6 +32,25 @@ impl<'a> State<'a> {
             (effect, first..next)
         })
     }
+
+    /// Effects that are named and act on a joint.
+    fn acting(&self, joint: usize) -> impl Iterator<Item = &Accepted<'a>> {
+        let acts =
+            move |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
+        self.accepted.iter().filter(acts)
+    }
+
+    /// The share of a joint's held-out error that stays with the effects which act on it.
+    fn stays(&self, joint: usize) -> f64 {
+        let percent = self.acting(joint);
+        let percent = percent.map(|effect| effect.evidence.held_out_percent[joint]);
+        percent.map(|percent| 1.0 - percent / 100.0).product()
+    }
+
+    /// Whether a joint has findings that leave most of its held-out error.
+    pub(super) fn leaves_most(&self, joint: usize) -> bool {
+        self.acting(joint).next().is_some() && self.stays(joint) > STAYS
+    }
 }
 
 /// What is told of the last model beside what it is made of.
@@ -44,7 +63,8 @@ pub(super) struct Told {
     pub(super) turn_speeds: Vec<f64>,
 }
 
-/// The verdict on a finished search; `is_beyond` is whether it found nothing and leaves more than differs from period to period.
+/// The verdict on a finished search; `is_beyond` is whether it leaves more than differs from period to period where it found nothing, or a function
+/// of the motion that is as large as a doubt.
 pub(super) fn verdict(
     state: &State,
     before: Vec<Structure>,
@@ -179,16 +199,7 @@ fn alternatives(state: &State) -> Vec<Alternative> {
 /// joint, and more of the joints on which something was missing are settled than not. Where names pile up on a joint, or
 /// most of the structure is elsewhere, the names are those of something else.
 fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
-    let acting = |joint: usize| {
-        let acts =
-            move |effect: &&Accepted| !effect.is_small && effect.trial.touched().contains(&joint);
-        state.accepted.iter().filter(acts)
-    };
-    let laws = |joint: usize| acting(joint).count();
-    let stays = |joint: usize| -> f64 {
-        let percent = acting(joint).map(|effect| effect.evidence.held_out_percent[joint]);
-        percent.map(|percent| 1.0 - percent / 100.0).product()
-    };
+    let laws = |joint: usize| state.acting(joint).count();
     let joints = 0..after.len();
     let left: Vec<usize> = joints
         .clone()
@@ -199,7 +210,8 @@ fn unsettled(before: &[Structure], after: &[Structure], state: &State) -> bool {
         .filter(|j| laws(*j) > 0 && !left.contains(j))
         .count();
     let one_law_each = joints.clone().all(|j| laws(j) <= 1);
-    let is_doubtful = |j: usize| laws(j) > 0 && is_another_law(&before[j], &after[j], stays(j));
+    let is_doubtful =
+        |j: usize| laws(j) > 0 && is_another_law(&before[j], &after[j], state.stays(j));
     joints.clone().any(is_doubtful)
         || left.iter().any(|&joint| laws(joint) > 0 || !one_law_each)
         || (!left.is_empty() && left.len() >= settled)

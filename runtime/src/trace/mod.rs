@@ -42,6 +42,7 @@ mod elsewhere;
 mod encompass;
 mod floor;
 mod folds;
+mod forward;
 mod gate;
 mod gram;
 mod grid;
@@ -73,7 +74,8 @@ mod wander;
 mod whereabouts;
 
 pub use floor::{Floor, FloorFrom};
-pub use search::{MOST_EFFECTS, Trace};
+pub use forward::Trace;
+pub use search::MOST_EFFECTS;
 pub use stage::Stage;
 pub use step::Step;
 pub use structure::Structure;

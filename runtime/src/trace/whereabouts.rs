@@ -299,12 +299,14 @@ impl Search<'_> {
         })
     }
 
-    /// Whereabouts on the joints that are told, and on others that a function of the motion has so large a share in that it would take as much
-    /// off their raw errors as makes a doubt, beyond what time has: a law that no structure shows, as noise is correlated over as long.
+    /// Whereabouts on the joints that are told, and on others that are asked if a function of the motion has so large a share in them that it
+    /// would take as much off their raw errors as makes a doubt, beyond what time has: a law that no structure shows, as noise is correlated
+    /// over as long.
     pub(super) fn unknown_functions(
         &self,
         state: &State,
         is_told: &dyn Fn(&usize) -> bool,
+        is_asked: &dyn Fn(&usize) -> bool,
     ) -> Vec<Whereabouts> {
         let raw = self.raw(state);
         let filtered: Vec<f64> = state.residuals.iter().map(mean_square).collect();
@@ -312,7 +314,9 @@ impl Search<'_> {
             let all = raw.noise_power[joint] + filtered[joint];
             100.0 * (1.0 - (1.0 - share * filtered[joint] / all.max(f64::MIN_POSITIVE)).sqrt())
         };
-        let may = |joint: &usize| is_told(joint) || takes(*joint, 1.0) >= DOUBT_PERCENT;
+        let may = |joint: &usize| {
+            is_told(joint) || (is_asked(joint) && takes(*joint, 1.0) >= DOUBT_PERCENT)
+        };
         let joints = (0..self.arm.dof()).filter(may).collect();
         let mut found = self.whereabouts(state, joints);
         found.retain(|one| {
