@@ -147,7 +147,7 @@ impl<'a> Trace<'a> {
             periods,
         };
         let residuals = stack.residuals(&solution.estimate);
-        let mut state = State {
+        let state = State {
             stack,
             solution,
             residuals,
