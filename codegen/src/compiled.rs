@@ -12,6 +12,7 @@ use crate::expr::{Dag, Names};
 use crate::filtered::{self, MomentumForm};
 use crate::interpreter::Program;
 use crate::lumps;
+use crate::motors;
 use crate::regressor::{self, LinearForm};
 use crate::states::{self, StateEquations, StateProgram};
 
@@ -115,7 +116,7 @@ fn assemble(model: &Model, parameters: &Parameters<'_>, sought: Sought) -> Compi
         Parameters::Baked(base, beta) => (base.clone(), Some(beta.to_vec())),
         Parameters::Standard(base) => (base.ungrouped(&standard), None),
     };
-    let values = base_values(&standard, &base, baked.as_deref());
+    let values = base_values(model, &standard, &base, baked.as_deref());
     let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
     let all: Vec<usize> = (0..standard.len()).collect();
     let (computed, computed_linear) = match sought {
@@ -166,8 +167,9 @@ fn assemble(model: &Model, parameters: &Parameters<'_>, sought: Sought) -> Compi
 }
 
 /// Kept parameters are symbols, or the numbers of an arm; fixed ones are numbers. What was regrouped into kept ones counts there
-/// and vanishes here.
+/// and vanishes here, but for motors where an effect reads the load.
 pub(crate) fn base_values(
+    model: &Model,
     standard: &[StandardParameter],
     base: &BaseForm,
     beta: Option<&[f64]>,
@@ -179,6 +181,7 @@ pub(crate) fn base_values(
     for (column, &k) in base.kept.iter().enumerate() {
         values[k] = beta.map_or(Value::Symbol, |beta| Value::Number(beta[column]));
     }
+    motors::share(model, standard, base, beta, &mut values);
     values
 }
 

@@ -38,6 +38,7 @@ mod design;
 mod forms;
 mod linkage;
 mod measured;
+mod motors;
 mod parametric;
 mod plant;
 mod terms;

@@ -74,7 +74,12 @@ pub(crate) struct Equations {
 impl Compiled {
     pub(crate) fn switched(&self) -> Equations {
         let mut dag = self.dag.clone();
-        let values = base_values(&self.standard, &self.base, self.baked.as_deref());
+        let values = base_values(
+            &self.model,
+            &self.standard,
+            &self.base,
+            self.baked.as_deref(),
+        );
         let is_parted = self.displacements().is_some();
         let means: &[Means] = if is_parted {
             &[Means::Torque]

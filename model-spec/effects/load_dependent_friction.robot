@@ -1,8 +1,8 @@
 /// Dry friction that grows with the load on the transmission.
 ///
 /// `mu * abs(rigid_torque) * sign(dq)`, where `rigid_torque` is what the transmission carries: inertia, Coriolis and gravity
-/// torque of the rigid body. Where a rotor's inertia cannot be told from its link's (on the first joint, say), the load includes
-/// that of the rotor.
+/// torque of the rigid body. Where a rotor's inertia cannot be told from its link's (on a first and often on a second joint), the
+/// load has what the links have by the spec's nominal values, and the rotor what is more; without them the load includes the rotor.
 ///
 /// Identifiable where the load changes much while the direction of motion changes too.
 ///

@@ -1,7 +1,9 @@
 //! Deviations know of laws of speed that a model lacks, and of half a sample of a torque's time.
 
+use robot_model::columns::{Arm, Columns, Entry, Shape, Unknown};
 use robot_model::identify::{Beyond, Estimate, Identify};
 use robot_model::log::Log;
+use robot_model::motion::Motion;
 
 #[path = "doc/pendulum.rs"]
 #[expect(dead_code, reason = "it is the arm of the documentation's examples")]
@@ -113,4 +115,89 @@ fn a_delay_that_noise_hides_is_in_the_deviations() {
     assert!(known.iter().all(|off| *off < 2.5), "{known:?}");
     let [on_time, _] = fits(&noisy(&measure(0.0), 0));
     assert_eq!(on_time.hidden_delay, None);
+}
+
+/// The pendulum with a loss in proportion to `v |v|`, but for a ten-thousandth of another law.
+struct Stirring {
+    arm: pendulum::Pendulum,
+    unknowns: Vec<Unknown>,
+}
+
+impl Stirring {
+    fn new() -> Self {
+        let arm = pendulum();
+        let mut unknowns = arm.unknowns().to_vec();
+        unknowns.push(Unknown {
+            name: "joint.quadratic_viscous.c".to_owned(),
+            nonnegative: true,
+        });
+        Self { arm, unknowns }
+    }
+
+    fn bump(v: f64) -> f64 {
+        v.signum() * (-(v / 0.8).powi(2)).exp()
+    }
+
+    fn law(v: f64) -> f64 {
+        v * v.abs() + 1e-4 * Self::bump(v)
+    }
+}
+
+impl Columns for Stirring {
+    fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+    fn shapes(&self) -> &[Shape] {
+        &[]
+    }
+    fn uses_rigid_torque(&self) -> bool {
+        false
+    }
+    fn entries(&self, motion: &Motion, shapes: &[f64]) -> Vec<Entry> {
+        let mut entries = self.arm.entries(motion, shapes);
+        entries.push(Entry {
+            joint: 0,
+            column: 3,
+            values: motion.wide.dq[0].iter().map(|v| Self::law(*v)).collect(),
+        });
+        entries
+    }
+}
+
+impl Arm for Stirring {
+    fn dof(&self) -> usize {
+        self.arm.dof()
+    }
+    fn joints(&self) -> &[String] {
+        self.arm.joints()
+    }
+    fn actuator_gain(&self) -> &[f64] {
+        self.arm.actuator_gain()
+    }
+    fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.known_torque(motion, shapes)
+    }
+    fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
+        self.arm.rigid_torque(motion, shapes, estimate)
+    }
+}
+
+/// Beside its own column the law would be told from next to nothing, with a coefficient of hundreds against the other's.
+#[test]
+fn a_law_that_the_model_has_is_not_asked_for_again() {
+    let mut log = measure(0.0);
+    let speeds: Vec<f64> = log.q[0].windows(2).map(|q| (q[1] - q[0]) / 0.002).collect();
+    for (tau, v) in log.tau[0].iter_mut().zip(speeds) {
+        *tau += 0.3 * Stirring::law(v) + 0.1 * Stirring::bump(v);
+    }
+    let fit = Identify::default().fit(&Stirring::new(), &[log]);
+    let fit = fit.expect("it moves");
+    let loss = &fit.parameters[3];
+    assert!(
+        (loss.value - 0.3).abs() < 0.15,
+        "{} {}",
+        loss.value,
+        loss.std
+    );
+    assert!(loss.std < 0.3, "{} {}", loss.value, loss.std);
 }

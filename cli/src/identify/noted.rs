@@ -31,9 +31,13 @@ pub(crate) fn mixed(compiled: &Compiled) -> Option<String> {
     compiled.displacements()?;
     let mixed = compiled.mixed();
     let name = mixed.first()?;
+    let (share, wrong) = match compiled.motor_torque() {
+        Some(_) => ("what is nominal of it", "as far as that is"),
+        None => ("both", "where the motor has a share in it"),
+    };
     Some(format!(
-        "`{name}` is of a motor and of its link, and the load that displaces the link has both; springs come out wrong where the motor has a \
-         share in it, `identify --method output-error` tells them apart"
+        "`{name}` is of a motor and of its link, and the load that displaces the link has {share}; springs come out wrong {wrong}, \
+         `identify --method output-error` tells them apart"
     ))
 }
 

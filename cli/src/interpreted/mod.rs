@@ -69,7 +69,9 @@ pub struct InterpretedArm {
     actuator_gain: Vec<f64>,
     rigid: Block,
     effects: EffectBlock,
-    rigid_torque: Program,
+    load: Program,
+    /// Torque of motors whose inertia is told as one sum with that of their links.
+    motors: Option<Program>,
     terms: Option<Terms>,
     known_torque: Program,
     measured: Measured,
@@ -121,7 +123,8 @@ impl InterpretedArm {
                 .collect(),
             rigid: compiled.rigid_columns(),
             effects: torque_block(&compiled, compiled.effect_columns()),
-            rigid_torque: compiled.rigid_torque(),
+            load: compiled.load(),
+            motors: compiled.motor_torque(),
             terms: written_terms(&compiled),
             known_torque: compiled.known_torque(),
             measured: Measured::new(&compiled),
@@ -179,6 +182,28 @@ impl Columns for InterpretedArm {
     }
 }
 
+impl InterpretedArm {
+    /// Outputs of a program that reads base parameters, along a motion of joints.
+    fn at_estimate(
+        &self,
+        program: &Program,
+        motion: &Motion,
+        shapes: &[f64],
+        estimate: &[f64],
+    ) -> Vec<Vec<f64>> {
+        let parameters = self.compiled.parameter_values(estimate);
+        let signals = Signals {
+            motion,
+            shapes: &self.all_shapes(shapes),
+            own: &Own::default(),
+        };
+        run(program, motion, &|symbol| match symbol {
+            Symbol::Parameter(k) => Operand::Constant(parameters[k]),
+            other => signals.bind(&motion.smooth, other),
+        })
+    }
+}
+
 impl Arm for InterpretedArm {
     fn dof(&self) -> usize {
         self.joints.len()
@@ -223,16 +248,7 @@ impl Arm for InterpretedArm {
     }
 
     fn rigid_torque(&self, motion: &Motion, shapes: &[f64], estimate: &[f64]) -> Vec<Vec<f64>> {
-        let parameters = self.compiled.parameter_values(estimate);
-        let signals = Signals {
-            motion,
-            shapes: &self.all_shapes(shapes),
-            own: &Own::default(),
-        };
-        run(&self.rigid_torque, motion, &|symbol| match symbol {
-            Symbol::Parameter(k) => Operand::Constant(parameters[k]),
-            other => signals.bind(&motion.smooth, other),
-        })
+        self.at_estimate(&self.load, motion, shapes, estimate)
     }
 
     fn terms(&self) -> Vec<String> {
@@ -281,6 +297,13 @@ impl Arm for InterpretedArm {
             let value = estimate[entry.column];
             for (torque, column) in torque[entry.joint].iter_mut().zip(entry.values) {
                 *torque -= value * column;
+            }
+        }
+        let motors = self.motors.as_ref();
+        let motors = motors.map(|motors| self.at_estimate(motors, motion, shapes, estimate));
+        for (torque, motor) in torque.iter_mut().zip(motors.unwrap_or_default()) {
+            for (torque, motor) in torque.iter_mut().zip(motor) {
+                *torque -= motor;
             }
         }
         torque

@@ -31,6 +31,7 @@ mod vector;
 use robot_model_spec::model::{Act, EffectDefinition, Model};
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
+use crate::motors::above;
 use chain::Chain;
 pub use changes::Changes;
 pub use computed::{Computed, cheapest_regressor, compute};
@@ -49,6 +50,17 @@ pub enum Value {
     Symbol,
     /// A number; zero makes its terms vanish.
     Number(f64),
+    /// A symbol of its own up to a number, which is what links have of it.
+    UpTo(f64),
+    /// What the symbol of another one is above such a number, over a coefficient.
+    Above {
+        /// The other standard parameter.
+        of: usize,
+        /// What links have of it.
+        nominal: f64,
+        /// How often it has this one.
+        coefficient: f64,
+    },
 }
 
 /// The equations of motion as expressions of `q, dq, ddq` and the parameters.
@@ -190,6 +202,21 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
         .map(|(k, value)| match value {
             Value::Symbol => dag.symbol(Symbol::Parameter(k)),
             Value::Number(number) => dag.constant(*number),
+            Value::UpTo(nominal) => {
+                let sum = dag.symbol(Symbol::Parameter(k));
+                let nominal = dag.constant(*nominal);
+                dag.min(sum, nominal)
+            }
+            Value::Above {
+                of,
+                nominal,
+                coefficient,
+            } => {
+                let sum = dag.symbol(Symbol::Parameter(*of));
+                let above = above(dag, sum, *nominal);
+                let share = dag.constant(coefficient.recip());
+                dag.mul(above, share)
+            }
         })
         .collect()
 }

@@ -31,6 +31,10 @@ const DEVIATIONS: f64 = 5.0;
 /// Share of a sample that two deviations of a torque's time are where nobody tells it.
 const HELD: f64 = 0.5;
 
+/// A law is another one than those of the arm where this share of it is beside the arm's columns. One that the arm has, the bands of which
+/// differ, leaves a thousandth, and would be told against it.
+const OWN_SHARE: f64 = 0.02;
+
 /// Rows for an unknown below which any law would be found.
 const FEWEST: usize = 5;
 
@@ -123,7 +127,7 @@ impl Identify {
     /// Laws of speed that are there beside the friction of the arm; `None` where these rows do not tell what others do.
     fn laws(&self, rows: &Rows<'_>) -> Option<Lacking> {
         let plain = self.solve_stack(&rows.away).ok()?;
-        let mut laws = self.likely(rows, plain.estimate.len())?;
+        let mut laws = self.likely(rows, &plain)?;
         while !laws.is_empty() {
             let with = Beside::new(self, rows, plain.estimate.len(), &laws)?;
             let sure = (0..laws.len()).filter(|law| with.is_sure(*law));
@@ -137,7 +141,8 @@ impl Identify {
     }
 
     /// Of each joint the law that is most likely, by deviations of correlation times, which are quick.
-    fn likely(&self, rows: &Rows<'_>, unknowns: usize) -> Option<Vec<(usize, Law)>> {
+    fn likely(&self, rows: &Rows<'_>, plain: &Solution) -> Option<Vec<(usize, Law)>> {
+        let unknowns = plain.estimate.len();
         let joints: Vec<usize> = (0..rows.away.dof()).collect();
         let mut best = vec![(DEVIATIONS, None); joints.len()];
         for law in Law::all() {
@@ -146,7 +151,7 @@ impl Identify {
             for (joint, best) in best.iter_mut().enumerate() {
                 let own = unknowns + joint;
                 let size = (found.estimate[own] / found.std[own]).abs();
-                if found.is_told(own) && size > best.0 {
+                if found.is_told(own) && size > best.0 && is_another(rows, plain, joint, law) {
                     *best = (size, Some(law));
                 }
             }
@@ -218,6 +223,15 @@ impl Identify {
         let moved = moved.estimate.iter().map(|x| x * seconds);
         Some((delay, moved.collect()))
     }
+}
+
+/// Whether a law of a joint is none that the columns of the arm have among them.
+fn is_another(rows: &Rows<'_>, plain: &Solution, joint: usize, law: Law) -> bool {
+    let of_law = rows.of_law(joint, law);
+    let unweighted = vec![1.0; of_law.dof()];
+    let solved = Factors::new(&of_law).solve(&plain.scale, &unweighted);
+    let left = of_law.residuals(&solved.estimate);
+    norm(&left[joint]) > OWN_SHARE * norm(&of_law.joints[joint].target)
 }
 
 /// A fit with laws behind the columns of the arm.

@@ -12,6 +12,9 @@ use super::trial::{Trial, presence};
 /// How much less a candidate may explain with a shape that hardly changes anything.
 const HARDLY: f64 = 1e-3;
 
+/// A shape with so few values on its grid is begun at each of them.
+const COARSE: usize = 3;
+
 /// Steps of all shapes together, shares of a step that are tried, and by what share more has to be explained.
 const STEPS: usize = 8;
 const HALVES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
@@ -19,13 +22,37 @@ const LEAST_GAIN: f64 = 1e-5;
 
 impl Trial<'_> {
     /// Moves each shape between its neighbors on the grid to where the candidate explains most; `finely` all of them
-    /// together from there on.
+    /// together from there on, and from other values of shapes with a coarse grid, too.
     pub(super) fn refined(&self, present: &Present, rows: Rows, finely: bool) -> Self {
-        let mut best = self.clone();
         let drop = |trial: &Self| {
             let projected = trial.project(present);
             projected.map_or(0.0, |p| p.admissible_drop(trial.candidate))
         };
+        let mut best = self.one_by_one(&drop, rows);
+        if finely && !best.shapes.is_empty() {
+            best = best.together(present, &drop, rows);
+            for start in self.other_starts(rows) {
+                let start = start.one_by_one(&drop, rows);
+                let other = start.together(present, &drop, rows);
+                if drop(&other) > drop(&best) {
+                    best = other;
+                }
+            }
+        }
+        let mut best = best.away_from_ends(&drop, rows);
+        if best.shapes.len() > 1 {
+            best.presence = presence(best.candidate, &best.shapes, rows.logs);
+            let numbers = 0..best.shapes.len();
+            best.is_felt = numbers
+                .map(|number| best.feels(number, &drop, rows))
+                .collect();
+        }
+        best
+    }
+
+    /// Moves each shape between its neighbors on the grid, one after the other.
+    fn one_by_one(&self, drop: &dyn Fn(&Self) -> f64, rows: Rows) -> Self {
+        let mut best = self.clone();
         for number in 0..self.shapes.len() {
             let grid = &self.candidate.shapes()[number].grid;
             let at = |value: f64| {
@@ -42,18 +69,24 @@ impl Trial<'_> {
                 best = refined;
             }
         }
-        if finely && !best.shapes.is_empty() {
-            best = best.together(present, &drop, rows);
-        }
-        let mut best = best.away_from_ends(&drop, rows);
-        if best.shapes.len() > 1 {
-            best.presence = presence(best.candidate, &best.shapes, rows.logs);
-            let numbers = 0..best.shapes.len();
-            best.is_felt = numbers
-                .map(|number| best.feels(number, &drop, rows))
-                .collect();
-        }
         best
+    }
+
+    /// The same point but for the other values of a shape whose grid is coarse beside others: one valley lies between two of them.
+    fn other_starts(&self, rows: Rows) -> Vec<Self> {
+        let shapes = self.candidate.shapes();
+        let coarse =
+            (0..shapes.len()).filter(|&k| shapes.len() > 2 && shapes[k].grid.len() <= COARSE);
+        let others = coarse.flat_map(|number| {
+            let other = move |value: &&f64| **value != self.shapes[number];
+            let values = shapes[number].grid.iter().filter(other);
+            values.map(move |&value| {
+                let mut shapes = self.shapes.clone();
+                shapes[number] = value;
+                Self::new(self.candidate, shapes, rows)
+            })
+        });
+        others.collect()
     }
 
     /// Moves all shapes along the slopes of the torque (Gauss and Newton) as long as that explains more: width and sharpness of a loop are

@@ -73,16 +73,29 @@ impl<'a> Rows<'a> {
 
     /// The rows with laws of joints behind their columns.
     pub fn with(&self, laws: &[(usize, Law)]) -> Stack {
-        let entries = laws
-            .iter()
-            .enumerate()
-            .map(|(column, &(joint, law))| Entry {
-                joint,
-                column,
-                values: self
-                    .series(|log| (self.passed)(log, joint, law.of(&log.motion.smooth.dq[joint]))),
-            });
+        let entries = laws.iter().enumerate();
+        let entries = entries.map(|(column, &(joint, law))| self.law(joint, law, column));
         self.beside(entries.collect(), laws.len())
+    }
+
+    /// The rows' equations for a law of a joint in the place of the torques.
+    pub fn of_law(&self, joint: usize, law: Law) -> Stack {
+        let mut of_law = self.away.clone();
+        for rows in &mut of_law.joints {
+            rows.target.fill(0.0);
+        }
+        put(&mut of_law, &self.away, self.law(joint, law, 0));
+        of_law
+    }
+
+    fn law(&self, joint: usize, law: Law, column: usize) -> Entry {
+        let values =
+            self.series(|log| (self.passed)(log, joint, law.of(&log.motion.smooth.dq[joint])));
+        Entry {
+            joint,
+            column,
+            values,
+        }
     }
 
     /// The rows with one column of the slopes of all torques behind the others, and its place: of a torque that is late by `d`,
@@ -95,16 +108,8 @@ impl<'a> Rows<'a> {
     /// The equations of a stack for the slopes of torques in the place of these.
     pub fn of_slopes(&self, stack: &Stack) -> Stack {
         let mut of_slopes = stack.clone();
-        for Entry { joint, values, .. } in self.slopes(stack) {
-            let rows = &mut of_slopes.joints[joint];
-            let there = |k: usize| {
-                if stack.joints[joint].is_there(k) {
-                    values[k]
-                } else {
-                    0.0
-                }
-            };
-            rows.target = (0..values.len()).map(there).collect();
+        for slopes in self.slopes(stack) {
+            put(&mut of_slopes, stack, slopes);
         }
         of_slopes
     }
@@ -132,4 +137,12 @@ impl<'a> Rows<'a> {
         turns::leave_out(&mut stack);
         stack
     }
+}
+
+/// Makes a series the target of a joint, in the rows that are there.
+fn put(equations: &mut Stack, stack: &Stack, entry: Entry) {
+    let there = &stack.joints[entry.joint];
+    let values = entry.values.into_iter().enumerate();
+    let values = values.map(|(k, value)| if there.is_there(k) { value } else { 0.0 });
+    equations.joints[entry.joint].target = values.collect();
 }

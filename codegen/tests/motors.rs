@@ -1,0 +1,104 @@
+//! The load of a transmission has no rotor in it, also where the inertia of the rotor is told as one sum with that of the link.
+
+use robot_model_codegen::expr::{Dag, ExprId, Symbol};
+use robot_model_codegen::interpreter::Program;
+use robot_model_codegen::{Compiled, compile_model};
+
+/// Nominally it has `izz = 2 + 3 * 0.1^2` about its joint, kg m^2.
+const LINK: &str = "link a: nominal { mass = 3; com = [0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }";
+
+fn pendulum(link: &str, effects: &str) -> Compiled {
+    let text = format!(
+        "robot R {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint a: revolute {{ a = 0; alpha = 0; d = 0; }}
+            {link}
+            effects {{ motor_inertia on a; {effects} }}
+        }}"
+    );
+    let model = robot_model_spec::load("r.robot", &text).unwrap_or_else(|e| panic!("{e}"));
+    compile_model(&model)
+}
+
+const NOMINAL: f64 = 2.0 + 3.0 * 0.01;
+const DDQ: f64 = 1.7;
+
+fn at(compiled: &Compiled, beta: &[f64], symbol: Symbol) -> f64 {
+    match symbol {
+        Symbol::Q(_) => 0.4,
+        Symbol::Dq(_) => -0.8,
+        Symbol::Ddq(_) => DDQ,
+        Symbol::Parameter(k) => compiled.parameter_values(beta)[k],
+        other => panic!("{other:?} is not read"),
+    }
+}
+
+fn value(compiled: &Compiled, beta: &[f64], dag: &Dag, output: ExprId) -> f64 {
+    dag.evaluate(output, &|symbol| at(compiled, beta, symbol))
+}
+
+fn run(compiled: &Compiled, beta: &[f64], program: &Program) -> f64 {
+    program.eval(&|symbol| at(compiled, beta, symbol))[0]
+}
+
+/// Base parameters with this sum of inertias; all others are 0.3.
+fn beta(compiled: &Compiled, sum: f64) -> Vec<f64> {
+    let names = compiled.base.names.iter();
+    names
+        .map(|name| if name.starts_with("a.izz") { sum } else { 0.3 })
+        .collect()
+}
+
+#[test]
+fn a_load_is_without_what_is_more_than_its_links_have() {
+    let arm = pendulum(LINK, "");
+    let motor = arm.motor_torque().expect("the rotor is in the sum");
+    for (sum, rotor) in [(NOMINAL + 1.5, 1.5), (NOMINAL, 0.0), (0.5, 0.0)] {
+        let beta = beta(&arm, sum);
+        let load = run(&arm, &beta, &arm.load());
+        let rigid = run(&arm, &beta, &arm.rigid_torque());
+        assert!((rigid - load - rotor * DDQ).abs() < 1e-12, "{sum}");
+        assert!(
+            (run(&arm, &beta, &motor) - rotor * DDQ).abs() < 1e-12,
+            "{sum}"
+        );
+    }
+}
+
+#[test]
+fn without_nominal_values_nobody_knows_the_share() {
+    let arm = pendulum("", "");
+    assert!(arm.motor_torque().is_none());
+    let beta = beta(&arm, 4.0);
+    let [load, rigid] = [arm.load(), arm.rigid_torque()].map(|all| run(&arm, &beta, &all));
+    assert!((load - rigid).abs() < 1e-12 && rigid.abs() > 1.0);
+}
+
+/// `tau = load + rotor + mu |load| sign(dq)`, of the arm and of one with its numbers in it.
+#[test]
+fn friction_of_the_load_is_that_of_the_links() {
+    let arm = pendulum(LINK, "load_dependent_friction on a;");
+    let plain = pendulum(LINK, "");
+    let beta_of = |compiled: &Compiled| beta(compiled, NOMINAL + 1.5);
+    let load = run(&plain, &beta_of(&plain), &plain.load());
+    let rigid = run(&plain, &beta_of(&plain), &plain.rigid_torque());
+    let beta = beta_of(&arm);
+    let expected = rigid - 0.3 * load.abs();
+    let torque = value(&arm, &beta, &arm.dag, arm.computed.inverse_dynamics[0]);
+    assert!((torque - expected).abs() < 1e-12, "{torque} {expected}");
+    assert!((run(&arm, &beta, &arm.load()) - load).abs() < 1e-12);
+    // `loaded` of generated code has the load from the mass matrix and the bias.
+    let mass = value(&arm, &beta, &arm.dag, arm.computed.mass_matrix[0][0]);
+    let bias = value(&arm, &beta, &arm.dag, arm.computed.bias[0]);
+    assert!((mass * DDQ + bias - load).abs() < 1e-12);
+    let baked = arm.baked(&beta, &[]).expect("numbers of an arm");
+    let torque = value(
+        &baked,
+        &beta,
+        &baked.dag,
+        baked.computed.inverse_dynamics[0],
+    );
+    assert!((torque - expected).abs() < 1e-12, "{torque} {expected}");
+    assert!((run(&baked, &beta, &baked.load()) - load).abs() < 1e-12);
+}
