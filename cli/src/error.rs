@@ -68,11 +68,11 @@ impl Error {
             Self::Log(LogError::Misspelled { lines, .. } | LogError::NoSuchJoint { lines, .. })
                 if !lines.is_empty() =>
             {
-                let lines: Vec<String> = lines.iter().map(|line| format!("`{line}`")).collect();
+                let lines = lines.iter().map(|line| format!("\n      {line}"));
+                let lines: String = lines.collect();
                 format!(
-                    "error: {self}\n  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is: `[log]`, and \
-                     below it {}; the `log {{ .. }}` of the spec can say the same",
-                    lines.join(" and ")
+                    "error: {self}\n  = help: a `robot-model.toml` beside the file names the columns as they are, and the file stays as it is; the \
+                     `log {{ .. }}` of the spec can say the same:\n\n      [log]{lines}\n"
                 )
             }
             Self::Log(LogError::MissingColumns { .. } | LogError::NoSuchJoint { .. }) => {

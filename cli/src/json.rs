@@ -7,15 +7,29 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::Error;
+use crate::misplaced::instead_of_json;
 use crate::spec::read_text;
 
 /// Reads a file.
 pub(crate) fn read(path: &Path) -> Result<Value, Error> {
-    parse(&read_text(path)?).map_err(|fault| Error::Json {
-        path: path.to_owned(),
-        line: fault.line,
-        reason: fault.reason,
+    let text = read_text(path)?;
+    parse(&text).map_err(|fault| match instead_of_json(path, &text) {
+        Some(reason) => Error::json(path, &reason),
+        None => Error::Json {
+            path: path.to_owned(),
+            line: fault.line,
+            reason: fault.reason,
+        },
     })
+}
+
+/// Line and column of a text in quotation marks, where it stands first.
+pub(crate) fn place_of(path: &Path, text: &str) -> Option<(usize, usize)> {
+    let file = read_text(path).ok()?;
+    let before = &file[..file.find(&Value::from(text).to_string())?];
+    let line = before.matches('\n').count() + 1;
+    let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+    Some((line, column))
 }
 
 /// What a file says, as it has to be written; `form` shows how. Names the part that is not, such as `balls[1].radius`.

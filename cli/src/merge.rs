@@ -10,11 +10,11 @@ use crate::identify::at_turns;
 use crate::identify::factor_file;
 use crate::identify::fit::of_form;
 use crate::identify::noted::{factor_doubts, told_apart, too_slow};
-use crate::identify::options::{TurnOptions, WeightsArgument};
+use crate::identify::options::{TurnOptions, WeightsArgument, check_prior};
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
 use crate::log_settings::LogSettings;
-use crate::output::{self, Files, counted};
+use crate::output::{self, Content, Files, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
@@ -82,6 +82,7 @@ impl Merge {
             let reason = format!("`--weights` is of `wls`; `{}` has its own", method.name());
             return Err(Error::Argument(reason));
         }
+        check_prior(self.prior)?;
         if self.prior.is_some() && method != Method::Ridge {
             return Err(Error::Argument(
                 "`--prior` is of `--method ridge`".to_owned(),
@@ -111,8 +112,8 @@ impl Merge {
         let settings = &self.log_settings;
         let mut files =
             Files::reading(inputs.map(PathBuf::as_path)).and(settings.files(&self.validate));
-        let out = files.claim_if(self.factor.as_deref())?;
-        let json = files.claim_if(self.json.as_deref())?;
+        let out = files.claim_if(self.factor.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         let compiled = compile(&self.spec)?;
         let progress = Progress::new();
         let mut opened = self.factors.iter().enumerate().map(|(k, path)| {

@@ -1,4 +1,4 @@
-//! Files in the place of a spec that are none: logs and URDFs.
+//! Files in the place of a spec or of JSON that are none: logs, URDFs, specs.
 
 use std::path::Path;
 
@@ -15,25 +15,65 @@ pub(crate) fn instead_of_a_spec(path: &Path, bytes: &[u8]) -> Option<String> {
     let name = path.display().to_string();
     let lower = name.to_lowercase();
     let is_empty = bytes.trim_ascii().is_empty();
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
-    let start = start.trim_start_matches('\u{feff}').trim_start();
+    let start = start(bytes);
     let is_urdf = path
         .extension()
         .is_some_and(|end| end.eq_ignore_ascii_case("urdf"));
-    if is_urdf || (start.starts_with('<') && start.contains("<robot")) {
+    if is_urdf || (is_markup(&start) && start.contains("<robot")) {
         return Some(format!(
             "it looks like a URDF, and a spec has to stand here; write one from it: `robot-model import {name} -o arm.robot`"
         ));
     }
-    let header = start.lines().next().unwrap_or_default();
-    let is_header = header.split([',', ';', '\t']).count() > 2 && !header.contains(['{', '/']);
-    let is_log = MAGICS.iter().any(|magic| bytes.starts_with(magic))
-        || (!is_empty && (is_header || ENDS.iter().any(|end| lower.ends_with(end))));
+    let is_called_log = ENDS.iter().any(|end| lower.ends_with(end));
+    let is_log = is_log(bytes) || (!is_empty && is_called_log);
     is_log.then(|| {
         format!(
             "it looks like a log, and a spec has to stand here; name the spec first and logs behind it, as in `robot-model identify arm.robot {name}`"
         )
     })
+}
+
+/// The same for what stands where JSON should and is none.
+pub(crate) fn instead_of_json(path: &Path, text: &str) -> Option<String> {
+    let start = start(text.as_bytes());
+    let header = start.lines().next().unwrap_or_default();
+    let is_table = header.contains([',', ';', '\t']) && !header.contains(['{', '[', '"', ':']);
+    let lower = path.display().to_string().to_lowercase();
+    let is_called_table = ENDS.iter().any(|end| lower.ends_with(end));
+    let what = if is_markup(&start) {
+        "XML, as URDFs are"
+    } else if !start.starts_with(['{', '[']) && (is_table || is_called_table) {
+        "a table (CSV)"
+    } else if start.contains("robot ") && !start.starts_with(['{', '[']) {
+        "a spec"
+    } else {
+        return None;
+    };
+    Some(format!(
+        "it looks like {what}, and JSON has to stand here; parameters are written `{{\"NAME\": VALUE, ..}}`, or by `robot-model identify .. --json FILE`"
+    ))
+}
+
+/// Whether bytes are those of a log: names of columns, or what packed and binary ones begin with.
+pub(crate) fn is_log(bytes: &[u8]) -> bool {
+    let start = start(bytes);
+    let header = start.lines().next().unwrap_or_default();
+    let columns = header.split([',', ';', '\t']).count();
+    let is_header = columns > 2 || (columns == 2 && header.starts_with("time"));
+    MAGICS.iter().any(|magic| bytes.starts_with(magic))
+        || (is_header && !header.contains(['{', '/', '<']))
+}
+
+/// Whether a text is XML or HTML.
+pub(crate) fn is_markup(start: &str) -> bool {
+    start.starts_with('<')
+}
+
+/// The beginning of a text, without what stands before its first letter.
+fn start(bytes: &[u8]) -> String {
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(4096)]);
+    let start = start.trim_start_matches('\u{feff}').trim_start();
+    start.to_owned()
 }
 
 #[cfg(test)]

@@ -1,4 +1,5 @@
-//! Progress of long work, on standard error: on a terminal with the time it takes, and the time that is left where that is known.
+//! Progress of long work, on standard error: on a terminal with the time it takes, and with the time that is left where that is known; plain lines of
+//! what takes long have that, too.
 
 use std::fmt::{self, Display};
 use std::io::IsTerminal;
@@ -32,6 +33,8 @@ pub struct Progress {
     /// Steps of a bar that were behind when it was drawn first.
     begun: Mutex<u64>,
     left: Left,
+    /// Where plain lines have begun with known work: when, and the share that was behind.
+    plain: Mutex<Option<(Instant, f64)>>,
 }
 
 /// When known work will have ended, by the time that its finished parts took: it is not known before one is finished, nor when the
@@ -85,6 +88,7 @@ impl Progress {
             noted: Mutex::new(Vec::new()),
             begun: Mutex::new(0),
             left: Left::default(),
+            plain: Mutex::new(None),
         }
     }
 
@@ -113,7 +117,8 @@ impl Progress {
     /// Says which part of a known whole comes now; `done`, from 0 to 1, is what is behind.
     pub(crate) fn part(&self, what: &str, done: f64) {
         let Some(bar) = &self.bar else {
-            return self.step(what);
+            let left = self.left_of_plain(done);
+            return self.step(&format!("{what}{left}"));
         };
         let whole = WHOLE as f64;
         let done = (0..=WHOLE).rfind(|step| *step as f64 <= done * whole);
@@ -136,6 +141,23 @@ impl Progress {
         bar.set_position(done);
     }
 
+    /// What is left of known work, for a line that nobody sees replaced: only of work that has taken long already.
+    fn left_of_plain(&self, done: f64) -> String {
+        let mut plain = self.plain.lock().unwrap_or_else(PoisonError::into_inner);
+        let (since, begun) = match *plain {
+            Some(plain) if done > plain.1 => plain,
+            _ => *plain.insert((Instant::now(), done)),
+        };
+        let took = since.elapsed();
+        if done <= begun || took < SELDOM {
+            return String::new();
+        }
+        let mut text = String::new();
+        self.left.tell(took, done - begun, 1.0 - done);
+        self.left.write(&mut text);
+        text
+    }
+
     /// Says a stage: in plain lines where it begins, on a terminal with the part of it that is done, too.
     pub(crate) fn stage(&self, what: &str, done: Option<f64>) {
         match done {
@@ -155,6 +177,7 @@ impl Progress {
                 return;
             }
             *said = Some(Instant::now());
+            return self.step(what);
         }
         match done {
             Some(done) => self.part(what, done),
@@ -243,6 +266,24 @@ mod tests {
         );
         left.set(Instant::now().checked_sub(Duration::from_millis(1)));
         assert_eq!(told(), "");
+    }
+
+    #[test]
+    fn plain_lines_of_long_work_tell_what_is_left() {
+        let progress = Progress::silent();
+        assert_eq!(progress.left_of_plain(0.0), "");
+        // What was quick is done before anybody has read the line.
+        assert_eq!(progress.left_of_plain(0.5), "");
+        let begin = Instant::now().checked_sub(Duration::from_secs(20));
+        *progress.plain.lock().expect("no panic") = begin.map(|begin| (begin, 0.0));
+        let said = progress.left_of_plain(0.25);
+        assert!(
+            [", 60s to go", ", 59s to go", ", 1m to go"].contains(&said.as_str()),
+            "{said}"
+        );
+        // Other work begins anew.
+        assert_eq!(progress.left_of_plain(0.0), "");
+        assert_eq!(progress.left_of_plain(0.25), "");
     }
 
     #[test]

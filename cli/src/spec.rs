@@ -38,8 +38,40 @@ pub(crate) fn read_spec(path: &Path) -> Result<String, Error> {
     }
 }
 
+/// Refuses what may never begin or never end: named pipes that nobody writes to, and devices. Pipes of a shell, as `<(zcat log.gz)` makes
+/// them, have somebody who writes.
+pub(crate) fn check_ends(path: &Path) -> Result<(), Error> {
+    match endless(path) {
+        Some(what) => Err(Error::Read {
+            path: path.to_owned(),
+            reason: format!("it is {what}; write what it has into a file, and name that"),
+        }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(unix)]
+fn endless(path: &Path) -> Option<&'static str> {
+    use std::os::unix::fs::FileTypeExt;
+    let kind = std::fs::metadata(path).ok()?.file_type();
+    let is_of_shell = path.starts_with("/dev") || path.starts_with("/proc");
+    if kind.is_fifo() && !is_of_shell {
+        Some("a named pipe, which may never be written to")
+    } else if kind.is_char_device() || kind.is_block_device() {
+        Some("a device, which may never end")
+    } else {
+        kind.is_socket().then_some("a socket")
+    }
+}
+
+#[cfg(not(unix))]
+fn endless(_: &Path) -> Option<&'static str> {
+    None
+}
+
 /// The bytes of a file, and one more where there are more than the most.
 fn read_at_most(path: &Path, most: usize) -> Result<Vec<u8>, Error> {
+    check_ends(path)?;
     let failed = |error: &io::Error| Error::read(path, error);
     let mut bytes = Vec::new();
     File::open(path)
@@ -157,6 +189,7 @@ pub(crate) fn read_log(
     settings: &LogSettings,
     progress: &Progress,
 ) -> Result<Log, Error> {
+    check_ends(path)?;
     let columns = settings.columns(path, model, progress)?;
     progress.step(&format!("reading {}", path.display()));
     let mut log = Log::read_as(path, &columns)?;

@@ -17,7 +17,7 @@ use clap::{Args, ValueEnum};
 use robot_model::excite::{ExciteError, Progress as Search, Request};
 
 use crate::interrupt::Wish;
-use crate::output::{Files, counted};
+use crate::output::{Content, Files, counted};
 use crate::progress::Progress;
 use crate::{Error, spec};
 
@@ -167,16 +167,21 @@ impl Excite {
             self.room.as_ref(),
         ];
         let mut files = Files::reading(inputs.into_iter().flatten().map(PathBuf::as_path));
-        let out = files.claim(&self.out)?;
-        let coefficients = files.claim_if(self.coefficients.as_deref())?;
+        let out = files.claim_for(&self.out, Content::Table)?;
+        let coefficients = files.claim_if(self.coefficients.as_deref(), Content::Json)?;
         let figure = files.claim_figure(self.figure.as_deref())?;
-        let json = files.claim_if(self.json.as_deref())?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         // A period that is none is told by whoever designs with it.
         let is_long = self.period.is_finite() && self.rate * self.period > 1e7;
         if self.rate.is_nan() || self.rate <= 0.0 || is_long {
             return Err(Error::Argument(format!(
                 "--rate {}: a rate in Hz, for at most ten million samples",
                 self.rate
+            )));
+        }
+        if let Some(seconds) = self.budget.filter(|s| !(*s > 0.0 && s.is_finite())) {
+            return Err(Error::Argument(format!(
+                "--budget {seconds}: a positive number of seconds"
             )));
         }
         let progress = Progress::new();
@@ -222,15 +227,7 @@ fn search(
     started: Instant,
     progress: &Progress,
 ) -> Result<robot_model::excite::Design, Error> {
-    let budget = match budget {
-        Some(seconds) if !(seconds > 0.0 && seconds.is_finite()) => {
-            return Err(Error::Argument(format!(
-                "--budget {seconds}: a positive number of seconds"
-            )));
-        }
-        Some(seconds) => Some(Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
-        None => None,
-    };
+    let budget = budget.map(|s| Duration::try_from_secs_f64(s).unwrap_or(Duration::MAX));
     let interrupted = Wish::watch();
     let told = Cell::new(0);
     let watch = |search: Search| {

@@ -15,7 +15,7 @@ use robot_model_spec::parameter::{InertialElement, Owner};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
 
 use crate::Error;
-use crate::output::{Files, say};
+use crate::output::{Content, Files, say};
 use crate::parameters;
 use crate::spec::{compile, read_text};
 use passive::{bodies, joints};
@@ -68,7 +68,7 @@ impl Export {
             self.urdf.as_ref(),
         ];
         let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
-        let out = Files::reading(inputs).claim(&self.output)?;
+        let out = Files::reading(inputs).claim_for(&self.output, Content::Xml)?;
         let compiled = compile(&self.spec)?;
         let source = &compiled.model.source;
         if compiled.model.chain().is_none() {

@@ -1,7 +1,7 @@
 //! Options of `identify`, and which of them belong together.
 
 use clap::{Args, ValueEnum};
-use robot_model::identify::{AtTurns, Method, Weights};
+use robot_model::identify::{AtTurns, IdentifyError, Method, Weights};
 use robot_model::signal::Bands;
 
 use super::IdentifyArguments;
@@ -121,12 +121,27 @@ pub(super) fn parse_bands(text: &str) -> Result<Bands, String> {
         .map(|part| part.trim().parse::<f64>())
         .collect();
     match numbers.as_deref() {
-        Ok(&[shared_hz, smooth_hz, wide_hz]) => Ok(Bands {
-            smooth_hz,
-            wide_hz,
-            shared_hz,
-        }),
+        Ok(all @ &[shared_hz, smooth_hz, wide_hz]) => {
+            if all.iter().any(|band| !(*band > 0.0 && band.is_finite())) {
+                return Err("write three numbers above zero, such as `10,30,90`".to_owned());
+            }
+            let bands = Bands {
+                smooth_hz,
+                wide_hz,
+                shared_hz,
+            };
+            bands.check().map_err(|error| error.to_string())?;
+            Ok(bands)
+        }
         _ => Err("write three numbers, such as `10,30,90`".to_owned()),
+    }
+}
+
+/// What `--prior` is, as it is told of where nominal values are used.
+pub(crate) fn check_prior(prior: Option<f64>) -> Result<(), Error> {
+    match prior.filter(|prior| !(*prior > 0.0 && prior.is_finite())) {
+        Some(prior) => Err(IdentifyError::Prior { prior }.into()),
+        None => Ok(()),
     }
 }
 
@@ -150,6 +165,7 @@ impl IdentifyArguments {
     /// Options that the method does not read are mistakes.
     pub(super) fn check_options(&self) -> Result<(), Error> {
         let refuse = |what: &str| Err(Error::Argument(what.to_owned()));
+        check_prior(self.prior)?;
         let Some(method) = self.method.of_equations() else {
             return self.check_simulation();
         };
@@ -211,6 +227,7 @@ impl IdentifyArguments {
 
     /// The same where the arm is simulated.
     fn check_simulation(&self) -> Result<(), Error> {
+        self.output_error.check()?;
         let others = [
             ("--weights", self.weights != WeightsArgument::Residual),
             ("--prior", self.prior.is_some()),

@@ -6,6 +6,7 @@ mod constants;
 mod directions;
 mod hold;
 mod law;
+mod lumped;
 mod options;
 mod recordings;
 mod report;
@@ -29,7 +30,7 @@ use crate::Error;
 use crate::interpreted::InterpretedArm;
 use crate::output::{Files, names};
 use crate::progress::Progress;
-use beginning::Beginning;
+use beginning::{Beginning, Parted};
 use bounds::{Said, bounds};
 use constants::Told;
 pub(super) use options::Options;
@@ -54,7 +55,8 @@ impl IdentifyArguments {
             .chain(options.files());
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
         let results = Results::claim(&mut files, self)?;
-        let compiled = parted(compiled);
+        let whole = compiled;
+        let compiled = parted(&whole);
         let progress = Progress::new();
         let form = ByAcceleration(InterpretedArm::new(compiled.clone()));
         let mut faults: Vec<(String, Fault)> = Vec::new();
@@ -62,7 +64,11 @@ impl IdentifyArguments {
         let logs: Vec<Log> = self.logs.iter().map(&mut read).collect::<Result<_, _>>()?;
         let validate = self.validate.as_ref().map(&mut read).transpose()?;
         let start = options.start.as_deref();
-        let beginning = Beginning::of(&compiled, &form, &logs, self.bands, start)?;
+        let arm = Parted {
+            whole: &whole,
+            parted: &compiled,
+        };
+        let beginning = Beginning::of(arm, &form, &logs, self.bands, start)?;
         self.ask_equations(&form, &logs, &beginning, &mut faults, &progress);
         let mut settings = self.settings(&compiled, &beginning)?;
         let ranges = self.ranges(&beginning);
@@ -185,18 +191,6 @@ impl IdentifyArguments {
 
     fn settings(&self, compiled: &Compiled, beginning: &Beginning) -> Result<OutputError, Error> {
         let options = &self.output_error;
-        if options.controller.is_some() {
-            let others = [
-                ("--window", options.window.is_some()),
-                ("--hold", options.hold.is_some()),
-            ];
-            if let Some((option, _)) = others.into_iter().find(|(_, is_given)| *is_given) {
-                return Err(Error::Argument(format!(
-                    "`{option}` is of arms that the logged torque drives; with `--controller` logs are simulated whole, and its torque \
-                     is held"
-                )));
-            }
-        }
         let delay = compiled.delay();
         let reads = delay
             .iter()
@@ -215,14 +209,6 @@ impl IdentifyArguments {
         }
         let law = options.controller.as_deref();
         let law = law.map(|path| law::read(path, &compiled.model.joints));
-        if let Some(window) = options
-            .window
-            .filter(|window| window.is_nan() || *window <= 0.0)
-        {
-            return Err(Error::Argument(format!(
-                "`--window` has to be positive, not {window}"
-            )));
-        }
         let is_open = law.is_none() && compiled.dynamics.state_rates.is_empty();
         Ok(OutputError {
             search: match options.search {
@@ -244,11 +230,11 @@ impl IdentifyArguments {
 }
 
 /// With parameters of motors and of links that move apart each on its own.
-fn parted(compiled: Compiled) -> Compiled {
+fn parted(compiled: &Compiled) -> Compiled {
     if compiled.displacements().is_some() && !compiled.mixed().is_empty() {
         compiled.ungrouped()
     } else {
-        compiled
+        compiled.clone()
     }
 }
 

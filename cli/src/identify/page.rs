@@ -98,7 +98,7 @@ impl<'a> Evidence<'a> {
             ),
         );
         page.section("Verdict");
-        self.verdict(&mut page);
+        self.verdict(&mut page, inputs);
         page.section("Errors");
         self.errors(&mut page);
         page.section("Torques and residuals");
@@ -116,7 +116,7 @@ impl<'a> Evidence<'a> {
         Ok(page.finish())
     }
 
-    fn verdict(&self, page: &mut Page) {
+    fn verdict(&self, page: &mut Page, inputs: &[PathBuf]) {
         let untold = self.parameters.iter().filter(|one| one.value.is_none());
         let untold = untold.count();
         let count = self.parameters.len();
@@ -146,11 +146,17 @@ impl<'a> Evidence<'a> {
         });
         let sentences: Vec<String> = std::iter::once(told).chain(left).collect();
         page.verdict(class, word, &sentences.join(" "));
-        let notes = self.notes.iter();
-        let notes = notes.map(|note| note.strip_prefix("note: ").unwrap_or(note).to_owned());
-        let notes: Vec<String> = notes.collect();
-        if !notes.is_empty() {
-            page.list(&notes);
+        let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
+        // What was found wants an answer before what is said of a log or a file of settings.
+        let (of_logs, of_result): (Vec<&String>, Vec<&String>) = self
+            .notes
+            .iter()
+            .partition(|note| is_of_a_file(note, inputs));
+        for (title, notes) in [("What to look at", of_result), ("Of single files", of_logs)] {
+            if !notes.is_empty() {
+                page.part(title);
+                page.list(&notes.into_iter().map(plain).collect::<Vec<_>>());
+            }
         }
     }
 
@@ -179,8 +185,9 @@ impl<'a> Evidence<'a> {
             std::iter::once(joint.name.clone()).chain(cells).collect()
         });
         page.table(
-            "RMSE and MAE in N m (prismatic joints: N), first and last second cut; RMS% is what is left of the torque in the filtered band; \
-             an NRMSE fit of 100 % leaves nothing.",
+            "RMSE and MAE: how far the torque that is computed is from the measured one, root of the mean square and mean, in N m (prismatic joints: N). \
+             RMS%: which part of a joint's torque is left, slower than the filters' cutoff. NRMSE fit: 100 % leaves nothing, 0 % is no better than a constant. \
+             The first and the last second do not count.",
             &heads.iter().map(String::as_str).collect::<Vec<_>>(),
             &rows.collect::<Vec<Vec<String>>>(),
         );
@@ -259,4 +266,14 @@ impl<'a> Evidence<'a> {
             &rows.collect::<Vec<_>>(),
         );
     }
+}
+
+/// Whether a note is of one file: it begins with its name.
+fn is_of_a_file(note: &str, files: &[PathBuf]) -> bool {
+    let note = note.strip_prefix("note: ").unwrap_or(note);
+    let mut names = files.iter().map(|path| path.display().to_string());
+    names.any(|name| {
+        note.strip_prefix(&name)
+            .is_some_and(|rest| rest.starts_with([':', ' ']))
+    })
 }

@@ -11,6 +11,7 @@ use crate::Error;
 use crate::in_order::in_order;
 use crate::log_settings::LogSettings;
 use crate::progress::Progress;
+use crate::spec::check_ends;
 
 /// Rows of a log in memory at a time, half of them at least.
 const PIECE: usize = 16_384;
@@ -41,6 +42,9 @@ impl Streams<'_> {
                 "{}:{}: `{}` remembers, and a log that is read piece by piece forgets; identify without `--factor`",
                 model.source, effect.line, effect.definition.name
             )));
+        }
+        for path in self.logs {
+            check_ends(path)?;
         }
         let mut factor: Option<Factor> = None;
         for path in self.logs {

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::IdentifyArguments;
 use super::page::Evidence;
 use crate::Error;
-use crate::output::{self, Files, OutFile};
+use crate::output::{self, Content, Files, OutFile};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 
@@ -23,7 +23,7 @@ pub(super) struct Results {
 impl Results {
     pub fn claim(files: &mut Files, asked: &IdentifyArguments) -> Result<Self, Error> {
         Ok(Self {
-            json: files.claim_if(asked.json.as_deref())?,
+            json: files.claim_if(asked.json.as_deref(), Content::Json)?,
             page: ReportFolder::claim_if(files, asked.report.as_deref())?,
             inputs: files.inputs(),
             others: Vec::new(),

@@ -60,7 +60,7 @@ pub(crate) fn values(
 ) -> Result<(Values, Vec<String>, String), Error> {
     let (given, source) = given(compiled, file)?;
     let found = parameters::values(compiled, &given);
-    let (values, doubts) = found.map_err(|error| refused(&source, &error))?;
+    let (values, doubts) = found.map_err(|error| refused(&source, file, &error))?;
     Ok((values, doubts, source))
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn deviations(compiled: &Compiled, path: &Path) -> Result<Vec<Option<
 /// Values by name, and from the spec where none is given.
 pub(crate) fn by_name(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Values, Error> {
     let found = parameters::values(compiled, given).map(|(values, _)| values);
-    found.map_err(|error| refused(&compiled.model.source, &error))
+    found.map_err(|error| refused(&compiled.model.source, None, &error))
 }
 
 /// What is known from a file, `more` by name and the spec.
@@ -102,11 +102,22 @@ pub(crate) fn known(
     let (mut given, source) = given(compiled, file)?;
     given.extend(more.iter().cloned());
     let values = parameters::known(compiled, &given);
-    values.map_err(|reason| Error::Argument(format!("{source}: {reason}")))
+    values.map_err(|error| match &error {
+        ValuesError::Unknown { .. } => refused(&source, file, &error),
+        _ => Error::Argument(format!("{source}: {error}")),
+    })
 }
 
-/// Why values of a source are not those of an arm, with the arguments that take some.
-fn refused(source: &str, error: &ValuesError) -> Error {
+/// Why values of a source are not those of an arm, with the place in the file or with the arguments that take some.
+fn refused(source: &str, file: Option<&Path>, error: &ValuesError) -> Error {
+    if let (Some(path), ValuesError::Unknown { names, reason }) = (file, error) {
+        let first = names.iter().filter_map(|name| json::place_of(path, name));
+        return Error::Json {
+            path: path.to_owned(),
+            line: first.min(),
+            reason: reason.clone(),
+        };
+    }
     let reason = error.to_string();
     let reason = match error {
         ValuesError::NoValue(_) => reason.replacen(

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::Error;
 use crate::interrupt::MadeFolder;
-use crate::output::{Files, OutFile};
+use crate::output::{Content, Files, OutFile};
 
 /// The page in the folder.
 const PAGE: &str = "index.html";
@@ -20,6 +20,13 @@ pub(crate) struct ReportFolder {
 impl ReportFolder {
     /// Claims the page of a folder that is there, or that can be made.
     pub(crate) fn claim(files: &mut Files, folder: &Path) -> Result<Self, Error> {
+        files.check_free(folder)?;
+        if folder.is_file() {
+            return Err(Error::Write {
+                path: folder.to_owned(),
+                reason: "it is a file, and `--report` takes a folder".to_owned(),
+            });
+        }
         // It goes away again behind the claim.
         let _trial = if folder.exists() {
             None
@@ -27,7 +34,7 @@ impl ReportFolder {
             Some(made(folder)?)
         };
         Ok(Self {
-            page: files.claim(&folder.join(PAGE))?,
+            page: files.claim_for(&folder.join(PAGE), Content::Page)?,
             folder: folder.to_owned(),
         })
     }
@@ -54,8 +61,16 @@ impl ReportFolder {
 }
 
 fn made(folder: &Path) -> Result<MadeFolder, Error> {
-    MadeFolder::make(folder).map_err(|error| Error::Write {
-        path: folder.to_owned(),
-        reason: format!("the folder of a report cannot be made: {error}"),
+    MadeFolder::make(folder).map_err(|error| {
+        let mut around = folder.ancestors().skip(1);
+        let file = around.find(|path| path.is_file());
+        let reason = match file {
+            Some(file) => format!("`{}` is not a folder", file.display()),
+            None => format!("the folder of a report cannot be made: {error}"),
+        };
+        Error::Write {
+            path: folder.to_owned(),
+            reason,
+        }
     })
 }

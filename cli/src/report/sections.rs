@@ -42,8 +42,15 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
             meaning,
         ]
     });
+    let are_drawn = parameters.iter().any(|one| one.interval.is_some());
+    let intervals = if are_drawn {
+        "Intervals hold the value with 95 %: `from` and `to` are those of the draws of `--bootstrap`, and where there is none 1.96 deviations to either \
+         side; the deviation is that of the formula. `-` where the logs do not tell it."
+    } else {
+        "Intervals hold the value with 95 %: from 1.96 deviations below it to 1.96 above. `-` where the logs do not tell it."
+    };
     page.table(
-        "Intervals hold the value with 95 %, `-` where the logs do not tell it.",
+        intervals,
         &[
             "parameter",
             "value",

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::interpreted::InterpretedPlant;
-use crate::output::{self, Files};
+use crate::output::{self, Content, Files};
 use crate::parameters::{self, Values};
 use crate::progress::Progress;
 use crate::spec::compile;
@@ -153,8 +153,8 @@ impl Simulate {
         let more = [&self.parameters, &self.control_parameters, &self.torque];
         let inputs = inputs.into_iter().chain(more.map(Option::as_ref)).flatten();
         let mut files = Files::reading(inputs.map(PathBuf::as_path));
-        let out = files.claim(&self.out)?;
-        let json = files.claim_if(self.json.as_deref())?;
+        let out = files.claim_for(&self.out, Content::Table)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         if self.control_parameters.is_some()
             && self.controller != ControllerArgument::ComputedTorque
         {
@@ -236,11 +236,11 @@ impl Simulate {
         }
         let log = record::log(&self.out, &record, &compiled.model)?;
         let said = record::summary(&self.out, &report, &compiled.model.joints);
+        drop(progress);
         out.commit(&log)?;
         if let Some(json) = json {
             json.commit(output::json(&report).as_bytes())?;
         }
-        drop(progress);
         output::print(&said)
     }
 

@@ -13,12 +13,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_model::columns::Arm;
-use robot_model::log::{Columns, Log, Note};
+use robot_model::log::Log;
 
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
 use crate::log_settings::LogSettings;
-use crate::output::{self, Files};
+use crate::output::{self, Content, Files};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 use crate::spec::{load, read_log, read_mended, read_text};
@@ -68,9 +68,9 @@ impl TraceArguments {
         let settings = &self.log_settings;
         let mut files = Files::reading(inputs.map(PathBuf::as_path))
             .and(settings.files(self.logs.iter().chain(&self.validate)));
-        let amend = files.claim_if(self.amend.as_deref())?;
-        let predict = files.claim_if(self.predict.as_deref())?;
-        let json = files.claim_if(self.json.as_deref())?;
+        let amend = files.claim_if(self.amend.as_deref(), Content::Spec)?;
+        let predict = files.claim_if(self.predict.as_deref(), Content::Table)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         let report = ReportFolder::claim_if(&mut files, self.report.as_deref())?;
 
         let progress = Progress::new();
@@ -89,15 +89,8 @@ impl TraceArguments {
             .map(|_| page::page(&name, &closed, &text, &files.inputs()));
         let page = page.transpose()?;
         // All contents are ready before the first file appears.
-        let prediction = closed
-            .unseen
-            .as_ref()
-            .zip(self.validate.as_deref())
-            .map(|(log, path)| {
-                let columns = settings.columns(path, &model, &progress)?;
-                prediction(&closed, log, &columns)
-            })
-            .transpose()?;
+        let unseen = closed.unseen.as_ref();
+        let prediction = unseen.map(|log| prediction(&closed, log)).transpose()?;
         drop(progress);
         let spec = if closed.changed.is_some() {
             "the spec with the effects declared"
@@ -130,13 +123,11 @@ impl TraceArguments {
 }
 
 /// `time,tau1..taun` of the last model on a log, in the units of the log's torque channels.
-fn prediction(closed: &Loop, log: &Log, columns: &Columns) -> Result<String, Error> {
+fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
     let after = closed.after();
     let mut torque = after.estimate.predict(&after.arm, log)?;
-    let is_standard = log.report.contains(&Note::StandardColumns);
-    let gains = after.arm.actuator_gain().iter().zip(&columns.tau);
-    for (values, (gain, column)) in torque.iter_mut().zip(gains) {
-        let unit = column.unit.filter(|_| !is_standard).unwrap_or(1.0);
+    let gains = after.arm.actuator_gain().iter().zip(&log.tau_units);
+    for (values, (gain, unit)) in torque.iter_mut().zip(gains) {
         for value in values {
             *value /= gain * unit;
         }

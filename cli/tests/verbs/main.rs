@@ -52,6 +52,8 @@ mod page_of_identify;
 mod page_of_trace;
 mod parameters;
 mod payload;
+#[cfg(unix)]
+mod pipes;
 mod possible;
 mod printed;
 mod readings;

@@ -160,6 +160,51 @@ fn options_of_other_methods_are_refused() {
     assert!(said.contains("no nominal value to go to"), "{said}");
 }
 
+/// Nothing is read for options that no log makes sense of.
+#[test]
+fn options_without_sense_are_refused_before_a_log_is_read() {
+    let folder = folder();
+    let identify = ["identify", "arm.robot", "none.csv"];
+    for (bands, reason) in [
+        ("5,3,1", "each must be at least the one before it"),
+        (
+            "0,3,10",
+            "write three numbers above zero, such as `10,30,90`",
+        ),
+        (
+            "5,inf,inf",
+            "write three numbers above zero, such as `10,30,90`",
+        ),
+        ("5,15", "write three numbers, such as `10,30,90`"),
+    ] {
+        let run = folder.run(&[&identify[..], &["--bands", bands]].concat());
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""));
+        assert!(run.stderr.contains(reason), "{bands}: {}", run.stderr);
+    }
+    let simulated = ["--method", "output-error"];
+    for (options, reason) in [
+        (
+            [&["--method", "ridge"][..], &["--prior", "0"]],
+            "give a share above 0",
+        ),
+        (
+            [&simulated[..], &["--window", "0"]],
+            "`--window` has to be positive",
+        ),
+        (
+            [&simulated, &["--within", "-5"]],
+            "`--within` has to be a positive number of percent, not -5",
+        ),
+        (
+            [&simulated, &["--window", "1", "--controller", "law.json"]],
+            "`--window` is of arms that the logged torque drives",
+        ),
+    ] {
+        let said = folder.refuse(&[&identify[..], &options.concat()].concat());
+        assert!(said.contains(reason), "{options:?}: {said}");
+    }
+}
+
 /// A joint that a brake holds takes torque that nobody logs.
 #[test]
 fn a_joint_that_stands_says_nothing() {

@@ -122,7 +122,7 @@ fn devices_are_not_replaced_and_links_are_followed() {
     symlink("/dev/null", folder.path("null")).expect("a link");
     symlink("nothing", folder.path("dangling")).expect("a link");
     symlink("log.csv", folder.path("link.csv")).expect("a link");
-    folder.write("old.json", "old");
+    folder.write("old.json", "{}");
     symlink("old.json", folder.path("link.json")).expect("a link");
     let identify = ["identify", "cart.robot", "log.csv", "--json"];
     for (output, why) in [
@@ -179,4 +179,129 @@ fn a_closed_standard_error_is_no_panic() {
             .expect("the program runs");
         assert_eq!(status.code(), Some(code), "{arguments:?}");
     }
+}
+
+#[test]
+fn a_result_takes_the_place_of_its_like_and_says_so() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    let run = |json: &str, report: &str| {
+        let identify = ["identify", "cart.robot", "log.csv"];
+        let run = folder.run(&[&identify[..], &["--json", json, "--report", report]].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run
+    };
+    let said = |name: &str| format!("note: `{name}` was there before; it has this run's result");
+    let first = run("fit.json", "page");
+    assert!(
+        !first.stderr.contains("was there before"),
+        "{}",
+        first.stderr
+    );
+    // The same bytes again take nothing away.
+    let again = run("fit.json", "page");
+    assert!(
+        !again.stderr.contains("was there before"),
+        "{}",
+        again.stderr
+    );
+    assert_eq!(first.stdout, again.stdout);
+
+    folder.write("fit.json", "{}");
+    folder.write("page/index.html", "<!doctype html><p>of another run");
+    let other = run("fit.json", "page");
+    assert!(other.stderr.contains(&said("fit.json")), "{}", other.stderr);
+    assert!(
+        other.stderr.contains(&said("page/index.html")),
+        "{}",
+        other.stderr
+    );
+    assert_eq!(other.stdout, first.stdout);
+    assert_eq!(json(&folder.read("fit.json"))["method"], "wls");
+    // What is empty, as `mktemp` makes it, is nothing that could be lost.
+    folder.write("empty.json", "");
+    let made = run("empty.json", "page");
+    assert!(!made.stderr.contains("`empty.json`"), "{}", made.stderr);
+}
+
+#[test]
+fn a_result_takes_the_place_of_nothing_else() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("other.robot", CART);
+    folder.write("arm.urdf", URDF);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    folder.write("tuesday.csv", &cart_log(5, 0.0, 0.7));
+    folder.write("motion.csv", "time,q1\n0,0\n0.5,0.1\n1,0\n");
+    folder.write("fit.json", "{\"parameters\": {}}");
+    std::fs::create_dir(folder.path("site")).expect("a folder");
+    folder.write("site/index.html", "<p>of somebody else");
+    let identify = ["identify", "cart.robot", "log.csv"];
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "log.csv"];
+    let simulate = ["simulate", "cart.robot", "--trajectory", "motion.csv"];
+    for (command, output, file, kind) in [
+        (&identify[..], "--json", "tuesday.csv", "JSON"),
+        (&identify, "--json", "other.robot", "JSON"),
+        (&identify, "--factor", "tuesday.csv", "JSON"),
+        (&identify, "--report", "site", "page"),
+        (&trace, "--amend", "tuesday.csv", "spec"),
+        (&trace, "--amend", "arm.urdf", "spec"),
+        (&trace, "--predict", "fit.json", "log or motion"),
+        (&simulate, "--out", "other.robot", "log or motion"),
+        (
+            &["export", "cart.robot", "--as", "urdf"],
+            "-o",
+            "other.robot",
+            "XML",
+        ),
+    ] {
+        let named = if output == "--report" {
+            "site/index.html"
+        } else {
+            file
+        };
+        let before = folder.read(named);
+        assert_eq!(
+            folder.refuse(&[command, &[output, file]].concat()),
+            format!(
+                "error: cannot write `{named}`: what is there is no {kind}, and would be lost; give another name, or take that file away first\n"
+            )
+        );
+        assert_eq!(folder.read(named), before);
+    }
+}
+
+#[test]
+fn a_report_that_has_no_folder_is_told_before_the_work() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(5, 0.0, 0.0));
+    // Whoever refuses before it reads the log has not said that it does.
+    let identify = |outputs: &[&str]| {
+        let said = folder.refuse(&[&["identify", "cart.robot", "log.csv"], outputs].concat());
+        assert!(!said.contains("reading log.csv"), "{said}");
+        said
+    };
+    assert_eq!(
+        identify(&["--json", "out", "--report", "./out"]),
+        "error: cannot write `./out`: it is the same file as the output `out`; give each a name of its own\n"
+    );
+    assert_eq!(
+        identify(&["--report", "log.csv"]),
+        "error: cannot write `log.csv`: it is the same file as the input `log.csv`; give another name\n"
+    );
+    folder.write("notes", "of mine");
+    assert_eq!(
+        identify(&["--report", "notes"]),
+        "error: cannot write `notes`: it is a file, and `--report` takes a folder\n"
+    );
+    assert_eq!(
+        identify(&["--report", "notes/page"]),
+        "error: cannot write `notes/page`: `notes` is not a folder\n"
+    );
+    assert_eq!(
+        identify(&["--json", "none/fit.json"]),
+        "error: cannot write `none/fit.json`: there is no folder `none`; make it first\n"
+    );
 }

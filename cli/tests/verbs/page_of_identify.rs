@@ -127,10 +127,38 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
         format!("{},{},{noise}", fields[0], fields[1])
     });
     folder.write("log.csv", &rows.collect::<Vec<_>>().join("\n"));
+    folder.write("robot-model.toml", "[log]\nq = { unit = \"m\" }\n");
     folder.succeed(&["identify", "cart.robot", "log.csv", "--report", "page"]);
-    let page = Html::parse_document(&folder.read("page/index.html"));
+    let html = folder.read("page/index.html");
+    let page = Html::parse_document(&html);
     let verdict = text(all(&page, ".verdict")[0]);
     assert!(verdict.starts_with("The model does not fit"), "{verdict}");
+    // What to do comes before how files were read, though it was found later.
+    let place = |words: &str| {
+        html.find(words)
+            .unwrap_or_else(|| panic!("no {words}: {html}"))
+    };
+    let of_result = place("<h3>What to look at</h3>");
+    let of_files = place("<h3>Of single files</h3>");
+    assert!(place("explains next to nothing of the torque") > of_result);
+    assert!(of_result < of_files && of_files < place("robot-model.toml says which columns"));
+    assert!(of_files < place("RMSE and MAE: how far"));
+}
+
+/// A table with two intervals' worth of numbers says which are whose.
+#[test]
+fn intervals_of_draws_are_told_from_those_of_the_formula() {
+    for (more, said) in [
+        (&[][..], "from 1.96 deviations below it to 1.96 above"),
+        (&["--bootstrap", "100"], "those of the draws of --bootstrap"),
+    ] {
+        let page = Html::parse_document(&identified(more).read("page/index.html"));
+        let captions: Vec<String> = all(&page, "caption").into_iter().map(text).collect();
+        assert!(
+            captions.iter().any(|caption| caption.contains(said)),
+            "{captions:?}"
+        );
+    }
 }
 
 /// A folder that was made for a report that never came goes with it.

@@ -43,13 +43,54 @@ fn eval_takes_standard_and_base_parameters() {
         folder.refuse(&eval(
             r#"{"cart.m": 3, "rail.viscous_friction.fv": 5, "cart.mass": 3}"#
         )),
-        "error: parameters.json: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
+        "error: parameters.json:1:46: Cart has no parameter `cart.mass`; is `cart.m` meant?\n"
     );
     assert!(
         folder.refuse(&eval(r#"{"cart.m": 3,}"#)).starts_with(
             "error: parameters.json:1:14: it is no JSON: trailing comma; repair it here"
         )
     );
+}
+
+/// What stands where JSON should is told for what it is, and a name that is near no other with those that there are.
+#[test]
+fn tables_and_names_of_nothing_are_told() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "states.json",
+        r#"{"states":[{"q":[0],"dq":[1],"ddq":[0.5]}]}"#,
+    );
+    folder.write("fit.csv", "name,value\ncart.m,3\n");
+    folder.write("arm.urdf", "<robot name=\"a\"/>");
+    folder.write(
+        "fit.json",
+        "{\n  \"cart.m\": 3,\n  \"rail.viscous_friction.fv\": 5,\n    \"zzz\": 1\n}\n",
+    );
+    let refuse = |file: &str| {
+        folder.refuse(&[
+            "eval",
+            "cart.robot",
+            "--states",
+            "states.json",
+            "--parameters",
+            file,
+        ])
+    };
+    for (file, what) in [
+        ("fit.csv", "a table (CSV)"),
+        ("arm.urdf", "XML, as URDFs are"),
+        ("cart.robot", "a spec"),
+    ] {
+        let said = refuse(file);
+        let wanted = format!(
+            "error: {file}: it looks like {what}, and JSON has to stand here; parameters are written "
+        );
+        assert!(said.starts_with(&wanted), "{said}");
+    }
+    let said = refuse("fit.json");
+    let wanted = "error: fit.json:4:5: Cart has no parameter `zzz`; it has `cart.ixx`, ";
+    assert!(said.starts_with(wanted), "{said}");
 }
 
 /// What a file of one's own may have wrong, with its place and the way out.
@@ -162,21 +203,21 @@ fn parts_of_a_set_of_base_parameters_are_told() {
     for (text, said) in [
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.izzr": 1}"#,
-            "`lower.izzr`, `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, \
+            ": `lower.izzr`, `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, \
              with no others: Pendulum has 6 base parameters, the file lacks `lower.my`",
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izz": 1}"#,
-            "`lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no \
+            ": `lower.mxr`, `upper.izzr`, `upper.mxr` are base parameters, and these are accepted only as a whole set, with no \
              others: Pendulum has 6 base parameters, the file lacks `lower.izzr`, and has besides `lower.izz`",
         ),
         (
             r#"{"upper.mxr": 1, "upper.my": 0, "upper.izzr": 1, "lower.mxr": 1, "lower.my": 0, "lower.izrr": 1}"#,
-            "Pendulum has no parameter `lower.izrr`; is `lower.izzr` meant?",
+            ":1:81: Pendulum has no parameter `lower.izrr`; is `lower.izzr` meant?",
         ),
     ] {
         folder.write("parameters.json", text);
-        let said = format!("error: parameters.json: {said}\n");
+        let said = format!("error: parameters.json{said}\n");
         assert_eq!(folder.refuse(&eval), said);
     }
 }

@@ -1,5 +1,7 @@
 //! Slips of the hand on the command line, and logs as other programs write them: each is read, or told with the way out.
 
+use std::fmt::Write as _;
+
 use crate::common::{CART, Folder, cart_log};
 
 /// A folder with an arm and its log.
@@ -168,7 +170,7 @@ fn logs_of_spreadsheets_give_what_plain_ones_give() {
     );
     for note in [
         "note: other.csv: commas in numbers are read as decimal points",
-        "note: other.csv: 1 line above the header is passed over: `Rig: 7`",
+        "note: other.csv: the header is line 3: 1 line above it is passed over: `Rig: 7`",
         "note: other.csv: line 4 says units: `time` in s, `q1` in m, `tau1` in N are read so",
     ] {
         assert!(other.stderr.contains(note), "{}", other.stderr);
@@ -203,6 +205,48 @@ fn units_below_the_names_are_what_the_gain_takes() {
     );
 }
 
+/// Units in brackets come with them: what the message says to write reads the log in its units.
+#[test]
+fn units_behind_names_come_with_the_lines_that_say_so() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(10, 0.0, 0.0);
+    let plain = ["identify", "cart.robot", "log.csv"];
+    folder.write("log.csv", &log);
+    let wanted = folder.succeed(&plain);
+    let mut lines = log.lines();
+    let mut other = String::from("time [ms],q1 [mm],tau_1 (kN)\n");
+    let _ = lines.next();
+    for line in lines {
+        let fields: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect();
+        writeln!(
+            other,
+            "{},{},{}",
+            1e3 * fields[0],
+            1e3 * fields[1],
+            1e-3 * fields[2]
+        )
+        .expect("a string takes all");
+    }
+    folder.write("log.csv", &other);
+    let said = folder.refuse(&plain);
+    let (_, settings) = said.split_once("\n\n").expect("lines to write");
+    assert!(
+        settings.contains("q = { columns = [\"q1 [mm]\"], unit = \"mm\" }"),
+        "{said}"
+    );
+    folder.write("robot-model.toml", settings);
+    let found = folder.succeed(&plain);
+    // Digits that were lost in other units are none that is printed.
+    assert_eq!(
+        found.lines().take(3).collect::<Vec<_>>(),
+        wanted.lines().take(3).collect::<Vec<_>>()
+    );
+}
+
 /// The message has the settings that read the log as it is.
 #[test]
 fn names_that_are_nearly_standard_come_with_the_lines_that_say_so() {
@@ -215,7 +259,7 @@ fn names_that_are_nearly_standard_come_with_the_lines_that_say_so() {
     refused(
         &folder,
         &["identify", "arm.robot", "log.csv"],
-        &["`[log]`, and below it `time = \"Time\"` and `q = [\"q_1\"]`"],
+        &["\n      [log]\n      time = \"Time\"\n      q = [\"q_1\"]\n"],
     );
     folder.write(
         "robot-model.toml",

@@ -1,5 +1,7 @@
 //! `trace`.
 
+use std::fmt::Write as _;
+
 use serde_json::Value;
 
 use crate::common::{CART, Folder, cart_log, cart_with, close, json, numbers, tones};
@@ -172,6 +174,41 @@ fn a_prediction_is_in_the_units_of_the_log() {
     };
     for (measured, predicted) in log.lines().zip(predicted.lines()).skip(400).take(1000) {
         close(last(predicted), last(measured), 0.1);
+    }
+}
+
+#[test]
+fn a_prediction_is_in_the_units_that_a_line_of_the_log_says() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let in_newtons = cart_log(10, 0.0, 0.0);
+    let mut lines = in_newtons.lines();
+    let mut log = format!("{}\ns,mm,kN\n", lines.next().expect("a header"));
+    for line in lines {
+        let fields: Vec<f64> = line
+            .split(',')
+            .map(|x| x.parse().expect("a number"))
+            .collect();
+        writeln!(
+            log,
+            "{},{},{}",
+            fields[0],
+            1e3 * fields[1],
+            1e-3 * fields[2]
+        )
+        .expect("a string takes all");
+    }
+    folder.write("log.csv", &log);
+    let trace = ["trace", "cart.robot", "log.csv", "--validate", "log.csv"];
+    folder.succeed(&[&trace[..], &["--predict", "tau.csv"]].concat());
+    let predicted = folder.read("tau.csv");
+    let last = |line: &str| -> f64 {
+        let field = line.rsplit(',').next().expect("a field");
+        field.parse().expect("a number")
+    };
+    let measured = log.lines().skip(2).skip(400).take(1000);
+    for (measured, predicted) in measured.zip(predicted.lines().skip(1).skip(400)) {
+        close(last(predicted), last(measured), 1e-4);
     }
 }
 

@@ -58,6 +58,13 @@ pub struct Known {
 pub enum ValuesError {
     /// Parameters that neither the file nor the spec has a value for.
     NoValue(Vec<String>),
+    /// Names that no parameter of the arm has, and what is said of them.
+    Unknown {
+        /// The names.
+        names: Vec<String>,
+        /// What is said of them, with the nearest that the arm has.
+        reason: String,
+    },
     /// Another reason, which names the parameter.
     Other(String),
 }
@@ -77,7 +84,7 @@ impl fmt::Display for ValuesError {
                     entries.join(", ")
                 )
             }
-            Self::Other(reason) => f.write_str(reason),
+            Self::Unknown { reason, .. } | Self::Other(reason) => f.write_str(reason),
         }
     }
 }
@@ -94,7 +101,7 @@ impl From<String> for ValuesError {
 ///
 /// # Errors
 /// Names that no parameter has, and values that contradict the spec.
-pub fn known(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known, String> {
+pub fn known(compiled: &Compiled, given: &BTreeMap<String, f64>) -> Result<Known, ValuesError> {
     let base_names = &compiled.base.names;
     let shape_names = compiled.shape_names();
     let (mut missing, mut from_spec) = (Vec::new(), Vec::new());
@@ -173,7 +180,7 @@ pub fn values(
 }
 
 /// Whether names are those of standard parameters or of what these are products of.
-fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), String> {
+fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), ValuesError> {
     let robot = &compiled.model.name;
     let standard = compiled.standard.iter().map(|parameter| &parameter.name);
     let factors = compiled.model.energies().into_iter();
@@ -201,12 +208,17 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), String> {
                 "; the file seems to be of another arm: name the spec that it was identified with"
                     .to_owned()
             }
-            _ => String::new(),
+            _ => {
+                let mut all: Vec<&str> = all.collect();
+                all.sort_unstable();
+                all.dedup();
+                format!("; it has {}", names(&all))
+            }
         };
-        return Err(format!(
-            "{robot} has no parameter {}{meant}",
-            names(&unknown)
-        ));
+        return Err(ValuesError::Unknown {
+            reason: format!("{robot} has no parameter {}{meant}", names(&unknown)),
+            names: unknown.into_iter().map(str::to_owned).collect(),
+        });
     }
     let mut regrouped = given.iter().filter(|name| !is_accepted(name)).peekable();
     if regrouped.peek().is_none() {
@@ -233,7 +245,8 @@ fn check_names(compiled: &Compiled, given: &[&str]) -> Result<(), String> {
         counted(base.len(), "base parameter"),
         part("the file lacks", &lacks),
         part("and has besides", &besides),
-    ))
+    )
+    .into())
 }
 
 /// A value for every shape parameter; `missing` takes the names of those without.

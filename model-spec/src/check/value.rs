@@ -108,12 +108,22 @@ pub(super) fn check_order(low: &Expr, high: &Expr, ends: (f64, f64)) -> Checked<
         return Ok(());
     }
     let span = crate::ast::join(low.span, high.span);
-    Err(Diagnostic::new(
-        span,
-        "the range is empty",
-        format!("from {} to {}", ends.0, ends.1),
-    )
-    .help("write the lower end first"))
+    let [first, second] = [(low, ends.0), (high, ends.1)].map(|(expr, end)| as_written(expr, end));
+    Err(if ends.0 > ends.1 {
+        let label = format!("`{first}` is above `{second}`");
+        let help = format!("write the lower end first: `{second} .. {first}`");
+        Diagnostic::new(span, "the range is empty", label).help(help)
+    } else {
+        let label = format!("both ends are `{first}`");
+        Diagnostic::new(span, "the range is empty", label)
+            .help("write a lower end and another above it")
+    })
+}
+
+/// An expression in the units in which it is written; where its text is out of reach, its value in SI units.
+fn as_written(expr: &Expr, value: f64) -> String {
+    let text = expr.span.source_text();
+    text.unwrap_or_else(|| value.to_string())
 }
 
 #[track_caller]

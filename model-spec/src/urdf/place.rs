@@ -166,6 +166,12 @@ pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
 
 /// Where and why `urdf` cannot be read; `said`, the library's words, where no rule of this file is broken.
 pub(super) fn explain(urdf: &str, said: &str) -> String {
+    if let Some(declared) = urdf.find("<!ENTITY") {
+        let line = urdf[..declared].matches('\n').count() + 1;
+        return format!(
+            "line {line}: `<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place"
+        );
+    }
     let mut reader = EventReader::from_str(urdf);
     let mut open: Vec<Open> = Vec::new();
     let mut owner = String::new();
@@ -315,6 +321,11 @@ fn not_xml(said: &str, open: &[Open]) -> String {
     // Lines of dashes in comments are no XML.
     if said.contains("'--'") {
         return "a comment has `--` in it, which XML has at its end alone: write `==`".to_owned();
+    }
+    if let Some((_, name)) = said.split_once("entity: ") {
+        return format!(
+            "`&{name};` stands for nothing here: write what is meant; the sign `&` itself is `&amp;`"
+        );
     }
     match open.last() {
         Some(inner) if said.contains("end of stream") => format!(

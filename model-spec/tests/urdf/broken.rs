@@ -88,6 +88,11 @@ fn what_does_not_parse_is_told_with_its_line() {
             "line 10: `<joint>` of joint `joint-1` has no `<child ../>`: write one",
         ),
         (
+            r#"value="2""#,
+            r#"value="&m;""#,
+            "line 6: `&m;` stands for nothing here: write what is meant; the sign `&` itself is `&amp;`",
+        ),
+        (
             "  </joint>\n</robot>\n",
             "",
             "line 15: the file ends inside the `<joint>` of line 10: close it, or read the whole file again",
@@ -98,6 +103,17 @@ fn what_does_not_parse_is_told_with_its_line() {
             format!("the URDF does not parse: {said}")
         );
     }
+}
+
+#[test]
+fn entities_that_a_urdf_declares_are_told() {
+    let body = SOUND.replace("value=\"2\"", "value=\"&m;\"");
+    let with = format!("<!DOCTYPE robot [\n  <!ENTITY m \"2\">\n]>\n{body}");
+    let said = import(&with, &ImportOptions::default()).expect_err("refused");
+    assert!(
+        said.to_string().starts_with("the URDF does not parse: line 2: `<!ENTITY ..>` declares an entity, and URDFs are read without them"),
+        "{said}"
+    );
 }
 
 #[test]

@@ -71,6 +71,8 @@ pub(super) struct CsvRows<'a> {
     is_ahead: bool,
     is_at_first: bool,
     names: Vec<String>,
+    /// In which they stand.
+    header_line: u64,
     layout: Layout,
     numbers: Numbers,
     /// The time of day that the first row has in place of a number.
@@ -107,7 +109,7 @@ fn decoded<'a>(source: &str, reader: impl Read + 'a) -> Result<Box<dyn Read + 'a
 impl<'a> CsvRows<'a> {
     /// Reads the header, and units below it.
     pub fn new(source: &str, reader: impl Read + 'a, columns: &Columns) -> Result<Self, LogError> {
-        let opening = Opening::of(source, decoded(source, reader)?)?;
+        let opening = Opening::of(source, decoded(source, reader)?, columns)?;
         let (separator, above) = (opening.separator, opening.note.clone());
         let mut records = Records::new(source, opening);
         if !records.next()? {
@@ -117,7 +119,8 @@ impl<'a> CsvRows<'a> {
         }
         let mut names = names(source, &records)?;
         let layout = Layout::of(&mut names);
-        check_header(source, records.line, &names)?;
+        let header_line = records.line;
+        check_header(source, header_line, &names)?;
         let is_ahead = records.next()?;
         let fields = layout.named(&records.record);
         let is_number =
@@ -134,6 +137,7 @@ impl<'a> CsvRows<'a> {
             is_at_first: true,
             records,
             names,
+            header_line,
             layout,
             numbers: Numbers::of(separator),
             clock: None,
@@ -210,6 +214,10 @@ impl Rows for CsvRows<'_> {
         &self.names
     }
 
+    fn header_line(&self) -> u64 {
+        self.header_line
+    }
+
     fn units(&self) -> Option<&Line> {
         self.units.as_ref()
     }
@@ -276,11 +284,11 @@ impl<'a> Records<'a> {
         let read = self.reader.read_byte_record(&mut self.record);
         let more = read.map_err(|error| {
             if self.count.get() > LONGEST_ROW {
-                return LogError::LongRow {
+                return LogError::from(TextError::LongRow {
                     source_name: self.source.clone(),
                     line: begins,
                     most: LONGEST_ROW,
-                };
+                });
             }
             damaged(&self.source, self.line, &error)
         })?;
@@ -312,9 +320,11 @@ fn names(source: &str, records: &Records) -> Result<Vec<String>, LogError> {
 fn check_header(source: &str, line: u64, names: &[String]) -> Result<(), LogError> {
     let is_number = |name: &String| number::lenient(name).is_some() || Stamp::parse(name).is_some();
     if names.iter().all(is_number) {
-        return Err(LogError::NoHeader {
+        return Err(TextError::NoHeader {
             source_name: source.to_owned(),
-        });
+            line,
+        }
+        .into());
     }
     if let [name] = names {
         return Err(TextError::Separator {

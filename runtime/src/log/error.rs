@@ -37,12 +37,6 @@ pub enum LogError {
         /// The file.
         source_name: String,
     },
-    /// The first line holds numbers.
-    #[error("{source_name}:1: the log has no header; write `time,q1,..,tau1,..` as its first line")]
-    NoHeader {
-        /// The file.
-        source_name: String,
-    },
     /// A text that is no table of numbers.
     #[error(transparent)]
     Text(#[from] TextError),
@@ -70,27 +64,17 @@ pub enum LogError {
     },
     /// More columns than any arm has channels.
     #[error(
-        "{source_name}:1: the log has {found} columns, more than {most}; leave out those that are no channels of the arm"
+        "{source_name}:{line}: the log has {found} columns, more than {most}; leave out those that are no channels of the arm"
     )]
     TooManyColumns {
         /// The file.
         source_name: String,
+        /// Line of the header.
+        line: u64,
         /// Its columns.
         found: usize,
         /// The most that are taken.
         most: usize,
-    },
-    /// Text without a line end where rows have one.
-    #[error(
-        "{source_name}:{line}: the row is longer than {most} bytes; end every row with a line end, and close every quotation mark"
-    )]
-    LongRow {
-        /// The file.
-        source_name: String,
-        /// The line in which it begins.
-        line: u64,
-        /// The most that are taken.
-        most: u64,
     },
     /// More numbers than memory is there for.
     #[error(
@@ -107,12 +91,14 @@ pub enum LogError {
     },
     /// Two columns of one name.
     #[error(
-        "{source_name}:1: column `{}` stands there twice; delete one of them, or give it another name",
+        "{source_name}:{line}: column `{}` stands there twice; delete one of them, or give it another name",
         field(name)
     )]
     DuplicateColumn {
         /// The file.
         source_name: String,
+        /// Line of the header.
+        line: u64,
         /// The name.
         name: String,
     },
@@ -127,10 +113,12 @@ pub enum LogError {
         name: String,
     },
     /// A column of a known family for a joint that the arm does not have.
-    #[error("{source_name}:1: unknown column `{}`: the arm has {dof} joint{}, {}", field(name), plural(*.dof), joints(*.dof))]
+    #[error("{source_name}:{line}: unknown column `{}`: the arm has {dof} joint{}, {}", field(name), plural(*.dof), joints(*.dof))]
     NoSuchJoint {
         /// The file.
         source_name: String,
+        /// Line of the header.
+        line: u64,
         /// The column.
         name: String,
         /// Joints of the arm.
@@ -140,13 +128,15 @@ pub enum LogError {
     },
     /// Nearly the name of a known column.
     #[error(
-        "{source_name}:1: unknown column `{}`: write `{suggestion}`, or give the channel a name that cannot be \
+        "{source_name}:{line}: unknown column `{}`: write `{suggestion}`, or give the channel a name that cannot be \
          mistaken for it",
         field(name)
     )]
     Misspelled {
         /// The file.
         source_name: String,
+        /// Line of the header.
+        line: u64,
         /// The column.
         name: String,
         /// What may be meant.
@@ -155,10 +145,12 @@ pub enum LogError {
         lines: Vec<String>,
     },
     /// Columns that a log of this arm must have.
-    #[error("{source_name}:1: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), columns(present))]
+    #[error("{source_name}:{line}: missing column{} {}; the header has {}", plural(.missing.len()), list(missing), columns(present))]
     MissingColumns {
         /// The file.
         source_name: String,
+        /// Line of the header.
+        line: u64,
         /// What is not there.
         missing: Vec<String>,
         /// What is there.

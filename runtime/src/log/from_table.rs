@@ -71,6 +71,7 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
             turn_speeds: Vec::new(),
+            tau_units: header.tau.iter().map(|place| place.unit).collect(),
         };
         log.finish(Some(&table.lines), &table.lost)
     }

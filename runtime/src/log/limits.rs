@@ -33,12 +33,13 @@ fn unit(rate_hz: f64) -> Option<&'static str> {
 ///
 /// # Errors
 /// [`LogError::TooManyColumns`]
-pub(super) fn check_columns(source: &str, found: usize) -> Result<(), LogError> {
+pub(super) fn check_columns(source: &str, line: u64, found: usize) -> Result<(), LogError> {
     if found <= MOST_COLUMNS {
         return Ok(());
     }
     Err(LogError::TooManyColumns {
         source_name: source.to_owned(),
+        line,
         found,
         most: MOST_COLUMNS,
     })

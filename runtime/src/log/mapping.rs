@@ -1,20 +1,23 @@
 //! Lines of a `robot-model.toml` that name the columns of a header as they are.
 
-use super::header::Meant;
-use super::words;
+use super::meant::{FAMILIES, Meant};
+use super::{units, words};
 
-/// Lines below `[log]` for columns whose names are nearly standard ones, each with the channel that it seems to be; none where a family
-/// has not a column for each joint.
+/// Lines below `[log]` for columns whose names are nearly standard ones, each with the channel that it seems to be and with the units in
+/// brackets behind the names; none where a family has not a column for each joint.
 pub(super) fn lines(meant: &[(String, Meant)], dof: usize) -> Vec<String> {
-    let quoted = |name: &str| format!("\"{}\"", words::field(name));
     let mut lines = Vec::new();
     let mut times = meant.iter().filter(|(_, own)| *own == Meant::Time);
     if let (Some((name, _)), None) = (times.next(), times.next())
         && name != "time"
     {
-        lines.push(format!("time = {}", quoted(name)));
+        let column = quoted(name);
+        lines.push(match units::behind(name, "time") {
+            Some(unit) => format!("time = {{ column = {column}, unit = \"{unit}\" }}"),
+            None => format!("time = {column}"),
+        });
     }
-    for family in super::header::FAMILIES {
+    for family in FAMILIES {
         let number = |own: &Meant| match own {
             Meant::Joint(of, number) if *of == family => Some(*number),
             _ => None,
@@ -32,9 +35,29 @@ pub(super) fn lines(meant: &[(String, Meant)], dof: usize) -> Vec<String> {
             .iter()
             .any(|(number, name)| **name != format!("{family}{number}"));
         if first < 2 && is_whole && (is_other || first == 0) {
-            let names: Vec<String> = own.iter().map(|(_, name)| quoted(name)).collect();
-            lines.push(format!("{family} = [{}]", names.join(", ")));
+            let names: Vec<&str> = own.iter().map(|(_, name)| name.as_str()).collect();
+            lines.push(line(family, &names));
         }
     }
     lines
+}
+
+/// Of one family, with units where all its columns have one.
+fn line(family: &str, names: &[&str]) -> String {
+    let list = |words: Vec<String>| format!("[{}]", words.join(", "));
+    let columns = list(names.iter().map(|name| quoted(name)).collect());
+    let units = names.iter().map(|name| units::behind(name, family));
+    let Some(units) = units.collect::<Option<Vec<_>>>() else {
+        return format!("{family} = {columns}");
+    };
+    let is_one = units.windows(2).all(|pair| pair[0] == pair[1]);
+    let unit = match units.first() {
+        Some(unit) if is_one => quoted(unit),
+        _ => list(units.iter().map(|unit| quoted(unit)).collect()),
+    };
+    format!("{family} = {{ columns = {columns}, unit = {unit} }}")
+}
+
+fn quoted(name: &str) -> String {
+    format!("\"{}\"", words::field(name))
 }

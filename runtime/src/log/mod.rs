@@ -16,6 +16,7 @@ mod limits;
 mod mapping;
 #[cfg(feature = "mcap")]
 mod mcap;
+mod meant;
 mod middle;
 mod note;
 #[cfg(feature = "parquet")]
@@ -75,6 +76,9 @@ pub struct Log {
     /// Speeds below which dry friction does not act in full, one a joint, rad/s or m/s; none where they were not looked for: then they are
     /// those that an encoder does not tell apart. See [`Log::with_turn_speeds`].
     pub turn_speeds: Vec<f64>,
+    /// What a one in the file's column of each torque was worth, by settings or by a line of units in the file; no joints where it came from
+    /// memory.
+    pub tau_units: Vec<f64>,
 }
 
 /// A named channel beside position, velocity and torque: a temperature, a current, a reference.
@@ -251,6 +255,7 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
             turn_speeds: Vec::new(),
+            tau_units: Vec::new(),
         }
         .finish(None, &Lost::default())
     }

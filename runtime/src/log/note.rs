@@ -32,6 +32,8 @@ pub enum Note {
         lines: usize,
         /// The first.
         first: String,
+        /// The line of the header.
+        header: u64,
     },
     /// A column in front without a name, which counts the rows.
     RowNumbers,
@@ -110,9 +112,13 @@ impl fmt::Display for Note {
                 f,
                 "it lacks the columns that the spec's `log` names, or its settings, and has `time`, `q1` and so on: these are read, in SI units"
             ),
-            Self::Above { lines, first } => write!(
+            Self::Above {
+                lines,
+                first,
+                header,
+            } => write!(
                 f,
-                "{lines} line{} above the header {} passed over: `{first}`{}",
+                "the header is line {header}: {lines} line{} above it {} passed over: `{first}`{}",
                 plural(*lines),
                 if *lines == 1 { "is" } else { "are" },
                 if *lines == 1 { "" } else { " and so on" }

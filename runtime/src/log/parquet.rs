@@ -100,7 +100,7 @@ impl ParquetRows {
     ) -> Result<Self, LogError> {
         let reader = reader.map_err(|error| refused(source, 1, error))?;
         let schema = reader.metadata().file_metadata().schema_descr();
-        limits::check_columns(source, schema.num_columns())?;
+        limits::check_columns(source, 1, schema.num_columns())?;
         let columns = schema.columns().iter();
         Ok(Self {
             source: source.to_owned(),

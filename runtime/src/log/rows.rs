@@ -17,6 +17,11 @@ pub(super) trait Rows {
     /// Names of the columns.
     fn names(&self) -> &[String];
 
+    /// The line in which the names stand.
+    fn header_line(&self) -> u64 {
+        1
+    }
+
     /// What the channels that are wanted are called in a file of this kind.
     fn columns(&self, wanted: &Columns) -> Columns {
         wanted.clone()

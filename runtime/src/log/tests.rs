@@ -37,6 +37,19 @@ fn text(header: &str, rows: &[String]) -> String {
     format!("{header}\n{}\n", rows.join("\n"))
 }
 
+fn notes(log: &Log) -> Vec<String> {
+    log.report.iter().map(ToString::to_string).collect()
+}
+
+/// The same numbers, whatever is said of them.
+#[track_caller]
+fn assert_same(log: &Log, other: &Log) {
+    assert_eq!(
+        (&log.time, &log.q, &log.tau),
+        (&other.time, &other.q, &other.tau)
+    );
+}
+
 fn read(text: &str, dof: usize) -> Result<Log, LogError> {
     Log::from_reader("monday.csv", text.as_bytes(), dof)
 }
@@ -194,7 +207,7 @@ fn headers_are_checked() {
     );
     assert_eq!(
         refusal(&rows(20).join("\n"), 1),
-        "monday.csv:1: the log has no header; write `time,q1,..,tau1,..` as its first line"
+        "monday.csv:1: the log has no header; write `time,q1,..,tau1,..` as a line above its numbers"
     );
 }
 

@@ -169,6 +169,32 @@ impl Reading<'_> {
     }
 }
 
+/// A name without the unit in brackets behind it, and that unit: `q1 [deg]`. An index is none: `q[1]`.
+pub(super) fn split(name: &str) -> (&str, Option<&str>) {
+    let name = name.trim();
+    let brackets = [('[', ']'), ('(', ')')];
+    let found = brackets.into_iter().find_map(|(open, close)| {
+        let (bare, unit) = name.strip_suffix(close)?.rsplit_once(open)?;
+        let is_word = unit.contains(|c: char| !c.is_ascii_digit()) && !bare.trim().is_empty();
+        is_word.then_some((bare.trim_end(), Some(unit)))
+    });
+    found.unwrap_or((name, None))
+}
+
+/// The unit of a channel in brackets behind its name, as settings have it; none where it is not known.
+pub(super) fn behind(name: &str, family: &str) -> Option<&'static str> {
+    let written = plain(split(name).1?);
+    let words: &[&Words] = match family {
+        "time" => &[&TIMES],
+        "q" => &[&POSITIONS],
+        "dq" => &[&SPEEDS],
+        _ => &[&TORQUES, &CURRENTS],
+    };
+    let mut words = words.iter().flat_map(|words| words.iter());
+    let known = words.find(|(word, ..)| *word == written);
+    known.map(|(word, ..)| *word)
+}
+
 /// What a current is beside a torque: the arm says which of them a drive logs.
 fn hint(words: &Words, written: &str) -> &'static str {
     let is_of = |table: &Words| table.iter().any(|(word, ..)| *word == written);

@@ -50,6 +50,33 @@ impl Bands {
         shared_hz: 10.0,
     };
 
+    /// That each band is at least the one before it: shared, smooth, wide.
+    ///
+    /// # Errors
+    /// [`SignalError::Bands`]
+    ///
+    /// # Examples
+    /// ```
+    /// use robot_model::signal::Bands;
+    /// assert!(Bands::DEFAULT.check().is_ok());
+    /// assert!(Bands { wide_hz: 20.0, ..Bands::DEFAULT }.check().is_err());
+    /// ```
+    pub fn check(&self) -> Result<(), SignalError> {
+        let Self {
+            smooth_hz,
+            wide_hz,
+            shared_hz,
+        } = *self;
+        if shared_hz <= smooth_hz && smooth_hz <= wide_hz {
+            return Ok(());
+        }
+        Err(SignalError::Bands {
+            shared_hz,
+            smooth_hz,
+            wide_hz,
+        })
+    }
+
     /// [`Bands::DEFAULT`], narrowed where samples come too slowly for it: the wide band to 0.36 of the rate, the shared one to
     /// a tenth, and the smooth one to three times the shared one.
     ///
@@ -214,13 +241,7 @@ fn prepare_rates(log: &Log, bands: &Bands, accelerations: bool) -> Result<Prepar
         wide_hz,
         shared_hz,
     } = *bands;
-    if !(shared_hz <= smooth_hz && smooth_hz <= wide_hz) {
-        return Err(SignalError::Bands {
-            shared_hz,
-            smooth_hz,
-            wide_hz,
-        });
-    }
+    bands.check()?;
     let logged_hz = log.rate_hz();
     let stride = stride(logged_hz);
     let rate_hz = logged_hz / stride as f64;

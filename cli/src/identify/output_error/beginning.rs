@@ -11,12 +11,19 @@ use robot_model_codegen::Compiled;
 
 use super::super::doubts;
 use super::super::fit::{ByAcceleration, Fit, errors_of_all};
-use super::{law, refused, rmse, starts};
+use super::{law, lumped, refused, rmse, starts};
 use crate::Error;
 use crate::audit;
 use crate::interpreted::InterpretedPlant;
 use crate::output;
 use crate::parameters::{self, Values};
+
+/// An arm as the spec has it, and with parameters of motors and of links that move apart each on its own.
+#[derive(Clone, Copy)]
+pub(super) struct Parted<'a> {
+    pub whole: &'a Compiled,
+    pub parted: &'a Compiled,
+}
 
 /// Where the search starts, and what least squares says where it has a say.
 pub(super) struct Beginning {
@@ -31,12 +38,13 @@ pub(super) struct Beginning {
 impl Beginning {
     /// Parameters from a file, from least squares, or from the spec.
     pub(super) fn of(
-        compiled: &Compiled,
+        arm: Parted<'_>,
         form: &ByAcceleration,
         logs: &[Log],
         bands: Option<Bands>,
         start: Option<&Path>,
     ) -> Result<Self, Error> {
+        let compiled = arm.parted;
         let shape_names = compiled.shape_names();
         let free = compiled.free_shapes();
         let base = compiled.base.names.iter().cloned();
@@ -68,12 +76,15 @@ impl Beginning {
         let (beta, shapes) = match (start, fitted) {
             (Some(file), fitted) => match parameters::resolve(compiled, Some(file)) {
                 Ok(values) => both(values),
-                Err(lack) => {
-                    let shapes = fitted.map(shapes_of);
-                    let over =
-                        shapes.map(|shapes| parameters::over(compiled, file, shapes, &of_shapes));
-                    over.transpose()?.flatten().ok_or(lack)?
-                }
+                Err(lack) => match lumped::apart(arm.whole, compiled, file)? {
+                    Some(both) => both,
+                    None => {
+                        let shapes = fitted.map(shapes_of);
+                        let over = shapes
+                            .map(|shapes| parameters::over(compiled, file, shapes, &of_shapes));
+                        over.transpose()?.flatten().ok_or(lack)?
+                    }
+                },
             },
             (None, Some(estimate)) => {
                 others = starts::starts(form, estimate, logs);

@@ -41,7 +41,7 @@ pub(super) fn bounds(
 ) -> Result<Vec<Range>, Error> {
     let limits = limits(compiled, said);
     let wanted = match said.within {
-        Some(percent) => ranges_within(said.start, share(percent)?),
+        Some(percent) => ranges_within(said.start, percent / 100.0),
         None => vec![OPEN; names.len()],
     };
     let both = |range: &Range, limits: &Range| [range[0].max(limits[0]), range[1].min(limits[1])];
@@ -103,7 +103,7 @@ pub(super) fn doubt(
     let given = given.filter_map(|(name, range)| Some((value(&name)?, name, range)));
     let given: Vec<(f64, String, Range)> = given.collect();
     let values: Vec<f64> = given.iter().map(|(value, ..)| *value).collect();
-    let wanted = ranges_within(&values, share(percent)?);
+    let wanted = ranges_within(&values, percent / 100.0);
     let ranges: Vec<Range> = given.iter().map(|(.., range)| *range).collect();
     let others = other_ranges(&ranges, &wanted).into_iter();
     let others = others.map(|place| {
@@ -122,17 +122,6 @@ pub(super) fn doubt(
             others.join(", ")
         )
     }))
-}
-
-/// Of a percentage.
-fn share(percent: f64) -> Result<f64, Error> {
-    if percent.is_finite() && percent > 0.0 {
-        Ok(percent / 100.0)
-    } else {
-        Err(Error::Argument(format!(
-            "`--within` has to be a positive number of percent, not {percent}"
-        )))
-    }
 }
 
 /// The spec's own value of a constant of energies, or of a standard parameter.

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use crate::Error;
+
 /// Options of `--method output-error`.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Output error")]
@@ -64,6 +66,33 @@ impl Options {
         ]
         .into_iter()
         .find_map(|(name, is_given)| is_given.then_some(name))
+    }
+
+    /// Refuses what no log makes sense of, before logs are read.
+    pub fn check(&self) -> Result<(), Error> {
+        let is_positive = |number: f64| number > 0.0;
+        if let Some(window) = self.window.filter(|window| !is_positive(*window)) {
+            return Err(Error::Argument(format!(
+                "`--window` has to be positive, not {window}"
+            )));
+        }
+        let is_share = |percent: f64| is_positive(percent) && percent.is_finite();
+        if let Some(percent) = self.within.filter(|percent| !is_share(*percent)) {
+            return Err(Error::Argument(format!(
+                "`--within` has to be a positive number of percent, not {percent}"
+            )));
+        }
+        let of_log = [
+            ("--window", self.window.is_some()),
+            ("--hold", self.hold.is_some()),
+        ];
+        let mut given = of_log.into_iter().filter(|(_, is_given)| *is_given);
+        match (&self.controller, given.next()) {
+            (Some(_), Some((option, _))) => Err(Error::Argument(format!(
+                "`{option}` is of arms that the logged torque drives; with `--controller` logs are simulated whole, and its torque is held"
+            ))),
+            _ => Ok(()),
+        }
     }
 
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {

@@ -117,7 +117,11 @@ pub(super) fn search(
             "simulation {}: cost {:.6e}{of_which}",
             iterate.simulations, iterate.cost
         );
-        progress.part(&what, iterate.done);
+        if of_which.is_empty() {
+            progress.often(&what, Some(iterate.done));
+        } else {
+            progress.part(&what, iterate.done);
+        }
     };
     let mut begun = 0_u32;
     let mut compare = |iterate: &Iterate| {

@@ -100,6 +100,23 @@ fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
         .as_f64()
         .expect("a value");
     assert!(biased > 600.0, "{biased}");
+    // What has both in one sum is a start, too: of the link the spec says what it takes for it.
+    let lumped = ["identify", "open.robot", "log.csv", "--json", "both.json"];
+    let options = ["--method", "output-error", "--start", "fit.json"];
+    let run = folder.run(&[&lumped[..], &options, &["--window", "2"]].concat());
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let said = "note: fit.json: springs part what is one sum there (`a.mxr`, `a.izzr`); the search starts from the spec's values of \
+                `a.izz`, `a.m`, and from what is left of each sum for `a.mx`, `a.motor_inertia.ia`";
+    assert!(run.stderr.contains(said), "{}", run.stderr);
+    let report = json(&folder.read("both.json"));
+    // It begins at three times the stiffness, and comes near along a valley.
+    for (name, expected, tolerance) in [
+        ("a.motor_inertia.ia", 0.3, 0.05),
+        ("a.joint_elasticity.stiffness", 500.0, 25.0),
+    ] {
+        let [found, _] = value(&report, name).expect("a value");
+        assert!((found - expected).abs() < tolerance, "{name}: {found}");
+    }
 }
 
 /// What deviations do not know of is noted: noise of the torque, and torques of the other sign.

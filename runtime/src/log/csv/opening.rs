@@ -6,9 +6,9 @@ use std::io::Read;
 use super::super::note::Note;
 use super::super::rows::damaged;
 use super::super::words;
-use super::super::{LogError, TextError};
+use super::super::{Columns, LogError, TextError};
 use super::lines::Lines;
-use super::separator::{self, BLANKS, fields};
+use super::separator::{self, fields};
 use super::{clock, number};
 
 /// What comments begin with, in `NumPy`, in MATLAB, and in languages of programs.
@@ -33,7 +33,7 @@ pub(super) struct Opening<'a> {
 
 impl<'a> Opening<'a> {
     /// Leaves out comments above the header. The header is the last of them where numbers follow at once.
-    pub fn of(source: &str, text: Box<dyn Read + 'a>) -> Result<Self, LogError> {
+    pub fn of(source: &str, text: Box<dyn Read + 'a>, columns: &Columns) -> Result<Self, LogError> {
         let mut lines = Lines::of(text);
         let (mut number, mut told, mut comment) = (0, None, None);
         while let Some(line) = lines.get(number).filter(|_| number < MOST_COMMENTS) {
@@ -64,12 +64,13 @@ impl<'a> Opening<'a> {
             });
         }
         let first = number;
-        let number = below_remarks(source, &mut lines, first, told)?;
+        let number = below_remarks(source, &mut lines, first, told, columns)?;
         let note = (number > first).then(|| Note::Above {
             lines: number - first,
             first: words::field(&String::from_utf8_lossy(
                 lines.get(first).unwrap_or_default(),
             )),
+            header: number as u64 + 1,
         });
         let header = lines.get(number).unwrap_or_default();
         Ok(Self {
@@ -81,49 +82,70 @@ impl<'a> Opening<'a> {
     }
 }
 
-/// The line of the header, which is the first or stands below lines such as `robot: UR5` that are no row of columns.
+/// The line of the header, which is the first or stands below others: remarks such as `robot: UR5` or `robot,UR5`, and groups of columns
+/// such as `,joint 1,,joint 2`.
 ///
 /// # Errors
-/// [`TextError::Above`] where what stands above the header may be columns.
+/// [`TextError::Above`] where what stands above the header may name its columns, too.
 fn below_remarks(
     source: &str,
     lines: &mut Lines,
     first: usize,
     told: Option<u8>,
+    columns: &Columns,
 ) -> Result<usize, LogError> {
     let mut line = |number: usize| lines.get(number).map(<[u8]>::to_vec);
-    let mut are_remarks = true;
-    let mut header = None;
+    let mut above: Vec<Vec<u8>> = Vec::new();
     for number in first..first + MOST_REMARKS {
         let (Some(own), Some(next)) = (line(number), line(number + 1)) else {
             break;
         };
-        if is_header(&own) && is_row_of(&own, &next, told) {
-            header = Some(number);
-            break;
-        }
         // Units between names and numbers.
-        let third = line(number + 2).unwrap_or_default();
-        let is_above_units = is_header(&next) && is_row_of(&next, &third, told);
-        if is_above_units && is_header(&own) && is_as_wide(&own, &next, told) {
-            header = Some(number);
-            break;
+        let mut is_above_units = || {
+            let third = line(number + 2).unwrap_or_default();
+            is_header(&next)
+                && is_row_of(&next, &third, told)
+                && names_columns_of(&own, &next, told, columns)
+        };
+        if is_header(&own) && (is_row_of(&own, &next, told) || is_above_units()) {
+            let mut above = above.iter();
+            if above.any(|line| names_columns_of(line, &own, told, columns)) {
+                return Err(TextError::Above {
+                    source_name: source.to_owned(),
+                    line: first as u64 + 1,
+                    header: number as u64 + 1,
+                }
+                .into());
+            }
+            return Ok(number);
         }
-        are_remarks &= own.is_empty() || unmarked(&own).is_some() || is_remark(&own);
         if number == first && starts_with_number(&own) {
             break;
         }
+        above.push(own);
     }
-    match header {
-        Some(header) if header == first || are_remarks => Ok(header),
-        Some(header) => Err(TextError::Above {
-            source_name: source.to_owned(),
-            line: first as u64 + 1,
-            header: header as u64 + 1,
-        }
-        .into()),
-        None => Ok(first),
-    }
+    Ok(first)
+}
+
+/// Whether a line may name the columns of another below it: a name for each, none of them twice, and no fewer that are asked for.
+fn names_columns_of(line: &[u8], other: &[u8], told: Option<u8>, columns: &Columns) -> bool {
+    let separator = told.unwrap_or_else(|| separator::of(other));
+    let [own, others] = [line, other].map(|line| fields(line, separator));
+    let full = |fields: &[&[u8]]| fields.iter().filter(|field| !field.is_empty()).count();
+    let mut distinct: Vec<&[u8]> = own
+        .iter()
+        .copied()
+        .filter(|name| !name.is_empty())
+        .collect();
+    distinct.sort_unstable();
+    distinct.dedup();
+    let is_asked = |field: &&&[u8]| columns.all().any(|own| own.name.as_bytes() == **field);
+    let asked = |fields: &[&[u8]]| fields.iter().filter(is_asked).count();
+    is_header(line)
+        && is_as_wide(line, other, told)
+        && distinct.len() == full(&own)
+        && full(&own) >= full(&others)
+        && asked(&own) >= asked(&others)
 }
 
 /// What a comment says. A line that begins with a semicolon and has no other is one, too: it is no row of columns.
@@ -134,14 +156,6 @@ fn unmarked(content: &[u8]) -> Option<&[u8]> {
         rest.filter(|rest| !rest.contains(&b';'))
     });
     rest.map(<[u8]>::trim_ascii)
-}
-
-/// `robot: UR5`, `date = Monday`, `Recorded by hand`: text that begins with a letter, and a name of something or no columns.
-fn is_remark(line: &[u8]) -> bool {
-    let is_separator = |byte: &u8| separator::ALL.contains(byte) && *byte != BLANKS;
-    let name = line.split(|byte| [b':', b'='].contains(byte)).next();
-    let begins = line.first().is_some_and(u8::is_ascii_alphabetic);
-    begins && name.is_some_and(|name| !name.iter().any(is_separator))
 }
 
 /// Names of two columns at least, none of which is a number.

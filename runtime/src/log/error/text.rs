@@ -8,6 +8,28 @@ use super::super::words::{field, list};
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum TextError {
+    /// Numbers stand where the header should.
+    #[error(
+        "{source_name}:{line}: the log has no header; write `time,q1,..,tau1,..` as a line above its numbers"
+    )]
+    NoHeader {
+        /// The file.
+        source_name: String,
+        /// The first line of numbers.
+        line: u64,
+    },
+    /// Text without a line end where rows have one.
+    #[error(
+        "{source_name}:{line}: the row is longer than {most} bytes; end every row with a line end, and close every quotation mark"
+    )]
+    LongRow {
+        /// The file.
+        source_name: String,
+        /// The line in which it begins.
+        line: u64,
+        /// The most that are taken.
+        most: u64,
+    },
     /// The header has one field.
     #[error(
         "{source_name}:{line}: the header `{header}` is one column; write one name a column, separated by `,`, `;`, `|`, tabs or blanks"

@@ -1,6 +1,7 @@
 //! Logs as spreadsheets, pandas, test rigs and ROS write them: read as they are, with a note of what is assumed.
 
-use super::{Columns, DriveSignal, Log, Note, Pieces, read, refusal, rows, text};
+use super::{Columns, DriveSignal, Log, Note, Pieces};
+use super::{assert_same, notes, read, refusal, rows, text};
 
 fn plain() -> Log {
     read(&text("time,q1,tau1", &rows(40)), 1).expect("a log")
@@ -8,19 +9,6 @@ fn plain() -> Log {
 
 fn log(text: &str) -> Log {
     read(text, 1).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
-
-fn notes(log: &Log) -> Vec<String> {
-    log.report.iter().map(ToString::to_string).collect()
-}
-
-/// The same numbers, whatever is said of them.
-#[track_caller]
-fn assert_same(log: &Log, other: &Log) {
-    assert_eq!(
-        (&log.time, &log.q, &log.tau),
-        (&other.time, &other.q, &other.tau)
-    );
 }
 
 #[test]
@@ -244,34 +232,6 @@ fn utf16_behind_its_mark_is_read() {
 }
 
 #[test]
-fn what_stands_above_the_header_is_passed_over_or_told() {
-    let body = text("time,q1,tau1", &rows(40));
-    for above in ["// by hand\n", "; by hand\n% b\n", "# a\n// b\n\n"] {
-        assert_eq!(log(&format!("{above}{body}")), plain(), "{above}");
-    }
-    let read = log(&format!(
-        "Robot: UR5, left\nDate = Monday\n\nRecorded by hand\n{body}"
-    ));
-    assert_same(&read, &plain());
-    assert_eq!(
-        notes(&read),
-        ["4 lines above the header are passed over: `Robot: UR5, left` and so on"]
-    );
-    // Lines are counted from the top.
-    let mut broken = rows(40);
-    broken[5] = "0.05,x,1".to_owned();
-    let said = refusal(&format!("Robot: UR5\n{}", text("time,q1,tau1", &broken)), 1);
-    assert!(
-        said.starts_with("monday.csv:8: `x` in column `q1`"),
-        "{said}"
-    );
-    assert_eq!(
-        refusal(&format!("Robot,UR5\n{body}"), 1),
-        "monday.csv:1: the line has other columns than the rows, whose header seems to be line 2; remove the lines above it, or begin each with `#`"
-    );
-}
-
-#[test]
 fn times_of_day_are_seconds_since_the_first() {
     let stamped = |stamp: &dyn Fn(&str) -> String| {
         let rows = rows(40).into_iter().map(|row| {
@@ -377,6 +337,19 @@ fn columns_of_nearly_standard_names_come_with_the_settings_that_name_them() {
         ["q = [\"q0\", \"q1\"]", "tau = [\"tau0\", \"tau1\"]"]
     );
     assert_eq!(lines("time,q1,q2,q3,tau1,tau2", 2), [""; 0]);
+    // Units in brackets are those of the columns, where all of a family are known.
+    assert_eq!(
+        lines(
+            "time [ms],q1 [\u{b0}],q[2] (mm),dq1 [rpm],dq2,tau_1 (N m),tau_2 [Nm]",
+            2
+        ),
+        [
+            "time = { column = \"time [ms]\", unit = \"ms\" }",
+            "q = { columns = [\"q1 [\u{b0}]\", \"q[2] (mm)\"], unit = [\"deg\", \"mm\"] }",
+            "dq = [\"dq1 [rpm]\", \"dq2\"]",
+            "tau = { columns = [\"tau_1 (N m)\", \"tau_2 [Nm]\"], unit = \"Nm\" }",
+        ]
+    );
     // Velocities of joints that are not there are not asked for.
     let row = "0,0,0,0,0,0,0".to_owned();
     assert!(

@@ -1,6 +1,6 @@
 //! Where a text's header is, and what separates its columns.
 
-use super::{read, refusal, rows, text};
+use super::{Log, assert_same, notes, read, refusal, rows, text};
 
 #[test]
 fn comments_above_a_header_are_passed_over() {
@@ -71,4 +71,99 @@ fn columns_are_separated_as_the_header_is() {
         let log = read(&other, 1).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(log, plain, "{separator:?}");
     }
+}
+
+#[test]
+fn what_stands_above_the_header_is_passed_over_or_told() {
+    let body = text("time,q1,tau1", &rows(40));
+    let plain = plain_log(&body);
+    for above in ["// by hand\n", "; by hand\n% b\n", "# a\n// b\n\n"] {
+        assert_eq!(plain_log(&format!("{above}{body}")), plain, "{above}");
+    }
+    let read = plain_log(&format!(
+        "Robot: UR5, left\nDate = Monday\n\nRecorded by hand\n{body}"
+    ));
+    assert_same(&read, &plain);
+    assert_eq!(
+        notes(&read),
+        ["the header is line 5: 4 lines above it are passed over: `Robot: UR5, left` and so on"]
+    );
+    // Lines are counted from the top.
+    let mut broken = rows(40);
+    broken[5] = "0.05,x,1".to_owned();
+    let said = refusal(&format!("Robot: UR5\n{}", text("time,q1,tau1", &broken)), 1);
+    assert!(
+        said.starts_with("monday.csv:8: `x` in column `q1`"),
+        "{said}"
+    );
+}
+
+#[test]
+fn groups_of_columns_and_fields_above_a_header_are_passed_over() {
+    let two: Vec<String> = rows(40).iter().map(|row| format!("{row},3,4")).collect();
+    let header = "time,q1,tau1,q2,tau2";
+    let plain = read(&text(header, &two), 2).expect("a log");
+    for above in [
+        ",joint 1,,joint 2,",
+        "drive,joint 1,joint 1,joint 2,joint 2",
+        "Robot,UR5",
+        "Robot,UR5\nStarted,2024-03-01\n\n,joint 1,,joint 2,",
+        // As wide as the header and all distinct, and nothing that is asked for.
+        "clock,angle of 1,load of 1,angle of 2,load of 2",
+    ] {
+        for units in ["", "s,deg,Nm,deg,Nm\n"] {
+            let all = format!("{above}\n{header}\n{units}{}\n", two.join("\n"));
+            let log = read(&all, 2).unwrap_or_else(|error| panic!("{error}\n{all}"));
+            assert_eq!((&log.time, &log.tau), (&plain.time, &plain.tau), "{above}");
+            let degrees = if units.is_empty() {
+                1.0
+            } else {
+                1_f64.to_radians()
+            };
+            assert!(
+                (log.q[0][7] - degrees * plain.q[0][7]).abs() < 1e-15,
+                "{above}"
+            );
+            let line = above.lines().count() + 1;
+            let said = format!("the header is line {line}: ");
+            let notes = notes(&log);
+            assert!(
+                notes.iter().any(|note| note.starts_with(&said)),
+                "{notes:?}"
+            );
+        }
+    }
+    // What may be names as well is not passed over.
+    let twice = format!("time,q1,tau1\n\n{}", text("time,q1,tau1", &rows(40)));
+    assert_eq!(
+        refusal(&twice, 1),
+        "monday.csv:1: the line has other columns than the rows, whose header seems to be line 3; remove the lines above it, or begin each with `#`"
+    );
+}
+
+#[test]
+fn mistakes_of_a_header_have_its_line() {
+    let above = "Robot,UR5\n\n,joint 1,\n";
+    for (header, said) in [
+        (
+            "time,q1,load",
+            "missing column `tau1`; the header has `time`, `q1`, `load`",
+        ),
+        ("time,q1,q1", "column `q1` stands there twice"),
+        ("time,q1,tau_1", "unknown column `tau_1`: write `tau1`"),
+        ("time,q1,tau7", "unknown column `tau7`: the arm has 1 joint"),
+        (
+            "time [s],q1,tau1",
+            "unknown column `time [s]`: write `time`",
+        ),
+    ] {
+        let told = refusal(&format!("{above}{}", text(header, &rows(40))), 1);
+        assert!(told.starts_with(&format!("monday.csv:4: {said}")), "{told}");
+    }
+    let numbers = format!("# of Monday\n\n{}\n", rows(40).join("\n"));
+    assert!(refusal(&numbers, 1).starts_with("monday.csv:3: the log has no header; write"));
+}
+
+fn plain_log(text: &str) -> Log {
+    read(text, 1).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
