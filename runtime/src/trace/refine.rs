@@ -78,7 +78,7 @@ impl Trial<'_> {
         let coarse =
             (0..shapes.len()).filter(|&k| shapes.len() > 2 && shapes[k].grid.len() <= COARSE);
         let others = coarse.flat_map(|number| {
-            let other = move |value: &&f64| **value != self.shapes[number];
+            let other = move |value: &&f64| (*value - self.shapes[number]).abs() > 0.0;
             let values = shapes[number].grid.iter().filter(other);
             values.map(move |&value| {
                 let mut shapes = self.shapes.clone();
