@@ -116,12 +116,14 @@ fn assemble(model: &Model, parameters: &Parameters<'_>, sought: Sought) -> Compi
         Parameters::Baked(base, beta) => (base.clone(), Some(beta.to_vec())),
         Parameters::Standard(base) => (base.ungrouped(&standard), None),
     };
-    let values = base_values(model, &standard, &base, baked.as_deref());
-    let dynamics = dynamics::derive(&mut dag, model, form.or(written.as_ref()), &values);
+    let values = base_values(&standard, &base, baked.as_deref());
+    let motors = motors::torque(&mut dag, model, &base, &candidates, baked.as_deref());
+    let form_of_body = form.or(written.as_ref());
+    let dynamics = dynamics::derive(&mut dag, model, form_of_body, &values, motors.clone());
     let all: Vec<usize> = (0..standard.len()).collect();
     let (computed, computed_linear) = match sought {
         Sought::All => (
-            dynamics::compute(&mut dag, model, form.or(written.as_ref()), &values),
+            dynamics::compute(&mut dag, model, form_of_body, &values, motors.as_deref()),
             regressor::computed(&mut dag, model, &linear, &all),
         ),
         Sought::BaseRegressor => (Computed::as_read(&dynamics), linear.clone()),
@@ -167,9 +169,8 @@ fn assemble(model: &Model, parameters: &Parameters<'_>, sought: Sought) -> Compi
 }
 
 /// Kept parameters are symbols, or the numbers of an arm; fixed ones are numbers. What was regrouped into kept ones counts there
-/// and vanishes here, but for motors where an effect reads the load.
+/// and vanishes here.
 pub(crate) fn base_values(
-    model: &Model,
     standard: &[StandardParameter],
     base: &BaseForm,
     beta: Option<&[f64]>,
@@ -181,7 +182,6 @@ pub(crate) fn base_values(
     for (column, &k) in base.kept.iter().enumerate() {
         values[k] = beta.map_or(Value::Symbol, |beta| Value::Number(beta[column]));
     }
-    motors::share(model, standard, base, beta, &mut values);
     values
 }
 

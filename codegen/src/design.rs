@@ -199,7 +199,7 @@ impl Compiled {
 
     /// `expressions` with the arm's own load.
     fn loaded(&self, dag: &mut Dag, expressions: &[ExprId]) -> Vec<ExprId> {
-        let loads = &self.dynamics.rigid_torque;
+        let loads = &self.dynamics.load;
         dag.substitute(expressions, &|symbol| match symbol {
             Symbol::RigidTorque(joint) => Some(loads[joint]),
             _ => None,

@@ -57,9 +57,10 @@ impl Compiled {
             effects,
             forces,
         } = self.switched();
+        let rates = self.reading_rigid_torque(&mut dag, &self.dynamics.state_rates);
         let mut slopes = |roots: &[ExprId]| jacobian(&mut dag, roots, &unknowns);
         let rigid = slopes(&self.computed.rigid_torque);
-        let rates = slopes(&self.dynamics.state_rates);
+        let rates = slopes(&rates);
         let (effects, arguments) = (slopes(&effects.roots), slopes(&effects.arguments));
         let forces = forces.map(|forces| (slopes(&forces.roots), slopes(&forces.arguments)));
         let (forces, force_arguments) = forces.unzip();

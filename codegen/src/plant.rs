@@ -1,7 +1,7 @@
 //! The equations as a simulation wants them: dry friction's sign as an unknown, and the slopes of everything.
 //!
 //! In: a [`Compiled`]. Out: a [`Plant`], programs whose outputs make up `tau = R(q, dq, ddq) + E(q, dq, ddq, z, s, R)`: the torque `R`
-//! of the rigid body is affine in `ddq`, that `E` of effects reads it as its load. Where `E` jumps with a position, a velocity or
+//! of the rigid body is affine in `ddq`, that `E` of effects has its load from it. Where `E` jumps with a position, a velocity or
 //! time it has a switch `s` in place of the sign, see [`Dag::switched`](crate::expr::Dag::switched); what else jumps stays.
 //!
 //! Where links move against their motors, forces of the world are on the links, all else is on the motors' side: `E` is in two
@@ -74,12 +74,7 @@ pub(crate) struct Equations {
 impl Compiled {
     pub(crate) fn switched(&self) -> Equations {
         let mut dag = self.dag.clone();
-        let values = base_values(
-            &self.model,
-            &self.standard,
-            &self.base,
-            self.baked.as_deref(),
-        );
+        let values = base_values(&self.standard, &self.base, self.baked.as_deref());
         let is_parted = self.displacements().is_some();
         let means: &[Means] = if is_parted {
             &[Means::Torque]
@@ -88,6 +83,7 @@ impl Compiled {
         };
         let mut share = |means: &[Means]| {
             let torque = loaded_effect_torque(&mut dag, &self.model, &values, means);
+            let torque = self.reading_rigid_torque(&mut dag, &torque);
             dag.switched(&torque)
         };
         let effects = share(means);
@@ -110,7 +106,7 @@ impl Compiled {
             effects,
             forces,
         } = self.switched();
-        let rates = &self.dynamics.state_rates;
+        let rates = self.reading_rigid_torque(&mut dag, &self.dynamics.state_rates);
         let torques = [Some(&effects), forces.as_ref()];
         let torques = torques.into_iter().flatten();
         let roots = torques.clone().flat_map(|share| share.roots.clone());
@@ -129,7 +125,7 @@ impl Compiled {
             states: rates.len(),
             rigid_torque: self.rigid_torque(),
             mass_matrix: self.mass_matrix(),
-            rates: Program::new(&dag, rates),
+            rates: Program::new(&dag, &rates),
             effects: Share::new(&mut dag, effects, self.dof()),
             forces: forces.map(|forces| Share::new(&mut dag, forces, self.dof())),
             is_affine,
@@ -146,7 +142,7 @@ impl Compiled {
             forces,
         } = self.switched();
         let dof = self.dof();
-        let rates = self.dynamics.state_rates.clone();
+        let rates = self.reading_rigid_torque(&mut dag, &self.dynamics.state_rates);
         let states = rates.len();
         let mut slopes = |roots: &[ExprId], by: &[fn(usize) -> Symbol]| {
             let outputs = by.iter().flat_map(|&symbol| {

@@ -79,26 +79,43 @@ fn without_nominal_values_nobody_knows_the_share() {
 #[test]
 fn friction_of_the_load_is_that_of_the_links() {
     let arm = pendulum(LINK, "load_dependent_friction on a;");
-    let plain = pendulum(LINK, "");
-    let beta_of = |compiled: &Compiled| beta(compiled, NOMINAL + 1.5);
-    let load = run(&plain, &beta_of(&plain), &plain.load());
-    let rigid = run(&plain, &beta_of(&plain), &plain.rigid_torque());
-    let beta = beta_of(&arm);
+    let beta = beta(&arm, NOMINAL + 1.5);
+    let rigid = run(&arm, &beta, &arm.rigid_torque());
+    let load = run(&arm, &beta, &arm.load());
+    assert!((rigid - load - 1.5 * DDQ).abs() < 1e-12);
     let expected = rigid - 0.3 * load.abs();
-    let torque = value(&arm, &beta, &arm.dag, arm.computed.inverse_dynamics[0]);
-    assert!((torque - expected).abs() < 1e-12, "{torque} {expected}");
-    assert!((run(&arm, &beta, &arm.load()) - load).abs() < 1e-12);
-    // `loaded` of generated code has the load from the mass matrix and the bias.
-    let mass = value(&arm, &beta, &arm.dag, arm.computed.mass_matrix[0][0]);
-    let bias = value(&arm, &beta, &arm.dag, arm.computed.bias[0]);
-    assert!((mass * DDQ + bias - load).abs() < 1e-12);
     let baked = arm.baked(&beta, &[]).expect("numbers of an arm");
-    let torque = value(
-        &baked,
-        &beta,
-        &baked.dag,
-        baked.computed.inverse_dynamics[0],
-    );
-    assert!((torque - expected).abs() < 1e-12, "{torque} {expected}");
-    assert!((run(&baked, &beta, &baked.load()) - load).abs() < 1e-12);
+    for arm in [&arm, &baked] {
+        let torque = value(arm, &beta, &arm.dag, arm.computed.inverse_dynamics[0]);
+        assert!((torque - expected).abs() < 1e-12, "{torque} {expected}");
+        assert!((run(arm, &beta, &arm.load()) - load).abs() < 1e-12);
+        // All that moves is in the mass matrix.
+        let mass = value(arm, &beta, &arm.dag, arm.computed.mass_matrix[0][0]);
+        assert!((mass - NOMINAL - 1.5).abs() < 1e-12, "{mass}");
+    }
+}
+
+/// A motor that a coupling has in the sums of several columns has no share that one column tells.
+#[test]
+fn a_motor_in_several_sums_stays_in_the_load() {
+    let text = "robot R {
+        gravity = [0, -9.81, 0];
+        convention = standard_dh;
+        joint a: revolute { a = 0.3; alpha = 0; d = 0; }
+        joint b: revolute { a = 0; alpha = 0; d = 0; }
+        link a: nominal { mass = 2; com = [0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }
+        link b: nominal { mass = 3; com = [0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }
+        effects { gear_coupling on (a, b); motor_inertia on b; load_dependent_friction on a, b; }
+    }";
+    let model = robot_model_spec::load("r.robot", text).unwrap_or_else(|e| panic!("{e}"));
+    let arm = compile_model(&model);
+    let ia = arm
+        .standard
+        .iter()
+        .position(|p| p.name == "b.motor_inertia.ia");
+    let ia = ia.expect("it is declared");
+    let combinations = arm.base.combinations.iter();
+    let sums = combinations.filter(|terms| terms.len() > 1 && terms.iter().any(|&(k, _)| k == ia));
+    assert!(sums.count() > 1, "{:?}", arm.base.combinations);
+    assert!(arm.motor_torque().is_none());
 }

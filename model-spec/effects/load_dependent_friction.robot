@@ -2,7 +2,8 @@
 ///
 /// `mu * abs(rigid_torque) * sign(dq)`, where `rigid_torque` is what the transmission carries: inertia, Coriolis and gravity
 /// torque of the rigid body. Where a rotor's inertia cannot be told from its link's (on a first and often on a second joint), the
-/// load has what the links have by the spec's nominal values, and the rotor what is more; without them the load includes the rotor.
+/// load has what the links have by the spec's nominal values, and the rotor what is more; without them, or where further parameters are
+/// in the sum, the load includes the rotor. `simulate` takes a rotor that parameters name by itself for what it is.
 ///
 /// Identifiable where the load changes much while the direction of motion changes too.
 ///

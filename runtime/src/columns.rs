@@ -203,8 +203,8 @@ pub trait Arm: Columns {
     /// ```
     fn known_torque(&self, motion: &Motion, shapes: &[f64]) -> Vec<Vec<f64>>;
 
-    /// Torque of the rigid body alone, `M ddq + C dq + G`, at `estimate` (one value per unknown), `[joint][sample]`.
-    /// `shapes` as in [`Columns::entries`]. Links count as standing where the log has their joints.
+    /// The load that effects read at `estimate` (one value per unknown), `[joint][sample]`: torque of the rigid body alone,
+    /// `M ddq + C dq + G`, without rotors that are in one sum with links, as far as their share is known. `shapes` as in [`Columns::entries`]. Links count as standing where the log has their joints.
     ///
     /// # Examples
     /// ```

@@ -299,8 +299,8 @@ pub trait RobotModel<
         Self::base_regressor_at(&self.loaded(state), &self.shapes())
     }
 
-    /// The same instant with the arm's own load in it, `rigid_torque = M * ddq + C * dq + G`: what [`Self::regressor_at`]
-    /// reads.
+    /// The same instant with the arm's own load in it, which [`Self::regressor_at`] reads: `rigid_torque = M * ddq + C * dq + G`,
+    /// without the rotors that are in one sum with links of nominal inertia.
     ///
     /// # Examples
     #[doc = two_link!()]

@@ -343,11 +343,12 @@ fn arm(compiled: &Compiled, file: Option<&Path>) -> Result<(InterpretedPlant, Ve
         let plant = InterpretedPlant::new(compiled, &values.beta, &values.shapes)?;
         Ok((plant, values.shapes))
     };
-    let parts = compiled.displacements().is_some() && !compiled.mixed().is_empty();
-    if !parts {
+    let moves_apart = compiled.displacements().is_some() && !compiled.mixed().is_empty();
+    if !moves_apart && !compiled.parts_motors() {
         return plant(compiled.clone(), parameters::resolve(compiled, file)?);
     }
-    // Motors and links move apart: numbers for both together do not do, and are told.
+    // Motors and links move apart, or friction knows the load of the links: numbers for both together do not do, and are told, or the
+    // spec's nominal values part them.
     let ungrouped = compiled.ungrouped();
     match parameters::resolve(&ungrouped, file) {
         Ok(values) => plant(ungrouped, values),

@@ -12,6 +12,7 @@ use super::rigid::{RigidBody, Terms};
 use super::vanishing::without_vanishing;
 use super::{Dynamics, Means, Value, effect_torque, parameter_expressions};
 use crate::expr::{Dag, ExprId, Symbol};
+use crate::motors;
 use crate::optimize::{self, Cost, optimize};
 
 /// Torques and matrices, as of [`Dynamics`](super::Dynamics).
@@ -19,6 +20,8 @@ use crate::optimize::{self, Cost, optimize};
 pub struct Computed {
     /// `M ddq + C dq + G`
     pub rigid_torque: Vec<ExprId>,
+    /// What transmissions carry of it: that without motors in sums with links.
+    pub load: Vec<ExprId>,
     /// With the torque of the declared effects.
     pub inverse_dynamics: Vec<ExprId>,
     /// `C dq + G`
@@ -37,6 +40,7 @@ impl Computed {
     pub fn as_read(dynamics: &Dynamics) -> Self {
         Self {
             rigid_torque: dynamics.rigid_torque.clone(),
+            load: dynamics.load.clone(),
             inverse_dynamics: dynamics.inverse_dynamics.clone(),
             bias: dynamics.bias.clone(),
             gravity: dynamics.gravity.clone(),
@@ -47,12 +51,13 @@ impl Computed {
 }
 
 /// Derives what [`derive`](super::derive) derives, to be computed. With numbers for all parameters that is the arm itself:
-/// what its numbers make vanish is gone.
+/// what its numbers make vanish is gone. `motor_torque` is that of motors in sums with links.
 pub fn compute(
     dag: &mut Dag,
     model: &Model,
     form: Option<&EnergyForm>,
     values: &[Value],
+    motor_torque: Option<&[ExprId]>,
 ) -> Computed {
     let parameters = parameter_expressions(dag, values);
     let body = RigidBody::new(dag, model, form, &parameters);
@@ -69,7 +74,8 @@ pub fn compute(
     let rigid_torque = torque(dag, Terms::All);
     let bias = torque(dag, Terms::Bias);
     let gravity = torque(dag, Terms::Gravity);
-    let effects = effect_torque(dag, model, &parameters, &rigid_torque, Means::ALL);
+    let load = motors::without(dag, &rigid_torque, motor_torque);
+    let effects = effect_torque(dag, model, &parameters, &load, Means::ALL);
     let velocity_torque = body.torque(dag, Terms::Velocity, false);
     let derived = coriolis::coriolis_matrix(dag, &velocity_torque);
     let (mass_matrix, coriolis_matrix) = match body {
@@ -92,6 +98,7 @@ pub fn compute(
             .map(|(&rigid, effect)| dag.add(rigid, effect))
             .collect(),
         rigid_torque,
+        load,
         bias,
         gravity,
         mass_matrix,

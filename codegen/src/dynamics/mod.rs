@@ -31,7 +31,7 @@ mod vector;
 use robot_model_spec::model::{Act, EffectDefinition, Model};
 
 use crate::expr::{Dag, ExprId, Label, Symbol};
-use crate::motors::above;
+use crate::motors;
 use chain::Chain;
 pub use changes::Changes;
 pub use computed::{Computed, cheapest_regressor, compute};
@@ -50,17 +50,6 @@ pub enum Value {
     Symbol,
     /// A number; zero makes its terms vanish.
     Number(f64),
-    /// A symbol of its own up to a number, which is what links have of it.
-    UpTo(f64),
-    /// What the symbol of another one is above such a number, over a coefficient.
-    Above {
-        /// The other standard parameter.
-        of: usize,
-        /// What links have of it.
-        nominal: f64,
-        /// How often it has this one.
-        coefficient: f64,
-    },
 }
 
 /// The equations of motion as expressions of `q, dq, ddq` and the parameters.
@@ -70,7 +59,11 @@ pub struct Dynamics {
     pub dof: usize,
     /// `M ddq + C dq + G`, N m or N.
     pub rigid_torque: Vec<ExprId>,
-    /// Torque of the declared effects, load-dependent ones at `rigid_torque` of this arm.
+    /// What of it is of motors in sums with links, which transmissions do not carry, N m or N; nothing where there are none.
+    pub motor_torque: Option<Vec<ExprId>>,
+    /// What transmissions carry: `rigid_torque - motor_torque`.
+    pub load: Vec<ExprId>,
+    /// Torque of the declared effects, load-dependent ones at `load`.
     pub effect_torque: Vec<ExprId>,
     /// `rigid_torque + effect_torque`
     pub inverse_dynamics: Vec<ExprId>,
@@ -89,12 +82,13 @@ pub struct Dynamics {
 }
 
 /// Derives the equations of motion. `values` has one entry per standard parameter of the model; `form` are the energies of
-/// a robot that says them.
+/// a robot that says them; `motor_torque` is that of motors in sums with links.
 pub fn derive(
     dag: &mut Dag,
     model: &Model,
     form: Option<&EnergyForm>,
     values: &[Value],
+    motor_torque: Option<Vec<ExprId>>,
 ) -> Dynamics {
     let dof = model.joints.len();
     let parameters = parameter_expressions(dag, values);
@@ -120,7 +114,8 @@ pub fn derive(
     let velocity_torque = body.torque(dag, Terms::Velocity, false);
     let coriolis_matrix = coriolis::coriolis_matrix(dag, &velocity_torque);
 
-    let effect_torque = effect_torque(dag, model, &parameters, &rigid_torque, Means::ALL);
+    let load = motors::without(dag, &rigid_torque, motor_torque.as_deref());
+    let effect_torque = effect_torque(dag, model, &parameters, &load, Means::ALL);
     let inverse_dynamics = (0..dof)
         .map(|joint| dag.add(rigid_torque[joint], effect_torque[joint]))
         .collect();
@@ -129,6 +124,8 @@ pub fn derive(
         state_rates,
         dof,
         rigid_torque,
+        motor_torque,
+        load,
         effect_torque,
         inverse_dynamics,
         mass_matrix,
@@ -202,21 +199,6 @@ fn parameter_expressions(dag: &mut Dag, values: &[Value]) -> Vec<ExprId> {
         .map(|(k, value)| match value {
             Value::Symbol => dag.symbol(Symbol::Parameter(k)),
             Value::Number(number) => dag.constant(*number),
-            Value::UpTo(nominal) => {
-                let sum = dag.symbol(Symbol::Parameter(k));
-                let nominal = dag.constant(*nominal);
-                dag.min(sum, nominal)
-            }
-            Value::Above {
-                of,
-                nominal,
-                coefficient,
-            } => {
-                let sum = dag.symbol(Symbol::Parameter(*of));
-                let above = above(dag, sum, *nominal);
-                let share = dag.constant(coefficient.recip());
-                dag.mul(above, share)
-            }
         })
         .collect()
 }

@@ -227,6 +227,12 @@ struct Grown<'a> {
     end: End<'a>,
 }
 
+/// A law that passed and told how its joints turn, with what was tried beside it: the round is asked again along these turns.
+struct AskedAgain<'a> {
+    found: Accepted<'a>,
+    tried: Vec<Tried>,
+}
+
 /// Why a model grew no further.
 enum End<'a> {
     NothingPasses,
@@ -248,14 +254,24 @@ impl Search<'_> {
         let mut tried = Vec::new();
         let mut end = End::NothingPasses;
         let mut settled = BTreeSet::new();
+        let mut asked_again: Option<AskedAgain> = None;
         while state.accepted.len() < MOST_EFFECTS {
             let round = state.accepted.len() + 1;
             let words = format!("round {round}: {} candidates", candidates.len());
             let judged = &mut |done| progress(&Stage::part(&words, done));
             let said = tried.len();
             let Some(found) = self.round(&state, &grids, &mut tried, judged) else {
-                break;
+                let Some(first) = asked_again.take() else {
+                    break;
+                };
+                // Nothing passes along turns that are told: the law that told them stands.
+                tried.truncate(said);
+                tried.extend(first.tried);
+                state.accepted.push(first.found);
+                state = self.refit(state, true)?;
+                continue;
             };
+            asked_again = None;
             let kind = found.trial.candidate.kind();
             progress(&Stage::whole(&format!("round {round}: {kind} passes")));
             let of_terms = self.where_a_term_is(&state, &found);
@@ -272,18 +288,19 @@ impl Search<'_> {
             state = self.refit(state, false)?;
             // How a joint turns round is told once the model has its friction.
             let turned = self.settle_turns(&state, &joints)?;
-            if turned {
-                let mut joints = joints.iter();
-                if joints.any(|&joint| settled.insert(joint)) {
-                    // Which law of friction it is has to be asked along turns that are told.
-                    state.accepted.pop();
-                    tried.truncate(said);
-                }
+            let told_first = turned.iter().filter(|&&joint| settled.insert(joint));
+            if told_first.count() > 0 {
+                // Which law of friction it is has to be asked along turns that are told.
+                let found = state.accepted.pop();
+                let tried = tried.split_off(said);
+                asked_again = found.map(|found| AskedAgain { found, tried });
+            }
+            if !turned.is_empty() {
                 state = self.refit(state, true)?;
             }
             let fresh = self.grids(&state, candidates, |candidate| {
-                let turns = || candidate.joints().iter().any(|j| joints.contains(j));
-                candidate.uses_rigid_torque() || (turned && turns())
+                let turns = || candidate.joints().iter().any(|j| turned.contains(j));
+                candidate.uses_rigid_torque() || turns()
             });
             for (grid, fresh) in grids.iter_mut().zip(fresh) {
                 if fresh.len() > 0 {

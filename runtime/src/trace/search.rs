@@ -70,12 +70,12 @@ pub(super) struct Search<'s> {
 }
 
 impl Search<'_> {
-    /// Finds the speeds at which joints creep where they turn, and takes what was made of others anew. Whether there was anything to do.
+    /// Finds the speeds at which joints creep where they turn; the joints that have other ones now.
     pub(super) fn settle_turns(
         &mut self,
         state: &State,
         joints: &[usize],
-    ) -> Result<bool, IdentifyError> {
+    ) -> Result<Vec<usize>, IdentifyError> {
         let found = self
             .identify
             .creeping(&state.stack, &self.prepared, joints)?;
@@ -84,7 +84,7 @@ impl Search<'_> {
                 log.motion.turn_speeds[joint] = speed;
             }
         }
-        Ok(!found.is_empty())
+        Ok(found.into_iter().map(|(joint, _)| joint).collect())
     }
 
     /// What is told of a model beside what it is made of.

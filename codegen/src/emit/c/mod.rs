@@ -42,7 +42,7 @@ const ARGUMENTS: [(&str, &str); 13] = [
     ("tau", "torques of the joints, N m or N"),
     (
         "rigid_torque",
-        "torques of the rigid body alone, `M * ddq + C * dq + G`, of `mass_matrix` and `bias`",
+        "loads, `M * ddq + C * dq + G` of `mass_matrix` and `bias`; of `load` where there is one",
     ),
     ("measured_torque", "torques as they are measured"),
     ("time", "seconds since the start"),

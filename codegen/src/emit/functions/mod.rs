@@ -105,6 +105,17 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
         outputs: base_regressor,
         returns: Returns::Matrix(compiled.base.kept.len()),
     }));
+    if compiled.has_motors_in_loads() {
+        functions.push(context.function(&Task {
+            name: "load",
+            doc: "What transmissions carry, N m (N for prismatic joints): `M * ddq + C * dq + G` without motors that are in one sum with \
+                  their links, which have their nominal part of it. Effects read it as `rigid_torque`.",
+            arguments: "q dq ddq beta shapes",
+            result: "tau",
+            outputs: computed.load.clone(),
+            returns: Returns::Vector,
+        }));
+    }
     functions.push(base_parameters(compiled));
     if extent == Extent::All {
         functions.extend(mechanics::functions(&context));

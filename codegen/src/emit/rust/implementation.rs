@@ -227,6 +227,14 @@ fn values(compiled: &Compiled, functions: &[Function]) -> Vec<TokenStream> {
             #call.into()
         }
     });
+    if compiled.has_motors_in_loads() {
+        let call = self::call(functions, "load", &Reads::value(quote!(state.)));
+        methods.push(quote! {
+            fn loaded<S: ::robot_model::Scalar>(&self, state: &#state) -> #state {
+                ::robot_model::State { rigid_torque: #call.into(), ..*state }
+            }
+        });
+    }
     methods
 }
 
