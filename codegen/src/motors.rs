@@ -17,7 +17,7 @@ use crate::regressor::LinearForm;
 struct Sum {
     /// Which base parameter.
     base: usize,
-    /// What the links have of it nominally, above 0.
+    /// What the links have of it nominally; below 0 it may be where a link's frame is not at its joint.
     nominal: f64,
 }
 
@@ -45,7 +45,8 @@ fn sums(model: &Model, standard: &[StandardParameter], base: &BaseForm) -> Vec<S
         });
         let nominal = values.sum::<Option<f64>>()?;
         let is_of_motor = model.is_nonnegative(&standard[motor]) && factor > 0.0;
-        (is_of_motor && count(motor) == 1 && nominal > 0.0).then_some(Sum {
+        let is_shared = !links.is_empty() && count(motor) == 1;
+        (is_of_motor && is_shared).then_some(Sum {
             base: column,
             nominal,
         })

@@ -38,6 +38,7 @@ mod import;
 mod instruments;
 mod interrupted;
 mod laws;
+mod loads;
 mod log_settings;
 mod logs;
 mod merge;

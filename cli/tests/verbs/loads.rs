@@ -1,0 +1,57 @@
+//! What a transmission carries: links, without the rotor that turns them.
+
+use crate::common::{Folder, json, moved};
+
+/// Of the rotor of `up` and its link one sum is told.
+fn spec(links: &str) -> String {
+    format!(
+        "robot A {{
+            gravity = [0, -9.81, 0];
+            convention = standard_dh;
+            joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+            joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+            {links}
+            effects {{
+                viscous_friction on all; coulomb_friction on all; motor_inertia on all; load_dependent_friction on up;
+            }}
+        }}"
+    )
+}
+
+const LINKS: &str =
+    "link up: nominal { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
+    link lo: nominal { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }";
+
+const MU: f64 = 0.15;
+
+#[test]
+fn friction_of_the_load_is_found_beside_a_rotor_that_nominal_links_tell() {
+    let folder = Folder::new();
+    let values = format!(
+        r#"{{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "up.coulomb_friction.fc": 1.5, "lo.coulomb_friction.fc": 0.7,
+            "up.motor_inertia.ia": 1.5, "lo.motor_inertia.ia": 0.2, "up.load_dependent_friction.mu": {MU}}}"#
+    );
+    moved(&folder, &spec(LINKS), &values, |t| {
+        [
+            -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+            0.7 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+        ]
+    });
+    let mu = |links: &str| {
+        folder.write("arm.robot", &spec(links));
+        folder.succeed(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
+        let fit = json(&folder.read("fit.json"));
+        let parameters = fit["parameters"].as_array().expect("a list");
+        let found = parameters
+            .iter()
+            .find(|one| one["name"] == "up.load_dependent_friction.mu");
+        found.expect("it is declared")["value"]
+            .as_f64()
+            .expect("a number")
+    };
+    let found = mu(LINKS);
+    assert!((found - MU).abs() < 0.05 * MU, "{found}");
+    // Nobody knows what the rotor has of the sum: it is taken for a load.
+    let found = mu("");
+    assert!((found - MU).abs() > 0.3 * MU, "{found}");
+}
