@@ -78,3 +78,26 @@ fn robots_may_be_called_as_words_of_rust() {
         assert_eq!(bare, 0, "{page}");
     }
 }
+
+#[test]
+fn a_load_without_its_rotor_is_a_function_of_the_page() {
+    let spec = |effects: &str| {
+        format!(
+            "robot R {{
+                gravity = [0, -9.81, 0];
+                convention = standard_dh;
+                joint a: revolute {{ a = 0; alpha = 0; d = 0; }}
+                link a: nominal {{ mass = 3; com = [0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }}
+                effects {{ motor_inertia on a; {effects} }}
+            }}"
+        )
+    };
+    let page = |effects: &str| {
+        compile_text("r.robot", &spec(effects)).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let with = page("load_dependent_friction on a;");
+    assert!(with.contains("pub fn load<"), "{with}");
+    assert!(with.contains("fn loaded<"), "{with}");
+    let without = page("coulomb_friction on a;");
+    assert!(!without.contains("fn load"), "{without}");
+}

@@ -119,3 +119,58 @@ fn a_motor_in_several_sums_stays_in_the_load() {
     assert!(sums.count() > 1, "{:?}", arm.base.combinations);
     assert!(arm.motor_torque().is_none());
 }
+
+/// `tau = Y_b beta` where columns read the load, of an arm with a share of its first motor in a sum, and of one with a motor in several sums.
+#[test]
+fn columns_at_the_load_make_the_torque() {
+    let spec = |effects: &str| {
+        format!(
+            "robot R {{
+                gravity = [0, -9.81, 0];
+                convention = standard_dh;
+                joint a: revolute {{ a = 0.3; alpha = 0; d = 0; }}
+                joint b: revolute {{ a = 0.2; alpha = 0; d = 0; }}
+                link a: nominal {{ mass = 2; com = [-0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }}
+                link b: nominal {{ mass = 3; com = [-0.1, 0, 0]; inertia = [1, 0, 0, 1, 0, 2]; }}
+                effects {{ {effects} load_dependent_friction on a, b; }}
+            }}"
+        )
+    };
+    for (effects, has_share) in [
+        ("motor_inertia on all;", true),
+        ("gear_coupling on (a, b); motor_inertia on b;", false),
+    ] {
+        let model = robot_model_spec::load("r.robot", &spec(effects));
+        let arm = compile_model(&model.unwrap_or_else(|e| panic!("{e}")));
+        assert_eq!(arm.motor_torque().is_some(), has_share, "{effects}");
+        let count = arm.base.kept.len();
+        let beta: Vec<f64> = (0..count).map(|k| 3.0 - 0.2 * k as f64).collect();
+        let moving = |symbol| match symbol {
+            Symbol::Q(k) => 0.4 - 0.9 * k as f64,
+            Symbol::Dq(k) => -0.8 + 1.5 * k as f64,
+            Symbol::Ddq(k) => 1.7 - 2.6 * k as f64,
+            Symbol::Parameter(k) => arm.parameter_values(&beta)[k],
+            other => panic!("{other:?} is not read"),
+        };
+        let load = arm.load().eval(&moving);
+        let torque = arm.inverse_dynamics().eval(&moving);
+        let columns = arm.base_regressor();
+        let values = columns.program.eval(&|symbol| match symbol {
+            Symbol::RigidTorque(joint) => load[joint],
+            other => moving(other),
+        });
+        let mut found = [0.0; 2];
+        for (&(joint, column), value) in columns.entries.iter().zip(values) {
+            found[joint] += value * beta[column];
+        }
+        for (found, torque) in found.iter().zip(&torque) {
+            assert!((found - torque).abs() < 1e-9, "{effects}: {found} {torque}");
+        }
+        let rigid = arm.rigid_torque().eval(&moving);
+        assert_eq!(
+            (rigid[0] - load[0]).abs() > 0.1,
+            has_share,
+            "{rigid:?} {load:?}"
+        );
+    }
+}

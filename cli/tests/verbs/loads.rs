@@ -55,3 +55,55 @@ fn friction_of_the_load_is_found_beside_a_rotor_that_nominal_links_tell() {
     let found = mu("");
     assert!((found - MU).abs() > 0.3 * MU, "{found}");
 }
+
+/// Turns are told once a law has the friction that they are of: then which law it is has been asked along them, too.
+#[test]
+fn a_law_that_tells_how_a_joint_turns_is_asked_for_again() {
+    let folder = Folder::new();
+    let spec = |library: &str, friction: &str| {
+        format!(
+            "{library}
+            robot A {{
+                gravity = [0, -9.81, 0];
+                convention = standard_dh;
+                joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
+                joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
+                link up: fixed {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+                link lo: fixed {{ mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}
+                effects {{ viscous_friction on all; coulomb_friction on lo; {friction} }}
+            }}"
+        )
+    };
+    let library = "effect soft(j) { linear fc; torque(j) = fc * tanh(dq(j) / 0.0045); }
+        effect soft_load(j) { linear mu; torque(j) = mu * abs(rigid_torque(j)) * tanh(dq(j) / 0.0045); }";
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.5, "lo.coulomb_friction.fc": 0.5, "up.soft.fc": 0.3,
+        "up.soft_load.mu": 0.1}"#;
+    moved(
+        &folder,
+        &spec(library, "soft on up; soft_load on up;"),
+        values,
+        |t| {
+            [
+                -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+                0.7 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+            ]
+        },
+    );
+    folder.write("arm.robot", &spec("", "coulomb_friction on up;"));
+    let run = folder.run(&["trace", "arm.robot", "log.csv", "--json", "trace.json"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let passes = run
+        .stderr
+        .matches("round 1: load-dependent-friction passes")
+        .count();
+    assert_eq!(passes, 2, "{}", run.stderr);
+    let verdict = json(&folder.read("trace.json"));
+    let effects = verdict["effects"].as_array().expect("a list");
+    assert_eq!(effects.len(), 1, "{effects:?}");
+    assert_eq!(effects[0]["kind"], "load-dependent-friction");
+    let tried = verdict["tried"].as_array().expect("a list");
+    let named = tried
+        .iter()
+        .filter(|one| one["kind"] == "load-dependent-friction" && one["round"] == 1);
+    assert_eq!(named.count(), 1, "{tried:?}");
+}
