@@ -44,7 +44,7 @@ pub(crate) fn instead_of_json(path: &Path, text: &str) -> Option<String> {
         "XML, as URDFs are"
     } else if !start.starts_with(['{', '[']) && (is_table || is_called_table) {
         "a table (CSV)"
-    } else if start.contains("robot ") && !start.starts_with(['{', '[']) {
+    } else if is_spec(text) {
         "a spec"
     } else {
         return None;
@@ -55,13 +55,62 @@ pub(crate) fn instead_of_json(path: &Path, text: &str) -> Option<String> {
 }
 
 /// Whether bytes are those of a log: names of columns, or what packed and binary ones begin with.
-pub(crate) fn is_log(bytes: &[u8]) -> bool {
+fn is_log(bytes: &[u8]) -> bool {
     let start = start(bytes);
     let header = start.lines().next().unwrap_or_default();
     let columns = header.split([',', ';', '\t']).count();
     let is_header = columns > 2 || (columns == 2 && header.starts_with("time"));
     MAGICS.iter().any(|magic| bytes.starts_with(magic))
         || (is_header && !header.contains(['{', '/', '<']))
+}
+
+/// Whether a text is a spec, whatever its mistakes: `robot NAME {` behind comments and effects.
+pub(crate) fn is_spec(text: &str) -> bool {
+    let code = without_comments(text);
+    let mut rest = code.trim_start_matches('\u{feff}');
+    while let Some((head, body)) = rest.split_once('{') {
+        let words: Vec<&str> = head.split_whitespace().collect();
+        match words.as_slice() {
+            ["robot", name] => {
+                return !name.contains(|c: char| c.is_ascii_punctuation() && c != '_' && c != '-');
+            }
+            ["effect", ..] => rest = behind(body),
+            _ => return false,
+        }
+    }
+    false
+}
+
+/// What comes behind the bracket that ends a body.
+fn behind(body: &str) -> &str {
+    let mut open = 1;
+    let end = body.find(|c: char| {
+        open += i32::from(c == '{') - i32::from(c == '}');
+        open == 0
+    });
+    end.map_or("", |end| &body[end + 1..])
+}
+
+/// A text of the language without its comments; those in `/* .. */` may stand in each other.
+fn without_comments(text: &str) -> String {
+    let (mut code, mut rest, mut open) = (String::new(), text, 0_u32);
+    while let Some(next) = rest.chars().next() {
+        let mut taken = 2;
+        if rest.starts_with("/*") {
+            open += 1;
+        } else if open > 0 && rest.starts_with("*/") {
+            open -= 1;
+        } else if open == 0 && rest.starts_with("//") {
+            taken = rest.find('\n').unwrap_or(rest.len());
+        } else {
+            taken = next.len_utf8();
+            if open == 0 {
+                code.push(next);
+            }
+        }
+        rest = &rest[taken..];
+    }
+    code
 }
 
 /// Whether a text is XML or HTML.
@@ -115,6 +164,31 @@ mod tests {
             "",
         ] {
             assert_eq!(told("arm.robot", text.as_bytes()), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn specs_are_told_by_their_robot() {
+        for text in [
+            "robot A { gravity = [0, 0, -9.81]; }",
+            "\u{feff}// by {us}\n/* of /* old */ robot */\nrobot A\n{",
+            "/// A law.\neffect e(j) { linear c; torque(j) = c * { dq(j) }; }\nrobot UR-5 {",
+        ] {
+            assert!(is_spec(text), "{text}");
+        }
+        for text in [
+            "",
+            "# robot UR5, Monday\ntime,q1\n",
+            "// fit of robot X\n{\"m1\": 1}",
+            "notes on robot A {",
+            "robot",
+            "robot: UR5 {",
+            "effect e(j) {}",
+            "effect e(j) { robot A {",
+            "time [s],q1 [rad]\n0,1\n",
+            "\x7fELF\x02\x01",
+        ] {
+            assert!(!is_spec(text), "{text}");
         }
     }
 }

@@ -3,6 +3,7 @@
 mod content;
 mod files;
 mod out_file;
+pub(crate) mod table;
 
 use std::io::{self, Write};
 

@@ -33,8 +33,8 @@ pub struct Progress {
     /// Steps of a bar that were behind when it was drawn first.
     begun: Mutex<u64>,
     left: Left,
-    /// Where plain lines have begun with known work: when, and the share that was behind.
-    plain: Mutex<Option<(Instant, f64)>>,
+    /// Where plain lines have begun with known work: when, the share that was behind, and that of the last line.
+    plain: Mutex<Option<(Instant, f64, f64)>>,
 }
 
 /// When known work will have ended, by the time that its finished parts took: it is not known before one is finished, nor when the
@@ -120,6 +120,18 @@ impl Progress {
             let left = self.left_of_plain(done);
             return self.step(&format!("{what}{left}"));
         };
+        self.draw(bar, what, done, true);
+    }
+
+    /// The same for work of which nobody knows how much is to come: `done` is a guess, which tells no time.
+    pub(crate) fn guess(&self, what: &str, done: f64) {
+        match &self.bar {
+            Some(bar) => self.draw(bar, what, done, false),
+            None => self.step(what),
+        }
+    }
+
+    fn draw(&self, bar: &ProgressBar, what: &str, done: f64, is_timed: bool) {
         let whole = WHOLE as f64;
         let done = (0..=WHOLE).rfind(|step| *step as f64 <= done * whole);
         let done = done.unwrap_or_default();
@@ -133,9 +145,12 @@ impl Progress {
             bar.set_style(style(BAR).with_key("left", left));
             self.left.set(None);
             *begun = done;
-        } else if done > bar.position() {
+        } else if done > bar.position() && is_timed {
             let [did, rest] = [done - *begun, WHOLE - done].map(|steps| steps as f64 / whole);
             self.left.tell(bar.elapsed(), did, rest);
+        }
+        if !is_timed {
+            self.left.set(None);
         }
         bar.set_message(what.to_owned());
         bar.set_position(done);
@@ -144,10 +159,11 @@ impl Progress {
     /// What is left of known work, for a line that nobody sees replaced: only of work that has taken long already.
     fn left_of_plain(&self, done: f64) -> String {
         let mut plain = self.plain.lock().unwrap_or_else(PoisonError::into_inner);
-        let (since, begun) = match *plain {
-            Some(plain) if done > plain.1 => plain,
-            _ => *plain.insert((Instant::now(), done)),
-        };
+        // What has less behind it than the line before is other work.
+        let known = plain.filter(|(.., last)| done >= *last);
+        let (since, begun) =
+            known.map_or((Instant::now(), done), |(since, begun, _)| (since, begun));
+        *plain = Some((since, begun, done));
         let took = since.elapsed();
         if done <= begun || took < SELDOM {
             return String::new();
@@ -169,20 +185,26 @@ impl Progress {
 
     /// Says one of many steps, and which part is behind where that is known; elsewhere than on a terminal only now and then.
     pub(crate) fn often(&self, what: &str, done: Option<f64>) {
-        if self.bar.is_none() {
-            let Ok(mut said) = self.said.lock() else {
-                return;
-            };
-            if said.is_some_and(|last| last.elapsed() < SELDOM) {
-                return;
-            }
-            *said = Some(Instant::now());
-            return self.step(what);
+        if !self.is_due() {
+            return;
         }
         match done {
             Some(done) => self.part(what, done),
             None => self.step(what),
         }
+    }
+
+    /// Whether one of many steps is to be said: always where somebody looks on.
+    pub(crate) fn is_due(&self) -> bool {
+        if self.is_live() {
+            return true;
+        }
+        let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
+        let is_due = said.is_none_or(|last| last.elapsed() >= SELDOM);
+        if is_due {
+            *said = Some(Instant::now());
+        }
+        is_due
     }
 
     /// Whether somebody looks on: then it may be said more often.
@@ -275,14 +297,14 @@ mod tests {
         // What was quick is done before anybody has read the line.
         assert_eq!(progress.left_of_plain(0.5), "");
         let begin = Instant::now().checked_sub(Duration::from_secs(20));
-        *progress.plain.lock().expect("no panic") = begin.map(|begin| (begin, 0.0));
+        *progress.plain.lock().expect("no panic") = begin.map(|begin| (begin, 0.0, 0.0));
         let said = progress.left_of_plain(0.25);
         assert!(
             [", 60s to go", ", 59s to go", ", 1m to go"].contains(&said.as_str()),
             "{said}"
         );
-        // Other work begins anew.
-        assert_eq!(progress.left_of_plain(0.0), "");
+        // Other work begins anew, be it in the middle.
+        assert_eq!(progress.left_of_plain(0.1), "");
         assert_eq!(progress.left_of_plain(0.25), "");
     }
 
@@ -314,6 +336,14 @@ mod tests {
         progress.bar.as_ref().expect("a bar").force_draw();
         assert!(terminal.contents().contains(" 10 % again"));
         assert!(!terminal.contents().contains("to go"));
+        // A guess has a share and no time.
+        for done in [0.2, 0.6] {
+            progress.guess("searching", done);
+            progress.bar.as_ref().expect("a bar").force_draw();
+            let shown = terminal.contents();
+            assert!(shown.contains(" % searching"), "{shown}");
+            assert!(!shown.contains("to go"), "{shown}");
+        }
         progress.step("done");
         progress.bar.as_ref().expect("a bar").force_draw();
         assert!(!terminal.contents().contains('%'));

@@ -167,7 +167,7 @@ impl Excite {
             self.room.as_ref(),
         ];
         let mut files = Files::reading(inputs.into_iter().flatten().map(PathBuf::as_path));
-        let out = files.claim_for(&self.out, Content::Table)?;
+        let out = files.claim_for(&self.out, Content::Motion)?;
         let coefficients = files.claim_if(self.coefficients.as_deref(), Content::Json)?;
         let figure = files.claim_figure(self.figure.as_deref())?;
         let json = files.claim_if(self.json.as_deref(), Content::Json)?;

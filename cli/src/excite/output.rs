@@ -6,6 +6,7 @@ use robot_model::excite::{Design, Fourier, Request};
 use serde::Serialize;
 
 use crate::output::json;
+use crate::output::table::MOTION;
 
 const PUT: &str = "a string takes all";
 
@@ -13,25 +14,15 @@ const PUT: &str = "a string takes all";
 pub(super) fn csv(motion: &Fourier, rate: f64) -> String {
     // A period that is whole in samples but for rounding has its last sample once.
     let steps = (motion.period * rate - 1e-6).ceil().max(1.0);
-    let mut text = String::from("time");
     let dof = motion.coefficients.len();
-    for signal in ["q", "dq", "ddq"] {
-        for joint in 1..=dof {
-            write!(text, ",{signal}{joint}").expect(PUT);
-        }
-    }
+    let mut text = MOTION.header(dof);
     text.push('\n');
     let mut k = 0.0;
     while k <= steps {
         let time = (k / rate).min(motion.period);
-        write!(text, "{time}").expect(PUT);
         let states: Vec<[f64; 3]> = (0..dof).map(|joint| motion.at(joint, time)).collect();
-        for order in 0..3 {
-            for state in &states {
-                write!(text, ",{:.12e}", state[order]).expect(PUT);
-            }
-        }
-        text.push('\n');
+        let values = (0..3).flat_map(|order| states.iter().map(move |state| state[order]));
+        MOTION.push(&mut text, time, values);
         k += 1.0;
     }
     text

@@ -151,13 +151,20 @@ impl<'a> Evidence<'a> {
         let (of_logs, of_result): (Vec<&String>, Vec<&String>) = self
             .notes
             .iter()
-            .partition(|note| is_of_a_file(note, inputs));
+            .partition(|note| is_of_a_file(note, inputs) && !self.is_of_late_channels(note));
         for (title, notes) in [("What to look at", of_result), ("Of single files", of_logs)] {
             if !notes.is_empty() {
                 page.part(title);
                 page.list(&notes.into_iter().map(plain).collect::<Vec<_>>());
             }
         }
+    }
+
+    /// Whether a note is of channels that are late, which only another log or spec mends.
+    fn is_of_late_channels(&self, note: &str) -> bool {
+        let late = self.faults.iter();
+        let mut late = late.filter(|(_, fault)| matches!(fault, Fault::Late { .. }));
+        late.any(|(log, fault)| note == format!("note: {log}: {fault}"))
     }
 
     fn errors(&self, page: &mut Page) {

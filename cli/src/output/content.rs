@@ -4,10 +4,14 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use crate::misplaced::{is_log, is_markup};
+use super::table::{MOTION, PREDICTION, SIMULATION};
+use crate::misplaced::{is_markup, is_spec};
 
-/// Bytes that tell what a file holds.
-const START: u64 = 4096;
+/// Bytes that tell what a file holds: a spec may have a license and effects above its robot.
+const START: u64 = 1 << 16;
+
+/// What bags begin with, and what those of this program say of who wrote them, a few bytes behind it.
+const BAG: (&[u8], &[u8]) = (b"\x89MCAP", b"robot-model/");
 
 /// Kinds of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,8 +22,12 @@ pub(crate) enum Content {
     Figure,
     /// A report, HTML.
     Page,
-    /// A log or a motion.
-    Table,
+    /// A motion of `excite`.
+    Motion,
+    /// Torques that `trace` predicts.
+    Prediction,
+    /// A log of `simulate`.
+    Simulation,
     /// A robot in the language.
     Spec,
     /// A robot in XML, URDF or MJCF.
@@ -32,7 +40,9 @@ impl Content {
             Self::Json => "JSON",
             Self::Figure => "SVG figure",
             Self::Page => "page",
-            Self::Table => "log or motion",
+            Self::Motion => "motion of `excite`",
+            Self::Prediction => "prediction of `trace`",
+            Self::Simulation => "log of `simulate`",
             Self::Spec => "spec",
             Self::Xml => "XML",
         }
@@ -52,16 +62,23 @@ impl Content {
     fn begins(self, start: &[u8]) -> bool {
         let text = String::from_utf8_lossy(start);
         let text = text.trim_start_matches('\u{feff}').trim_start();
-        let is_json = text.starts_with(['{', '[']);
         match self {
-            Self::Json => is_json,
+            Self::Json => text.starts_with(['{', '[']),
             Self::Figure => is_markup(text) && text.contains("<svg"),
             Self::Page => text.to_ascii_lowercase().starts_with("<!doctype html"),
-            Self::Table => is_log(start),
-            Self::Spec => !is_json && !is_markup(text) && !is_log(start),
+            Self::Motion => MOTION.begins(text),
+            Self::Prediction => PREDICTION.begins(text),
+            Self::Simulation => SIMULATION.begins(text) || is_own_bag(start),
+            Self::Spec => is_spec(text),
             Self::Xml => is_markup(text),
         }
     }
+}
+
+fn is_own_bag(start: &[u8]) -> bool {
+    let (bag, writer) = BAG;
+    let about = &start[..start.len().min(128)];
+    about.starts_with(bag) && about.windows(writer.len()).any(|part| part == writer)
 }
 
 #[cfg(test)]
@@ -74,7 +91,18 @@ mod tests {
             (Content::Json, b"\n{\"method\": \"wls\"}".as_slice()),
             (Content::Figure, b"<svg width=\"640\" xmlns=\"..\">"),
             (Content::Page, b"<!DOCTYPE html>\n<html lang=\"en\">"),
-            (Content::Table, b"time,tau1\n0,1\n"),
+            (
+                Content::Motion,
+                b"time,q1,dq1,ddq1\n0,0.000000000000e0,1.500000000000e-1,0.000000000000e0\n",
+            ),
+            (
+                Content::Prediction,
+                b"time,tau1\n0.000000000,1.50000000e0\n",
+            ),
+            (
+                Content::Simulation,
+                b"time,q1,dq1,tau1\n0,0,0,0\n0.01,0.8414709848078965,1,2\n",
+            ),
             (
                 Content::Spec,
                 b"// a, b, c\nrobot A { gravity = [0, 0, -9.81]; }",
@@ -92,8 +120,12 @@ mod tests {
                 assert_eq!(is_like, is_known, "{content:?} of {other:?}");
             }
         }
-        assert!(Content::Table.begins(b"\x89MCAP0\r\n"));
-        assert!(!Content::Spec.begins(b"PAR1"));
+        let bag = |writer: &str| {
+            let begin = b"\x89MCAP0\r\n\x01\x1f\0\0\0\0\0\0\0\x04\0\0\0ros2\x13\0\0\0";
+            Content::Simulation.begins(&[begin, writer.as_bytes()].concat())
+        };
+        assert!(bag("robot-model/0.1.0"));
+        assert!(!bag("libmcap 1.4.0"));
     }
 
     fn is_markup_of(content: Content) -> bool {

@@ -1,7 +1,7 @@
 //! A file that is there whole or not at all.
 
-use std::fs::{self, OpenOptions};
-use std::io::{self, Write};
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
@@ -131,8 +131,9 @@ impl OutFile {
     /// What is said of a file that another content is taken from; the same content takes nothing.
     fn replaced(&self, content: &[u8]) -> Option<String> {
         self.content?;
-        let before = fs::read(&self.target).ok()?;
-        let is_other = !before.is_empty() && before != content;
+        let before = File::open(&self.target).ok()?;
+        let length = before.metadata().ok()?.len();
+        let is_other = length > 0 && (length != content.len() as u64 || !is_same(before, content));
         is_other.then(|| {
             format!(
                 "note: `{}` was there before; it has this run's result in place of that",
@@ -153,6 +154,26 @@ impl OutFile {
             _ => failed(&error.error),
         })?;
         Ok(())
+    }
+}
+
+/// Whether a file holds a content, a piece at a time: results may be as large as the memory.
+fn is_same(file: File, content: &[u8]) -> bool {
+    let mut file = BufReader::new(file);
+    let mut rest = content;
+    loop {
+        match file.fill_buf() {
+            Ok([]) => return rest.is_empty(),
+            Ok(piece) => {
+                let Some(left) = rest.strip_prefix(piece) else {
+                    return false;
+                };
+                rest = left;
+                let taken = piece.len();
+                file.consume(taken);
+            }
+            Err(_) => return false,
+        }
     }
 }
 

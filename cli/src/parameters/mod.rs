@@ -100,10 +100,14 @@ pub(crate) fn known(
     more: &[(String, f64)],
 ) -> Result<Known, Error> {
     let (mut given, source) = given(compiled, file)?;
+    if let Err(error @ ValuesError::Unknown { .. }) = parameters::known(compiled, &given) {
+        return Err(refused(&source, file, &error));
+    }
     given.extend(more.iter().cloned());
     let values = parameters::known(compiled, &given);
     values.map_err(|error| match &error {
-        ValuesError::Unknown { .. } => refused(&source, file, &error),
+        // The file's own names are known.
+        ValuesError::Unknown { .. } => refused(&compiled.model.source, None, &error),
         _ => Error::Argument(format!("{source}: {error}")),
     })
 }
@@ -128,4 +132,38 @@ fn refused(source: &str, file: Option<&Path>, error: &ValuesError) -> Error {
         _ => reason,
     };
     Error::Argument(format!("{source}: {reason}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CART: &str = "robot Cart {
+        gravity = [0, 0, -9.81];
+        convention = standard_dh;
+        joint cart: prismatic { theta = 0; a = 0; alpha = 0; }
+        link cart;
+    }";
+
+    #[test]
+    fn unknown_names_are_of_the_file_or_of_who_asks() {
+        let model = robot_model_spec::load("cart.robot", CART).expect("a spec");
+        let compiled = robot_model_codegen::compile_model(&model);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("fit.json");
+        let said = |text: &str| {
+            std::fs::write(&path, text).expect("a file");
+            let more = [("cart.nonsense".to_owned(), 1.0)];
+            let known = known(&compiled, Some(&path), &more);
+            known.err().expect("an unknown name").to_string()
+        };
+        let of_more = said("{\"cart.m\": 2}");
+        assert!(
+            of_more.starts_with("cart.robot: Cart has no parameter `cart.nonsense`"),
+            "{of_more}"
+        );
+        let of_file = said("{\n\"cart.mass\": 2}");
+        assert!(of_file.contains("fit.json:2:"), "{of_file}");
+        assert!(!of_file.contains("nonsense"), "{of_file}");
+    }
 }

@@ -153,7 +153,7 @@ impl Simulate {
         let more = [&self.parameters, &self.control_parameters, &self.torque];
         let inputs = inputs.into_iter().chain(more.map(Option::as_ref)).flatten();
         let mut files = Files::reading(inputs.map(PathBuf::as_path));
-        let out = files.claim_for(&self.out, Content::Table)?;
+        let out = files.claim_for(&self.out, Content::Simulation)?;
         let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         if self.control_parameters.is_some()
             && self.controller != ControllerArgument::ComputedTorque
@@ -201,11 +201,12 @@ impl Simulate {
         let before = is_free.then(|| plant.energies(&start.q, &start.dq));
 
         let mut told = 0.0;
+        let whole = output::rounded(setting.duration);
         let pause = setting.duration * if progress.is_live() { 0.01 } else { 0.1 };
         let mut tell = |time: f64| {
             if time == 0.0 || time >= told + pause {
                 told = time;
-                let what = format!("simulating: {time:.1} s of {} s", setting.duration);
+                let what = format!("simulating: {time:.1} s of {whole} s");
                 progress.part(&what, time / setting.duration);
             }
         };

@@ -10,6 +10,8 @@ use robot_model_spec::model::Joint;
 
 use super::Report;
 use crate::Error;
+use crate::output::rounded;
+use crate::output::table::SIMULATION;
 use crate::units::Units;
 
 /// Whether a log is to be a bag of ROS 2, by its name.
@@ -41,12 +43,7 @@ pub(super) fn log(path: &Path, record: &Record, model: &Model) -> Result<Vec<u8>
 
 /// `time,q1..,dq1..,tau1..[,extra]`
 fn csv(record: &Record) -> String {
-    let mut text = String::from("time");
-    for (stem, columns) in [("q", &record.q), ("dq", &record.dq), ("tau", &record.tau)] {
-        for joint in 1..=columns.len() {
-            let _ = write!(text, ",{stem}{joint}");
-        }
-    }
+    let mut text = SIMULATION.header(record.q.len());
     for channel in &record.extra {
         let _ = write!(text, ",{}", channel.name);
     }
@@ -56,11 +53,7 @@ fn csv(record: &Record) -> String {
         .chain(record.extra.iter().map(|channel| &channel.values))
         .collect();
     for (k, time) in record.time.iter().enumerate() {
-        let _ = write!(text, "{time}");
-        for column in &columns {
-            let _ = write!(text, ",{}", column[k]);
-        }
-        text.push('\n');
+        SIMULATION.push(&mut text, *time, columns.iter().map(|column| column[k]));
     }
     text
 }
@@ -70,7 +63,7 @@ pub(super) fn summary(out: &Path, report: &Report, joints: &[Joint]) -> String {
         "{}: {} samples of {} s\n",
         out.display(),
         report.samples,
-        report.seconds
+        rounded(report.seconds)
     );
     for (joint, error) in joints.iter().zip(&report.tracking_error) {
         let unit = Units::of(joint.kind).position;

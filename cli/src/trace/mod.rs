@@ -18,6 +18,7 @@ use robot_model::log::Log;
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
 use crate::log_settings::LogSettings;
+use crate::output::table::PREDICTION;
 use crate::output::{self, Content, Files};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
@@ -69,7 +70,7 @@ impl TraceArguments {
         let mut files = Files::reading(inputs.map(PathBuf::as_path))
             .and(settings.files(self.logs.iter().chain(&self.validate)));
         let amend = files.claim_if(self.amend.as_deref(), Content::Spec)?;
-        let predict = files.claim_if(self.predict.as_deref(), Content::Table)?;
+        let predict = files.claim_if(self.predict.as_deref(), Content::Prediction)?;
         let json = files.claim_if(self.json.as_deref(), Content::Json)?;
         let report = ReportFolder::claim_if(&mut files, self.report.as_deref())?;
 
@@ -132,17 +133,11 @@ fn prediction(closed: &Loop, log: &Log) -> Result<String, Error> {
             *value /= gain * unit;
         }
     }
-    let mut text = String::from("time");
-    for joint in 1..=torque.len() {
-        write!(text, ",tau{joint}").expect("a string takes all");
-    }
-    for (sample, time) in log.time.iter().enumerate() {
-        // Nanoseconds, and more digits than any torque has.
-        write!(text, "\n{time:.9}").expect("a string takes all");
-        for values in &torque {
-            write!(text, ",{:.8e}", values[sample]).expect("a string takes all");
-        }
-    }
+    let mut text = PREDICTION.header(torque.len());
     text.push('\n');
+    for (sample, time) in log.time.iter().enumerate() {
+        let values = torque.iter().map(|values| values[sample]);
+        PREDICTION.push(&mut text, *time, values);
+    }
     Ok(text)
 }

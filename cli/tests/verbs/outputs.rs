@@ -1,5 +1,7 @@
 //! Where results may go, and readers that are gone.
 
+use std::fmt::Write;
+
 use crate::common::{CART, Folder, PENDULUM, URDF, cart_log, json};
 
 #[test]
@@ -235,6 +237,18 @@ fn a_result_takes_the_place_of_nothing_else() {
     folder.write("tuesday.csv", &cart_log(5, 0.0, 0.7));
     folder.write("motion.csv", "time,q1\n0,0\n0.5,0.1\n1,0\n");
     folder.write("fit.json", "{\"parameters\": {}}");
+    folder.write("notes.txt", "what to ask on Monday");
+    folder.write(
+        "units.csv",
+        "time [s],q1 [rad],dq1 [rad/s],tau1 [Nm]\n0,1,2,3\n",
+    );
+    folder.write("named.csv", "# robot UR5, Monday\ntime,q1,tau1\n0,1,2\n");
+    folder.write("blanks.csv", "t;q1\n0;1\n");
+    folder.write("kn.csv", "time,tau1\n0.0,1.25\n0.1,1.5\n");
+    folder.write(
+        "measured.csv",
+        "time,q1,dq1,tau1\n0,0.25,0.5,1.25\n0.1,0.5,0.5,1.5\n",
+    );
     std::fs::create_dir(folder.path("site")).expect("a folder");
     folder.write("site/index.html", "<p>of somebody else");
     let identify = ["identify", "cart.robot", "log.csv"];
@@ -247,8 +261,22 @@ fn a_result_takes_the_place_of_nothing_else() {
         (&identify, "--report", "site", "page"),
         (&trace, "--amend", "tuesday.csv", "spec"),
         (&trace, "--amend", "arm.urdf", "spec"),
-        (&trace, "--predict", "fit.json", "log or motion"),
-        (&simulate, "--out", "other.robot", "log or motion"),
+        (&trace, "--amend", "notes.txt", "spec"),
+        (&trace, "--amend", "units.csv", "spec"),
+        (&trace, "--amend", "named.csv", "spec"),
+        (&trace, "--amend", "blanks.csv", "spec"),
+        (&trace, "--predict", "fit.json", "prediction of `trace`"),
+        (&trace, "--predict", "kn.csv", "prediction of `trace`"),
+        (&trace, "--predict", "measured.csv", "prediction of `trace`"),
+        (&simulate, "--out", "other.robot", "log of `simulate`"),
+        (&simulate, "--out", "measured.csv", "log of `simulate`"),
+        (&simulate, "--out", "tuesday.csv", "log of `simulate`"),
+        (
+            &["excite", "cart.robot"],
+            "--out",
+            "measured.csv",
+            "motion of `excite`",
+        ),
         (
             &["export", "cart.robot", "--as", "urdf"],
             "-o",
@@ -269,6 +297,37 @@ fn a_result_takes_the_place_of_nothing_else() {
             )
         );
         assert_eq!(folder.read(named), before);
+    }
+}
+
+/// Logs that are simulated again, as text and as a bag.
+#[test]
+fn a_table_takes_the_place_of_what_its_verb_wrote() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write(
+        "values.json",
+        r#"{"cart.m": 2.5, "cart.viscous_friction.fv": 0.5}"#,
+    );
+    let mut motion = String::from("time,q1\n");
+    for k in 0..=100 {
+        let t = 0.01 * f64::from(k);
+        writeln!(motion, "{t},{}", 0.1 * (3.0 * t).sin()).expect("a string takes all");
+    }
+    folder.write("motion.csv", &motion);
+    let simulate = |out: &str, frequency: &str| {
+        let inputs = ["--trajectory", "motion.csv", "--parameters", "values.json"];
+        let more = ["--frequency", frequency, "--out", out];
+        let run = folder.run(&[&["simulate", "cart.robot"], &inputs[..], &more].concat());
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.stderr
+    };
+    for out in ["log.csv", "log.mcap"] {
+        let note = format!("note: `{out}` was there before");
+        assert!(!simulate(out, "5").contains(&note));
+        assert!(simulate(out, "10").contains(&note));
+        // The same bytes again take nothing away.
+        assert!(!simulate(out, "10").contains(&note));
     }
 }
 

@@ -145,6 +145,34 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
     assert!(of_files < place("RMSE and MAE: how far"));
 }
 
+/// Late torques are of one log, and want another spec or log: they are no remark on a file.
+#[test]
+fn late_torques_are_to_be_looked_at() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(40, 0.0, 0.0);
+    let rows: Vec<Vec<&str>> = log.lines().map(|line| line.split(',').collect()).collect();
+    let late = rows.iter().enumerate().map(|(k, row)| {
+        let tau = if k == 0 {
+            row[2]
+        } else {
+            rows[k.saturating_sub(3).max(1)][2]
+        };
+        format!("{},{},{tau}", row[0], row[1])
+    });
+    folder.write("log.csv", &late.collect::<Vec<_>>().join("\n"));
+    folder.write("robot-model.toml", "[log]\nq = { unit = \"m\" }\n");
+    folder.succeed(&["identify", "cart.robot", "log.csv", "--report", "page"]);
+    let html = folder.read("page/index.html");
+    let place = |words: &str| {
+        html.find(words)
+            .unwrap_or_else(|| panic!("no {words}: {html}"))
+    };
+    let of_files = place("<h3>Of single files</h3>");
+    let told = place("<li>log.csv: ");
+    assert!(place("<h3>What to look at</h3>") < told && told < of_files);
+}
+
 /// A table with two intervals' worth of numbers says which are whose.
 #[test]
 fn intervals_of_draws_are_told_from_those_of_the_formula() {

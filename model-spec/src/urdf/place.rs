@@ -166,7 +166,7 @@ pub(super) fn check_elements(urdf: &str) -> Result<(), ImportError> {
 
 /// Where and why `urdf` cannot be read; `said`, the library's words, where no rule of this file is broken.
 pub(super) fn explain(urdf: &str, said: &str) -> String {
-    if let Some(declared) = urdf.find("<!ENTITY") {
+    if let Some(declared) = declared_entity(urdf) {
         let line = urdf[..declared].matches('\n').count() + 1;
         return format!(
             "line {line}: `<!ENTITY ..>` declares an entity, and URDFs are read without them: write what it stands for in its place"
@@ -217,6 +217,19 @@ pub(super) fn explain(urdf: &str, said: &str) -> String {
         };
         if let Some((line, fault)) = fault {
             return format!("line {line}: {fault}");
+        }
+    }
+}
+
+/// Where an entity is declared, outside of comments.
+fn declared_entity(urdf: &str) -> Option<usize> {
+    let mut from = 0;
+    loop {
+        let rest = &urdf[from..];
+        let declared = rest.find("<!ENTITY")?;
+        match rest.find("<!--").filter(|comment| *comment < declared) {
+            Some(comment) => from += comment + rest[comment..].find("-->")?,
+            None => return Some(from + declared),
         }
     }
 }

@@ -117,6 +117,23 @@ fn entities_that_a_urdf_declares_are_told() {
 }
 
 #[test]
+fn entities_in_comments_hide_no_mistake() {
+    let comment = "<!-- no <!ENTITY m \"2\"> here -->\n";
+    let said =
+        |text: &str| import(text, &ImportOptions::default()).map_err(|error| error.to_string());
+    let broken = SOUND.replace("value=\"2\"", "value=\"two\"");
+    let plain = said(&broken).expect_err("refused");
+    assert!(plain.contains("`value=\"two\"`"), "{plain}");
+    let below = said(&format!("{comment}{broken}")).expect_err("refused");
+    assert!(below.contains("`value=\"two\"`"), "{below}");
+    // A declaration behind a comment is one.
+    let declared = SOUND.replace("value=\"2\"", "value=\"&m;\"");
+    let with = format!("{comment}<!DOCTYPE robot [<!ENTITY m \"2\">]>\n{declared}");
+    let told = said(&with).expect_err("refused");
+    assert!(told.contains("line 2: `<!ENTITY ..>` declares"), "{told}");
+}
+
+#[test]
 fn masses_that_the_language_refuses_are_those_of_the_urdf() {
     let with = |from: &str, to: &str| refused(from, to, &ImportOptions::default());
     assert_eq!(

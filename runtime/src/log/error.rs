@@ -8,8 +8,7 @@ pub use text::TextError;
 
 use super::words::{columns, field, hertz, in_unit, joints, list, plural, way_out};
 
-/// Why a log cannot be used. `source_name` is the file, `line` counts from 1; what is wrong with a header is told of line 1, whatever comments
-/// stand above it.
+/// Why a log cannot be used. `source_name` is the file, `line` counts from 1, with all that stands above a header.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LogError {

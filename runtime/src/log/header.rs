@@ -1,7 +1,7 @@
 //! Header names to channels.
 //!
 //! A name outside the families `time`, `q`, `dq`, `tau` is an extra channel. A name that is nearly of a family is an error:
-//! a misspelled torque that is silently set aside costs an afternoon.
+//! a misspelled torque that is silently set aside costs an afternoon. Beside the channel itself it is an extra one.
 
 use std::collections::BTreeSet;
 
@@ -231,6 +231,10 @@ fn others(
         }
         match classify(name, columns.dof(), &standard, time) {
             Kind::Known | Kind::Extra => others.push((name.clone(), Place::plain(column))),
+            // Beside the channel itself it is another one, such as the same in degrees.
+            Kind::NearMiss(meant) if names.contains(&meant) => {
+                others.push((name.clone(), Place::plain(column)));
+            }
             Kind::NoSuchJoint => {
                 return Err(LogError::NoSuchJoint {
                     source_name: source_name(),

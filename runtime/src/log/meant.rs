@@ -112,6 +112,11 @@ mod tests {
             "t",
             "torque1",
             "x",
+            "q1 (ref)",
+            "tau1 (filtered)",
+            "dq1 [est]",
+            "q7 (lift)",
+            "time (host)",
         ] {
             assert_eq!(classify(name, 2, &FAMILIES, true), Kind::Extra, "{name}");
         }

@@ -76,7 +76,7 @@ pub struct Log {
     /// Speeds below which dry friction does not act in full, one a joint, rad/s or m/s; none where they were not looked for: then they are
     /// those that an encoder does not tell apart. See [`Log::with_turn_speeds`].
     pub turn_speeds: Vec<f64>,
-    /// What a one in the file's column of each torque was worth, by settings or by a line of units in the file; no joints where it came from
+    /// What a one in the file's column of each torque was worth, by settings or by a line of units in the file; one where it came from
     /// memory.
     pub tau_units: Vec<f64>,
 }
@@ -219,6 +219,7 @@ impl Log {
     /// let tau = vec![vec![0.0; 100]];
     /// let log = Log::from_samples("a plant", time, q, tau)?;
     /// assert_eq!(log.dof(), 1);
+    /// assert_eq!(log.tau_units, [1.0]);
     /// # Ok::<(), robot_model::log::LogError>(())
     /// ```
     pub fn from_samples(
@@ -237,6 +238,7 @@ impl Log {
                 source_name: source,
             });
         }
+        let joints = tau.len();
         let bad = |channel: &Vec<f64>| channel.iter().position(|value| !value.is_finite());
         if let Some(sample) = std::iter::once(&time).chain(&q).chain(&tau).find_map(bad) {
             return Err(LogError::NotFiniteSample {
@@ -255,7 +257,7 @@ impl Log {
             holes: Vec::new(),
             clipped: Vec::new(),
             turn_speeds: Vec::new(),
-            tau_units: Vec::new(),
+            tau_units: vec![1.0; joints],
         }
         .finish(None, &Lost::default())
     }

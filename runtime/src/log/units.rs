@@ -169,16 +169,22 @@ impl Reading<'_> {
     }
 }
 
-/// A name without the unit in brackets behind it, and that unit: `q1 [deg]`. An index is none: `q[1]`.
+/// A name without the unit in brackets behind it, and that unit: `q1 [deg]`. Other words in brackets are part of the name: `q1 (ref)`.
 pub(super) fn split(name: &str) -> (&str, Option<&str>) {
     let name = name.trim();
     let brackets = [('[', ']'), ('(', ')')];
     let found = brackets.into_iter().find_map(|(open, close)| {
         let (bare, unit) = name.strip_suffix(close)?.rsplit_once(open)?;
-        let is_word = unit.contains(|c: char| !c.is_ascii_digit()) && !bare.trim().is_empty();
-        is_word.then_some((bare.trim_end(), Some(unit)))
+        let is_unit = is_known(&plain(unit)) && !bare.trim().is_empty();
+        is_unit.then_some((bare.trim_end(), Some(unit)))
     });
     found.unwrap_or((name, None))
+}
+
+fn is_known(unit: &str) -> bool {
+    let tables: [&Words; 5] = [&TIMES, &POSITIONS, &SPEEDS, &TORQUES, &CURRENTS];
+    let mut words = tables.into_iter().flatten();
+    words.any(|(word, ..)| *word == unit)
 }
 
 /// The unit of a channel in brackets behind its name, as settings have it; none where it is not known.

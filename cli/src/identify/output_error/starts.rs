@@ -117,10 +117,8 @@ pub(super) fn search(
             "simulation {}: cost {:.6e}{of_which}",
             iterate.simulations, iterate.cost
         );
-        if of_which.is_empty() {
-            progress.often(&what, Some(iterate.done));
-        } else {
-            progress.part(&what, iterate.done);
+        if !of_which.is_empty() || progress.is_due() {
+            progress.guess(&what, iterate.done);
         }
     };
     let mut begun = 0_u32;

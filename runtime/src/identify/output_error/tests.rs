@@ -115,7 +115,7 @@ fn sampled(step: f64, seconds: f64, push: impl Fn(f64) -> f64) -> Log {
         holes: Vec::new(),
         clipped: Vec::new(),
         turn_speeds: Vec::new(),
-        tau_units: Vec::new(),
+        tau_units: vec![1.0],
     }
 }
 

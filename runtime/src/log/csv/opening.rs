@@ -1,6 +1,7 @@
 //! Where a text's header is, and what separates its columns: `numpy.savetxt` writes the header as a comment, spreadsheets write
 //! semicolons, test rigs write what they know above it.
 
+use std::cmp::Ordering;
 use std::io::Read;
 
 use super::super::note::Note;
@@ -8,7 +9,7 @@ use super::super::rows::damaged;
 use super::super::words;
 use super::super::{Columns, LogError, TextError};
 use super::lines::Lines;
-use super::separator::{self, fields};
+use super::separator;
 use super::{clock, number};
 
 /// What comments begin with, in `NumPy`, in MATLAB, and in languages of programs.
@@ -86,7 +87,7 @@ impl<'a> Opening<'a> {
 /// such as `,joint 1,,joint 2`.
 ///
 /// # Errors
-/// [`TextError::Above`] where what stands above the header may name its columns, too.
+/// [`TextError::Above`] where what stands above the header may name its columns, too, [`TextError::Between`] where it surely does.
 fn below_remarks(
     source: &str,
     lines: &mut Lines,
@@ -108,16 +109,29 @@ fn below_remarks(
                 && names_columns_of(&own, &next, told, columns)
         };
         if is_header(&own) && (is_row_of(&own, &next, told) || is_above_units()) {
-            let mut above = above.iter();
-            if above.any(|line| names_columns_of(line, &own, told, columns)) {
-                return Err(TextError::Above {
-                    source_name: source.to_owned(),
-                    line: first as u64 + 1,
-                    header: number as u64 + 1,
+            let mut above = above.iter().enumerate();
+            let rival = above.find(|(_, line)| names_columns_of(line, &own, told, columns));
+            let Some((above, line)) = rival else {
+                return Ok(number);
+            };
+            let [rival, header] = [first + above, number].map(|line| line as u64 + 1);
+            let source_name = source.to_owned();
+            let [of_rival, of_own] =
+                [line, &own].map(|line| asked(&fields(line, separator_of(&own, told)), columns));
+            return Err(if of_rival > of_own {
+                TextError::Between {
+                    source_name,
+                    line: header,
+                    header: rival,
                 }
-                .into());
+            } else {
+                TextError::Above {
+                    source_name,
+                    line: rival,
+                    header,
+                }
             }
-            return Ok(number);
+            .into());
         }
         if number == first && starts_with_number(&own) {
             break;
@@ -127,25 +141,45 @@ fn below_remarks(
     Ok(first)
 }
 
-/// Whether a line may name the columns of another below it: a name for each, none of them twice, and no fewer that are asked for.
+/// Whether a line may name the columns of another below it: more of those that are asked for, or as many of them, a name for each column
+/// and none twice.
 fn names_columns_of(line: &[u8], other: &[u8], told: Option<u8>, columns: &Columns) -> bool {
-    let separator = told.unwrap_or_else(|| separator::of(other));
+    let separator = separator_of(other, told);
     let [own, others] = [line, other].map(|line| fields(line, separator));
     let full = |fields: &[&[u8]]| fields.iter().filter(|field| !field.is_empty()).count();
-    let mut distinct: Vec<&[u8]> = own
-        .iter()
-        .copied()
-        .filter(|name| !name.is_empty())
-        .collect();
+    let mut distinct = own.clone();
+    distinct.retain(|name| !name.is_empty());
     distinct.sort_unstable();
     distinct.dedup();
+    let is_whole = distinct.len() == full(&own) && full(&own) >= full(&others);
+    let may_name = match asked(&own, columns).cmp(&asked(&others, columns)) {
+        Ordering::Less => false,
+        Ordering::Equal => is_whole,
+        Ordering::Greater => true,
+    };
+    may_name && is_header(line) && is_as_wide(line, other, told)
+}
+
+/// How many fields are names that are asked for.
+fn asked(fields: &[&[u8]], columns: &Columns) -> usize {
     let is_asked = |field: &&&[u8]| columns.all().any(|own| own.name.as_bytes() == **field);
-    let asked = |fields: &[&[u8]]| fields.iter().filter(is_asked).count();
-    is_header(line)
-        && is_as_wide(line, other, told)
-        && distinct.len() == full(&own)
-        && full(&own) >= full(&others)
-        && asked(&own) >= asked(&others)
+    fields.iter().filter(is_asked).count()
+}
+
+/// What separates the columns of a header where the file does not say it.
+fn separator_of(header: &[u8], told: Option<u8>) -> u8 {
+    told.unwrap_or_else(|| separator::of(header))
+}
+
+/// Fields of a line without the quotes around them.
+fn fields(line: &[u8], separator: u8) -> Vec<&[u8]> {
+    let fields = separator::fields(line, separator).into_iter();
+    let bare = fields.map(|field| {
+        let behind = field.strip_prefix(b"\"");
+        let inner = behind.and_then(|behind| behind.strip_suffix(b"\""));
+        inner.unwrap_or(field).trim_ascii()
+    });
+    bare.collect()
 }
 
 /// What a comment says. A line that begins with a semicolon and has no other is one, too: it is no row of columns.
@@ -176,7 +210,7 @@ fn starts_with_number(line: &[u8]) -> bool {
 
 /// Whether a line has a field for each of the columns that another names; one that is empty may be missing at the end.
 fn is_as_wide(header: &[u8], row: &[u8], told: Option<u8>) -> bool {
-    let separator = told.unwrap_or_else(|| separator::of(header));
+    let separator = separator_of(header, told);
     let [names, own] = [header, row].map(|line| fields(line, separator));
     let full = |fields: &[&[u8]]| fields.len() - usize::from(fields.ends_with(&[b""]));
     names.len() == own.len() || full(&names) == full(&own)
@@ -185,7 +219,7 @@ fn is_as_wide(header: &[u8], row: &[u8], told: Option<u8>) -> bool {
 /// Whether a line is a row of the columns that a comment names: as many fields, the first of which is a number, of whatever decimals, or
 /// lost.
 fn is_row_of(header: &[u8], row: &[u8], told: Option<u8>) -> bool {
-    let own = fields(row, told.unwrap_or_else(|| separator::of(header)));
+    let own = fields(row, separator_of(header, told));
     let is_blank = own.iter().all(|field| field.is_empty());
     let begins = own
         .first()

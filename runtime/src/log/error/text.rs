@@ -44,15 +44,28 @@ pub enum TextError {
     },
     /// Lines above the header that may be columns, too.
     #[error(
-        "{source_name}:{line}: the line has other columns than the rows, whose header seems to be line {header}; remove the lines above it, \
+        "{source_name}:{line}: the line may name the columns as well as line {header} above the rows; remove the lines above that, \
          or begin each with `#`"
     )]
     Above {
         /// The file.
         source_name: String,
-        /// The first line that is no comment.
+        /// The line that may name the columns.
         line: u64,
         /// The line that names the columns of the rows.
+        header: u64,
+    },
+    /// Lines between the header and the numbers that are not one of units.
+    #[error(
+        "{source_name}:{line}: the names of columns are in line {header}, and only one line of units may stand between them and the numbers; \
+         remove the others, such as this one"
+    )]
+    Between {
+        /// The file.
+        source_name: String,
+        /// The line, or one of several.
+        line: u64,
+        /// The line that names the columns.
         header: u64,
     },
     /// Bytes that are no text.

@@ -137,8 +137,99 @@ fn groups_of_columns_and_fields_above_a_header_are_passed_over() {
     let twice = format!("time,q1,tau1\n\n{}", text("time,q1,tau1", &rows(40)));
     assert_eq!(
         refusal(&twice, 1),
-        "monday.csv:1: the line has other columns than the rows, whose header seems to be line 3; remove the lines above it, or begin each with `#`"
+        "monday.csv:1: the line may name the columns as well as line 3 above the rows; remove the lines above that, or begin each with `#`"
     );
+    let below = refusal(&format!("Robot,UR5\n\n{twice}"), 1);
+    assert!(
+        below.starts_with("monday.csv:3: the line may name the columns as well as line 5"),
+        "{below}"
+    );
+}
+
+#[test]
+fn names_that_are_asked_for_are_the_header_and_not_units() {
+    let in_degrees = |header: &str, units: &str, more: &str| {
+        let rows = rows(40).into_iter().enumerate();
+        let front = |k: usize| {
+            if header.starts_with(',') {
+                format!("{k},")
+            } else {
+                String::new()
+            }
+        };
+        let rows: Vec<String> = rows
+            .map(|(k, row)| format!("{}{row}{more}", front(k)))
+            .collect();
+        format!("{header}\n{units}\n{}\n", rows.join("\n"))
+    };
+    let plain = read(&text("time,q1,tau1", &rows(40)), 1).expect("a log");
+    // The first column counts rows; names may be quoted, and have a unit each where one has no name that is asked for.
+    for (header, units, more) in [
+        (",time,q1,tau1", "-,s,deg,Nm", ""),
+        ("\"time\",\"q1\",\"tau1\",", "s,deg,Nm,", ","),
+        ("\"time\",\"q1\",\"tau1\"", "s,deg,Nm", ""),
+    ] {
+        let log = read(&in_degrees(header, units, more), 1)
+            .unwrap_or_else(|error| panic!("{header}: {error}"));
+        assert_eq!((&log.time, &log.tau), (&plain.time, &plain.tau), "{header}");
+        assert!(
+            (log.q[0][7] - plain.q[0][7].to_radians()).abs() < 1e-15,
+            "{header}"
+        );
+    }
+    for (header, units, more, said) in [
+        (
+            "time,q1,tau1,",
+            "s,deg,Nm,degC",
+            ",20",
+            "monday.csv:1: column 4 has no name",
+        ),
+        (
+            "time,q1,tau1,temp,temp",
+            "s,deg,Nm,degC,degC",
+            ",20,21",
+            "monday.csv:1: column `temp` stands there twice",
+        ),
+        (
+            "\"time\",\"q1\",\"tau1\",\"temp\",\"temp\"",
+            "s,deg,Nm,degC,degC",
+            ",20,21",
+            "monday.csv:1: column `temp` stands there twice",
+        ),
+        (
+            "time,q1,tau1\nclock,angle,load",
+            "s,deg,Nm",
+            "",
+            "monday.csv:2: the names of columns are in line 1, and only one line of units may stand between",
+        ),
+    ] {
+        let told = refusal(&in_degrees(header, units, more), 1);
+        assert!(told.starts_with(said), "{told}");
+    }
+}
+
+#[test]
+fn channels_beside_those_that_are_meant_are_extra() {
+    for name in [
+        "q1 (ref)",
+        "tau1 (filtered)",
+        "dq1 [est]",
+        "q1 [deg]",
+        "q_1",
+        "time (host)",
+        "q7 (lift)",
+    ] {
+        let rows: Vec<String> = rows(40).iter().map(|row| format!("{row},3")).collect();
+        let log = read(&text(&format!("time,q1,tau1,{name}"), &rows), 1)
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(log.extra[0].name, name);
+        assert!(
+            log.extra[0]
+                .values
+                .iter()
+                .all(|value| (value - 3.0).abs() < 1e-15)
+        );
+    }
 }
 
 #[test]
