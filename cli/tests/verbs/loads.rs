@@ -89,8 +89,12 @@ fn a_law_that_tells_how_a_joint_turns_is_asked_for_again() {
             ]
         },
     );
+    let simulate = ["simulate", "true.robot", "--parameters", "true.json"];
+    let motion = ["--trajectory", "wanted.csv", "--out", "quiet.csv"];
+    let noise = ["--torque-noise", "0.003", "--seed", "1"];
+    folder.succeed(&[&simulate[..], &motion, &noise].concat());
     folder.write("arm.robot", &spec("", "coulomb_friction on up;"));
-    let run = folder.run(&["trace", "arm.robot", "log.csv", "--json", "trace.json"]);
+    let run = folder.run(&["trace", "arm.robot", "quiet.csv", "--json", "trace.json"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let passes = run
         .stderr
