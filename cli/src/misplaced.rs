@@ -64,21 +64,28 @@ fn is_log(bytes: &[u8]) -> bool {
         || (is_header && !header.contains(['{', '/', '<']))
 }
 
-/// Whether a text is a spec, whatever its mistakes: `robot NAME {` behind comments and effects.
+/// Whether a text is a spec, whatever its mistakes.
 pub(crate) fn is_spec(text: &str) -> bool {
+    robot_of(text).is_some()
+}
+
+/// The robot of a spec, whatever its mistakes: `robot NAME {` behind comments and effects.
+pub(crate) fn robot_of(text: &str) -> Option<String> {
     let code = without_comments(text);
     let mut rest = code.trim_start_matches('\u{feff}');
     while let Some((head, body)) = rest.split_once('{') {
         let words: Vec<&str> = head.split_whitespace().collect();
         match words.as_slice() {
             ["robot", name] => {
-                return !name.contains(|c: char| c.is_ascii_punctuation() && c != '_' && c != '-');
+                let is_name =
+                    !name.contains(|c: char| c.is_ascii_punctuation() && c != '_' && c != '-');
+                return is_name.then(|| (*name).to_owned());
             }
             ["effect", ..] => rest = behind(body),
-            _ => return false,
+            _ => return None,
         }
     }
-    false
+    None
 }
 
 /// What comes behind the bracket that ends a body.

@@ -9,6 +9,7 @@ mod tried;
 mod whereabouts;
 
 use std::fmt::Write;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -18,6 +19,7 @@ use robot_model::log::Log;
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
 use crate::log_settings::LogSettings;
+use crate::misplaced::robot_of;
 use crate::output::table::PREDICTION;
 use crate::output::{self, Content, Files};
 use crate::progress::Progress;
@@ -60,6 +62,21 @@ pub(crate) struct TraceArguments {
 }
 
 impl TraceArguments {
+    /// Refuses to put an amended spec in the place of that of another robot, which somebody wrote.
+    fn check_amended(&self, robot: &str) -> Result<(), Error> {
+        let Some(path) = &self.amend else {
+            return Ok(());
+        };
+        let text = fs::read_to_string(path).unwrap_or_default();
+        match robot_of(&text) {
+            Some(other) if other != robot => Err(Error::Argument(format!(
+                "cannot write `{}`: what is there is the spec of robot `{other}`, and would be lost; give another name, or take that file away first",
+                path.display()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     pub(crate) fn run(&self) -> Result<(), Error> {
         let text = read_text(&self.spec)?;
         let model = load(&self.spec)?;
@@ -69,6 +86,7 @@ impl TraceArguments {
         let settings = &self.log_settings;
         let mut files = Files::reading(inputs.map(PathBuf::as_path))
             .and(settings.files(self.logs.iter().chain(&self.validate)));
+        self.check_amended(&model.name)?;
         let amend = files.claim_if(self.amend.as_deref(), Content::Spec)?;
         let predict = files.claim_if(self.predict.as_deref(), Content::Prediction)?;
         let json = files.claim_if(self.json.as_deref(), Content::Json)?;

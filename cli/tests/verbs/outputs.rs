@@ -298,6 +298,14 @@ fn a_result_takes_the_place_of_nothing_else() {
         );
         assert_eq!(folder.read(named), before);
     }
+    let of_another = "// By hand.\nrobot Another { gravity = [0, 0, -9.81]; }\n";
+    folder.write("another.robot", of_another);
+    assert_eq!(
+        folder.refuse(&[&trace[..], &["--amend", "another.robot"]].concat()),
+        "error: cannot write `another.robot`: what is there is the spec of robot `Another`, and would be lost; give another name, or take \
+         that file away first\n"
+    );
+    assert_eq!(folder.read("another.robot"), of_another);
 }
 
 /// Logs that are simulated again, as text and as a bag.

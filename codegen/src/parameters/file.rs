@@ -59,6 +59,11 @@ pub fn untold(file: &Value) -> BTreeSet<String> {
 }
 
 fn plain(entries: &Map<String, Value>) -> Result<BTreeMap<String, f64>, String> {
+    if entries.contains_key("outcome") && entries.contains_key("effects") {
+        return Err(
+            "this is what `trace --json` writes; the numbers of the amended spec are those of `identify --json`".to_owned(),
+        );
+    }
     let entries = entries.iter();
     entries
         .map(|(name, value)| match value.as_f64() {

@@ -6,7 +6,7 @@ use super::LogError;
 pub(super) const BYTES: usize = 8;
 
 /// First bytes, what begins with them, and what to do.
-const KINDS: [(&[u8], &str, &str); 14] = [
+const KINDS: [(&[u8], &str, &str); 15] = [
     (
         b"#ROSBAG",
         "a bag of ROS 1",
@@ -55,6 +55,11 @@ const KINDS: [(&[u8], &str, &str); 14] = [
         "a file packed by bzip2",
         "`bunzip2` unpacks it; gzip is read as it is",
     ),
+    (
+        b"<?xml",
+        "XML, as URDFs are",
+        "name the log behind the spec; `robot-model import` makes a spec of a URDF",
+    ),
     (b"%PDF", "a PDF file", "name the file that has the numbers"),
     (
         b"\x80\x04",
@@ -98,6 +103,10 @@ mod tests {
             (b"MATLAB 5.0 MAT-file", "a file of MATLAB; `writetable"),
             (b"PK\x03\x04\x14", "a ZIP archive or a workbook"),
             (b"SQLite format 3\0", "`ros2 bag convert`"),
+            (
+                b"<?xml version=\"1.0\"?>",
+                "XML, as URDFs are; name the log",
+            ),
         ] {
             let said = said(start).expect_err("no log");
             assert!(

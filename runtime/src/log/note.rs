@@ -45,6 +45,8 @@ pub enum Note {
         line: u64,
         /// Columns that are read in them.
         said: Vec<String>,
+        /// Columns of which settings say another unit, which holds.
+        against: Vec<String>,
     },
     /// Dates or times of day in place of seconds.
     Clock {
@@ -128,11 +130,21 @@ impl fmt::Display for Note {
                 "the first column has no name and counts the rows: it is left out"
             ),
             Self::DecimalCommas => write!(f, "commas in numbers are read as decimal points"),
-            Self::Units { line, said } if said.is_empty() => {
-                write!(f, "line {line} has no unit that is not said elsewhere")
-            }
-            Self::Units { line, said } => {
-                write!(f, "line {line} says units: {} are read so", said.join(", "))
+            Self::Units {
+                line,
+                said,
+                against,
+            } => {
+                write!(f, "line {line} says units: ")?;
+                match (said.is_empty(), against.is_empty()) {
+                    (true, true) => write!(f, "settings say the same"),
+                    (false, true) => write!(f, "{} are read so", said.join(", ")),
+                    (true, false) => contradicted(f, against),
+                    (false, false) => {
+                        write!(f, "{} are read so; ", said.join(", "))?;
+                        contradicted(f, against)
+                    }
+                }
             }
             Self::Clock { first } => write!(
                 f,
@@ -182,4 +194,13 @@ impl fmt::Display for Note {
 fn milliseconds(seconds: f64) -> String {
     let text = format!("{:.4}", seconds * 1e3);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// That settings and a line of units contradict each other.
+fn contradicted(f: &mut fmt::Formatter<'_>, against: &[String]) -> fmt::Result {
+    let against = against.join(", ");
+    write!(
+        f,
+        "{against}, of which settings say another unit: they hold, take out what is wrong"
+    )
 }

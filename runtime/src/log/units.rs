@@ -102,6 +102,7 @@ impl Line {
             names,
             line: self,
             said: Vec::new(),
+            against: Vec::new(),
         };
         reading.take(&mut *channels.time, &TIMES, None)?;
         for (joint, place) in channels.q.iter_mut().enumerate() {
@@ -120,6 +121,7 @@ impl Line {
         Ok(Note::Units {
             line: self.number,
             said: reading.said,
+            against: reading.against,
         })
     }
 }
@@ -131,6 +133,8 @@ struct Reading<'a> {
     line: &'a Line,
     /// Columns with their units.
     said: Vec<String>,
+    /// The same of columns that settings have in other ones.
+    against: Vec<String>,
 }
 
 impl Reading<'_> {
@@ -142,11 +146,22 @@ impl Reading<'_> {
         joint: Option<Kind>,
     ) -> Result<Option<Kind>, LogError> {
         let written = self.line.words.get(place.column).map_or("", String::as_str);
-        // What settings say of a column holds.
-        if written.is_empty() || place.is_said {
+        if written.is_empty() {
             return Ok(joint);
         }
         let plain = plain(written);
+        if place.is_said {
+            // What settings say of a column holds.
+            let mut same = words.iter().filter(|(word, ..)| *word == plain);
+            let is_other = |(_, unit, _): &(&str, f64, Kind)| {
+                (unit - place.unit).abs() > 1e-9 * place.unit.abs()
+            };
+            if let Some((word, ..)) = same.next().filter(|found| is_other(found)) {
+                let name = words::field(&self.names[place.column]);
+                self.against.push(format!("`{name}` in {word}"));
+            }
+            return Ok(joint);
+        }
         let known = || {
             let own = words.iter();
             own.filter(move |(.., kind)| joint.is_none_or(|joint| *kind == joint))

@@ -27,8 +27,10 @@ const LEFT_OF_PERIOD: f64 = 0.15;
 /// Changes of the arm that are tried as what they are in a round.
 const CHANGES: usize = 3;
 
-/// Share of a round's time in which finalists are judged first; in the rest changes are solved for.
-const FIRST: f64 = 0.5;
+/// Shares of a round's time in which all candidates are looked at, and after which finalists are judged first; in the rest changes are
+/// solved for.
+const LOOKED: f64 = 0.4;
+const FIRST: f64 = 0.7;
 
 /// A finalist as it is judged first, a change by its first order.
 struct First<'a> {
@@ -89,10 +91,12 @@ impl Search<'_> {
             multiplicity::tests(&present, grids, &motions)
         });
         let baseline = self.baseline(state, *tests, &self.folds);
-        let mut best: Vec<(f64, Trial)> = grids
-            .iter()
-            .filter_map(|grid| grid.best(&baseline.present, rows, &motions))
-            .collect();
+        let part = |done: usize, of: usize| done as f64 / of as f64;
+        let mut best: Vec<(f64, Trial)> = Vec::new();
+        for (place, grid) in grids.iter().enumerate() {
+            best.extend(grid.best(&baseline.present, rows, &motions));
+            done(LOOKED * part(place + 1, grids.len()));
+        }
         best.sort_by(|a, b| b.0.total_cmp(&a.0));
         best.truncate(FINALISTS);
         let finalists: Vec<(usize, Trial)> = best
@@ -100,11 +104,10 @@ impl Search<'_> {
             .enumerate()
             .map(|(place, (_, trial))| (place, trial))
             .collect();
-        let part = |done: usize, of: usize| done as f64 / of as f64;
         let first = threads::map_told(
             &finalists,
             |(place, trial)| self.first_judged(state, &baseline, trial, *place < FINELY),
-            &mut |judged| done(FIRST * part(judged, finalists.len())),
+            &mut |judged| done(LOOKED + (FIRST - LOOKED) * part(judged, finalists.len())),
         );
         let mut first: Vec<First> = first.into_iter().flatten().collect();
         let mut changes = 0;

@@ -137,6 +137,22 @@ fn units_below_the_names_are_read() {
     let own =
         Log::from_reader_as("monday.csv", with("s,counts,Nm").as_bytes(), &columns).expect("a log");
     assert!((own.q[0][7] + 1.4).abs() < 1e-15);
+    // Who says another unit of it is told.
+    let mut columns = Columns::standard(1);
+    (columns.q[0].unit, columns.tau[0].unit) = (Some(1.0), Some(1.0));
+    let own = |units: &str| {
+        let text = with(units);
+        let log = Log::from_reader_as("monday.csv", text.as_bytes(), &columns);
+        notes(&log.expect("a log")).remove(0)
+    };
+    assert_eq!(
+        own("s,deg,Nm"),
+        "line 2 says units: `time` in s are read so; `q1` in deg, of which settings say another unit: they hold, take out what is wrong"
+    );
+    assert_eq!(
+        own("s,rad,Nm"),
+        "line 2 says units: `time` in s are read so"
+    );
     // A unit that is 1 is said, too.
     let mut columns = Columns::standard(1);
     columns.tau[0].unit = Some(1.0);
