@@ -134,7 +134,7 @@ fn a_motor_has_a_share_of_a_sum_that_is_less_than_the_specs_link() {
     let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
     let more = ["--parameters", "values.json", "--frequency", "20"];
     folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &more].concat());
-    let fit = r#"{"a.mxr": 0.9, "a.izzr": -0.6, "a.viscous_friction.fv": 0.5, "a.joint_elasticity.stiffness": 800}"#;
+    let fit = r#"{"a.mxr": 0.9, "a.my": 0, "a.izzr": -0.6, "a.viscous_friction.fv": 0.5, "a.joint_elasticity.stiffness": 800}"#;
     folder.write("fit.json", fit);
     let basics = ["identify", "open.robot", "log.csv", "--json", "both.json"];
     let options = ["--method", "output-error", "--start", "fit.json"];
