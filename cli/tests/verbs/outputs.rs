@@ -315,7 +315,7 @@ fn a_table_takes_the_place_of_what_its_verb_wrote() {
     folder.write("cart.robot", CART);
     folder.write(
         "values.json",
-        r#"{"cart.m": 2.5, "cart.viscous_friction.fv": 0.5}"#,
+        r#"{"cart.m": 2.5, "rail.viscous_friction.fv": 0.5}"#,
     );
     let mut motion = String::from("time,q1\n");
     for k in 0..=100 {

@@ -123,13 +123,8 @@ fn a_spring_behind_a_motor_is_found_with_both_of_its_ends() {
 #[test]
 fn a_motor_has_a_share_of_a_sum_that_is_less_than_the_specs_link() {
     let folder = Folder::new();
-    // About its joint the link has 0.33 kg m^2.
-    let at_joint = |stiffness: &str| {
-        let spec = soft(stiffness).replace("a = 0.5;", "a = 0;");
-        spec.replace("[-0.2, 0, 0]", "[0.3, 0, 0]")
-    };
-    folder.write("open.robot", &at_joint(""));
-    folder.write("arm.robot", &at_joint("(stiffness = 500)"));
+    folder.write("open.robot", &soft(""));
+    folder.write("arm.robot", &soft("(stiffness = 500)"));
     folder.write(
         "values.json",
         r#"{"a.motor_inertia.ia": 0.3, "a.viscous_friction.fv": 0.8}"#,
@@ -139,18 +134,18 @@ fn a_motor_has_a_share_of_a_sum_that_is_less_than_the_specs_link() {
     let motion = ["--trajectory", "wanted.csv", "--out", "log.csv"];
     let more = ["--parameters", "values.json", "--frequency", "20"];
     folder.succeed(&[&["simulate", "arm.robot"], &motion[..], &more].concat());
-    let fit = r#"{"a.mx": 0.9, "a.izzr": 0.3, "a.viscous_friction.fv": 0.5, "a.joint_elasticity.stiffness": 800}"#;
+    let fit = r#"{"a.mxr": 0.9, "a.my": 0, "a.izzr": -0.6, "a.viscous_friction.fv": 0.5, "a.joint_elasticity.stiffness": 800}"#;
     folder.write("fit.json", fit);
     let basics = ["identify", "open.robot", "log.csv", "--json", "both.json"];
     let options = ["--method", "output-error", "--start", "fit.json"];
     let run = folder.run(&[&basics[..], &options].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let said = "note: fit.json: springs part what is one sum there (`a.izzr`); the search starts from a share of the spec's values of \
-                `a.izz`, which would leave a motor nothing, and from what is left of each sum for `a.motor_inertia.ia`\n";
+    let said = "note: fit.json: springs part what is one sum there (`a.mxr`, `a.izzr`); the search starts from a share of the spec's values of \
+                `a.izz`, `a.m`, which would leave a motor nothing, and from what is left of each sum for `a.motor_inertia.ia`, `a.mx`\n";
     assert!(run.stderr.contains(said), "{}", run.stderr);
     let report = json(&folder.read("both.json"));
     let [found, _] = value(&report, "a.motor_inertia.ia").expect("a value");
-    assert!((found - 0.3).abs() < 0.01, "{found}");
+    assert!((found - 0.3).abs() < 0.05, "{found}");
 }
 
 /// What deviations do not know of is noted: noise of the torque, and torques of the other sign.

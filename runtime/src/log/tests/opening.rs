@@ -163,10 +163,9 @@ fn names_that_are_asked_for_are_the_header_and_not_units() {
         format!("{header}\n{units}\n{}\n", rows.join("\n"))
     };
     let plain = read(&text("time,q1,tau1", &rows(40)), 1).expect("a log");
-    // The first column counts rows; names may be quoted, and have a unit each where one has no name that is asked for.
+    // The first column counts rows; names may be quoted.
     for (header, units, more) in [
         (",time,q1,tau1", "-,s,deg,Nm", ""),
-        ("\"time\",\"q1\",\"tau1\",", "s,deg,Nm,", ","),
         ("\"time\",\"q1\",\"tau1\"", "s,deg,Nm", ""),
     ] {
         let log = read(&in_degrees(header, units, more), 1)
@@ -182,7 +181,7 @@ fn names_that_are_asked_for_are_the_header_and_not_units() {
             "time,q1,tau1,",
             "s,deg,Nm,degC",
             ",20",
-            "monday.csv:1: column 4 has no name",
+            "monday.csv:3: column 4 has no name",
         ),
         (
             "time,q1,tau1,temp,temp",
