@@ -49,12 +49,7 @@ impl IdentifyArguments {
     /// Output error on all logs.
     pub(super) fn by_simulation(&self, compiled: Compiled) -> Result<(), Error> {
         let options = &self.output_error;
-        let inputs = std::iter::once(&self.spec)
-            .chain(&self.logs)
-            .chain(&self.validate)
-            .chain(options.files());
-        let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let results = Results::claim(&mut files, self)?;
+        let results = Results::claim(&mut self.files_of_simulation(), self)?;
         let whole = compiled;
         let compiled = parted(&whole);
         let progress = Progress::new();
@@ -154,6 +149,14 @@ impl IdentifyArguments {
             printed: &printed,
         };
         results.give(&report.json(), &evidence, progress)
+    }
+
+    fn files_of_simulation(&self) -> Files {
+        let inputs = std::iter::once(&self.spec)
+            .chain(&self.logs)
+            .chain(&self.validate)
+            .chain(self.output_error.files());
+        Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files())
     }
 
     /// What least squares says of the columns of logs, before they are simulated.

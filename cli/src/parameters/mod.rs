@@ -155,7 +155,10 @@ mod tests {
             std::fs::write(&path, text).expect("a file");
             let more = [("cart.nonsense".to_owned(), 1.0)];
             let known = known(&compiled, Some(&path), &more);
-            known.err().expect("an unknown name").to_string()
+            let Err(error) = known else {
+                panic!("an unknown name");
+            };
+            error.to_string()
         };
         let of_more = said("{\"cart.m\": 2}");
         assert!(

@@ -76,15 +76,16 @@ impl Beginning {
         let (beta, shapes) = match (start, fitted) {
             (Some(file), fitted) => match parameters::resolve(compiled, Some(file)) {
                 Ok(values) => both(values),
-                Err(lack) => match lumped::apart(arm.whole, compiled, file)? {
-                    Some(both) => both,
-                    None => {
+                Err(lack) => {
+                    if let Some(both) = lumped::apart(arm.whole, compiled, file)? {
+                        both
+                    } else {
                         let shapes = fitted.map(shapes_of);
                         let over = shapes
                             .map(|shapes| parameters::over(compiled, file, shapes, &of_shapes));
                         over.transpose()?.flatten().ok_or(lack)?
                     }
-                },
+                }
             },
             (None, Some(estimate)) => {
                 others = starts::starts(form, estimate, logs);

@@ -36,13 +36,16 @@ struct Split {
     nonnegative: Vec<bool>,
 }
 
+/// One value a parameter, and one a shape.
+pub(super) type ParametersAndShapes = (Vec<f64>, Vec<f64>);
+
 /// Parameters of the arm whose motors and links move apart, and shapes, from a file of those of the `whole` arm: what is in a sum there is the
 /// spec's own as far as that says it, and the sum's rest. Nothing where the file is no such fit.
 pub(super) fn apart(
     whole: &Compiled,
     parted: &Compiled,
     file: &Path,
-) -> Result<Option<(Vec<f64>, Vec<f64>)>, Error> {
+) -> Result<Option<ParametersAndShapes>, Error> {
     if whole.base.names == parted.base.names {
         return Ok(None);
     }
@@ -53,10 +56,16 @@ pub(super) fn apart(
     let sums = sums(whole, parted, &fit.beta).into_iter();
     let (alone, lumped): (Vec<_>, Vec<_>) = sums.partition(|sum| sum.parts.len() == 1);
     // What is told by itself is no unknown of a sum.
-    alone.iter().for_each(|sum| split.take_rest(sum));
+    for sum in &alone {
+        split.take_rest(sum);
+    }
     // A mass is in the sums of all links before it, so that all links have their weight before a rest is taken.
-    lumped.iter().for_each(|sum| split.make_room(sum));
-    lumped.iter().for_each(|sum| split.take_rest(sum));
+    for sum in &lumped {
+        split.make_room(sum);
+    }
+    for sum in &lumped {
+        split.take_rest(sum);
+    }
     output::say(&format!(
         "note: {source}: {}",
         said(parted, &lumped, &split)

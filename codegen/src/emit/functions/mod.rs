@@ -84,19 +84,31 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
             returns: Returns::Vector,
         }),
     ];
+    functions.extend(regressors(&context));
+    functions.push(base_parameters(compiled));
+    if extent == Extent::All {
+        functions.extend(mechanics::functions(&context));
+    }
+    functions.extend(memory(&context));
+    functions
+}
+
+/// The regressors, and the load where they read one that the mass matrix and the bias alone do not make.
+fn regressors(context: &Context<'_>) -> Vec<Function> {
+    let compiled = context.compiled;
     let regressor = compiled.computed_linear.regressor.concat();
     let rows = compiled.computed_candidates.regressor.iter();
     let base_regressor = rows
         .flat_map(|row| compiled.base.kept.iter().map(|&k| row[k]))
         .collect();
-    functions.push(context.function(&Task {
+    let mut functions = vec![context.function(&Task {
         name: "regressor",
         doc: "Regressor `Y(q, dq, ddq)`: `tau = Y * standard`.",
         arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
         result: "Y",
         outputs: regressor,
         returns: Returns::Matrix(compiled.standard.len()),
-    }));
+    })];
     functions.push(context.function(&Task {
         name: "base_regressor",
         doc: "Base regressor `Y_b(q, dq, ddq)`: `tau = Y_b * beta`, besides what the spec fixes.",
@@ -112,15 +124,10 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
                   their links, which have their nominal part of it. Effects read it as `rigid_torque`.",
             arguments: "q dq ddq beta shapes",
             result: "tau",
-            outputs: computed.load.clone(),
+            outputs: compiled.computed.load.clone(),
             returns: Returns::Vector,
         }));
     }
-    functions.push(base_parameters(compiled));
-    if extent == Extent::All {
-        functions.extend(mechanics::functions(&context));
-    }
-    functions.extend(memory(&context));
     functions
 }
 
