@@ -75,12 +75,13 @@ fn a_trace_that_is_stopped_leaves_nothing() {
         assert_eq!(folder.files(), before, "{at}: nothing is left");
     }
     // What was there before is as it was.
-    folder.write("out.json", "mine");
+    let mine = r#"{"mine": 1}"#;
+    folder.write("out.json", mine);
     assert_eq!(
         interrupted(&folder, &arguments, "round 1", Duration::ZERO),
         Some(130)
     );
-    assert_eq!(folder.read("out.json"), "mine");
+    assert_eq!(folder.read("out.json"), mine);
 }
 
 #[test]

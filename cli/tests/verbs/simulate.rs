@@ -230,7 +230,7 @@ fn a_spring_in_the_transmission_is_simulated_and_identified() {
     folder.write("cart.robot", &cart);
     folder.write("both.json", r#"{"cart.mr": 4}"#);
     let run = ["simulate", "cart.robot", "--parameters", "both.json"];
-    let files = ["--trajectory", "wanted.csv", "--out", "other.csv"];
+    let files = ["--trajectory", "wanted.csv", "--out", "apart.csv"];
     let said = folder.refuse(&[&run[..], &files].concat());
     assert!(
         said.contains("base parameter `cart.mr` is of both"),

@@ -138,15 +138,16 @@ fn at_each(row: impl Fn(f64) -> Row) -> Vec<Row> {
 fn what_can_be_mended_is_told_and_the_arm_is_found() {
     let folder = Folder::new();
     folder.write("arm.robot", SPEC);
-    for (name, rows, told, kind) in mended() {
+    for (number, (name, rows, told, kind)) in mended().into_iter().enumerate() {
         folder.write("log.csv", &csv(&rows));
-        let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", "fit.json"]);
+        let out = format!("fit{number}.json");
+        let run = folder.run(&["identify", "arm.robot", "log.csv", "--json", &out]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
         assert!(run.stderr.contains(told), "{name}: {}", run.stderr);
         // A sound log, and an encoder that is fine enough, are not talked about.
         let is_noted = run.stderr.contains("note: ");
         assert_eq!(is_noted, !told.is_empty(), "{name}: {}", run.stderr);
-        let fit = json(&folder.read("fit.json"));
+        let fit = json(&folder.read(&out));
         let faults = fit["data_faults"].as_array().expect("a list");
         let kinds: Vec<&str> = faults
             .iter()
