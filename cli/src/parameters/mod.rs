@@ -140,9 +140,9 @@ mod tests {
 
     const CART: &str = "robot Cart {
         gravity = [0, 0, -9.81];
-        convention = standard_dh;
-        joint cart: prismatic { theta = 0; a = 0; alpha = 0; }
-        link cart;
+        convention = origin;
+        joint rail: prismatic { xyz = [0, 0, 0]; axis = [1, 0, 0]; link = cart; }
+        effects { viscous_friction on rail; }
     }";
 
     #[test]
