@@ -29,7 +29,8 @@ pub struct Motion {
     pub smooth: Kinematics,
     /// For columns that jump with the sign of a velocity.
     pub wide: Kinematics,
-    /// Torque of the rigid body alone at the present estimate, `[joint][sample]`; empty until an estimate exists.
+    /// The load at the present estimate, as [`Arm::rigid_torque`](crate::columns::Arm::rigid_torque) gives it, `[joint][sample]`; empty until
+    /// an estimate exists.
     pub rigid_torque: Vec<Vec<f64>>,
     /// Torque as logged, `[joint][sample]`, for effects that read it; not smoothed except before decimation.
     pub tau: Vec<Vec<f64>>,

@@ -27,7 +27,8 @@ pub struct State<const DOF: usize, const STATES: usize = 0, const INPUTS: usize 
     pub dq: SVector<S, DOF>,
     /// Joint accelerations, rad/s^2 or m/s^2.
     pub ddq: SVector<S, DOF>,
-    /// Torque of the rigid body alone, N m or N: the load of load-dependent effects in a regressor. Others ignore it.
+    /// The load of load-dependent effects in a regressor, N m or N: torque of the rigid body alone, as
+    /// [`RobotModel::loaded`](crate::RobotModel::loaded) has it. Others ignore it.
     pub rigid_torque: SVector<S, DOF>,
     /// Torque as the log or the drive has it, N m or N: for effects such as saturation. Others ignore it.
     pub measured_torque: SVector<S, DOF>,

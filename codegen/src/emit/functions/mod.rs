@@ -96,27 +96,27 @@ pub fn functions(compiled: &Compiled, extent: Extent) -> Vec<Function> {
 /// The regressors, and the load where they read one that the mass matrix and the bias alone do not make.
 fn regressors(context: &Context<'_>) -> Vec<Function> {
     let compiled = context.compiled;
-    let regressor = compiled.computed_linear.regressor.concat();
     let rows = compiled.computed_candidates.regressor.iter();
-    let base_regressor = rows
+    let of_base = rows
         .flat_map(|row| compiled.base.kept.iter().map(|&k| row[k]))
         .collect();
-    let mut functions = vec![context.function(&Task {
+    let regressor = context.function(&Task {
         name: "regressor",
         doc: "Regressor `Y(q, dq, ddq)`: `tau = Y * standard`.",
         arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
         result: "Y",
-        outputs: regressor,
+        outputs: compiled.computed_linear.regressor.concat(),
         returns: Returns::Matrix(compiled.standard.len()),
-    })];
-    functions.push(context.function(&Task {
+    });
+    let base_regressor = context.function(&Task {
         name: "base_regressor",
         doc: "Base regressor `Y_b(q, dq, ddq)`: `tau = Y_b * beta`, besides what the spec fixes.",
         arguments: "q dq ddq rigid_torque measured_torque time inputs states shapes",
         result: "Y_b",
-        outputs: base_regressor,
+        outputs: of_base,
         returns: Returns::Matrix(compiled.base.kept.len()),
-    }));
+    });
+    let mut functions = vec![regressor, base_regressor];
     if compiled.has_motors_in_loads() {
         functions.push(context.function(&Task {
             name: "load",
