@@ -2,8 +2,14 @@
 
 use crate::common::{Folder, json, moved};
 
-/// Of the rotor of `up` and its link one sum is told.
-fn spec(links: &str) -> String {
+/// An arm in a plane, with links of a status or without any that the spec knows.
+pub(crate) fn arm(status: Option<&str>, effects: &str) -> String {
+    let links = status.map_or_else(String::new, |status| {
+        format!(
+            "link up: {status} {{ mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }}
+            link lo: {status} {{ mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }}"
+        )
+    });
     format!(
         "robot A {{
             gravity = [0, -9.81, 0];
@@ -11,16 +17,18 @@ fn spec(links: &str) -> String {
             joint up: revolute {{ a = 0.5; alpha = 0; d = 0; }}
             joint lo: revolute {{ a = 0.4; alpha = 0; d = 0; }}
             {links}
-            effects {{
-                viscous_friction on all; coulomb_friction on all; motor_inertia on all; load_dependent_friction on up;
-            }}
+            effects {{ viscous_friction on all; {effects} }}
         }}"
     )
 }
 
-const LINKS: &str =
-    "link up: nominal { mass = 2; com = [-0.25, 0, 0]; inertia = [0.001, 0, 0, 0.05, 0, 0.05]; }
-    link lo: nominal { mass = 1; com = [-0.2, 0, 0]; inertia = [0.001, 0, 0, 0.02, 0, 0.02]; }";
+/// A motion of both joints, rad.
+fn wanted(t: f64) -> [f64; 2] {
+    [
+        -1.57 + 0.6 * (1.3 * t).sin() + 0.2 * (4.1 * t).sin(),
+        0.7 * (2.1 * t).sin() + 0.2 * (5.3 * t).cos(),
+    ]
+}
 
 const MU: f64 = 0.15;
 

@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::common::{Folder, json};
+use crate::common::{Folder, close, json, moved};
 use crate::delays::late;
+use crate::loads::arm;
 
 /// What is wrong where dry friction holds a joint is more than what 20 ms make, and yet no delay; whether the spec declares it or not.
 #[test]
@@ -108,4 +109,35 @@ fn dwells_between_two_moves_say_nothing_of_friction() {
             .is_some_and(|share| share < 2.0),
         "{told}"
     );
+}
+
+/// Bristles without a breakaway torque lie in another valley than those with one, from which a search does not come over.
+#[test]
+fn bristles_are_named_with_their_own_values() {
+    let folder = Folder::new();
+    let spec = |dry: &str| {
+        let effects = format!("motor_inertia on all; coulomb_friction on up; {dry} on lo;");
+        arm(Some("nominal"), &effects)
+    };
+    let values = r#"{"up.viscous_friction.fv": 1.0, "lo.viscous_friction.fv": 0.3, "up.coulomb_friction.fc": 1.5,
+        "up.motor_inertia.ia": 0.3, "lo.motor_inertia.ia": 0.1, "lo.lugre_presliding.fc": 1.2, "lo.lugre_presliding.s1": 0.5}"#;
+    let truth = spec("lugre_presliding(d = 0.0037, vs = 0.1, rise = 0)");
+    moved(&folder, &truth, values, |t| {
+        [
+            -1.57 + 0.25 * (0.9 * t).sin() + 0.05 * (3.1 * t).sin(),
+            0.2 * (1.1 * t).sin() + 0.04 * (4.3 * t).cos(),
+        ]
+    });
+    folder.write("arm.robot", &spec("coulomb_friction"));
+    folder.succeed(&["trace", "arm.robot", "log.csv", "--json", "trace.json"]);
+    let verdict = json(&folder.read("trace.json"));
+    let effects = verdict["effects"].as_array().expect("a list");
+    assert_eq!(effects.len(), 1, "{effects:?}");
+    assert_eq!(effects[0]["kind"], "lugre-presliding");
+    let parameters = effects[0]["parameters"].as_array().expect("a list");
+    for (name, truth) in [("fc", 1.2), ("d", 0.0037)] {
+        let found = parameters.iter().find(|one| one["name"] == name);
+        let found = found.expect("a parameter of bristles")["value"].as_f64();
+        close(found.expect("a number"), truth, 0.05 * truth);
+    }
 }
