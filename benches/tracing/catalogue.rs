@@ -323,6 +323,18 @@ pub const ALL: &[Injection] = &[
     .of(
         "effect unknown(j) { linear c; torque(j) = c * sin(2.36 * time + 0.3 * sin(0.7 * time)); }",
     ),
+    Injection {
+        kind: "unknown",
+        linear: &[("c", 1.0)],
+        ..NONE
+    }
+    .of("effect unknown(j) { linear c; torque(j) = c * sin(5 * dq(j)); }"),
+    Injection {
+        kind: "unknown",
+        linear: &[("c", 1.0)],
+        ..NONE
+    }
+    .of("effect unknown(j) { linear c; torque(j) = c * sin(2 * q(j)) * dq(j) * abs(dq(j)); }"),
 ];
 
 impl Injection {

@@ -97,6 +97,9 @@ pub fn table(rows: &[Row]) -> String {
     let of = |wanted: &dyn Fn(&&Row) -> bool| Counts::new(rows.iter().filter(wanted));
     for size in &sizes {
         let counts = of(&|row| row.is_material && row.is_of(*size));
+        if counts.all == 0 {
+            continue;
+        }
         let _ = writeln!(
             text,
             "{} % of torque, where it matters ({}): exact {:.0} %, exact or near {:.0} %, wrong {:.0} %",
@@ -108,27 +111,35 @@ pub fn table(rows: &[Row]) -> String {
         );
     }
     let clean = of(&|row| row.kind == "nothing");
-    let _ = writeln!(
-        text,
-        "clean arms ({}): false alarms {:.0} %",
-        clean.all,
-        100.0 - clean.percent(&[Mark::Exact])
-    );
+    if clean.all > 0 {
+        let alarms = 100.0 - clean.percent(&[Mark::Exact]);
+        let _ = writeln!(
+            text,
+            "clean arms ({}): false alarms {alarms:.0} %",
+            clean.all
+        );
+    }
     let small = of(&|row| !row.is_material && row.kind != "nothing" && row.kind != "unknown");
-    let _ = writeln!(
-        text,
-        "too little to matter ({}): wrong names {:.0} %",
-        small.all,
-        small.percent(&[Mark::Wrong])
-    );
+    if small.all > 0 {
+        let wrong = small.percent(&[Mark::Wrong]);
+        let _ = writeln!(
+            text,
+            "too little to matter ({}): wrong names {wrong:.0} %",
+            small.all
+        );
+    }
     let strange = of(&|row| row.kind == "unknown");
-    let _ = writeln!(
-        text,
-        "laws that no library has ({}): wrong names {:.0} %, not seen {:.0} %",
-        strange.all,
-        strange.percent(&[Mark::Wrong]),
-        strange.percent(&[Mark::Missed])
-    );
+    if strange.all > 0 {
+        let (wrong, missed) = (
+            strange.percent(&[Mark::Wrong]),
+            strange.percent(&[Mark::Missed]),
+        );
+        let _ = writeln!(
+            text,
+            "laws that no library has ({}): wrong names {wrong:.0} %, not seen {missed:.0} %",
+            strange.all
+        );
+    }
     let mut ratios: Vec<f64> = rows
         .iter()
         .filter(|row| row.is_material && row.mark == Mark::Exact)

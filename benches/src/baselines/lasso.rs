@@ -84,8 +84,9 @@ impl Descent<'_> {
             let step = after - before;
             if step.abs() > 0.0 {
                 self.coefficients[column] = after;
-                for (other, slope) in self.slope.iter_mut().enumerate() {
-                    *slope -= step * gram[(other, column)];
+                let with = gram.col_as_slice(column);
+                for (slope, product) in self.slope.iter_mut().zip(with) {
+                    *slope -= step * product;
                 }
                 most = most.max(own * step * step);
             }

@@ -1,8 +1,8 @@
 //! Sequentially thresholded least squares (Brunton, Proctor & Kutz 2016): fit, drop what is small, fit again. The threshold by ten-fold
 //! cross-validation with the rule of one standard error.
 
-use faer::Mat;
 use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
 
 use super::Choice;
 use super::products::Products;
@@ -65,7 +65,11 @@ fn fitted(products: &Products, columns: &[usize]) -> Vec<f64> {
         products.gram[(columns[a], columns[b])] + if a == b { RIDGE } else { 0.0 }
     });
     let right = Mat::from_fn(columns.len(), 1, |a, _| products.with_target[columns[a]]);
-    let found = gram.partial_piv_lu().solve(&right);
+    let found = match gram.llt(Side::Lower) {
+        Ok(factor) => factor.solve(&right),
+        // Rounding may leave next to nothing of a column that others say, or less.
+        Err(_) => gram.partial_piv_lu().solve(&right),
+    };
     for (place, column) in columns.iter().enumerate() {
         all[*column] = found[(place, 0)];
     }

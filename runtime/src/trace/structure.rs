@@ -1,9 +1,11 @@
 //! Is anything missing? Structure in the residual, whatever its cause.
 //!
-//! Three tests that need no candidate and no known noise level. The first compares the residual's power where robots move
+//! Four tests that need no candidate and no known noise level. The first compares the residual's power where robots move
 //! with its power just above, and with that of the part of the band of motion which has least: sensor noise, white or correlated over
-//! milliseconds, has as much power in all of them or one, a missing torque follows the motion. The second needs a motion that repeats:
-//! what comes back in every period is not noise. The third is of a level that changes once and stays, which is slower than any motion.
+//! milliseconds, has as much power in all of them or one, a missing torque follows the motion. The second asks what of that power noise can
+//! have at all that is seen above the band, whatever the time over which it is correlated: a torque that rings has more. The third needs a
+//! motion that repeats: what comes back in every period is not noise. The last is of a level that changes once and stays, which is slower
+//! than any motion.
 
 use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
@@ -17,6 +19,13 @@ const REFERENCE_BAND: (f64, f64) = (1.2, 2.5);
 
 /// Ends of parts of the band of motion, about as wide as far up they are.
 const PARTS_OF_MOTION: [f64; 5] = [0.03, 0.08, 0.18, 0.38, 0.8];
+
+/// The band above the reference: there noise shows that it is no steeper than first order.
+const BAND_ABOVE: (f64, f64) = (2.5, 4.0);
+
+/// Noise falls by at most this many times what first order does from the reference to the band above it. Second order, as filters have that
+/// logs went through before they were written, falls by more, and then nothing is known of noise below.
+const STEEPEST: f64 = 2.0;
 
 /// The residual is structured where its power in the band of motion is more than this many times that of the reference.
 const LEAST_RATIO: f64 = 4.0;
@@ -118,10 +127,11 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         } else {
             0.0
         };
+        let rings = (beyond_noise(&density) * hz - log.encoder).max(0.0);
         let periodic = log.period.map_or(0.0, |period| {
             (repeated_power(&log.filtered, period * log.filtered_hz) - log.encoder).max(0.0)
         });
-        found.power += weight * above.max(periodic).max(log.stepped);
+        found.power += weight * above.max(rings).max(periodic).max(log.stepped);
         found.ratio = found.ratio.max(ratio);
     }
     found.share = if total > 0.0 {
@@ -130,6 +140,31 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         0.0
     };
     found
+}
+
+/// Power in the band of motion, per hertz of the shared cutoff, that noise with what is seen above it cannot have; `density` gives that of
+/// bands between edges.
+///
+/// The density of noise of first order falls with the frequency by `1 / f^2` at most, whose mean from `a` to `b` is `1 / (a b)`. So the one
+/// that is seen from `c` to `d` comes with at most `c d / (a b)` times as much in a part of the band of motion.
+fn beyond_noise(density: &dyn Fn(&[f64]) -> Vec<f64>) -> f64 {
+    let product = |(low, high): (f64, f64)| low * high;
+    let seen = density(&[REFERENCE_BAND.0, REFERENCE_BAND.1])[0];
+    let above = density(&[BAND_ABOVE.0, BAND_ABOVE.1])[0];
+    let falls = product(BAND_ABOVE) / product(REFERENCE_BAND);
+    if seen > STEEPEST * falls * above {
+        return 0.0;
+    }
+    let parts = PARTS_OF_MOTION.windows(2).zip(density(&PARTS_OF_MOTION));
+    let beyond = parts.map(|(ends, power)| {
+        let noise = seen * product(REFERENCE_BAND) / product((ends[0], ends[1]));
+        if power > LEAST_RATIO * noise {
+            (power - noise) * (ends[1] - ends[0])
+        } else {
+            0.0
+        }
+    });
+    beyond.sum()
 }
 
 /// The least share of a period that has to come again for two to be compared in it.
@@ -202,7 +237,11 @@ fn comes_back(repeating: &[f64], rest: &[f64], periods: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{LEAST_RATIO, MOTION_BAND, REFERENCE_BAND, RawResidual, of, repeated_power};
+    use std::f64::consts::TAU;
+
+    use super::{
+        LEAST_RATIO, MOTION_BAND, REFERENCE_BAND, RawResidual, Structure, of, repeated_power,
+    };
     use crate::signal::band_density;
 
     /// Slow noise: every value is that before it, but for a little.
@@ -237,41 +276,85 @@ mod tests {
         assert!(found <= 8, "{found} of 200");
     }
 
-    /// Noise that is correlated over 20 ms falls by more than the least ratio from the band of motion to that above it, and follows nothing.
-    #[test]
-    fn noise_of_some_milliseconds_is_no_structure_and_a_wave_in_it_is() {
-        const HZ: f64 = 500.0;
-        let kept = (-1.0 / (HZ * 0.02)).exp();
+    const HZ: f64 = 500.0;
+
+    /// Noise that is correlated over so long, s.
+    fn noise(correlated_s: f64) -> Vec<f64> {
+        let kept = (-1.0 / (HZ * correlated_s)).exp();
         let mut value = 0.0;
         let noise = (0..30_000_u32).map(|k| {
             let random = (12.9898 * (f64::from(k) + 1.0)).sin() * 43_758.545_3;
             value = kept * value + random.rem_euclid(1.0) - 0.5;
             value
         });
-        let noise: Vec<f64> = noise.collect();
-        let structure = |values: &[f64]| {
-            of(&[RawResidual {
-                values,
-                beyond: 0.0,
-                filtered: values.to_vec(),
-                filtered_hz: HZ,
-                rate_hz: HZ,
-                shared_hz: 10.0,
-                period: None,
-                stepped: 0.0,
-                encoder: 0.0,
-            }])
-        };
+        noise.collect()
+    }
+
+    fn structure(values: &[f64]) -> Structure {
+        of(&[RawResidual {
+            values,
+            beyond: 0.0,
+            filtered: values.to_vec(),
+            filtered_hz: HZ,
+            rate_hz: HZ,
+            shared_hz: 10.0,
+            period: None,
+            stepped: 0.0,
+            encoder: 0.0,
+        }])
+    }
+
+    fn with(values: &[f64], law: impl Fn(f64) -> f64) -> Vec<f64> {
+        let values = values.iter().enumerate();
+        values.map(|(k, v)| v + law(k as f64 / HZ)).collect()
+    }
+
+    /// Noise that is correlated over 20 ms falls by more than the least ratio from the band of motion to that above it, and follows nothing.
+    #[test]
+    fn noise_of_some_milliseconds_is_no_structure_and_a_wave_in_it_is() {
+        let noise = noise(0.02);
         let density =
             |(low, high): (f64, f64)| band_density(&noise, HZ, &[10.0 * low, 10.0 * high])[0];
         assert!(density(MOTION_BAND) > LEAST_RATIO * density(REFERENCE_BAND));
         assert!(!structure(&noise).is_material(), "{:?}", structure(&noise));
-        let wave = noise
-            .iter()
-            .enumerate()
-            .map(|(k, noise)| noise + 1.2 * (std::f64::consts::TAU * 1.3 * k as f64 / HZ).sin());
-        let wave: Vec<f64> = wave.collect();
+        let wave = with(&noise, |t| 1.2 * (TAU * 1.3 * t).sin());
         assert!(structure(&wave).is_material(), "{:?}", structure(&wave));
+    }
+
+    /// A torque that rings at 4 Hz every 2.3 s has some power wherever robots move, as slow noise has, and none above.
+    #[test]
+    fn a_torque_that_rings_is_structure_and_slow_noise_is_none() {
+        for correlated_s in [1e-3, 0.005, 0.02, 0.05, 0.1] {
+            let noise = noise(correlated_s);
+            let found = structure(&noise);
+            assert!(!found.is_material(), "{correlated_s} s: {found:?}");
+        }
+        let noise = noise(0.005);
+        let rings = |t: f64| {
+            let since = t.rem_euclid(2.3);
+            6.0 * (-since / 0.4).exp() * (TAU * 4.0 * since).sin()
+        };
+        let found = structure(&with(&noise, rings));
+        assert!(
+            found.is_material() && found.ratio < LEAST_RATIO,
+            "{found:?}"
+        );
+    }
+
+    /// What a log went through before it was written falls as steeply, and is no structure.
+    #[test]
+    fn noise_behind_a_filter_is_no_structure() {
+        let mut values = noise(1e-3);
+        let kept = (-TAU * 6.0 / HZ).exp();
+        for _ in 0..2 {
+            let mut value = 0.0;
+            for next in &mut values {
+                value = kept * value + (1.0 - kept) * *next;
+                *next = value;
+            }
+        }
+        let found = structure(&values);
+        assert!(!found.is_material(), "{found:?}");
     }
 
     #[test]
