@@ -5,9 +5,9 @@
 
 use super::away::LEAST_LEFT;
 use super::curve::{Curve, STIFFNESS, fitted};
+use super::periodic::laps;
 use super::raw::mean_square;
 use super::search::{Search, State};
-use super::structure::laps;
 use super::whereabouts::Quantity;
 use crate::identify::away_from_turns;
 use crate::signal::resample::whole_steps;

@@ -50,6 +50,7 @@ mod line;
 mod multiplicity;
 mod noise;
 mod normal;
+mod periodic;
 mod projected;
 mod prune;
 mod raw;

@@ -6,6 +6,7 @@ use crate::signal::Prepared;
 use crate::signal::resample::whole_steps;
 
 use super::floor::STEPS_OVER_NOISE;
+use super::periodic;
 use super::search::{Accepted, Search, State};
 use super::structure::{self, RawResidual, Structure};
 
@@ -59,7 +60,7 @@ impl Search<'_> {
         let power = logs.map(|((segment, log), period)| {
             let rate_hz = log.filtered_hz();
             let rows = evenly(segment, residual, rate_hz);
-            let power = |period: &f64| structure::repeated_power(&rows, period * rate_hz);
+            let power = |period: &f64| periodic::repeated_power(&rows, period * rate_hz);
             rows.len() as f64 * period.as_ref().map_or(0.0, power)
         });
         power.sum::<f64>() / residual.len().max(1) as f64
