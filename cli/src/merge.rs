@@ -150,9 +150,9 @@ impl Merge {
         if !self.partial {
             told_apart(&estimate)?;
         }
-        progress.notes(factor_doubts(&estimate, &*form));
+        progress.doubts(factor_doubts(&estimate, &*form));
         if estimate.is_without_turns && !self.turns.leave_out_turns {
-            progress.notes([at_turns::left_out(form.arm())]);
+            progress.doubts([at_turns::left_out(form.arm())]);
         }
         let mut faults = Vec::new();
         let validation = match &self.validate {
@@ -169,7 +169,7 @@ impl Merge {
             }
         };
         let notes = progress.noted();
-        drop(progress);
+        let _behind = progress.ended();
         if let Some(file) = out {
             file.commit(factor_file::text(&factor).as_bytes())?;
         }

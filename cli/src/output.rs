@@ -72,6 +72,15 @@ pub(crate) fn json_with_notes(report: &impl Serialize, notes: &[String]) -> Stri
     })
 }
 
+/// A word as a shell takes it.
+pub(crate) fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/=,:+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
+}
+
 /// A number with so many digits.
 pub(crate) fn significant(number: f64, digits: usize) -> String {
     let decimals = decimals(number, digits);

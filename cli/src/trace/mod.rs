@@ -2,6 +2,7 @@
 
 mod doubt;
 mod page;
+mod parameters;
 mod report;
 mod said;
 mod summary;
@@ -101,11 +102,12 @@ impl TraceArguments {
         let read = |path: &Path| read_mended(path, &model, settings, &progress);
         let validate = self.validate.as_deref().map(read).transpose()?;
         let validate = validate.map(|mended| mended.log);
+        let read = progress.noted();
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
         let page = report
             .as_ref()
-            .map(|_| page::page(&name, &closed, &text, &files.inputs()));
+            .map(|_| page::page((&name, &text), &closed, &files.inputs(), &read));
         let page = page.transpose()?;
         // All contents are ready before the first file appears.
         let unseen = closed.unseen.as_ref();
