@@ -14,7 +14,7 @@ use crate::identify::options::{TurnOptions, WeightsArgument, check_prior};
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files, counted};
+use crate::output::{self, Content, Files, Record, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
@@ -112,8 +112,8 @@ impl Merge {
         let settings = &self.log_settings;
         let mut files =
             Files::reading(inputs.map(PathBuf::as_path)).and(settings.files(&self.validate));
-        let out = files.claim_if(self.factor.as_deref(), Content::Json)?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let out = files.claim_if(self.factor.as_deref(), Content::Json(Record::Factor))?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Identify))?;
         let compiled = compile(&self.spec)?;
         let progress = Progress::new();
         let mut opened = self.factors.iter().enumerate().map(|(k, path)| {

@@ -3,6 +3,7 @@
 mod content;
 mod files;
 mod out_file;
+mod record;
 pub(crate) mod table;
 
 use std::io::{self, Write};
@@ -10,6 +11,7 @@ use std::io::{self, Write};
 pub(crate) use content::Content;
 pub(crate) use files::Files;
 pub(crate) use out_file::OutFile;
+pub(crate) use record::Record;
 pub(crate) use robot_model_spec::words::{counted, names};
 use serde::Serialize;
 

@@ -44,7 +44,7 @@ use crate::Error;
 use crate::in_order::workers;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
@@ -270,7 +270,7 @@ impl IdentifyArguments {
             .chain(&self.logs)
             .chain(&self.validate);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let out = files.claim_for(factor, Content::Json)?;
+        let out = files.claim_for(factor, Content::Json(Record::Factor))?;
         let results = Results::claim(&mut files, self)?;
         let progress = Progress::new();
         let streams = Streams {

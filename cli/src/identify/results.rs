@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::IdentifyArguments;
 use super::page::Evidence;
 use crate::Error;
-use crate::output::{self, Content, Files, OutFile};
+use crate::output::{self, Content, Files, OutFile, Record};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 
@@ -25,7 +25,7 @@ pub(super) struct Results {
 impl Results {
     pub fn claim(files: &mut Files, asked: &IdentifyArguments) -> Result<Self, Error> {
         Ok(Self {
-            json: files.claim_if(asked.json.as_deref(), Content::Json)?,
+            json: files.claim_if(asked.json.as_deref(), Content::Json(Record::Identify))?,
             page: ReportFolder::claim_if(files, asked.report.as_deref())?,
             inputs: files.inputs(),
             next: asked.command_of_trace(),

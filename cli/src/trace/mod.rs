@@ -22,7 +22,7 @@ use crate::close_the_loop::{self, Loop};
 use crate::log_settings::LogSettings;
 use crate::misplaced::robot_of;
 use crate::output::table::PREDICTION;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 use crate::spec::{load, read_log, read_mended, read_text};
@@ -90,7 +90,7 @@ impl TraceArguments {
         self.check_amended(&model.name)?;
         let amend = files.claim_if(self.amend.as_deref(), Content::Spec)?;
         let predict = files.claim_if(self.predict.as_deref(), Content::Prediction)?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Trace))?;
         let report = ReportFolder::claim_if(&mut files, self.report.as_deref())?;
 
         let progress = Progress::new();
