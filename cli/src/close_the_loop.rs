@@ -18,6 +18,7 @@ use crate::identify::noted::too_slow;
 use crate::identify::{doubts, readings};
 use crate::interpreted::InterpretedArm;
 pub use crate::progress::Progress;
+use crate::rounds::Rounds;
 use crate::spec::clear;
 
 /// A model, what was identified with it, and how it does on data that it was not fitted on.
@@ -203,8 +204,11 @@ fn trace(
         if let Some(found) = &found {
             trace = trace.since(found.before.clone());
         }
+        let behind = found.as_ref().map_or(0, |found| found.findings.len());
+        let mut rounds = Rounds::new(MOST_EFFECTS.saturating_sub(behind));
         let verdict = trace.run(&arm, &logs, &mut |stage| {
-            progress.stage(stage.words, stage.done);
+            let told = rounds.told(stage.words, stage.done);
+            progress.stage(&told, stage.done);
         })?;
         let (goes_on, fresh) = (verdict.goes_on, verdict.findings.len());
         let verdict = match found {

@@ -16,7 +16,7 @@ use serde::Serialize;
 use crate::Error;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::parameters;
 use crate::progress::Progress;
 use crate::spec::{compile_instantaneous, read_log};
@@ -82,7 +82,7 @@ impl Dissect {
         let settings = &self.log_settings;
         let mut files =
             Files::reading(inputs.map(PathBuf::as_path)).and(settings.files([&self.log]));
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Dissect))?;
         let values = parameters::resolve(&compiled, self.parameters.as_deref())?;
         let progress = Progress::new();
         let log = read_log(&self.log, &compiled.model, settings, &progress)?;

@@ -8,6 +8,8 @@ use robot_model_spec::Diagnostics;
 use robot_model_spec::suggest::nearest;
 use thiserror::Error;
 
+use crate::output::quoted;
+
 /// Why a command ended without a result. Exit code 1, the message on stderr.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -87,6 +89,11 @@ impl Error {
             path: path.to_owned(),
             reason: match error.kind() {
                 std::io::ErrorKind::NotFound => not_there(path),
+                std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
+                std::io::ErrorKind::PermissionDenied => format!(
+                    "you may not read it; `chmod u+r {}` lets its owner, or name a copy",
+                    quoted(&path.display().to_string())
+                ),
                 _ => error.to_string(),
             },
         }
@@ -132,4 +139,19 @@ fn not_there(path: &Path) -> String {
 /// `:3:14` behind a file's name.
 fn place(line: Option<(usize, usize)>) -> String {
     line.map_or_else(String::new, |(line, column)| format!(":{line}:{column}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_nobody_may_read_is_told_with_the_way_out() {
+        let denied = std::io::Error::from(std::io::ErrorKind::PermissionDenied);
+        let said = Error::read(Path::new("my log.csv"), &denied).to_string();
+        assert_eq!(
+            said,
+            "cannot read `my log.csv`: you may not read it; `chmod u+r 'my log.csv'` lets its owner, or name a copy"
+        );
+    }
 }

@@ -36,6 +36,7 @@ mod output;
 mod parameters;
 mod progress;
 mod report;
+mod rounds;
 mod show;
 mod simulate;
 mod spec;

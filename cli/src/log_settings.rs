@@ -34,6 +34,11 @@ impl LogSettings {
         self.file.is_some()
     }
 
+    /// The file that was asked for.
+    pub(crate) fn given(&self) -> Option<&Path> {
+        self.file.as_deref()
+    }
+
     /// The file that holds for a log.
     pub(crate) fn of(&self, log: &Path) -> Option<PathBuf> {
         self.file.clone().or_else(|| {

@@ -14,7 +14,7 @@ use crate::identify::options::{TurnOptions, WeightsArgument, check_prior};
 use crate::identify::report::report;
 use crate::identify::table::{share, table};
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files, counted};
+use crate::output::{self, Content, Files, Record, counted};
 use crate::progress::Progress;
 use crate::spec::{compile, read_mended};
 
@@ -112,8 +112,8 @@ impl Merge {
         let settings = &self.log_settings;
         let mut files =
             Files::reading(inputs.map(PathBuf::as_path)).and(settings.files(&self.validate));
-        let out = files.claim_if(self.factor.as_deref(), Content::Json)?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let out = files.claim_if(self.factor.as_deref(), Content::Json(Record::Factor))?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Identify))?;
         let compiled = compile(&self.spec)?;
         let progress = Progress::new();
         let mut opened = self.factors.iter().enumerate().map(|(k, path)| {
@@ -150,9 +150,9 @@ impl Merge {
         if !self.partial {
             told_apart(&estimate)?;
         }
-        progress.notes(factor_doubts(&estimate, &*form));
+        progress.doubts(factor_doubts(&estimate, &*form));
         if estimate.is_without_turns && !self.turns.leave_out_turns {
-            progress.notes([at_turns::left_out(form.arm())]);
+            progress.doubts([at_turns::left_out(form.arm())]);
         }
         let mut faults = Vec::new();
         let validation = match &self.validate {
@@ -169,7 +169,7 @@ impl Merge {
             }
         };
         let notes = progress.noted();
-        drop(progress);
+        let _behind = progress.ended();
         if let Some(file) = out {
             file.commit(factor_file::text(&factor).as_bytes())?;
         }

@@ -3,6 +3,7 @@
 mod content;
 mod files;
 mod out_file;
+mod record;
 pub(crate) mod table;
 
 use std::io::{self, Write};
@@ -10,6 +11,7 @@ use std::io::{self, Write};
 pub(crate) use content::Content;
 pub(crate) use files::Files;
 pub(crate) use out_file::OutFile;
+pub(crate) use record::Record;
 pub(crate) use robot_model_spec::words::{counted, names};
 use serde::Serialize;
 
@@ -70,6 +72,15 @@ pub(crate) fn json_with_notes(report: &impl Serialize, notes: &[String]) -> Stri
         report,
         notes: notes.collect(),
     })
+}
+
+/// A word as a shell takes it.
+pub(crate) fn quoted(word: &str) -> String {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/=,:+".contains(c);
+    if !word.is_empty() && word.chars().all(is_plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', r"'\''"))
 }
 
 /// A number with so many digits.

@@ -1,6 +1,8 @@
 //! Progress of long work, on standard error: on a terminal with the time it takes, and with the time that is left where that is known; plain lines of
 //! what takes long have that, too.
 
+mod behind;
+
 use std::fmt::{self, Display};
 use std::io::IsTerminal;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,6 +11,7 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use crate::output;
+pub(crate) use behind::Behind;
 
 /// Where steps follow each other fast, one plain line in so long.
 const SELDOM: Duration = Duration::from_secs(10);
@@ -30,6 +33,8 @@ pub struct Progress {
     /// When one of many steps was said last.
     said: Mutex<Option<Instant>>,
     noted: Mutex<Vec<String>>,
+    /// What is said behind the result.
+    behind: Behind,
     /// Steps of a bar that were behind when it was drawn first.
     begun: Mutex<u64>,
     left: Left,
@@ -86,6 +91,7 @@ impl Progress {
             is_silent: true,
             said: Mutex::new(None),
             noted: Mutex::new(Vec::new()),
+            behind: Behind::default(),
             begun: Mutex::new(0),
             left: Left::default(),
             plain: Mutex::new(None),
@@ -229,6 +235,24 @@ impl Progress {
         for doubt in doubts {
             self.note(&format!("note: {doubt}"));
         }
+    }
+
+    /// Doubts about a result, each for itself: they are said behind it, where people look, or where it fails to come.
+    pub(crate) fn doubts(&self, doubts: impl IntoIterator<Item = impl Display>) {
+        for doubt in doubts {
+            let doubt = format!("note: {doubt}");
+            if let Ok(mut noted) = self.noted.lock() {
+                noted.push(doubt.clone());
+            }
+            if !self.is_silent {
+                self.behind.push(doubt);
+            }
+        }
+    }
+
+    /// Ends the line. What is left to be said is when the result of this goes.
+    pub(crate) fn ended(mut self) -> Behind {
+        std::mem::take(&mut self.behind)
     }
 
     /// All that was noted, in its order.

@@ -46,6 +46,13 @@ pub(crate) fn check_ends(path: &Path) -> Result<(), Error> {
             path: path.to_owned(),
             reason: format!("it is {what}; write what it has into a file, and name that"),
         }),
+        // What nobody may read is told in the same words whatever reads it.
+        None if path.is_file() => match File::open(path) {
+            Err(error) if error.kind() == io::ErrorKind::PermissionDenied => {
+                Err(Error::read(path, &error))
+            }
+            _ => Ok(()),
+        },
         None => Ok(()),
     }
 }

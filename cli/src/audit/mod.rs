@@ -19,7 +19,7 @@ use robot_model_codegen::Compiled;
 use robot_model_spec::parameter::Owner;
 use serde::Serialize;
 
-use crate::output::{self, Content, Files, counted, names, rounded};
+use crate::output::{self, Content, Files, Record, counted, names, rounded};
 use crate::parameters::{self, Beside, Values};
 use crate::{Error, json, spec};
 
@@ -222,7 +222,8 @@ impl Audit {
             self.against.as_ref(),
         ];
         let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
-        let json = Files::reading(inputs).claim_if(self.json.as_deref(), Content::Json)?;
+        let json =
+            Files::reading(inputs).claim_if(self.json.as_deref(), Content::Json(Record::Audit))?;
         let compiled = spec::compile(&self.spec)?;
         let (mut checks, mut source) = (Vec::new(), None);
         if self.base.is_none() || self.parameters.is_some() || self.against.is_some() {

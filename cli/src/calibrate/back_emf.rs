@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 
 use super::figure;
 use super::table::Table;
@@ -131,7 +131,7 @@ impl BackEmf {
         );
         let settings = &self.log_settings;
         let mut files = Files::reading([self.log.as_path()]).and(settings.files([&self.log]));
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::BackEmf))?;
         let figure = files.claim_figure(self.figure.as_deref())?;
         let table = Table::read(&self.log, &wanted, settings)?;
         let refused = |error: CalibrateError| table.refused(&error);

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files, counted};
+use crate::output::{self, Content, Files, Record, counted};
 
 use super::figure;
 use super::table::Table;
@@ -98,7 +98,7 @@ impl Static {
         }
         let settings = &self.log_settings;
         let mut files = Files::reading([self.table.as_path()]).and(settings.files([&self.table]));
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::StaticGain))?;
         let figure = files.claim_figure(self.figure.as_deref())?;
         let current = ("--current", self.current.as_str(), ColumnKind::Current);
         let table = Table::read(&self.table, &[current, measured], settings)?;

@@ -13,7 +13,7 @@ use robot_model_spec::amend::{Amendment, amend};
 
 use crate::Error;
 use crate::close_the_loop::{self, Loop};
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::progress::Progress;
 use crate::trace;
 
@@ -53,7 +53,7 @@ pub(crate) struct Demo {
 
 impl Demo {
     pub(crate) fn run(&self) -> Result<(), Error> {
-        let json = Files::default().claim_if(self.json.as_deref(), Content::Json)?;
+        let json = Files::default().claim_if(self.json.as_deref(), Content::Json(Record::Demo))?;
         let progress = Progress::new();
         let stribeck = Amendment {
             effect: "stribeck".to_owned(),

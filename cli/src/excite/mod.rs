@@ -17,7 +17,7 @@ use clap::{Args, ValueEnum};
 use robot_model::excite::{ExciteError, Progress as Search, Request};
 
 use crate::interrupt::Wish;
-use crate::output::{Content, Files, counted};
+use crate::output::{Content, Files, Record, counted};
 use crate::progress::Progress;
 use crate::{Error, spec};
 
@@ -168,9 +168,12 @@ impl Excite {
         ];
         let mut files = Files::reading(inputs.into_iter().flatten().map(PathBuf::as_path));
         let out = files.claim_for(&self.out, Content::Motion)?;
-        let coefficients = files.claim_if(self.coefficients.as_deref(), Content::Json)?;
+        let coefficients = files.claim_if(
+            self.coefficients.as_deref(),
+            Content::Json(Record::Coefficients),
+        )?;
         let figure = files.claim_figure(self.figure.as_deref())?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Excite))?;
         // A period that is none is told by whoever designs with it.
         let is_long = self.period.is_finite() && self.rate * self.period > 1e7;
         if self.rate.is_nan() || self.rate <= 0.0 || is_long {

@@ -56,6 +56,15 @@ enum Format {
     Mjcf,
 }
 
+impl Format {
+    const fn content(self) -> Content {
+        match self {
+            Self::Urdf => Content::Urdf,
+            Self::Mjcf => Content::Mjcf,
+        }
+    }
+}
+
 impl Export {
     pub(crate) fn run(&self) -> Result<(), Error> {
         if self.urdf.is_some() && self.format != Format::Urdf {
@@ -68,7 +77,7 @@ impl Export {
             self.urdf.as_ref(),
         ];
         let inputs = inputs.into_iter().flatten().map(PathBuf::as_path);
-        let out = Files::reading(inputs).claim_for(&self.output, Content::Xml)?;
+        let out = Files::reading(inputs).claim_for(&self.output, self.format.content())?;
         let compiled = compile(&self.spec)?;
         let source = &compiled.model.source;
         if compiled.model.chain().is_none() {

@@ -150,17 +150,17 @@ fn search(
             link.nominal = ten.or(link.nominal);
         }
     }
-    let is_given = |link: &&PossibleLink| link.nominal.is_some_and(|ten| ten[0] > 0.0);
-    let mass = |link: &&PossibleLink| link.parameters[0];
     // Masses that no torque tells alone, or if not those that none tells at all, or none.
-    let silent = arms.links.iter().filter(is_given);
-    let silent = silent.filter(|link| !arms.kept.contains(&mass(link)));
-    let without = arms.links.iter().filter(is_given);
-    let without = without.filter(|link| compiled.base.unidentifiable.contains(&mass(link)));
-    let choices = [silent.collect(), without.collect(), Vec::new()];
+    let is_silent = |k: usize| !arms.kept.contains(&k);
+    let is_without = |k: usize| compiled.base.unidentifiable.contains(&k);
+    let choices = [
+        held(compiled, &arms, is_silent),
+        held(compiled, &arms, is_without),
+        Vec::new(),
+    ];
     let mut nearest = None;
     for held in choices {
-        let (possible, near) = with_masses(compiled, &arms, held, (&values.beta, widths));
+        let (possible, near) = with_held(compiled, &arms, held, (&values.beta, widths));
         let is_possible = possible.is_some();
         nearest = possible.or(near).or(nearest);
         if is_possible {
@@ -177,12 +177,38 @@ fn search(
     Some((found, others))
 }
 
-/// The nearest arm with some links' masses as they are given, but of those that are no bodies with them, if there is one that has the base
-/// parameters; and the nearest to these.
-fn with_masses(
+/// What a link keeps of its given values: some of the mass and the first moments, by their places among its ten.
+struct Held<'a> {
+    link: &'a PossibleLink,
+    places: Vec<usize>,
+}
+
+/// The mass of the links of which `is_held` says so, where one is given, and with it the first moments that no torque tells.
+fn held<'a>(
+    compiled: &Compiled,
+    arms: &'a PossibleArms,
+    is_held: impl Fn(usize) -> bool,
+) -> Vec<Held<'a>> {
+    let given = arms
+        .links
+        .iter()
+        .filter(|link| link.nominal.is_some_and(|ten| ten[0] > 0.0) && is_held(link.parameters[0]));
+    let unidentifiable = &compiled.base.unidentifiable;
+    let held = given.map(|link| Held {
+        link,
+        places: std::iter::once(0)
+            .chain((1..4).filter(|&place| unidentifiable.contains(&link.parameters[place])))
+            .collect(),
+    });
+    held.collect()
+}
+
+/// The nearest arm with some links' masses and centers as they are given, as far as they are bodies with them, if there is one that has the
+/// base parameters; and the nearest to these.
+fn with_held(
     compiled: &Compiled,
     arms: &PossibleArms,
-    mut held: Vec<&PossibleLink>,
+    mut held: Vec<Held>,
     (beta, widths): (&[f64], &[f64]),
 ) -> (Option<Vec<f64>>, Option<Vec<f64>>) {
     loop {
@@ -192,34 +218,60 @@ fn with_masses(
             weighed.nearest_to(&without, &widths)
         });
         let Some((_, near)) = found else {
-            return (None, None);
+            // Centers alone may be what leaves no body.
+            if held.iter().all(|held| held.places.len() < 2) {
+                return (None, None);
+            }
+            for held in &mut held {
+                held.places.truncate(1);
+            }
+            continue;
         };
         let exact = exact(compiled, &arms.kept, &near, beta);
         if are_possible(compiled, &exact) {
             return (Some(exact), Some(near));
         }
-        let all = held.len();
-        held.retain(|link| is_body(link.parameters.map(|k| exact[k])));
-        if held.len() == all {
+        let all = count(&held);
+        release(&mut held, &exact);
+        if count(&held) == all {
             return (None, Some(near));
         }
     }
 }
 
-/// The same arms with some links' masses as they are given, and base parameters without them: bodies whose inertia is far from the given one,
-/// as where a rotor's is in it, are nearest with another mass, too, and masses are what is known best.
+/// How much is held.
+fn count(held: &[Held]) -> usize {
+    held.iter().map(|held| held.places.len()).sum()
+}
+
+/// Lets those go that are no bodies: the center first, and the mass where it alone is left.
+fn release(held: &mut Vec<Held>, exact: &[f64]) {
+    for held in held.iter_mut() {
+        if !is_body(held.link.parameters.map(|k| exact[k])) {
+            let left = usize::from(held.places.len() > 1);
+            held.places.truncate(left);
+        }
+    }
+    held.retain(|held| !held.places.is_empty());
+}
+
+/// The same arms with what is held of some links as it is given, and base parameters without it: bodies whose inertia is far from the given
+/// one, as where a rotor's is in it, are nearest with another mass and center, too, and these are what is known best.
 fn weighed(
     compiled: &Compiled,
-    (arms, held): (&PossibleArms, &[&PossibleLink]),
+    (arms, held): (&PossibleArms, &[Held]),
     beta: &[f64],
 ) -> (PossibleArms, Vec<f64>) {
     let (mut arms, mut beta) = (arms.clone(), beta.to_vec());
-    for link in held {
-        let (mass, nominal) = (link.parameters[0], link.nominal.map_or(0.0, |ten| ten[0]));
-        arms.fixed[mass] = Some(nominal);
-        for (sum, combination) in beta.iter_mut().zip(&compiled.base.combinations) {
-            let own = combination.iter().filter(|(k, _)| *k == mass);
-            *sum -= own.map(|(_, share)| share * nominal).sum::<f64>();
+    for held in held {
+        for &place in &held.places {
+            let parameter = held.link.parameters[place];
+            let nominal = held.link.nominal.map_or(0.0, |ten| ten[place]);
+            arms.fixed[parameter] = Some(nominal);
+            for (sum, combination) in beta.iter_mut().zip(&compiled.base.combinations) {
+                let own = combination.iter().filter(|(k, _)| *k == parameter);
+                *sum -= own.map(|(_, share)| share * nominal).sum::<f64>();
+            }
         }
     }
     (arms, beta)

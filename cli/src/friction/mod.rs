@@ -18,7 +18,7 @@ use crate::dissect::check_channels;
 use crate::identify::far;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files, counted, names};
+use crate::output::{self, Content, Files, Record, counted, names};
 use crate::parameters;
 use crate::progress::Progress;
 use crate::spec::{compile_instantaneous, read_mended};
@@ -67,7 +67,7 @@ impl Friction {
         let settings = &self.log_settings;
         let mut files = Files::reading(inputs.map(PathBuf::as_path))
             .and(settings.files(self.logs.iter().chain(&self.pre_sliding)));
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Friction))?;
         let figure = files.claim_figure(self.figure.as_deref())?;
         let compiled = compile_instantaneous(&self.spec)?;
         let joint = self.joint(&compiled)?;

@@ -14,6 +14,7 @@ mod hidden_delay;
 mod large;
 mod leftover;
 mod likeness;
+mod next;
 mod nominal;
 pub(crate) mod noted;
 mod one_sine;
@@ -43,7 +44,7 @@ use crate::Error;
 use crate::in_order::workers;
 use crate::interpreted::InterpretedArm;
 use crate::log_settings::LogSettings;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::progress::Progress;
 use crate::simulate::table::trajectory;
 use crate::spec::{compile, read_log, read_mended};
@@ -224,7 +225,7 @@ impl IdentifyArguments {
         };
         let reading = readings::others(form, &identify, &logs, &estimate);
         let is_as_meant = reading.is_none();
-        let mut doubts = self.doubts(form, &estimate, &logs, validation.as_ref(), reading);
+        let mut doubts: Vec<String> = Vec::new();
         doubts.extend(validate.iter().filter_map(|log| too_slow(&estimate, log)));
         let motions = self.instruments.iter().zip(&identify.instruments);
         doubts.extend(likeness::doubts(form.model(), &logs, motions));
@@ -233,7 +234,8 @@ impl IdentifyArguments {
         if estimate.is_without_turns && !self.rows.turns.leave_out_turns && !is_of_instruments {
             doubts.push(at_turns::left_out(form.arm()));
         }
-        progress.notes(doubts);
+        doubts.extend(self.doubts(form, &estimate, &logs, validation.as_ref(), reading));
+        progress.doubts(doubts);
         // Columns of other joints look late.
         if is_as_meant {
             faults.extend(self.late_channels(&estimate, &progress));
@@ -268,7 +270,7 @@ impl IdentifyArguments {
             .chain(&self.logs)
             .chain(&self.validate);
         let mut files = Files::reading(inputs.map(PathBuf::as_path)).and(self.settings_files());
-        let out = files.claim_for(factor, Content::Json)?;
+        let out = files.claim_for(factor, Content::Json(Record::Factor))?;
         let results = Results::claim(&mut files, self)?;
         let progress = Progress::new();
         let streams = Streams {
@@ -304,7 +306,7 @@ impl IdentifyArguments {
         let slow = validate.iter().filter_map(|log| too_slow(&estimate, log));
         let doubts = doubts.into_iter().chain(slow);
         let doubts = doubts.chain(factor_doubts(&estimate, form));
-        progress.notes(doubts);
+        progress.doubts(doubts);
         let found = OfEquations {
             estimate: &estimate,
             train: &train,

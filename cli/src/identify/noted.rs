@@ -96,7 +96,7 @@ pub(crate) fn factor_doubts(estimate: &Estimate, form: &dyn Fit) -> Vec<String> 
 }
 
 impl IdentifyArguments {
-    /// What is doubtful about logs and what was found of them.
+    /// What is doubtful about logs and what was found of them; what puts most of it in doubt is last, where it is seen.
     pub(super) fn doubts(
         &self,
         form: &dyn Fit,
@@ -108,7 +108,7 @@ impl IdentifyArguments {
         let mut all = twice::doubts(&self.logs, self.validate.as_deref());
         // All else follows from columns that are read in another way than they are meant.
         if let Some(reading) = reading {
-            all.insert(0, reading);
+            all.push(reading);
             return all;
         }
         let negative = doubts::negative(estimate, form.unknowns());
@@ -118,7 +118,7 @@ impl IdentifyArguments {
         let is_told = fixed.is_some() || !explained.is_empty();
         let leftover = (!is_told).then(|| leftover::doubt(estimate)).flatten();
         let is_misfit = fixed.is_some() || leftover.is_some();
-        all.extend(negative.into_iter().chain(explained));
+        all.extend(negative);
         all.extend(nominal::doubt(form, estimate, logs, is_odd));
         all.extend(nominal::pulled(estimate));
         all.extend(doubts::at_ends(&estimate.shapes, form.shapes()));
@@ -144,6 +144,7 @@ impl IdentifyArguments {
             all.extend(untold::doubts(estimate, form.compiled(), &resting));
         }
         all.extend(fixed.into_iter().chain(apart));
+        all.extend(explained);
         all
     }
 }

@@ -98,7 +98,7 @@ impl IdentifyArguments {
             .chain(hold::doubt(&beginning.names, &found))
             .chain(mended_torques(&settings, &faults))
             .chain(twice::doubts(&self.logs, self.validate.as_deref()));
-        progress.notes(said);
+        progress.doubts(said);
         let linear = beginning.linear.as_ref();
         let linear = linear.map(|linear| of_simulation(&compiled, linear, &found));
         let errors = |logs: &[Log]| -> Result<Option<Errors>, Error> {

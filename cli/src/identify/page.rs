@@ -11,7 +11,9 @@ use super::doubts;
 use super::report::{Parameter, counted, identified, shares};
 use crate::Error;
 use crate::output::significant;
-use crate::report::{Drawn, Ink, Page, Shown, again, base_parameters, figures, parameters};
+use crate::report::{
+    Bars, Drawn, Ink, Page, Shown, again, as_read, base_parameters, figures, parameters,
+};
 
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
@@ -88,8 +90,8 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// The page, of files that were read.
-    pub fn page(&self, inputs: &[PathBuf]) -> Result<String, Error> {
+    /// The page, of files that were read, with the command that comes next.
+    pub fn page(&self, inputs: &[PathBuf], next: &str) -> Result<String, Error> {
         let mut page = Page::new(
             &format!("Identification of {}", self.compiled.model.name),
             &format!(
@@ -98,7 +100,8 @@ impl<'a> Evidence<'a> {
             ),
         );
         page.section("Verdict");
-        self.verdict(&mut page, inputs);
+        let (of_logs, of_result) = self.sorted_notes(inputs);
+        self.verdict(&mut page, (&of_logs, &of_result), next);
         page.section("Errors");
         self.errors(&mut page);
         page.section("Torques and residuals");
@@ -109,14 +112,27 @@ impl<'a> Evidence<'a> {
         page.section("Base parameters");
         base_parameters(&mut page, self.compiled);
         page.section("Data");
-        self.data(&mut page);
+        self.data(&mut page, &of_logs);
         page.section("As printed");
         page.preformatted(self.printed);
         again(&mut page, inputs)?;
         Ok(page.finish())
     }
 
-    fn verdict(&self, page: &mut Page, inputs: &[PathBuf]) {
+    /// What is said of single files, and of what was found, which wants an answer first.
+    fn sorted_notes(&self, inputs: &[PathBuf]) -> (Vec<String>, Vec<String>) {
+        let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
+        let (of_logs, of_result): (Vec<&String>, Vec<&String>) = self
+            .notes
+            .iter()
+            .partition(|note| is_of_a_file(note, inputs) && !self.is_of_late_channels(note));
+        // What was said last puts most in doubt, and a page is read from its beginning.
+        let of_logs = of_logs.into_iter().map(plain).collect();
+        let of_result = of_result.into_iter().rev().map(plain).collect();
+        (of_logs, of_result)
+    }
+
+    fn verdict(&self, page: &mut Page, (of_logs, of_result): (&[String], &[String]), next: &str) {
         let untold = self.parameters.iter().filter(|one| one.value.is_none());
         let untold = untold.count();
         let count = self.parameters.len();
@@ -134,30 +150,27 @@ impl<'a> Evidence<'a> {
             0 => format!("All {count} parameters have values of their own."),
             _ => format!("{untold} of {count} parameters have no value of their own."),
         };
-        let most = |errors: &Errors| {
-            let left = errors.relative_percent.iter().copied();
-            left.fold(0.0, f64::max)
-        };
-        let left = self.errors.iter().map(|(of, errors)| {
-            format!(
-                "At most {:.2} % of a joint's torque is left ({of}).",
-                most(errors)
-            )
+        let left = self.errors.iter().filter_map(|(of, errors)| {
+            let joint = worst(errors)?;
+            let name = &self.compiled.model.joints[joint].name;
+            let percent = errors.relative_percent[joint];
+            Some(match errors.relative_percent.len() {
+                1 => format!("{percent:.2} % of the torque of `{name}` is left ({of})."),
+                _ => format!("Most is left of `{name}`: {percent:.2} % of its torque ({of})."),
+            })
         });
-        let sentences: Vec<String> = std::iter::once(told).chain(left).collect();
+        let elsewhere =
+            (!of_logs.is_empty()).then(|| "How files were read is noted under Data.".to_owned());
+        let sentences = std::iter::once(told).chain(left).chain(elsewhere);
+        let sentences: Vec<String> = sentences.collect();
         page.verdict(class, word, &sentences.join(" "));
-        let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
-        // What was found wants an answer before what is said of a log or a file of settings.
-        let (of_logs, of_result): (Vec<&String>, Vec<&String>) = self
-            .notes
-            .iter()
-            .partition(|note| is_of_a_file(note, inputs) && !self.is_of_late_channels(note));
-        for (title, notes) in [("What to look at", of_result), ("Of single files", of_logs)] {
-            if !notes.is_empty() {
-                page.part(title);
-                page.list(&notes.into_iter().map(plain).collect::<Vec<_>>());
-            }
+        if !of_result.is_empty() {
+            page.part("What to look at");
+            page.list(of_result);
         }
+        page.part("Next");
+        page.text("What is left, is it noise, or something that the spec lacks? This asks:");
+        page.preformatted(next);
     }
 
     /// Whether a note is of channels that are late, which only another log or spec mends.
@@ -172,6 +185,7 @@ impl<'a> Evidence<'a> {
             page.text("No torque is computed from equations: least squares finds no filters for these logs.");
             return;
         }
+        self.bars(page);
         let heads = self.errors.iter().flat_map(|(of, _)| {
             ["RMSE", "MAE", "RMS%", "NRMSE fit"].map(|what| format!("{what}, {of}"))
         });
@@ -201,6 +215,32 @@ impl<'a> Evidence<'a> {
         if self.errors.len() == 1 {
             page.text("Give --validate for a log that is not fitted.");
         }
+    }
+
+    /// What is left of the torque of every joint.
+    fn bars(&self, page: &mut Page) {
+        const INKS: [(Ink, &str); 3] = [
+            (Ink::Before, "before"),
+            (Ink::After, "after"),
+            (Ink::Measured, "measured"),
+        ];
+        let joints = self.compiled.model.joints.iter();
+        let joints: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
+        let drawn = || self.errors.iter().zip(INKS);
+        let bars = Bars {
+            label: "relative errors of every joint",
+            x: "relative error, %",
+            joints: &joints,
+            models: drawn()
+                .map(|((_, errors), (ink, _))| (ink, errors.relative_percent.clone()))
+                .collect(),
+        };
+        let legend = drawn().map(|((of, _), (_, color))| (color, *of));
+        page.figures(
+            &[bars.svg()],
+            &legend.collect::<Vec<_>>(),
+            "Which part of the torque of a joint is left, slower than the cutoff of the filters (RMS% of the table).",
+        );
     }
 
     fn figures(&self, page: &mut Page) -> Result<(), Error> {
@@ -254,7 +294,8 @@ impl<'a> Evidence<'a> {
         );
     }
 
-    fn data(&self, page: &mut Page) {
+    fn data(&self, page: &mut Page, of_logs: &[String]) {
+        as_read(page, of_logs);
         if self.faults.is_empty() {
             page.text("No fault was found in the logs.");
             return;
@@ -273,6 +314,13 @@ impl<'a> Evidence<'a> {
             &rows.collect::<Vec<_>>(),
         );
     }
+}
+
+/// The joint of which most is left; none where nothing is told of any.
+fn worst(errors: &Errors) -> Option<usize> {
+    let told = |joint: &usize| errors.relative_percent[*joint] > 0.0;
+    let joints = (0..errors.relative_percent.len()).filter(told);
+    joints.max_by(|&a, &b| errors.relative_percent[a].total_cmp(&errors.relative_percent[b]))
 }
 
 /// Whether a note is of one file: it begins with its name.

@@ -110,7 +110,7 @@ impl IdentifyArguments {
         let found = identify.fit_payload(&form.0, &logs.unloaded, &logs.loaded, link)?;
         let judged = self.judged(form, &found, logs, &progress)?;
         if let Some(doubt) = negative(&found) {
-            progress.note(&format!("note: {doubt}"));
+            progress.doubts([doubt]);
         }
         let arm = of_arm(&found, &judged.train);
         let printed = format!(
@@ -153,7 +153,8 @@ impl IdentifyArguments {
         explained.extend(doubts::at_ends(&found.estimate.shapes, form.shapes()));
         let fitted = [self.logs.as_slice(), &self.payload].concat();
         let same = twice::doubts(&fitted, self.validate.as_deref());
-        progress.notes(doubts.into_iter().flatten().chain(explained).chain(same));
+        let same = same.into_iter();
+        progress.doubts(same.chain(doubts.into_iter().flatten()).chain(explained));
         let validation = logs.validate.as_ref();
         let validation = validation.map(|log| form.errors(&found.loaded, log));
         let mut faults = logs.faults.clone();

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::IdentifyArguments;
 use super::page::Evidence;
 use crate::Error;
-use crate::output::{self, Content, Files, OutFile};
+use crate::output::{self, Content, Files, OutFile, Record};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 
@@ -17,15 +17,18 @@ pub(super) struct Results {
     json: Option<OutFile>,
     page: Option<ReportFolder>,
     inputs: Vec<PathBuf>,
+    /// The command that comes next.
+    next: String,
     others: Vec<(OutFile, String)>,
 }
 
 impl Results {
     pub fn claim(files: &mut Files, asked: &IdentifyArguments) -> Result<Self, Error> {
         Ok(Self {
-            json: files.claim_if(asked.json.as_deref(), Content::Json)?,
+            json: files.claim_if(asked.json.as_deref(), Content::Json(Record::Identify))?,
             page: ReportFolder::claim_if(files, asked.report.as_deref())?,
             inputs: files.inputs(),
+            next: asked.command_of_trace(),
             others: Vec::new(),
         })
     }
@@ -45,11 +48,11 @@ impl Results {
     ) -> Result<(), Error> {
         let page = self
             .page
-            .map(|folder| Ok::<_, Error>((folder, found.page(&self.inputs)?)));
+            .map(|folder| Ok::<_, Error>((folder, found.page(&self.inputs, &self.next)?)));
         let page = page.transpose()?;
         let text = || output::json_with_notes(report, &found.notes);
         let json = self.json.map(|file| (file, text()));
-        drop(progress);
+        let _behind = progress.ended();
         for (file, text) in self.others.into_iter().chain(json) {
             file.commit(text.as_bytes())?;
         }

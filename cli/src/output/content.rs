@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use super::record::Record;
 use super::table::{MOTION, PREDICTION, SIMULATION};
 use crate::misplaced::{is_markup, is_spec};
 
@@ -17,7 +18,7 @@ const BAG: (&[u8], &[u8]) = (b"\x89MCAP", b"robot-model/");
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Content {
     /// Numbers by name.
-    Json,
+    Json(Record),
     /// A drawing, SVG.
     Figure,
     /// A report, HTML.
@@ -30,21 +31,24 @@ pub(crate) enum Content {
     Simulation,
     /// A robot in the language.
     Spec,
-    /// A robot in XML, URDF or MJCF.
-    Xml,
+    /// A robot in the XML of ROS.
+    Urdf,
+    /// A robot in that of `MuJoCo`.
+    Mjcf,
 }
 
 impl Content {
     const fn name(self) -> &'static str {
         match self {
-            Self::Json => "JSON",
+            Self::Json(record) => record.name(),
             Self::Figure => "SVG figure",
             Self::Page => "page",
             Self::Motion => "motion of `excite`",
             Self::Prediction => "prediction of `trace`",
             Self::Simulation => "log of `simulate`",
             Self::Spec => "spec",
-            Self::Xml => "XML",
+            Self::Urdf => "URDF",
+            Self::Mjcf => "MJCF model",
         }
     }
 
@@ -63,14 +67,15 @@ impl Content {
         let text = String::from_utf8_lossy(start);
         let text = text.trim_start_matches('\u{feff}').trim_start();
         match self {
-            Self::Json => text.starts_with(['{', '[']),
+            Self::Json(record) => record.begins(text),
             Self::Figure => is_markup(text) && text.contains("<svg"),
             Self::Page => text.to_ascii_lowercase().starts_with("<!doctype html"),
             Self::Motion => MOTION.begins(text),
             Self::Prediction => PREDICTION.begins(text),
             Self::Simulation => SIMULATION.begins(text) || is_own_bag(start),
             Self::Spec => is_spec(text),
-            Self::Xml => is_markup(text),
+            Self::Urdf => is_markup(text) && text.contains("<robot"),
+            Self::Mjcf => is_markup(text) && text.contains("<mujoco"),
         }
     }
 }
@@ -88,7 +93,10 @@ mod tests {
     #[test]
     fn kinds_of_files_are_told_by_their_first_bytes() {
         let all = [
-            (Content::Json, b"\n{\"method\": \"wls\"}".as_slice()),
+            (
+                Content::Json(Record::Identify),
+                b"\n{\"method\": \"wls\"}".as_slice(),
+            ),
             (Content::Figure, b"<svg width=\"640\" xmlns=\"..\">"),
             (Content::Page, b"<!DOCTYPE html>\n<html lang=\"en\">"),
             (
@@ -108,16 +116,15 @@ mod tests {
                 b"// a, b, c\nrobot A { gravity = [0, 0, -9.81]; }",
             ),
             (
-                Content::Xml,
+                Content::Urdf,
                 b"<?xml version=\"1.0\"?>\n<robot name=\"a\"/>",
             ),
+            (Content::Mjcf, b"<mujoco model=\"a\"></mujoco>"),
         ];
         for (content, _) in all {
             for (other, start) in all {
                 let is_like = content.begins(start);
-                // Drawings and pages are markup, too.
-                let is_known = content == other || (content == Content::Xml && is_markup_of(other));
-                assert_eq!(is_like, is_known, "{content:?} of {other:?}");
+                assert_eq!(is_like, content == other, "{content:?} of {other:?}");
             }
         }
         let bag = |writer: &str| {
@@ -126,9 +133,5 @@ mod tests {
         };
         assert!(bag("robot-model/0.1.0"));
         assert!(!bag("libmcap 1.4.0"));
-    }
-
-    fn is_markup_of(content: Content) -> bool {
-        matches!(content, Content::Figure | Content::Page)
     }
 }

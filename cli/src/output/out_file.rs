@@ -189,7 +189,7 @@ fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
     let about = fs::metadata(path)
         .map_err(|error| refused(path, &format!("it is a link that leads nowhere: {error}")))?;
     if about.is_dir() {
-        return Err(refused(path, "it is a folder"));
+        return Err(refused(path, "it is a folder; name a file in it"));
     }
     // `/dev/stdout` is a link to whatever the shell has put there, a regular file at times.
     let of_the_system = is_link && (path.starts_with("/dev") || path.starts_with("/proc"));
@@ -200,7 +200,10 @@ fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
         ));
     }
     if about.permissions().readonly() {
-        return Err(refused(path, "it is read-only"));
+        return Err(refused(
+            path,
+            "it is read-only; `chmod u+w` lets its owner write, or give another name",
+        ));
     }
     OpenOptions::new()
         .write(true)

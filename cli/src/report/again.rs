@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::Page;
 use crate::Error;
+use crate::output::quoted;
 
 /// Bytes that are read at once.
 const PIECE: usize = 1 << 16;
@@ -58,16 +59,8 @@ fn fingerprint(path: &Path) -> Result<Option<(usize, u32)>, Error> {
 
 /// How the program was called, as a shell takes it.
 fn invocation() -> String {
-    let quoted = |argument: String| {
-        let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/=,:+".contains(c);
-        if !argument.is_empty() && argument.chars().all(is_plain) {
-            argument
-        } else {
-            format!("'{}'", argument.replace('\'', r"'\''"))
-        }
-    };
     let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|one| quoted(one.to_string_lossy().into_owned()));
+    let arguments = arguments.map(|one| quoted(&one.to_string_lossy()));
     let words = std::iter::once("robot-model".to_owned()).chain(arguments);
     words.collect::<Vec<_>>().join(" ")
 }

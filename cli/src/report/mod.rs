@@ -21,5 +21,5 @@ pub(crate) use comment::unit_and_meaning;
 pub(crate) use folder::ReportFolder;
 pub(crate) use map::Map;
 pub(crate) use page::Page;
-pub(crate) use sections::{base_parameters, figures, parameters};
+pub(crate) use sections::{as_read, base_parameters, figures, parameters};
 pub(crate) use series::{Drawn, Shown};

@@ -85,9 +85,19 @@ impl Page {
 
     /// A table; a click on a head sorts it. Cells that begin with a number stand to the right.
     pub(crate) fn table(&mut self, caption: &str, head: &[&str], rows: &[Vec<String>]) {
+        self.rows(caption, head, rows, false);
+    }
+
+    /// A table whose rows are cards on a phone: their names above their cells, and the last cell, which is a sentence, below them.
+    pub(crate) fn cards(&mut self, caption: &str, head: &[&str], rows: &[Vec<String>]) {
+        self.rows(caption, head, rows, true);
+    }
+
+    fn rows(&mut self, caption: &str, head: &[&str], rows: &[Vec<String>], are_cards: bool) {
+        let class = if are_cards { " class=\"cards\"" } else { "" };
         writeln!(
             self.body,
-            "<div class=\"wide\" tabindex=\"0\"><table><caption>{}</caption><thead><tr>",
+            "<div class=\"wide\" tabindex=\"0\"><table{class}><caption>{}</caption><thead><tr>",
             prose(caption)
         )
         .expect(PUT);
@@ -109,12 +119,17 @@ impl Page {
             self.body.push_str("<tr>");
             for (column, cell) in row.iter().enumerate() {
                 let text = prose(cell);
+                // What a head says of the column, where a card has none.
+                let named = match head.get(column).filter(|_| are_cards) {
+                    Some(head) => format!(" data-head=\"{}\"", escaped(head)),
+                    None => String::new(),
+                };
                 let cell = match (column, number(cell)) {
                     (0, _) => format!("<th scope=\"row\">{text}</th>"),
                     (_, Some(value)) => {
-                        format!("<td class=\"number\" data-value=\"{value}\">{text}</td>")
+                        format!("<td class=\"number\"{named} data-value=\"{value}\">{text}</td>")
                     }
-                    _ => format!("<td>{text}</td>"),
+                    _ => format!("<td{named}>{text}</td>"),
                 };
                 self.body.push_str(&cell);
             }

@@ -13,6 +13,16 @@ use crate::output::{decimals, significant};
 /// Deviations to either side of an interval that holds a value with 95 %.
 const WIDTH: f64 = 1.96;
 
+/// What was assumed where files were read, seen when it is opened.
+pub(crate) fn as_read(page: &mut Page, notes: &[String]) {
+    let summary = match notes.len() {
+        0 => return,
+        1 => "How the files were read: one note".to_owned(),
+        count => format!("How the files were read: {count} notes"),
+    };
+    page.folded(&summary, false, |page| page.list(notes));
+}
+
 /// Every parameter with its deviation, its interval and what it is.
 pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Parameter]) {
     let told = |value: Option<f64>, digits| {
@@ -49,7 +59,7 @@ pub(crate) fn parameters(page: &mut Page, compiled: &Compiled, parameters: &[Par
     } else {
         "Intervals hold the value with 95 %: from 1.96 deviations below it to 1.96 above. `-` where the logs do not tell it."
     };
-    page.table(
+    page.cards(
         intervals,
         &[
             "parameter",

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::Error;
 use crate::interpreted::InterpretedPlant;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::parameters::{self, Values};
 use crate::progress::Progress;
 use crate::spec::compile;
@@ -154,7 +154,7 @@ impl Simulate {
         let inputs = inputs.into_iter().chain(more.map(Option::as_ref)).flatten();
         let mut files = Files::reading(inputs.map(PathBuf::as_path));
         let out = files.claim_for(&self.out, Content::Simulation)?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Simulate))?;
         if self.control_parameters.is_some()
             && self.controller != ControllerArgument::ComputedTorque
         {

@@ -10,7 +10,7 @@ use super::report::effect;
 use crate::close_the_loop::Loop;
 use crate::excite::have_own_columns;
 use crate::identify::noted::mixed;
-use crate::output::significant;
+use crate::output::{quoted, significant};
 
 /// An error that is smaller is at most this share of what it was.
 const LEAST_FALL: f64 = 0.99;
@@ -29,7 +29,7 @@ const SAME_PERCENT: f64 = 0.05;
 
 const PUT: &str = "a string takes all";
 
-/// One line an alternative, and for the spec at a path, of a text, the command that designs the motion for the first doubt that has one.
+/// One line an alternative, and for the spec at a path, of a text, the commands that design motions for those doubts that have one.
 pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
     let mut out = String::new();
     let alternatives = &closed.verdict.alternatives;
@@ -43,32 +43,66 @@ pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
         )
         .expect(PUT);
     }
-    // Those that the logs tell apart by something first: no motion may tell the others.
+    out + &experiments(spec, text, closed)
+}
+
+/// A line for every alternative that some motion may tell from what is named: those that the logs tell apart by something first, since no
+/// motion may tell the others.
+fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
+    let alternatives = &closed.verdict.alternatives;
     let is_same = |rival: &&Alternative| rival.worse_percent.abs() < SAME_PERCENT;
     let apart = alternatives.iter().filter(|rival| !is_same(rival));
-    let mut by_hope = apart.chain(alternatives.iter().filter(is_same));
-    let command = by_hope.find_map(|rival| {
+    let by_hope = apart.chain(alternatives.iter().filter(is_same));
+    let pairs = by_hope.filter_map(|rival| {
         let place = rival.instead_of;
         let finding = &closed.verdict.findings[place];
         let both = rivals(closed, finding, place, rival)?;
-        have_own_columns(spec, text, &both[0], &both[1])
-            .then(|| (experiment(spec, &both), is_same(&rival)))
+        have_own_columns(spec, text, &both[0], &both[1]).then_some((rival, both))
     });
-    if let Some((command, is_same)) = command {
-        let joints = &closed.before.arm.compiled().model.joints;
-        let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
-        let first = unbound.map(|joint| {
-            format!(
-                ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
-                joint.name
-            )
-        });
-        let first = first.unwrap_or_default();
-        let what = if is_same {
-            "along these logs they are the same; whether some motion tells them apart, and which one"
-        } else {
-            "these logs do not settle it; the motion that tells them apart best"
+    let pairs: Vec<(&Alternative, [String; 2])> = pairs.collect();
+    let joints = &closed.before.arm.compiled().model.joints;
+    let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
+    let first = unbound.map(|joint| {
+        format!(
+            ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
+            joint.name
+        )
+    });
+    let first = first.unwrap_or_default();
+    let pairs = pairs.iter().map(|(rival, both)| Pair {
+        named: closed.verdict.findings[rival.instead_of].kind.as_str(),
+        rival: on_joints(closed, &rival.kind, &rival.joints),
+        is_same: is_same(rival),
+        both,
+    });
+    commands(spec, &first, &pairs.collect::<Vec<_>>())
+}
+
+/// What is named and what may be instead, in words and as `excite` takes them.
+struct Pair<'a> {
+    named: &'a str,
+    rival: String,
+    /// Whether they are the same along the logs.
+    is_same: bool,
+    both: &'a [String; 2],
+}
+
+/// A line for each of them, with its command; `first` is what has to be done before.
+fn commands(spec: &str, first: &str, pairs: &[Pair]) -> String {
+    let mut out = String::new();
+    for (number, pair) in pairs.iter().enumerate() {
+        let tells = match pairs.len() {
+            1 => "tells them apart".to_owned(),
+            _ => format!("tells {} from {}", pair.named, pair.rival),
         };
+        let what = if pair.is_same {
+            format!(
+                "along these logs they are the same; whether some motion {tells}, and which one"
+            )
+        } else {
+            format!("these logs do not settle it; the motion that {tells} best")
+        };
+        let command = experiment(spec, pair.both, number);
         writeln!(out, "  {what}{first}: {command}").expect(PUT);
     }
     out
@@ -221,10 +255,14 @@ fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     })
 }
 
-/// The command.
-fn experiment(spec: &str, [own, other]: &[String; 2]) -> String {
+/// The command, whose motion has a file of its own.
+fn experiment(spec: &str, [own, other]: &[String; 2], number: usize) -> String {
+    let number = match number {
+        0 => String::new(),
+        number => (number + 1).to_string(),
+    };
     format!(
-        "robot-model excite {} --separate '{own}' --from '{other}' --out next.csv",
+        "robot-model excite {} --separate '{own}' --from '{other}' --out next{number}.csv",
         quoted(spec)
     )
 }
@@ -262,15 +300,6 @@ fn rivals(
         ),
         format!("{} on {}", other.name, joints(closed, &rival.joints)),
     ])
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
-    if path.chars().all(is_plain) {
-        return path.to_owned();
-    }
-    format!("'{}'", path.replace('\'', r"'\''"))
 }
 
 struct OfMotion {
@@ -318,7 +347,35 @@ fn joints(closed: &Loop, joints: &[usize]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::said_of_falls;
+    use super::{Pair, commands, said_of_falls};
+
+    #[test]
+    fn each_alternative_has_the_command_of_a_motion() {
+        let both = ["cubic_viscous on elbow", "stribeck on elbow"].map(|rival| {
+            [
+                "quadratic_viscous on elbow: c = 0.2".to_owned(),
+                rival.to_owned(),
+            ]
+        });
+        let pair = |k: usize| Pair {
+            named: "quadratic-viscous",
+            rival: ["cubic-viscous on elbow", "stribeck on elbow"][k].to_owned(),
+            is_same: k == 1,
+            both: &both[k],
+        };
+        assert_eq!(
+            commands("arm.robot", "", &[pair(0), pair(1)]),
+            "  these logs do not settle it; the motion that tells quadratic-viscous from cubic-viscous on elbow best: robot-model excite \
+             arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow' --out next.csv\n  along these logs they \
+             are the same; whether some motion tells quadratic-viscous from stribeck on elbow, and which one: robot-model excite arm.robot \
+             --separate 'quadratic_viscous on elbow: c = 0.2' --from 'stribeck on elbow' --out next2.csv\n"
+        );
+        let one = commands("arm.robot", "", &[pair(0)]);
+        assert!(
+            one.contains("the motion that tells them apart best"),
+            "{one}"
+        );
+    }
 
     #[test]
     fn a_law_that_does_far_less_on_another_motion_is_told() {

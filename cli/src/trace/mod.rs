@@ -2,6 +2,7 @@
 
 mod doubt;
 mod page;
+mod parameters;
 mod report;
 mod said;
 mod summary;
@@ -21,7 +22,7 @@ use crate::close_the_loop::{self, Loop};
 use crate::log_settings::LogSettings;
 use crate::misplaced::robot_of;
 use crate::output::table::PREDICTION;
-use crate::output::{self, Content, Files};
+use crate::output::{self, Content, Files, Record};
 use crate::progress::Progress;
 use crate::report::ReportFolder;
 use crate::spec::{load, read_log, read_mended, read_text};
@@ -89,7 +90,7 @@ impl TraceArguments {
         self.check_amended(&model.name)?;
         let amend = files.claim_if(self.amend.as_deref(), Content::Spec)?;
         let predict = files.claim_if(self.predict.as_deref(), Content::Prediction)?;
-        let json = files.claim_if(self.json.as_deref(), Content::Json)?;
+        let json = files.claim_if(self.json.as_deref(), Content::Json(Record::Trace))?;
         let report = ReportFolder::claim_if(&mut files, self.report.as_deref())?;
 
         let progress = Progress::new();
@@ -101,11 +102,12 @@ impl TraceArguments {
         let read = |path: &Path| read_mended(path, &model, settings, &progress);
         let validate = self.validate.as_deref().map(read).transpose()?;
         let validate = validate.map(|mended| mended.log);
+        let read = progress.noted();
         let name = self.spec.display().to_string();
         let closed = close_the_loop::close(&name, &text, &logs, validate.as_ref(), &progress)?;
         let page = report
             .as_ref()
-            .map(|_| page::page(&name, &closed, &text, &files.inputs()));
+            .map(|_| page::page((&name, &text), &closed, &files.inputs(), &read));
         let page = page.transpose()?;
         // All contents are ready before the first file appears.
         let unseen = closed.unseen.as_ref();

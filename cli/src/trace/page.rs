@@ -6,6 +6,7 @@ use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
 
 use super::doubt::{doubt, doubts, on_joints};
+use super::parameters::{found, parameters as of_all};
 use super::report::effect;
 use super::said::{errors_of, fall, nothing_added, outcome, parameter, sentence};
 use super::tried::rows;
@@ -13,19 +14,20 @@ use super::whereabouts::structure_left;
 use crate::Error;
 use crate::close_the_loop::{Loop, Stage};
 use crate::diff::diff;
-use crate::identify::report::identified;
 use crate::output::significant;
-use crate::report::{Bars, Drawn, Ink, Page, Shown, again, base_parameters, figures, parameters};
+use crate::report::{
+    Bars, Drawn, Ink, Page, Shown, again, as_read, base_parameters, figures, parameters,
+};
 
 /// Joints whose figures are open from the start.
 const OPEN: usize = 2;
 
-/// The page on a traced spec at a path, whose text is given, and on files that were read.
+/// The page on a traced spec at a path, whose text is given, and on files that were read, with what was noted of these.
 pub(super) fn page(
-    spec: &str,
+    (spec, text): (&str, &str),
     closed: &Loop,
-    text: &str,
     inputs: &[PathBuf],
+    read: &[String],
 ) -> Result<String, Error> {
     let mut page = Page::new(
         &format!("Trace of {}", closed.before.arm.compiled().model.name),
@@ -49,11 +51,13 @@ pub(super) fn page(
     page.section("What was tried");
     tried(&mut page, closed);
     page.section("Data");
+    let plain = |note: &String| note.strip_prefix("note: ").unwrap_or(note).to_owned();
+    as_read(&mut page, &read.iter().map(plain).collect::<Vec<_>>());
     data(&mut page, closed);
-    let after = closed.after();
     page.section("Parameters");
-    let compiled = after.arm.compiled();
-    parameters(&mut page, compiled, &identified(&after.estimate));
+    let compiled = closed.after().arm.compiled();
+    let found = found(closed);
+    parameters(&mut page, compiled, &of_all(closed, &found));
     page.section("Base parameters");
     base_parameters(&mut page, compiled);
     again(&mut page, inputs)?;

@@ -197,7 +197,10 @@ fn both_files_or_none() {
     folder.write("cart.robot", CART);
     std::fs::create_dir_all(folder.path("code/cart.c")).expect("a folder in the way");
     let said = folder.refuse(&EMIT);
-    assert_eq!(said, "error: cannot write `code/cart.c`: it is a folder\n");
+    assert_eq!(
+        said,
+        "error: cannot write `code/cart.c`: it is a folder; name a file in it\n"
+    );
     assert!(!folder.path("code/cart.h").exists());
 
     folder.write("cart.c", CART);

@@ -248,3 +248,40 @@ fn torque_that_is_left_and_goes_on_from_row_to_row_is_noted() {
     );
     assert!(!said.contains("the logs are"), "{said}");
 }
+
+/// Where both streams go to one place, what puts a whole fit in doubt is last, behind its errors.
+#[test]
+fn a_fit_that_is_none_is_doubted_behind_its_errors() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    let log = cart_log(40, 2.0, 0.0);
+    let rows = log.lines().enumerate().map(|(k, line)| {
+        let (motion, torque) = line.rsplit_once(',').expect("columns");
+        let noise = ((k * k) % 97) as f64 - 48.0;
+        if k == 0 {
+            format!("{motion},{torque}")
+        } else {
+            format!("{motion},{noise}")
+        }
+    });
+    folder.write("log.csv", &rows.collect::<Vec<_>>().join("\n"));
+    let both = std::fs::File::create(folder.path("both.txt")).expect("a file");
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_robot-model"))
+        .current_dir(folder.path("."))
+        .args(["identify", "cart.robot", "log.csv"])
+        .stdout(both.try_clone().expect("a second one"))
+        .stderr(both)
+        .status();
+    assert!(status.expect("the program starts").success());
+    let said = folder.read("both.txt");
+    let last = said.lines().last().expect("lines");
+    assert!(
+        last.starts_with("note: the model explains next to nothing"),
+        "{said}"
+    );
+    let errors = said.find("NRMSE fit").expect("errors");
+    assert!(
+        errors < said.find("note: the model explains").expect("a note"),
+        "{said}"
+    );
+}

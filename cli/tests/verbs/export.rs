@@ -6,8 +6,8 @@ use serde_json::Value;
 use crate::common::{CART, Folder, PENDULUM, json, moved, numbers};
 
 /// The pendulum with friction and rotors, and values of these.
-const EFFECTS: &str = "viscous_friction on all; coulomb_friction on all; motor_inertia on all; stribeck(vs = 0.1) on lower;";
-const VALUES: &str = r#"{
+pub(crate) const EFFECTS: &str = "viscous_friction on all; coulomb_friction on all; motor_inertia on all; stribeck(vs = 0.1) on lower;";
+pub(crate) const VALUES: &str = r#"{
     "upper.viscous_friction.fv": 0.5, "lower.viscous_friction.fv": 0.2, "upper.coulomb_friction.fc": 0.4, "lower.coulomb_friction.fc": 0.3,
     "upper.motor_inertia.ia": 0.2, "lower.motor_inertia.ia": 0.1, "lower.stribeck.fs": 0.15
 }"#;
@@ -22,7 +22,7 @@ fn fitted(effects: &str) -> Folder {
 }
 
 /// The same with other values.
-fn fitted_with(effects: &str, values: &str) -> Folder {
+pub(crate) fn fitted_with(effects: &str, values: &str) -> Folder {
     let folder = Folder::new();
     moved(&folder, &arm(EFFECTS), values, |t| {
         [
@@ -35,7 +35,7 @@ fn fitted_with(effects: &str, values: &str) -> Folder {
     folder
 }
 
-fn export(folder: &Folder, more: &[&str]) -> String {
+pub(crate) fn export(folder: &Folder, more: &[&str]) -> String {
     let run = folder.run(&[&["export", "arm.robot"], more].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert_eq!(run.stdout, "");
@@ -63,7 +63,7 @@ fn assert_alike(found: &Value, wanted: &Value, tolerance: f64) {
 }
 
 /// Reads the URDF that was written into `back.robot`.
-fn import_back(folder: &Folder) {
+pub(crate) fn import_back(folder: &Folder) {
     let gravity = ["--gravity", "0,-9.81,0"];
     folder.succeed(&[&["import", "out.urdf", "-o", "back.robot"], &gravity[..]].concat());
 }
@@ -184,40 +184,6 @@ fn what_a_format_does_not_say_is_told_or_put_where_it_moves_alike() {
         mjcf.contains(" armature=\"") && mjcf.contains(" frictionloss=\""),
         "{mjcf}"
     );
-}
-
-/// A rotor of ten times the link's inertia about its axis has no place in a URDF but in the link, whose mass is that of CAD all the same.
-#[test]
-fn a_rotor_in_a_link_changes_no_mass() {
-    let rotor = VALUES.replace(
-        "\"upper.motor_inertia.ia\": 0.2",
-        "\"upper.motor_inertia.ia\": 2.0",
-    );
-    assert_ne!(rotor, VALUES);
-    let folder = fitted_with(EFFECTS, &rotor);
-    let said = export(
-        &folder,
-        &["--as", "urdf", "--parameters", "fit.json", "-o", "out.urdf"],
-    );
-    import_back(&folder);
-    let masses = |text: &str| -> Vec<f64> {
-        let spec = robot_model_spec::load("a spec", text).expect("a spec");
-        let links = &spec.chain().expect("a chain").links;
-        let masses = links.iter().map(|link| match link.inertial {
-            robot_model_spec::model::Inertial::Nominal(ten) => ten[0],
-            _ => panic!("nominal"),
-        });
-        masses.collect()
-    };
-    let [given, written] = ["arm.robot", "back.robot"].map(|file| masses(&folder.read(file)));
-    for (given, written) in given.iter().zip(&written) {
-        assert!(
-            (given - written).abs() < 1e-3 * given,
-            "{given} {written}\n{said}"
-        );
-    }
-    assert_eq!((given.len(), written.len()), (2, 2));
-    assert!(!said.contains("in place of"), "{said}");
 }
 
 /// Values by name are those that are written; what no body has is not.

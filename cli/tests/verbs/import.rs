@@ -43,6 +43,22 @@ fn import_refuses_what_it_cannot_use() {
         said.starts_with("error: broken.urdf: the URDF does not parse: "),
         "{said}"
     );
+    // Fingers are no end of an arm; what carries them is.
+    let fingers = ["left", "right"].map(|side| {
+        format!(
+            "<link name=\"{side}\"/><joint name=\"{side}_slide\" type=\"prismatic\"><parent link=\"pendulum\"/><child link=\"{side}\"/>\
+             <axis xyz=\"0 1 0\"/><limit lower=\"0\" upper=\"0.04\" effort=\"20\" velocity=\"0.2\"/></joint>"
+        )
+    });
+    let gripper = URDF.replace("</robot>", &format!("{}</robot>", fingers.concat()));
+    folder.write("gripper.urdf", &gripper);
+    let said = folder.refuse(&["import", "gripper.urdf", "-o", "arm.robot"]);
+    assert!(
+        said.contains(
+            "with --tip, one of `pendulum` (the arm without what moves on it), `left`, `right`"
+        ),
+        "{said}"
+    );
     let said = folder.refuse(&["import", "arm.urdf", "-o", "arm.robot", "--tip", "hand"]);
     assert!(said.contains("the URDF has no link `hand`"), "{said}");
     let said = folder.refuse(&[

@@ -29,6 +29,7 @@ mod eval;
 mod every;
 mod excite;
 mod export;
+mod export_rotors;
 mod filtered_factors;
 mod friction;
 mod gravity;

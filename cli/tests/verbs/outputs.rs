@@ -94,7 +94,7 @@ fn only_regular_files_are_replaced() {
         |json: &str| folder.refuse(&["identify", "cart.robot", "log.csv", "--json", json]);
     assert_eq!(
         identify("results"),
-        "error: cannot write `results`: it is a folder\n"
+        "error: cannot write `results`: it is a folder; name a file in it\n"
     );
     assert_eq!(
         identify("log.csv/out.json"),
@@ -109,7 +109,7 @@ fn only_regular_files_are_replaced() {
     std::fs::set_permissions(&kept, permissions).expect("its owner may");
     assert_eq!(
         identify("kept.json"),
-        "error: cannot write `kept.json`: it is read-only\n"
+        "error: cannot write `kept.json`: it is read-only; `chmod u+w` lets its owner write, or give another name\n"
     );
     assert_eq!(folder.read("kept.json"), "old");
 }
@@ -251,13 +251,25 @@ fn a_result_takes_the_place_of_nothing_else() {
     );
     std::fs::create_dir(folder.path("site")).expect("a folder");
     folder.write("site/index.html", "<p>of somebody else");
+    folder.write("values.json", "{\"cart.m\": 3.0}");
+    folder.write("first.json", "{\n  \"method\": \"wls\"\n}");
+    let of_identify = "result of `identify`";
     let identify = ["identify", "cart.robot", "log.csv"];
     let trace = ["trace", "cart.robot", "log.csv", "--validate", "log.csv"];
     let simulate = ["simulate", "cart.robot", "--trajectory", "motion.csv"];
     for (command, output, file, kind) in [
-        (&identify[..], "--json", "tuesday.csv", "JSON"),
-        (&identify, "--json", "other.robot", "JSON"),
-        (&identify, "--factor", "tuesday.csv", "JSON"),
+        (&identify[..], "--json", "tuesday.csv", of_identify),
+        (&identify, "--json", "other.robot", of_identify),
+        (&identify, "--json", "values.json", of_identify),
+        (&identify, "--json", "fit.json", of_identify),
+        (&trace, "--json", "first.json", "result of `trace`"),
+        (&identify, "--factor", "tuesday.csv", "factor of `identify`"),
+        (
+            &["export", "cart.robot", "--as", "mjcf"],
+            "-o",
+            "arm.urdf",
+            "MJCF model",
+        ),
         (&identify, "--report", "site", "page"),
         (&trace, "--amend", "tuesday.csv", "spec"),
         (&trace, "--amend", "arm.urdf", "spec"),
@@ -281,7 +293,7 @@ fn a_result_takes_the_place_of_nothing_else() {
             &["export", "cart.robot", "--as", "urdf"],
             "-o",
             "other.robot",
-            "XML",
+            "URDF",
         ),
     ] {
         let named = if output == "--report" {

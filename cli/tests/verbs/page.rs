@@ -226,7 +226,8 @@ addEventListener("load", () => {
         const [name, whole] = [box.querySelector("tbody th"), box].map((part) => part.getBoundingClientRect());
         return box.scrollLeft > 0 && (Math.abs(name.left - whole.left) > 1 || name.width > whole.width / 2);
     }).length;
-    const found = { nameless, errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider, cut,
+    const sideways = [...document.querySelectorAll(".wide:has(> .cards)")].filter((box) => box.scrollWidth > box.clientWidth).length;
+    const found = { nameless, sideways, errors: window.errors, figures: seen.length, unseen: seen.filter((is) => !is).length, sorted, unsorted, wider, cut,
         smallest: Math.min(...letters), largest: Math.max(...letters) };
     const place = document.createElement("pre");
     place.id = "found";
@@ -315,6 +316,7 @@ fn works_in(browser: &std::path::Path, folder: &Folder) {
         assert_eq!(found["cut"], 0, "{found}, {file} {width} wide");
         if width < 640 {
             assert_eq!(found["nameless"], 0, "{found}, {file} {width} wide");
+            assert_eq!(found["sideways"], 0, "{found}, {file} {width} wide");
         }
         let [smallest, largest] =
             ["smallest", "largest"].map(|which| found[which].as_f64().expect("a number"));

@@ -65,8 +65,8 @@ fn the_report_of_an_identification_says_what_was_found_whatever_the_method() {
         let rows = cells(&page, "RMSE and MAE");
         assert_eq!(rows[0].len(), columns, "{more:?}: {rows:?}");
         let figures = all(&page, "svg").len();
-        // The map of base parameters is there without a log.
-        assert_eq!(figures > 1, is_drawn, "{more:?}: {figures}");
+        // The bars and the map of base parameters are there without a log.
+        assert_eq!(figures > 2, is_drawn, "{more:?}: {figures}");
         assert!(html.contains("identify cart.robot log.csv --report page"));
     }
 }
@@ -108,6 +108,8 @@ fn the_report_of_a_payload_says_what_is_carried() {
             names
         );
         assert_eq!(cells(&page, "RMSE and MAE")[0].len(), 13, "{known:?}");
+        let verdict = text(all(&page, ".verdict")[0]);
+        assert_eq!(verdict.matches("Most is left of ").count(), 3, "{verdict}");
         assert!(!all(&page, "svg").is_empty());
     }
 }
@@ -139,10 +141,49 @@ fn the_report_of_a_model_that_does_not_fit_says_so() {
             .unwrap_or_else(|| panic!("no {words}: {html}"))
     };
     let of_result = place("<h3>What to look at</h3>");
-    let of_files = place("<h3>Of single files</h3>");
+    let of_files = place("<summary>How the files were read: ");
     assert!(place("explains next to nothing of the torque") > of_result);
     assert!(of_result < of_files && of_files < place("robot-model.toml says which columns"));
-    assert!(of_files < place("RMSE and MAE: how far"));
+    assert!(of_files > place("RMSE and MAE: how far"));
+}
+
+/// The verdict, which joint is worst, what comes next and a bar of the error stand above all that is said of files.
+#[test]
+fn a_page_begins_with_errors_and_the_next_command() {
+    let folder = Folder::new();
+    folder.write("cart.robot", CART);
+    folder.write("log.csv", &cart_log(40, 2.0, 0.0));
+    folder.write("other.csv", &cart_log(20, 2.0, 0.7));
+    folder.write("robot-model.toml", "[log]\nq = { unit = \"m\" }\n");
+    let identify = [
+        "identify",
+        "cart.robot",
+        "log.csv",
+        "--validate",
+        "other.csv",
+    ];
+    folder.succeed(&[&identify[..], &["--report", "page"]].concat());
+    let html = folder.read("page/index.html");
+    let page = Html::parse_document(&html);
+    let verdict = text(all(&page, ".verdict")[0]);
+    for of in ["(fitted).", "(unseen)."] {
+        assert!(
+            verdict.contains("% of the torque of rail is left ") && verdict.contains(of),
+            "{verdict}"
+        );
+    }
+    let place = |words: &str| {
+        html.find(words)
+            .unwrap_or_else(|| panic!("no {words}: {html}"))
+    };
+    let next = place(
+        "robot-model trace cart.robot log.csv --validate other.csv --report page-trace</pre>",
+    );
+    let bars = place("<svg class=\"bars\"");
+    let files = place("<summary>How the files were read: ");
+    assert!(next < bars && bars < place("RMSE and MAE: how far") && bars < files);
+    // It is closed.
+    assert_eq!(&html[files - "<details>".len()..files], "<details>");
 }
 
 /// Late torques are of one log, and want another spec or log: they are no remark on a file.
@@ -168,7 +209,7 @@ fn late_torques_are_to_be_looked_at() {
         html.find(words)
             .unwrap_or_else(|| panic!("no {words}: {html}"))
     };
-    let of_files = place("<h3>Of single files</h3>");
+    let of_files = place("<summary>How the files were read: ");
     let told = place("<li>log.csv: ");
     assert!(place("<h3>What to look at</h3>") < told && told < of_files);
 }

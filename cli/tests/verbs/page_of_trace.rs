@@ -2,7 +2,7 @@
 
 use scraper::Html;
 
-use crate::common::{CART, Folder, cart_log};
+use crate::common::{CART, Folder, cart_log, cart_with};
 use crate::delays::late;
 use crate::page::{all, text};
 use crate::page_of_identify::cells;
@@ -76,6 +76,48 @@ fn a_verdict_has_units_and_the_fall_of_the_error() {
     assert!(has("coulomb-friction on rail: fc = 4.0", " N"), "{items:?}");
     let fall = "on the log that was not fitted the error of rail falls from ";
     assert!(has(fall, " % of its torque"), "{items:?}");
+}
+
+/// The shapes of what was found have rows among the parameters, and each interval is the one of the verdict.
+#[test]
+fn shapes_of_what_was_found_are_parameters_with_the_intervals_of_the_verdict() {
+    let spec = CART.replace(
+        "viscous_friction on rail;",
+        "viscous_friction on rail; coulomb_friction on rail;",
+    );
+    let tones = [[0.2, 2.3, 0.0], [0.11, 5.17, 1.0], [0.05, 9.7, 2.0]];
+    let rise = |dq: f64| 0.6 * (-(dq / 0.02).powi(2)).exp();
+    let log = cart_with(200, 40, &tones, |_, dq| (1.0 + rise(dq)) * dq.signum());
+    let folder = Folder::new();
+    folder.write("cart.robot", &spec);
+    folder.write("log.csv", &log);
+    folder.write("robot-model.toml", "[log]\nq = { unit = \"m\" }\n");
+    folder.succeed(&["trace", "cart.robot", "log.csv", "--report", "page"]);
+    let html = folder.read("page/index.html");
+    let page = Html::parse_document(&html);
+    let mut items = all(&page, "li").into_iter().map(text);
+    let found = items.find(|item| item.starts_with("stribeck on rail: "));
+    let found = found.expect("a finding");
+    let rows = cells(&page, "Intervals hold the value");
+    for name in ["fs", "vs"] {
+        let row = rows
+            .iter()
+            .find(|row| row[0] == format!("rail.stribeck.{name}"));
+        let row = row.unwrap_or_else(|| panic!("no row of {name}: {rows:?}"));
+        let told = found.split(&format!("{name} = ")).nth(1);
+        let told = told.and_then(|rest| Some(rest.split_once('(')?.1.split_once(')')?.0));
+        let ends = told.expect("an interval").split(" .. ");
+        for (told, row) in ends.zip(&row[3..5]) {
+            let [told, row] = [told, row].map(|end| end.parse::<f64>().expect("a number"));
+            assert!((told - row).abs() < 0.02 * row.abs(), "{found}: {rows:?}");
+        }
+    }
+    // What was assumed of the files is there, too.
+    assert!(
+        html.contains("<summary>How the files were read: ")
+            && html.contains("robot-model.toml says which columns of logs are <code>q</code>"),
+        "{html}"
+    );
 }
 
 #[test]

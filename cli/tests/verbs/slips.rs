@@ -46,6 +46,23 @@ fn files_in_the_place_of_a_spec_are_told() {
 }
 
 #[test]
+fn folders_in_the_place_of_files_are_told_with_the_way_out() {
+    let folder = folder();
+    std::fs::create_dir(folder.path("logs")).expect("a folder");
+    for arguments in [
+        &["check", "logs"][..],
+        &["identify", "logs", "log.csv"],
+        &["audit", "arm.robot", "--parameters", "logs"],
+    ] {
+        refused(
+            &folder,
+            arguments,
+            &["cannot read `logs`: it is a folder; name a file in it"],
+        );
+    }
+}
+
+#[test]
 fn files_that_are_not_there_are_told_with_the_nearest() {
     let folder = folder();
     refused(

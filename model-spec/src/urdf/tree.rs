@@ -226,15 +226,41 @@ impl<'a> Tree<'a> {
                     let tips = several
                         .iter()
                         .flat_map(|joint| self.tips(joint))
-                        .map(|tip| format!("`{tip}`"))
-                        .collect();
+                        .map(|tip| format!("`{tip}`"));
                     return Err(ImportError::Branches {
                         at: at.to_owned(),
-                        tips,
+                        tips: self
+                            .hand(base, at, several)
+                            .into_iter()
+                            .chain(tips)
+                            .collect(),
                     });
                 }
             }
         }
+    }
+
+    /// The link that carries branches, where these are fingers of a gripper rather than arms: shorter than the way to them.
+    fn hand(&self, base: &str, at: &str, branches: &[&&'a Joint]) -> Option<String> {
+        let way = self.joints_above(at);
+        let way = way.take_while(|joint| joint.child.link != base);
+        let moves = |joint: &&Joint| joint.joint_type != JointType::Fixed;
+        let behind = way.filter(moves).count();
+        let deepest = branches.iter().map(|joint| self.depth(joint)).max();
+        (behind > deepest.unwrap_or(0))
+            .then(|| format!("`{at}` (the arm without what moves on it)"))
+    }
+
+    /// How many joints move on the longest way that begins with one.
+    fn depth(&self, joint: &'a Joint) -> usize {
+        let (mut most, mut open) = (0, vec![(joint, 0)]);
+        while let Some((joint, above)) = open.pop() {
+            let count = above + usize::from(joint.joint_type != JointType::Fixed);
+            most = most.max(count);
+            let below = self.joints_of(&joint.child.link).iter();
+            open.extend(below.map(|joint| (*joint, count)));
+        }
+        most
     }
 
     /// Links behind `joint` that a joint moves and that carry no further moving joint; in the order of the text.

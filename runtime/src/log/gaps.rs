@@ -1,6 +1,7 @@
 //! Samples that a recorder lost.
 
 use super::faults::BRIDGED_S;
+use super::limits::check_unit;
 use super::{Log, LogError, Lost, Note, Stretches};
 use crate::signal::resample::whole_steps;
 
@@ -57,6 +58,8 @@ pub(super) fn fill(
         return Ok(lines.map(<[u64]>::to_vec));
     };
     if !is_short(&gaps) {
+        // Steps in another unit are longer than any gap may be.
+        check_unit(&log.source, 1.0 / median)?;
         let last = longest.last;
         // A gap is none in the file where its rows hold no numbers.
         let without = lines.and_then(|lines| lost.between(lines[last], lines[last + 1]));

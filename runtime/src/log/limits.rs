@@ -29,6 +29,24 @@ fn unit(rate_hz: f64) -> Option<&'static str> {
     fits.map(|(unit, _)| *unit)
 }
 
+/// Refuses rates that are those of an arm in another unit of time.
+pub(super) fn check_unit(source: &str, rate_hz: f64) -> Result<(), LogError> {
+    if RATES_HZ.contains(&rate_hz) || unit(rate_hz).is_none() {
+        return Ok(());
+    }
+    Err(rate(source, rate_hz))
+}
+
+fn rate(source: &str, rate_hz: f64) -> LogError {
+    LogError::Rate {
+        source_name: source.to_owned(),
+        rate_hz,
+        slowest: *RATES_HZ.start(),
+        fastest: *RATES_HZ.end(),
+        unit: unit(rate_hz),
+    }
+}
+
 /// Refuses files with more columns than a log has.
 ///
 /// # Errors
@@ -91,12 +109,6 @@ impl Log {
         if RATES_HZ.contains(&rate_hz) {
             return Ok(());
         }
-        Err(LogError::Rate {
-            source_name: self.source.clone(),
-            rate_hz,
-            slowest: *RATES_HZ.start(),
-            fastest: *RATES_HZ.end(),
-            unit: unit(rate_hz),
-        })
+        Err(rate(&self.source, rate_hz))
     }
 }

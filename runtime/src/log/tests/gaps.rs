@@ -54,6 +54,25 @@ fn short_gaps_are_filled_and_long_ones_are_holes() {
     assert_eq!(mended.log.holes.len(), 1);
 }
 
+/// A step of milliseconds that are taken for seconds is longer than any gap may be: the unit is what is told.
+#[test]
+fn a_gap_in_another_unit_of_time_is_told_as_the_unit() {
+    for (unit, scale) in [("ms", 1e3), ("us", 1e6), ("ns", 1e9)] {
+        let stamp = |k: u32| 0.002 * scale * f64::from(k);
+        let said = read(
+            &text("time,q1,tau1", &rows(|k| !(700..720).contains(&k), stamp)),
+            1,
+        );
+        let said = said.expect_err("another unit").to_string();
+        assert!(
+            said.contains(&format!(
+                "is time in seconds? in {unit} it would be one of an arm"
+            )),
+            "{said}"
+        );
+    }
+}
+
 /// With time stamps that jitter a step of two is none of a lost row, a step of many is; the grid goes on behind it.
 #[test]
 fn gaps_of_a_log_that_jitters_are_filled_too() {

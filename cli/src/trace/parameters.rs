@@ -1,0 +1,53 @@
+//! Parameters of the last model, as the page of a trace has them.
+
+use super::report::effect;
+use crate::close_the_loop::Loop;
+use crate::identify::report::{Parameter, identified};
+
+/// A parameter of a finding, by its name in the amended spec.
+pub(super) struct Found {
+    name: String,
+    value: f64,
+    std: Option<f64>,
+}
+
+/// Those of all findings that the amended spec declares, shapes among them: the fit has these as fixed, and gives them no row.
+pub(super) fn found(closed: &Loop) -> Vec<Found> {
+    let findings = &closed.verdict.findings;
+    let model = &closed.after().arm.compiled().model;
+    // They are its last effects.
+    let Some(first) = model.effects.len().checked_sub(findings.len()) else {
+        return Vec::new();
+    };
+    let all = findings.iter().enumerate().flat_map(|(place, finding)| {
+        let effect_name = model.effect_name(first + place);
+        let parameters = effect(finding, closed, place).parameters.into_iter();
+        parameters.map(move |own| Found {
+            name: format!("{effect_name}.{}", own.name),
+            value: own.value,
+            std: own.std,
+        })
+    });
+    all.collect()
+}
+
+/// All of the last model. What was found has the deviations of the verdict, which know of its shapes; those of a fit that has the shapes
+/// as fixed are smaller.
+pub(super) fn parameters<'a>(closed: &'a Loop, found: &'a [Found]) -> Vec<Parameter<'a>> {
+    let mut all = identified(&closed.after().estimate);
+    for own in found {
+        let row = Parameter {
+            name: &own.name,
+            value: Some(own.value),
+            std: own.std,
+            interval: None,
+        };
+        match all.iter_mut().find(|one| one.name == own.name) {
+            // None where the logs do not tell it from others, whatever the verdict says of it.
+            Some(known) if known.value.is_some() => *known = row,
+            Some(_) => {}
+            None => all.push(row),
+        }
+    }
+    all
+}
