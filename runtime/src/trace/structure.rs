@@ -11,19 +11,20 @@ use crate::signal::band_density;
 
 use super::periodic::repeated_power;
 
-/// The band of motion and the band of reference, as multiples of the shared filter's cutoff.
+/// Ends of bands, as multiples of the shared filter's cutoff: of the band of motion, and of its parts, about as wide as far up they are; of the
+/// band of reference above it; and of one above that, where noise shows how steep it is.
 const MOTION_BAND: (f64, f64) = (0.03, 0.8);
-const REFERENCE_BAND: (f64, f64) = (1.2, 2.5);
-
-/// Ends of parts of the band of motion, about as wide as far up they are.
 const PARTS_OF_MOTION: [f64; 5] = [0.03, 0.08, 0.18, 0.38, 0.8];
-
-/// The band above the reference: there noise shows that it is no steeper than first order.
+const REFERENCE_BAND: (f64, f64) = (1.2, 2.5);
 const BAND_ABOVE: (f64, f64) = (2.5, 4.0);
 
 /// Noise falls by at most this many times what first order does from the reference to the band above it. Second order, as filters have that
 /// logs went through before they were written, falls by more, and then nothing is known of noise below.
 const STEEPEST: f64 = 2.0;
+
+/// What rings has this many times the power of some part of the band of motion below it. Noise behind a filter does not rise with the frequency,
+/// and where it was rounded afterwards, too, it is as flat above the band as noise that is not filtered.
+const RISES: f64 = 3.0;
 
 /// The residual is structured where its power in the band of motion is more than this many times that of the reference.
 const LEAST_RATIO: f64 = 4.0;
@@ -102,25 +103,9 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
         let mean = log.values.iter().sum::<f64>() / log.values.len().max(1) as f64;
         let squares = log.values.iter().map(|v| (v - mean).powi(2)).sum::<f64>();
         total += weight * (squares / log.values.len().max(1) as f64 + log.beyond);
-        let hz = log.shared_hz;
-        let density = |edges: &[f64]| {
-            let edges: Vec<f64> = edges.iter().map(|edge| edge * hz).collect();
-            band_density(log.values, log.rate_hz, &edges)
-        };
-        let low = density(&[MOTION_BAND.0, MOTION_BAND.1])[0];
-        let beyond = density(&[REFERENCE_BAND.0, REFERENCE_BAND.1])[0];
-        // Noise that is correlated over some ten milliseconds falls from the band of motion on, and is flat in it.
-        let least = density(&PARTS_OF_MOTION)
-            .into_iter()
-            .fold(f64::INFINITY, f64::min);
-        let reference = beyond.max(least);
-        let ratio = low / reference.max(f64::MIN_POSITIVE);
-        let above = if ratio > LEAST_RATIO {
-            (low - reference) * (MOTION_BAND.1 - MOTION_BAND.0) * hz
-        } else {
-            0.0
-        };
-        let rings = (beyond_noise(&density) * hz - log.encoder).max(0.0);
+        let spectrum = Spectrum::of(log);
+        let (ratio, above) = spectrum.beyond_reference();
+        let rings = spectrum.beyond_noise() - log.encoder;
         let periodic = log.period.map_or(0.0, |period| {
             (repeated_power(&log.filtered, period * log.filtered_hz) - log.encoder).max(0.0)
         });
@@ -135,37 +120,92 @@ pub(super) fn of(logs: &[RawResidual]) -> Structure {
     found
 }
 
-/// Power in the band of motion, per hertz of the shared cutoff, that noise with what is seen above it cannot have; `density` gives that of
-/// bands between edges.
-///
-/// The density of noise of first order falls with the frequency by `1 / f^2` at most, whose mean from `a` to `b` is `1 / (a b)`. So the one
-/// that is seen from `c` to `d` comes with at most `c d / (a b)` times as much in a part of the band of motion.
-fn beyond_noise(density: &dyn Fn(&[f64]) -> Vec<f64>) -> f64 {
-    let product = |(low, high): (f64, f64)| low * high;
-    let seen = density(&[REFERENCE_BAND.0, REFERENCE_BAND.1])[0];
-    let above = density(&[BAND_ABOVE.0, BAND_ABOVE.1])[0];
-    let falls = product(BAND_ABOVE) / product(REFERENCE_BAND);
-    if seen > STEEPEST * falls * above {
-        return 0.0;
+/// Densities of a raw residual's power, of frequencies as multiples of the shared filter's cutoff.
+struct Spectrum {
+    /// In the band of motion.
+    motion: f64,
+    /// In its parts.
+    parts: [f64; PARTS_OF_MOTION.len() - 1],
+    /// In the band of reference, and in the one above it.
+    reference: f64,
+    above: f64,
+}
+
+impl Spectrum {
+    fn of(log: &RawResidual) -> Self {
+        let density = |edges: &[f64]| {
+            let hz: Vec<f64> = edges.iter().map(|edge| edge * log.shared_hz).collect();
+            let density = band_density(log.values, log.rate_hz, &hz).into_iter();
+            density
+                .map(|of_hz| of_hz * log.shared_hz)
+                .collect::<Vec<_>>()
+        };
+        let above = [REFERENCE_BAND.0, REFERENCE_BAND.1, BAND_ABOVE.1];
+        let bands = density(&[&PARTS_OF_MOTION[..], &above].concat());
+        let at = |band: usize| bands[band];
+        Self {
+            motion: density(&[MOTION_BAND.0, MOTION_BAND.1])[0],
+            parts: std::array::from_fn(at),
+            // The one between the band of motion and the reference is in neither.
+            reference: at(PARTS_OF_MOTION.len()),
+            above: at(PARTS_OF_MOTION.len() + 1),
+        }
     }
-    let parts = PARTS_OF_MOTION.windows(2).zip(density(&PARTS_OF_MOTION));
-    let beyond = parts.map(|(ends, power)| {
-        let noise = seen * product(REFERENCE_BAND) / product((ends[0], ends[1]));
-        if power > LEAST_RATIO * noise {
-            (power - noise) * (ends[1] - ends[0])
+
+    /// Parts of the band of motion: their ends, and the density in them.
+    fn parts(&self) -> impl Iterator<Item = ((f64, f64), f64)> {
+        let ends = PARTS_OF_MOTION.windows(2).map(|ends| (ends[0], ends[1]));
+        ends.zip(self.parts)
+    }
+
+    /// How many times the density of the reference the band of motion has, and the power that it has beyond, where that is enough. Noise that is
+    /// correlated over some ten milliseconds falls from the band of motion on, and is flat in it: so the least part of it is a reference, too.
+    fn beyond_reference(&self) -> (f64, f64) {
+        let least = self.parts.into_iter().fold(f64::INFINITY, f64::min);
+        let reference = self.reference.max(least);
+        let ratio = self.motion / reference.max(f64::MIN_POSITIVE);
+        let above = if ratio > LEAST_RATIO {
+            (self.motion - reference) * (MOTION_BAND.1 - MOTION_BAND.0)
         } else {
             0.0
+        };
+        (ratio, above)
+    }
+
+    /// Power in the band of motion that noise with what is seen above it cannot have.
+    ///
+    /// The density of noise of first order falls with the frequency by `1 / f^2` at most, whose mean from `a` to `b` is `1 / (a b)`. So the one
+    /// that is seen from `c` to `d` comes with at most `c d / (a b)` times as much in a part of the band of motion. Noise behind a steeper filter
+    /// has more there, but does not rise with the frequency.
+    fn beyond_noise(&self) -> f64 {
+        let product = |(low, high): (f64, f64)| low * high;
+        let falls = product(BAND_ABOVE) / product(REFERENCE_BAND);
+        let mut least = f64::INFINITY;
+        let rises = self.parts.into_iter().any(|density| {
+            let rises = density > RISES * least;
+            least = least.min(density);
+            rises
+        });
+        if !rises || self.reference > STEEPEST * falls * self.above {
+            return 0.0;
         }
-    });
-    beyond.sum()
+        let beyond = self.parts().map(|(ends, density)| {
+            let noise = self.reference * product(REFERENCE_BAND) / product(ends);
+            if density > LEAST_RATIO * noise {
+                (density - noise) * (ends.1 - ends.0)
+            } else {
+                0.0
+            }
+        });
+        beyond.sum()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::{LEAST_RATIO, MOTION_BAND, REFERENCE_BAND, RawResidual, Structure, of};
-    use crate::signal::band_density;
+    use super::{LEAST_RATIO, RawResidual, Spectrum, Structure, of};
 
     const HZ: f64 = 500.0;
 
@@ -181,8 +221,8 @@ mod tests {
         noise.collect()
     }
 
-    fn structure(values: &[f64]) -> Structure {
-        of(&[RawResidual {
+    fn residual(values: &[f64]) -> RawResidual<'_> {
+        RawResidual {
             values,
             beyond: 0.0,
             filtered: values.to_vec(),
@@ -192,7 +232,11 @@ mod tests {
             period: None,
             stepped: 0.0,
             encoder: 0.0,
-        }])
+        }
+    }
+
+    fn structure(values: &[f64]) -> Structure {
+        of(&[residual(values)])
     }
 
     fn with(values: &[f64], law: impl Fn(f64) -> f64) -> Vec<f64> {
@@ -204,9 +248,8 @@ mod tests {
     #[test]
     fn noise_of_some_milliseconds_is_no_structure_and_a_wave_in_it_is() {
         let noise = noise(0.02);
-        let density =
-            |(low, high): (f64, f64)| band_density(&noise, HZ, &[10.0 * low, 10.0 * high])[0];
-        assert!(density(MOTION_BAND) > LEAST_RATIO * density(REFERENCE_BAND));
+        let spectrum = Spectrum::of(&residual(&noise));
+        assert!(spectrum.motion > LEAST_RATIO * spectrum.reference);
         assert!(!structure(&noise).is_material(), "{:?}", structure(&noise));
         let wave = with(&noise, |t| 1.2 * (TAU * 1.3 * t).sin());
         assert!(structure(&wave).is_material(), "{:?}", structure(&wave));
@@ -232,19 +275,38 @@ mod tests {
         );
     }
 
-    /// What a log went through before it was written falls as steeply, and is no structure.
+    /// What a log went through before it was written falls as steeply, and is no structure; nor is it where its torques were rounded, too, and
+    /// are as flat above the band as noise that is not filtered.
     #[test]
     fn noise_behind_a_filter_is_no_structure() {
-        let mut values = noise(1e-3);
-        let kept = (-TAU * 6.0 / HZ).exp();
-        for _ in 0..2 {
-            let mut value = 0.0;
-            for next in &mut values {
-                value = kept * value + (1.0 - kept) * *next;
-                *next = value;
+        for (cutoff_hz, times) in [(6.0, 2), (8.0, 2), (12.0, 4), (20.0, 8)] {
+            let mut values = noise(1e-3);
+            let kept = (-TAU * cutoff_hz / HZ).exp();
+            for _ in 0..times {
+                let mut value = 0.0;
+                for next in &mut values {
+                    value = kept * value + (1.0 - kept) * *next;
+                    *next = value;
+                }
+            }
+            let power = values.iter().map(|v| v * v).sum::<f64>();
+            let rms = (power / values.len() as f64).sqrt();
+            for of_rms in [0.0, 0.1, 0.3, 0.6] {
+                let step = of_rms * rms;
+                let round = |v: &f64| {
+                    if step > 0.0 {
+                        (v / step).round() * step
+                    } else {
+                        *v
+                    }
+                };
+                for count in [HZ * 12.0, HZ * 60.0] {
+                    let values: Vec<f64> = values.iter().take(count as usize).map(round).collect();
+                    let found = structure(&values);
+                    let what = format!("{cutoff_hz} Hz {times} times, {of_rms}, {count}");
+                    assert!(!found.is_material(), "{what}: {found:?}");
+                }
             }
         }
-        let found = structure(&values);
-        assert!(!found.is_material(), "{found:?}");
     }
 }
