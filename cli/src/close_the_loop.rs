@@ -204,8 +204,7 @@ fn trace(
         if let Some(found) = &found {
             trace = trace.since(found.before.clone());
         }
-        let behind = found.as_ref().map_or(0, |found| found.findings.len());
-        let mut rounds = Rounds::new(MOST_EFFECTS.saturating_sub(behind));
+        let mut rounds = Rounds::new(MOST_EFFECTS);
         let verdict = trace.run(&arm, &logs, &mut |stage| {
             let told = rounds.told(stage.words, stage.done);
             progress.stage(&told, stage.done);

@@ -8,8 +8,6 @@ use robot_model_spec::Diagnostics;
 use robot_model_spec::suggest::nearest;
 use thiserror::Error;
 
-use crate::output::quoted;
-
 /// Why a command ended without a result. Exit code 1, the message on stderr.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -90,10 +88,7 @@ impl Error {
             reason: match error.kind() {
                 std::io::ErrorKind::NotFound => not_there(path),
                 std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
-                std::io::ErrorKind::PermissionDenied => format!(
-                    "you may not read it; `chmod u+r {}` lets its owner, or name a copy",
-                    quoted(&path.display().to_string())
-                ),
+                std::io::ErrorKind::PermissionDenied => "you may not read it, or enter a folder on the way; `ls -ld` tells who may, or name a copy".to_owned(),
                 _ => error.to_string(),
             },
         }
@@ -151,7 +146,7 @@ mod tests {
         let said = Error::read(Path::new("my log.csv"), &denied).to_string();
         assert_eq!(
             said,
-            "cannot read `my log.csv`: you may not read it; `chmod u+r 'my log.csv'` lets its owner, or name a copy"
+            "cannot read `my log.csv`: you may not read it, or enter a folder on the way; `ls -ld` tells who may, or name a copy"
         );
     }
 }

@@ -8,7 +8,7 @@ pub(crate) mod table;
 
 use std::io::{self, Write};
 
-pub(crate) use content::Content;
+pub(crate) use content::{Content, MARK};
 pub(crate) use files::Files;
 pub(crate) use out_file::OutFile;
 pub(crate) use record::Record;

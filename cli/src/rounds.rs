@@ -45,11 +45,8 @@ impl Rounds {
             let seconds = Duration::from_secs_f64(each.as_secs_f64().round());
             format!(", {:#} each", HumanDuration(seconds))
         });
-        let rounds = match self.most {
-            1 => "the last round".to_owned(),
-            most => format!("of at most {most} rounds"),
-        };
-        format!("{words}; {rounds}{}", each.unwrap_or_default())
+        let (most, each) = (self.most, each.unwrap_or_default());
+        format!("{words}; at most {most} rounds{each}")
     }
 }
 
@@ -62,15 +59,15 @@ mod tests {
         let mut rounds = Rounds::new(6);
         assert_eq!(rounds.told("fitting", None), "fitting");
         let begins = rounds.told("round 1", Some(0.0));
-        assert_eq!(begins, "round 1; of at most 6 rounds");
+        assert_eq!(begins, "round 1; at most 6 rounds");
         // What is quick needs no time told.
         assert_eq!(rounds.told("round 1", Some(0.5)), begins);
         let ago = Instant::now().checked_sub(Duration::from_secs(20));
         rounds.begun = ago.expect("a machine that is on");
         let told = rounds.told("round 1", Some(0.5));
-        assert_eq!(told, "round 1; of at most 6 rounds, 40s each");
+        assert_eq!(told, "round 1; at most 6 rounds, 40s each");
         // The next one begins with what is known of the one before.
         let told = rounds.told("round 2", Some(0.0));
-        assert_eq!(told, "round 2; of at most 6 rounds, 40s each");
+        assert_eq!(told, "round 2; at most 6 rounds, 40s each");
     }
 }

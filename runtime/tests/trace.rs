@@ -277,7 +277,7 @@ fn parked(plant: &Plant) -> Log {
 #[test]
 fn a_joint_that_a_brake_holds_says_nothing_of_the_others() {
     let plant = Plant {
-        extra: |j, _, v| if j == 0 { 0.2 * v[0] * v[0].abs() } else { 0.0 },
+        extra: |j, _, v| if j == 0 { 0.6 * v[0] * v[0].abs() } else { 0.0 },
         ..Plant::default()
     };
     let verdict = traced(&[parked(&plant)]);

@@ -15,7 +15,7 @@ use robot_model_spec::parameter::{InertialElement, Owner};
 use robot_model_spec::urdf::{ASSUMED_GRAVITY, write_back};
 
 use crate::Error;
-use crate::output::{Content, Files, say};
+use crate::output::{Content, Files, MARK, say};
 use crate::parameters;
 use crate::spec::{compile, read_text};
 use passive::{bodies, joints};
@@ -99,7 +99,7 @@ impl Export {
         {
             say(&format!("note: {note}"));
         }
-        out.commit(text.as_bytes())
+        out.commit(marked(&text).as_bytes())
     }
 
     /// What is written, and what is told of it.
@@ -192,6 +192,21 @@ impl Export {
             }
         }
     }
+}
+
+/// The text with a comment of who wrote it, in front of its first element.
+fn marked(text: &str) -> String {
+    if text.contains(MARK) {
+        return text.to_owned();
+    }
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let declaration = text.find("?>").filter(|_| text.starts_with("<?xml"));
+    let (before, behind) = text.split_at(declaration.map_or(0, |at| at + "?>".len()));
+    let line = if before.is_empty() { "" } else { "\n" };
+    format!(
+        "{before}{line}{MARK}\n{}",
+        behind.trim_start_matches(['\r', '\n'])
+    )
 }
 
 impl Format {

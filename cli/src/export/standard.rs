@@ -219,13 +219,10 @@ fn with_held(
         });
         let Some((_, near)) = found else {
             // Centers alone may be what leaves no body.
-            if held.iter().all(|held| held.places.len() < 2) {
-                return (None, None);
+            if let_centers_go(&mut held) {
+                continue;
             }
-            for held in &mut held {
-                held.places.truncate(1);
-            }
-            continue;
+            return (None, None);
         };
         let exact = exact(compiled, &arms.kept, &near, beta);
         if are_possible(compiled, &exact) {
@@ -233,10 +230,20 @@ fn with_held(
         }
         let all = count(&held);
         release(&mut held, &exact);
-        if count(&held) == all {
+        // Those that are held are bodies, and it may be their centers that leave another link none.
+        if count(&held) == all && !let_centers_go(&mut held) {
             return (None, Some(near));
         }
     }
+}
+
+/// Lets all centers go; whether there were any.
+fn let_centers_go(held: &mut [Held]) -> bool {
+    let before = count(held);
+    for held in held.iter_mut() {
+        held.places.truncate(1);
+    }
+    count(held) < before
 }
 
 /// How much is held.

@@ -91,7 +91,7 @@ impl<'a> Evidence<'a> {
     }
 
     /// The page, of files that were read, with the command that comes next.
-    pub fn page(&self, inputs: &[PathBuf], next: &str) -> Result<String, Error> {
+    pub fn page(&self, inputs: &[PathBuf], next: Option<&str>) -> Result<String, Error> {
         let mut page = Page::new(
             &format!("Identification of {}", self.compiled.model.name),
             &format!(
@@ -126,13 +126,21 @@ impl<'a> Evidence<'a> {
             .notes
             .iter()
             .partition(|note| is_of_a_file(note, inputs) && !self.is_of_late_channels(note));
-        // What was said last puts most in doubt, and a page is read from its beginning.
+        // Of what is said of the model that said last puts most in doubt, and a page is read from its beginning.
+        let (late, of_model): (Vec<&String>, Vec<&String>) = of_result
+            .into_iter()
+            .partition(|note| self.is_of_late_channels(note));
         let of_logs = of_logs.into_iter().map(plain).collect();
-        let of_result = of_result.into_iter().rev().map(plain).collect();
+        let of_result = of_model.into_iter().rev().chain(late).map(plain).collect();
         (of_logs, of_result)
     }
 
-    fn verdict(&self, page: &mut Page, (of_logs, of_result): (&[String], &[String]), next: &str) {
+    fn verdict(
+        &self,
+        page: &mut Page,
+        (of_logs, of_result): (&[String], &[String]),
+        next: Option<&str>,
+    ) {
         let untold = self.parameters.iter().filter(|one| one.value.is_none());
         let untold = untold.count();
         let count = self.parameters.len();
@@ -168,9 +176,11 @@ impl<'a> Evidence<'a> {
             page.part("What to look at");
             page.list(of_result);
         }
-        page.part("Next");
-        page.text("What is left, is it noise, or something that the spec lacks? This asks:");
-        page.preformatted(next);
+        if let Some(next) = next {
+            page.part("Next");
+            page.text("What is left, is it noise, or something that the spec lacks? This asks:");
+            page.preformatted(next);
+        }
     }
 
     /// Whether a note is of channels that are late, which only another log or spec mends.
@@ -224,15 +234,27 @@ impl<'a> Evidence<'a> {
             (Ink::After, "after"),
             (Ink::Measured, "measured"),
         ];
-        let joints = self.compiled.model.joints.iter();
-        let joints: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
         let drawn = || self.errors.iter().zip(INKS);
+        // Of a joint that stands nothing is known, and no bar is no error of zero.
+        let is_known = |joint: &usize| {
+            let mut all = drawn().map(|((_, errors), _)| errors.relative_percent[*joint]);
+            all.any(|percent| percent > 0.0)
+        };
+        let joints = &self.compiled.model.joints;
+        let known: Vec<usize> = (0..joints.len()).filter(is_known).collect();
+        let joints: Vec<String> = known
+            .iter()
+            .map(|&joint| joints[joint].name.clone())
+            .collect();
         let bars = Bars {
             label: "relative errors of every joint",
             x: "relative error, %",
             joints: &joints,
             models: drawn()
-                .map(|((_, errors), (ink, _))| (ink, errors.relative_percent.clone()))
+                .map(|((_, errors), (ink, _))| {
+                    let percent = known.iter().map(|&joint| errors.relative_percent[joint]);
+                    (ink, percent.collect())
+                })
                 .collect(),
         };
         let legend = drawn().map(|((of, _), (_, color))| (color, *of));

@@ -18,7 +18,7 @@ pub(super) struct Results {
     page: Option<ReportFolder>,
     inputs: Vec<PathBuf>,
     /// The command that comes next.
-    next: String,
+    next: Option<String>,
     others: Vec<(OutFile, String)>,
 }
 
@@ -46,9 +46,9 @@ impl Results {
         found: &Evidence,
         progress: Progress,
     ) -> Result<(), Error> {
-        let page = self
-            .page
-            .map(|folder| Ok::<_, Error>((folder, found.page(&self.inputs, &self.next)?)));
+        let page = self.page.map(|folder| {
+            Ok::<_, Error>((folder, found.page(&self.inputs, self.next.as_deref())?))
+        });
         let page = page.transpose()?;
         let text = || output::json_with_notes(report, &found.notes);
         let json = self.json.map(|file| (file, text()));

@@ -14,6 +14,9 @@ const START: u64 = 1 << 16;
 /// What bags begin with, and what those of this program say of who wrote them, a few bytes behind it.
 const BAG: (&[u8], &[u8]) = (b"\x89MCAP", b"robot-model/");
 
+/// What robots in XML say of who wrote them: another one may be a maker's, with shapes that are nowhere else.
+pub(crate) const MARK: &str = "<!-- written by robot-model -->";
+
 /// Kinds of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Content {
@@ -31,9 +34,9 @@ pub(crate) enum Content {
     Simulation,
     /// A robot in the language.
     Spec,
-    /// A robot in the XML of ROS.
+    /// A robot of `export` in the XML of ROS.
     Urdf,
-    /// A robot in that of `MuJoCo`.
+    /// A robot of `export` in that of `MuJoCo`.
     Mjcf,
 }
 
@@ -47,35 +50,42 @@ impl Content {
             Self::Prediction => "prediction of `trace`",
             Self::Simulation => "log of `simulate`",
             Self::Spec => "spec",
-            Self::Urdf => "URDF",
-            Self::Mjcf => "MJCF model",
+            Self::Urdf => "URDF of `export`",
+            Self::Mjcf => "MJCF model of `export`",
         }
     }
 
     /// What is said of a file that is there and holds something else; an empty one holds nothing.
     pub(super) fn unlike(self, path: &Path) -> Option<String> {
+        // Names of a JSON object may stand in any order.
+        let most = if matches!(self, Self::Json(_)) {
+            u64::MAX
+        } else {
+            START
+        };
         let mut start = Vec::new();
         // What cannot be read is told where it is written.
         File::open(path)
-            .and_then(|file| file.take(START).read_to_end(&mut start))
+            .and_then(|file| file.take(most).read_to_end(&mut start))
             .ok()?;
         let is_other = !start.trim_ascii().is_empty() && !self.begins(&start);
         is_other.then(|| format!("what is there is no {}", self.name()))
     }
 
-    fn begins(self, start: &[u8]) -> bool {
+    /// Whether a file that begins so, or is so where it is JSON, is of this kind.
+    pub(super) fn begins(self, start: &[u8]) -> bool {
         let text = String::from_utf8_lossy(start);
         let text = text.trim_start_matches('\u{feff}').trim_start();
         match self {
-            Self::Json(record) => record.begins(text),
+            Self::Json(record) => record.is(text.as_bytes()),
             Self::Figure => is_markup(text) && text.contains("<svg"),
             Self::Page => text.to_ascii_lowercase().starts_with("<!doctype html"),
             Self::Motion => MOTION.begins(text),
             Self::Prediction => PREDICTION.begins(text),
             Self::Simulation => SIMULATION.begins(text) || is_own_bag(start),
             Self::Spec => is_spec(text),
-            Self::Urdf => is_markup(text) && text.contains("<robot"),
-            Self::Mjcf => is_markup(text) && text.contains("<mujoco"),
+            Self::Urdf => is_markup(text) && text.contains(MARK) && text.contains("<robot"),
+            Self::Mjcf => is_markup(text) && text.contains(MARK) && text.contains("<mujoco"),
         }
     }
 }
@@ -95,7 +105,8 @@ mod tests {
         let all = [
             (
                 Content::Json(Record::Identify),
-                b"\n{\"method\": \"wls\"}".as_slice(),
+                b"\n{\"method\": 1, \"form\": 1, \"parameters\": 1, \"condition\": 1, \"unexcited\": 1}"
+                    .as_slice(),
             ),
             (Content::Figure, b"<svg width=\"640\" xmlns=\"..\">"),
             (Content::Page, b"<!DOCTYPE html>\n<html lang=\"en\">"),
@@ -117,15 +128,22 @@ mod tests {
             ),
             (
                 Content::Urdf,
-                b"<?xml version=\"1.0\"?>\n<robot name=\"a\"/>",
+                b"<?xml version=\"1.0\"?>\n<!-- written by robot-model -->\n<robot name=\"a\"/>",
             ),
-            (Content::Mjcf, b"<mujoco model=\"a\"></mujoco>"),
+            (
+                Content::Mjcf,
+                b"<!-- written by robot-model -->\n<mujoco model=\"a\"></mujoco>",
+            ),
         ];
         for (content, _) in all {
             for (other, start) in all {
                 let is_like = content.begins(start);
                 assert_eq!(is_like, content == other, "{content:?} of {other:?}");
             }
+        }
+        for of_a_maker in ["<robot name=\"a\"><mesh/></robot>", "<mujoco/>"] {
+            let is = |content: Content| content.begins(of_a_maker.as_bytes());
+            assert!(!is(Content::Urdf) && !is(Content::Mjcf), "{of_a_maker}");
         }
         let bag = |writer: &str| {
             let begin = b"\x89MCAP0\r\n\x01\x1f\0\0\0\0\0\0\0\x04\0\0\0ros2\x13\0\0\0";

@@ -115,6 +115,13 @@ impl OutFile {
 
     /// The content in a file without its name, with the permissions of what it takes the place of.
     fn write(&self, content: &[u8]) -> Result<NamedTempFile, Error> {
+        // Else the next run would not know it for its like.
+        debug_assert!(
+            self.content.is_none_or(|kind| kind.begins(content)),
+            "{} is no {:?}",
+            self.path.display(),
+            self.content
+        );
         let failed = |error: &io::Error| refused(&self.path, &reason(error));
         let mut file = builder()
             .tempfile_in(folder_of(&self.target))
@@ -202,7 +209,7 @@ fn existing(path: &Path, is_link: bool) -> Result<PathBuf, Error> {
     if about.permissions().readonly() {
         return Err(refused(
             path,
-            "it is read-only; `chmod u+w` lets its owner write, or give another name",
+            "it is read-only; give another name, or let it be written first",
         ));
     }
     OpenOptions::new()

@@ -1,8 +1,12 @@
-//! JSON that this program writes, each kind known by a name that it has: values by hand and settings of other programs have none of these.
+//! JSON that this program writes, each kind known by names that it has side by side at its top: what somebody wrote by hand and files of other
+//! programs have not all of them.
+
+use serde_json::{Map, Value};
 
 /// Kinds of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Record {
+    /// Of `merge`, too.
     Identify,
     Factor,
     Trace,
@@ -18,6 +22,22 @@ pub(crate) enum Record {
 }
 
 impl Record {
+    #[cfg(test)]
+    pub(super) const ALL: [Self; 12] = [
+        Self::Identify,
+        Self::Factor,
+        Self::Trace,
+        Self::Demo,
+        Self::Excite,
+        Self::Coefficients,
+        Self::Simulate,
+        Self::Audit,
+        Self::Dissect,
+        Self::Friction,
+        Self::StaticGain,
+        Self::BackEmf,
+    ];
+
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Identify => "result of `identify`",
@@ -35,30 +55,30 @@ impl Record {
         }
     }
 
-    /// A name that stands near its beginning.
-    const fn key(self) -> &'static str {
+    /// Names at the top of every one, and all of them of no other kind.
+    pub(super) const fn names(self) -> &'static [&'static str] {
         match self {
-            Self::Identify => "method",
-            Self::Factor => "factor",
-            Self::Trace | Self::Demo => "outcome",
-            Self::Excite => "condition",
-            Self::Coefficients => "equation",
-            Self::Simulate => "tracking_error",
-            Self::Audit => "passed",
-            Self::Dissect => "measured",
-            Self::Friction => "points",
-            Self::StaticGain => "gain_interval",
-            Self::BackEmf => "back_emf_interval",
+            Self::Identify => &["method", "form", "parameters", "condition", "unexcited"],
+            Self::Factor => &["factor", "unknowns", "equations", "blocks"],
+            Self::Trace => &["outcome", "effects", "rmse_before", "rmse_after"],
+            Self::Demo => &["clean", "worn"],
+            Self::Excite => &["condition", "log_det", "max_violation", "starts"],
+            Self::Coefficients => &["period", "equation", "joints"],
+            Self::Simulate => &["tracking_error", "energy_drift", "events"],
+            Self::Audit => &["robot", "passed", "checks"],
+            Self::Dissect => &["robot", "measured", "model", "shares"],
+            Self::Friction => &["joint", "points", "law", "parameters"],
+            Self::StaticGain => &["gain", "gain_interval", "residual_std"],
+            Self::BackEmf => &["back_emf", "back_emf_interval"],
         }
     }
 
-    /// Whether a text begins such a one; an object without names holds nothing.
-    pub(super) fn begins(self, text: &str) -> bool {
-        if !text.starts_with(['{', '[']) {
+    /// Whether a text is one; an object without names holds nothing.
+    pub(super) fn is(self, text: &[u8]) -> bool {
+        let Ok(names) = serde_json::from_slice::<Map<String, Value>>(text) else {
             return false;
-        }
-        let dense: String = text.split_whitespace().collect();
-        dense == "{}" || dense.contains(&format!("\"{}\":", self.key()))
+        };
+        names.is_empty() || self.names().iter().all(|name| names.contains_key(*name))
     }
 }
 
@@ -66,14 +86,38 @@ impl Record {
 mod tests {
     use super::*;
 
+    /// An object that has these names.
+    fn object(names: &[&str]) -> String {
+        let names: Vec<String> = names.iter().map(|name| format!("\"{name}\": 1")).collect();
+        format!("{{ {} }}", names.join(", "))
+    }
+
+    #[test]
+    fn a_kind_is_told_from_all_others() {
+        for record in Record::ALL {
+            for other in Record::ALL {
+                let text = object(other.names());
+                assert_eq!(record.is(text.as_bytes()), record == other, "{record:?}");
+            }
+            assert!(record.is(b"{}"));
+        }
+    }
+
     #[test]
     fn what_somebody_wrote_is_no_result() {
-        for text in ["{\"shoulder.m\": 4}", "[1, 2]", "{\"name\": \"method\"}"] {
-            assert!(!Record::Identify.begins(text), "{text}");
+        let deep = format!("{{\"mine\": {}}}", object(Record::Identify.names()));
+        for text in [
+            "{\"shoulder.m\": 4}",
+            "[1, 2]",
+            "{\"payload\": 2.5, \"method\": \"CAD\"}",
+            "{\"joint_names\": [], \"points\": []}",
+            "{\"method\": \"wls\",",
+            &deep,
+        ] {
+            assert!(
+                !Record::ALL.iter().any(|one| one.is(text.as_bytes())),
+                "{text}"
+            );
         }
-        for text in ["{\n  \"method\": \"wls\",\n", "{}", "{ \"method\" : 1"] {
-            assert!(Record::Identify.begins(text), "{text}");
-        }
-        assert!(!Record::Trace.begins("{\"method\": \"wls\"}"));
     }
 }

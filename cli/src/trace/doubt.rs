@@ -1,16 +1,11 @@
-//! What the logs leave open: effects that would do as well as those that are named, and the experiment that tells them apart.
-
-use std::fmt::Write;
+//! What is to be known of a verdict before anybody acts on it.
 
 use robot_model::columns::Arm;
-use robot_model::trace::{Alternative, Finding, Outcome};
-use robot_model_spec::model::EffectLeaf;
+use robot_model::trace::Outcome;
 
-use super::report::effect;
 use crate::close_the_loop::Loop;
-use crate::excite::have_own_columns;
 use crate::identify::noted::mixed;
-use crate::output::{quoted, significant};
+use crate::output::significant;
 
 /// An error that is smaller is at most this share of what it was.
 const LEAST_FALL: f64 = 0.99;
@@ -23,90 +18,6 @@ const MUCH_PERCENT: f64 = 5.0;
 /// A law that takes this share off a joint's error on the logs that were fitted takes more than this part of it off on any log that shows it.
 const FALL: f64 = 0.2;
 const PART: f64 = 0.25;
-
-/// Laws whose errors differ by less, percent, do the same along the logs.
-const SAME_PERCENT: f64 = 0.05;
-
-const PUT: &str = "a string takes all";
-
-/// One line an alternative, and for the spec at a path, of a text, the commands that design motions for those doubts that have one.
-pub(super) fn doubt(spec: &str, text: &str, closed: &Loop) -> String {
-    let mut out = String::new();
-    let alternatives = &closed.verdict.alternatives;
-    for alternative in alternatives {
-        writeln!(
-            out,
-            "  or {} in place of {}: {:+.1} % error where it was not fitted",
-            on_joints(closed, &alternative.kind, &alternative.joints),
-            closed.verdict.findings[alternative.instead_of].kind,
-            alternative.worse_percent,
-        )
-        .expect(PUT);
-    }
-    out + &experiments(spec, text, closed)
-}
-
-/// A line for every alternative that some motion may tell from what is named: those that the logs tell apart by something first, since no
-/// motion may tell the others.
-fn experiments(spec: &str, text: &str, closed: &Loop) -> String {
-    let alternatives = &closed.verdict.alternatives;
-    let is_same = |rival: &&Alternative| rival.worse_percent.abs() < SAME_PERCENT;
-    let apart = alternatives.iter().filter(|rival| !is_same(rival));
-    let by_hope = apart.chain(alternatives.iter().filter(is_same));
-    let pairs = by_hope.filter_map(|rival| {
-        let place = rival.instead_of;
-        let finding = &closed.verdict.findings[place];
-        let both = rivals(closed, finding, place, rival)?;
-        have_own_columns(spec, text, &both[0], &both[1]).then_some((rival, both))
-    });
-    let pairs: Vec<(&Alternative, [String; 2])> = pairs.collect();
-    let joints = &closed.before.arm.compiled().model.joints;
-    let unbound = joints.iter().find(|joint| joint.limits.velocity.is_none());
-    let first = unbound.map(|joint| {
-        format!(
-            ", once limits of `{}` and its like are in the spec (`velocity = ..`)",
-            joint.name
-        )
-    });
-    let first = first.unwrap_or_default();
-    let pairs = pairs.iter().map(|(rival, both)| Pair {
-        named: closed.verdict.findings[rival.instead_of].kind.as_str(),
-        rival: on_joints(closed, &rival.kind, &rival.joints),
-        is_same: is_same(rival),
-        both,
-    });
-    commands(spec, &first, &pairs.collect::<Vec<_>>())
-}
-
-/// What is named and what may be instead, in words and as `excite` takes them.
-struct Pair<'a> {
-    named: &'a str,
-    rival: String,
-    /// Whether they are the same along the logs.
-    is_same: bool,
-    both: &'a [String; 2],
-}
-
-/// A line for each of them, with its command; `first` is what has to be done before.
-fn commands(spec: &str, first: &str, pairs: &[Pair]) -> String {
-    let mut out = String::new();
-    for (number, pair) in pairs.iter().enumerate() {
-        let tells = match pairs.len() {
-            1 => "tells them apart".to_owned(),
-            _ => format!("tells {} from {}", pair.named, pair.rival),
-        };
-        let what = if pair.is_same {
-            format!(
-                "along these logs they are the same; whether some motion {tells}, and which one"
-            )
-        } else {
-            format!("these logs do not settle it; the motion that {tells} best")
-        };
-        let command = experiment(spec, pair.both, number);
-        writeln!(out, "  {what}{first}: {command}").expect(PUT);
-    }
-    out
-}
 
 /// What is to be known of a verdict before anybody acts on it, a sentence each.
 pub(super) fn doubts(closed: &Loop) -> impl Iterator<Item = String> {
@@ -255,77 +166,6 @@ fn impossible(closed: &Loop) -> impl Iterator<Item = String> {
     })
 }
 
-/// The command, whose motion has a file of its own.
-fn experiment(spec: &str, [own, other]: &[String; 2], number: usize) -> String {
-    let number = match number {
-        0 => String::new(),
-        number => (number + 1).to_string(),
-    };
-    format!(
-        "robot-model excite {} --separate '{own}' --from '{other}' --out next{number}.csv",
-        quoted(spec)
-    )
-}
-
-/// What is told and what may be instead; none where an effect follows from more than the motion, or is no torque that is added.
-fn rivals(
-    closed: &Loop,
-    finding: &Finding,
-    place: usize,
-    rival: &Alternative,
-) -> Option<[String; 2]> {
-    let (own, other) = (
-        of_motion(closed, &finding.effect)?,
-        of_motion(closed, &rival.effect)?,
-    );
-    let values = effect(finding, closed, place).parameters;
-    let said = |names: &[String]| -> Vec<String> {
-        let found = names
-            .iter()
-            .filter_map(|name| values.iter().find(|value| value.name == name));
-        found
-            .map(|value| format!("{} = {:.3e}", value.name, value.value))
-            .collect()
-    };
-    let shapes = match said(&own.shapes) {
-        shapes if shapes.is_empty() => String::new(),
-        shapes => format!("({})", shapes.join(", ")),
-    };
-    Some([
-        format!(
-            "{}{shapes} on {}: {}",
-            own.name,
-            joints(closed, &finding.joints),
-            said(&own.linear).join(", ")
-        ),
-        format!("{} on {}", other.name, joints(closed, &rival.joints)),
-    ])
-}
-
-struct OfMotion {
-    name: String,
-    linear: Vec<String>,
-    shapes: Vec<String>,
-}
-
-/// An effect of the library or of the spec whose torque is one of the motion.
-fn of_motion(closed: &Loop, effect: &str) -> Option<OfMotion> {
-    let definitions = &closed.before.arm.compiled().model.definitions;
-    let effect = definitions.iter().find(|one| one.name == effect)?;
-    let is_more = |leaf: &EffectLeaf| matches!(leaf, EffectLeaf::Time | EffectLeaf::Input(_));
-    let rates = effect
-        .states
-        .iter()
-        .map(|state| &effect.bindings[state.rate].value);
-    let mut equations = effect.equations().chain(rates);
-    let is_of_motion = !equations.any(|value| effect.reads(value, &is_more));
-    (is_of_motion && effect.acts.is_empty() && !effect.torques.is_empty()).then(|| OfMotion {
-        name: effect.name.clone(),
-        linear: effect.linear.iter().map(|p| p.name.clone()).collect(),
-        shapes: effect.shapes.iter().map(|p| p.name.clone()).collect(),
-    })
-}
-
 /// An effect and its joints, where it has some.
 pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
     if on.is_empty() {
@@ -336,46 +176,9 @@ pub(super) fn on_joints(closed: &Loop, kind: &str, on: &[usize]) -> String {
     format!("{kind} on {}", names.join(", "))
 }
 
-fn joints(closed: &Loop, joints: &[usize]) -> String {
-    let names = closed.before.arm.joints();
-    let joints: Vec<&str> = joints.iter().map(|&joint| names[joint].as_str()).collect();
-    match joints.as_slice() {
-        [joint] => (*joint).to_owned(),
-        several => format!("({})", several.join(", ")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Pair, commands, said_of_falls};
-
-    #[test]
-    fn each_alternative_has_the_command_of_a_motion() {
-        let both = ["cubic_viscous on elbow", "stribeck on elbow"].map(|rival| {
-            [
-                "quadratic_viscous on elbow: c = 0.2".to_owned(),
-                rival.to_owned(),
-            ]
-        });
-        let pair = |k: usize| Pair {
-            named: "quadratic-viscous",
-            rival: ["cubic-viscous on elbow", "stribeck on elbow"][k].to_owned(),
-            is_same: k == 1,
-            both: &both[k],
-        };
-        assert_eq!(
-            commands("arm.robot", "", &[pair(0), pair(1)]),
-            "  these logs do not settle it; the motion that tells quadratic-viscous from cubic-viscous on elbow best: robot-model excite \
-             arm.robot --separate 'quadratic_viscous on elbow: c = 0.2' --from 'cubic_viscous on elbow' --out next.csv\n  along these logs they \
-             are the same; whether some motion tells quadratic-viscous from stribeck on elbow, and which one: robot-model excite arm.robot \
-             --separate 'quadratic_viscous on elbow: c = 0.2' --from 'stribeck on elbow' --out next2.csv\n"
-        );
-        let one = commands("arm.robot", "", &[pair(0)]);
-        assert!(
-            one.contains("the motion that tells them apart best"),
-            "{one}"
-        );
-    }
+    use super::said_of_falls;
 
     #[test]
     fn a_law_that_does_far_less_on_another_motion_is_told() {

@@ -1,5 +1,6 @@
 //! `robot-model trace`: what the model lacks, written into the spec.
 
+mod apart;
 mod doubt;
 mod page;
 mod parameters;

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use robot_model::columns::Arm;
 use robot_model::trace::{FloorFrom, Outcome};
 
-use super::doubt::{doubt, doubts, on_joints};
+use super::apart::apart;
+use super::doubt::{doubts, on_joints};
 use super::parameters::{found, parameters as of_all};
 use super::report::effect;
 use super::said::{errors_of, fall, nothing_added, outcome, parameter, sentence};
@@ -105,8 +106,8 @@ fn verdict(page: &mut Page, spec: &str, text: &str, closed: &Loop) {
     }
     if verdict.outcome == Outcome::Explained && !verdict.alternatives.is_empty() {
         page.part("What these logs cannot tell from it");
-        let doubt = doubt(spec, text, closed);
-        let lines = doubt.lines().map(|line| line.trim().to_owned());
+        let open = apart(spec, text, closed);
+        let lines = open.lines().map(|line| line.trim().to_owned());
         page.list(&lines.collect::<Vec<_>>());
     }
     let left = structure_left(closed).into_iter();

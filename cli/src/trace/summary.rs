@@ -5,7 +5,8 @@ use std::fmt::Write;
 use robot_model::columns::Arm;
 use robot_model::trace::{Finding, FloorFrom, MOST_EFFECTS, Outcome};
 
-use super::doubt::{doubt, doubts, on_joints};
+use super::apart::apart;
+use super::doubt::{doubts, on_joints};
 use super::report::effect;
 use super::said::{errors_of, outcome, parameter};
 use super::tried::tried;
@@ -54,7 +55,7 @@ pub(crate) fn summary(spec: &str, closed: &Loop, text: &str) -> String {
         .enumerate()
         .for_each(|(place, finding)| show(finding, place));
     if verdict.outcome == Outcome::Explained {
-        out.push_str(&doubt(spec, text, closed));
+        out.push_str(&apart(spec, text, closed));
     }
 
     if verdict.leads.len() >= MOST_EFFECTS {

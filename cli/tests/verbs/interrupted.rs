@@ -75,7 +75,7 @@ fn a_trace_that_is_stopped_leaves_nothing() {
         assert_eq!(folder.files(), before, "{at}: nothing is left");
     }
     // What was there before is as it was.
-    let mine = r#"{"mine": 1}"#;
+    let mine = r#"{"outcome": "mine", "effects": [], "rmse_before": [], "rmse_after": []}"#;
     folder.write("out.json", mine);
     assert_eq!(
         interrupted(&folder, &arguments, "round 1", Duration::ZERO),

@@ -70,6 +70,10 @@ fn folder() -> Folder {
 
 /// What follows the name of the log that was read.
 fn results(folder: &Folder, arguments: &[&str], out: &str) -> (String, String) {
+    // Of one verb after the other.
+    if folder.path(out).exists() {
+        std::fs::remove_file(folder.path(out)).expect("a file");
+    }
     let run = folder.run(&[arguments, &["--json", out]].concat());
     assert_eq!(run.code, Some(0), "{arguments:?}: {}", run.stderr);
     let unnamed = |text: &str| text.replace("beside/", "").replace("alone/", "");

@@ -240,14 +240,18 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// The link that carries branches, where these are fingers of a gripper rather than arms: shorter than the way to them.
+    /// The link that carries branches, where these are fingers of a gripper: shorter than the way to them, and all of them but one at most slide
+    /// or move with another joint, as neither a camera on a joint of its own nor the rest of an arm does.
     fn hand(&self, base: &str, at: &str, branches: &[&&'a Joint]) -> Option<String> {
         let way = self.joints_above(at);
         let way = way.take_while(|joint| joint.child.link != base);
         let moves = |joint: &&Joint| joint.joint_type != JointType::Fixed;
         let behind = way.filter(moves).count();
         let deepest = branches.iter().map(|joint| self.depth(joint)).max();
-        (behind > deepest.unwrap_or(0))
+        let is_finger =
+            |joint: &&&&Joint| joint.joint_type == JointType::Prismatic || joint.mimic.is_some();
+        let are_fingers = branches.iter().filter(is_finger).count() + 1 >= branches.len();
+        (are_fingers && behind > deepest.unwrap_or(0))
             .then(|| format!("`{at}` (the arm without what moves on it)"))
     }
 

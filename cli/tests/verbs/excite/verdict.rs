@@ -72,10 +72,12 @@ fn what_a_log_leaves_open_the_next_experiment_settles() {
         doubtful["alternatives"][0]["kind"], "cubic-viscous",
         "{said}"
     );
-    let command = said
-        .lines()
-        .find_map(|line| line.split_once("the motion that tells them apart best: robot-model "));
-    let command = words(command.expect("a command").1);
+    let mut lines = said.lines().map(str::trim_start);
+    let command = lines.find(|line| {
+        line.starts_with("these logs do not settle it; the motion that tells quadratic-viscous from cubic-viscous")
+    });
+    let command = command.and_then(|line| line.split_once(" best: robot-model "));
+    let command = words(command.unwrap_or_else(|| panic!("a command: {said}")).1);
     let command: Vec<&str> = command.iter().map(String::as_str).collect();
     folder.succeed(&command);
     measure("next.csv", "next.log");
