@@ -64,7 +64,7 @@ impl Record {
             Self::Demo => &["clean", "worn"],
             Self::Excite => &["condition", "log_det", "max_violation", "starts"],
             Self::Coefficients => &["period", "equation", "joints"],
-            Self::Simulate => &["tracking_error", "energy_drift", "events"],
+            Self::Simulate => &["seconds", "tracking_error", "events", "rejected_steps"],
             Self::Audit => &["robot", "passed", "checks"],
             Self::Dissect => &["robot", "measured", "model", "shares"],
             Self::Friction => &["joint", "points", "law", "parameters"],

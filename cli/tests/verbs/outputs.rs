@@ -252,6 +252,7 @@ fn a_result_takes_the_place_of_nothing_else() {
     std::fs::create_dir(folder.path("site")).expect("a folder");
     folder.write("site/index.html", "<p>of somebody else");
     folder.write("values.json", "{\"cart.m\": 3.0}");
+    folder.write("payload.json", "{\"payload\": 2.5, \"method\": \"CAD\"}");
     folder.write("first.json", "{\n  \"method\": \"wls\"\n}");
     let of_identify = "result of `identify`";
     let identify = ["identify", "cart.robot", "log.csv"];
@@ -268,8 +269,17 @@ fn a_result_takes_the_place_of_nothing_else() {
             &["export", "cart.robot", "--as", "mjcf"],
             "-o",
             "arm.urdf",
-            "MJCF model",
+            "MJCF model of `export`",
         ),
+        // Of a maker, whose shapes would be lost.
+        (
+            &["export", "cart.robot", "--as", "urdf"],
+            "-o",
+            "arm.urdf",
+            "URDF of `export`",
+        ),
+        // What somebody wrote has a name of a result.
+        (&identify, "--json", "payload.json", of_identify),
         (&identify, "--report", "site", "page"),
         (&trace, "--amend", "tuesday.csv", "spec"),
         (&trace, "--amend", "arm.urdf", "spec"),
@@ -293,7 +303,7 @@ fn a_result_takes_the_place_of_nothing_else() {
             &["export", "cart.robot", "--as", "urdf"],
             "-o",
             "other.robot",
-            "URDF",
+            "URDF of `export`",
         ),
     ] {
         let named = if output == "--report" {
